@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// How this project reports what the world does wrong (files, devices, formats): a value or one
+// sentence that names the file, field or option. Programmer's mistakes are CHECKs (check.h).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace shutter::core {
+
+/// One clear sentence for the person at the terminal; no trailing full stop or newline.
+struct Error {
+    std::string message;
+};
+
+template <class... Args>
+[[nodiscard]] Error makeError(fmt::format_string<Args...> format, Args&&... args) {
+    return Error{fmt::format(format, std::forward<Args>(args)...)};
+}
+
+/// A value of type T, or an Error. Ask `ok()` (or bool) before `value()`.
+template <class T> class [[nodiscard]] Result {
+  public:
+    Result(T value) : mState(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : mState(std::in_place_index<1>, std::move(error)) {}
+
+    [[nodiscard]] bool ok() const { return mState.index() == 0; }
+    explicit operator bool() const { return ok(); }
+
+    [[nodiscard]] T& value() & { return std::get<0>(mState); }
+    [[nodiscard]] const T& value() const& { return std::get<0>(mState); }
+    [[nodiscard]] T&& value() && { return std::get<0>(std::move(mState)); }
+    [[nodiscard]] const Error& error() const { return std::get<1>(mState); }
+
+  private:
+    std::variant<T, Error> mState;
+};
+
+/// Success without a value, or an Error.
+class [[nodiscard]] Status {
+  public:
+    Status() = default;
+    Status(Error error) : mError(std::move(error)), mOk(false) {}
+
+    [[nodiscard]] bool ok() const { return mOk; }
+    explicit operator bool() const { return mOk; }
+    [[nodiscard]] const Error& error() const { return mError; }
+
+  private:
+    Error mError;
+    bool mOk = true;
+};
+
+} // namespace shutter::core

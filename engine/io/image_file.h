@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/image/image.h"
+#include "engine/scene/assets.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace shutter::io {
+
+/// Reads any picture OpenImageIO knows as floats (8-bit formats: value / 255, not linearised).
+[[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
+
+/// True where the extension stores values in [0, 1] for display (.png .jpg .jpeg), false for .exr.
+/// An Error names the extension when it is neither.
+[[nodiscard]] core::Result<bool> isDisplayFormat(const std::filesystem::path& path);
+
+/// Checks, before hours of rendering, that `path` has a known extension and that its folder exists
+/// and can be written.
+[[nodiscard]] core::Status checkWritable(const std::filesystem::path& path);
+
+/// How EXR channels are stored.
+enum class SampleType : uint8_t { Half, Float, Uint };
+
+/// Writes .exr (as `type`), .png (8 bit) or .jpg (8 bit, quality 95). Written to a temporary file
+/// beside and renamed, so that an interrupted write never leaves a half picture under this name.
+/// PNG and JPEG take the first three channels (or one) and clamp to [0, 1].
+[[nodiscard]] core::Status writeImage(
+    const std::filesystem::path& path, const image::Image& image, SampleType type = SampleType::Float
+);
+
+/// Decodes an encoded PNG or JPEG held in memory to 8-bit RGBA.
+/// \param label names the picture in the error, e.g. "image 3 (wood.png)"
+[[nodiscard]] core::Result<scene::TextureImage>
+decodeTexture(std::span<const uint8_t> encoded, const std::string& label);
+
+} // namespace shutter::io

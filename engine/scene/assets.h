@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// What a scene file holds besides entities: meshes, materials, textures, clips. Plain data in main
+// memory; nothing here knows of Vulkan or of file formats.
+#pragma once
+
+#include "engine/math/bounds.h"
+#include "engine/math/math.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shutter::scene {
+
+/// Index into one of the vectors of Assets; kNone where there is none.
+using AssetIndex = uint32_t;
+inline constexpr AssetIndex kNone = 0xFFFFFFFFu;
+
+/// Triangles with one material. All attribute arrays are either empty or as long as `positions`.
+struct Primitive {
+    std::vector<math::vec3> positions; ///< metres, object space; every value finite
+    std::vector<math::vec3> normals;   ///< unit length; never empty (flat normals where none given)
+    std::vector<math::vec4> tangents;  ///< xyz unit length, w = +1 or -1; empty: no normal map is used
+    std::vector<math::vec2> uv0;
+    std::vector<math::vec2> uv1;
+    std::vector<math::vec4> colors;    ///< linear RGBA factor
+    std::vector<uint32_t> indices;     ///< three a triangle, each below positions.size()
+    AssetIndex material = kNone;       ///< kNone: the default material
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives; ///< may be empty (a mesh of points or lines only)
+    math::Bounds bounds;               ///< of all positions, object space
+};
+
+/// 8-bit RGBA, row 0 at the top.
+struct TextureImage {
+    std::string name;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> rgba; ///< width * height * 4 bytes as stored in the file (no conversion)
+};
+
+enum class Wrap : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
+
+struct Texture {
+    AssetIndex image = kNone;
+    Wrap wrapU = Wrap::Repeat;
+    Wrap wrapV = Wrap::Repeat;
+    bool nearest = false; ///< magnification filter is NEAREST; otherwise linear with mip maps
+};
+
+/// A texture as a material refers to it, with KHR_texture_transform folded in.
+struct TextureSlot {
+    AssetIndex texture = kNone;
+    uint32_t uvSet = 0;               ///< 0 or 1
+    math::vec2 offset{0.0f};          ///< uv' = offset + rotate(rotation) * (scale * uv)
+    float rotation = 0.0f;            ///< radians, as KHR_texture_transform defines its sign
+    math::vec2 scale{1.0f};
+};
+
+enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
+
+/// glTF metallic-roughness, KHR_materials_unlit, KHR_materials_emissive_strength.
+struct Material {
+    std::string name;
+    math::vec4 baseColorFactor{1.0f};  ///< linear RGBA
+    float metallicFactor = 1.0f;       ///< [0, 1]
+    float roughnessFactor = 1.0f;      ///< [0, 1], perceptual
+    float normalScale = 1.0f;
+    float occlusionStrength = 1.0f;    ///< [0, 1]
+    math::vec3 emissive{0.0f};         ///< factor times strength, linear
+    float alphaCutoff = 0.5f;          ///< Mask only: covered where alpha >= cutoff
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    bool doubleSided = false;
+    bool unlit = false;
+    TextureSlot baseColor;             ///< sRGB
+    TextureSlot metallicRoughness;     ///< linear: g roughness, b metallic
+    TextureSlot normal;                ///< linear
+    TextureSlot occlusion;             ///< linear: r
+    TextureSlot emissiveTexture;       ///< sRGB
+};
+
+enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
+enum class AnimationPath : uint8_t { Translation, Rotation, Scale };
+
+/// One animated property of one node.
+struct AnimationChannel {
+    uint32_t node = 0; ///< node index of the file; the loader puts an Animated component on its entity
+    AnimationPath path = AnimationPath::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times; ///< seconds, strictly increasing, at least one
+    /// One a key, three a key for CubicSpline (in-tangent, value, out-tangent). Rotations are
+    /// quaternions x, y, z, w; the others use x, y, z.
+    std::vector<math::vec4> values;
+};
+
+struct AnimationClip {
+    std::string name;
+    double duration = 0.0; ///< seconds: the last key of any channel
+    std::vector<AnimationChannel> channels;
+};
+
+struct Assets {
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<TextureImage> images;
+    std::vector<AnimationClip> clips;
+};
+
+} // namespace shutter::scene

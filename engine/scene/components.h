@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Components: plain data on entities of ecs::Registry. What a field means, its unit and range
+// stand on its line.
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/math/math.h"
+#include "engine/math/transform.h"
+#include "engine/scene/assets.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace shutter::scene {
+
+struct Name {
+    std::string value;
+};
+
+/// Transform relative to the parent (to the world without one) in the rest pose.
+struct LocalTransform {
+    math::Transform transform;
+};
+
+/// For nodes given by a matrix that no TRS can express (shear). Replaces LocalTransform.
+struct LocalMatrix {
+    math::dmat4 matrix{1.0};
+};
+
+struct Parent {
+    ecs::Entity entity; ///< chains must end; the loader refuses cycles
+};
+
+/// Draws a mesh.
+struct MeshInstance {
+    AssetIndex mesh = kNone;
+};
+
+/// Constant velocity in the parent's space (world space for a root), counted from time 0.
+struct LinearVelocity {
+    math::dvec3 metresPerSecond{0.0};
+};
+
+/// Constant rotation about the entity's own origin; axis in the parent's space, length in rad/s.
+struct AngularVelocity {
+    math::dvec3 radiansPerSecond{0.0};
+};
+
+/// Channels of the clips that drive this entity; see animation.h. Later clips win.
+struct Animated {
+    struct Channel {
+        uint32_t clip = 0;    ///< index into Assets::clips
+        uint32_t channel = 0; ///< index into AnimationClip::channels
+    };
+    std::vector<Channel> channels;
+};
+
+enum class CameraKind : uint8_t { Perspective, Orthographic };
+
+/// Looks down its entity's -Z with +Y up.
+struct Camera {
+    CameraKind kind = CameraKind::Perspective;
+    double yFov = 0.8;    ///< perspective: vertical field of view, radians, (0, pi)
+    double xMag = 1.0;    ///< orthographic: half width, metres
+    double yMag = 1.0;    ///< orthographic: half height, metres; the picture's shape decides the width
+    double near = 0.05;   ///< metres, above 0
+    double far = 1000.0;  ///< metres; orthographic only, perspective reaches to infinity
+};
+
+/// Where in the exposure the raster image lies (`motion-blur` README, "Shutter").
+enum class ShutterPhase : uint8_t {
+    Start,  ///< exposure runs [t, t + E]
+    Centre, ///< [t - E/2, t + E/2]
+    End,    ///< [t - E, t]
+};
+
+/// Sits on the camera's entity. Without it, or with exposure 0, the picture is sharp.
+struct CameraShutter {
+    double exposureSeconds = 0.0; ///< [0, inf)
+    ShutterPhase phase = ShutterPhase::End;
+};
+
+enum class LightKind : uint8_t { Directional, Point, Spot };
+
+/// KHR_lights_punctual; shines down its entity's -Z.
+struct Light {
+    LightKind kind = LightKind::Point;
+    math::vec3 color{1.0f};  ///< linear
+    float intensity = 1.0f;  ///< directional: lux; point and spot: candela
+    float range = std::numeric_limits<float>::infinity(); ///< metres; no light beyond
+    float innerConeAngle = 0.0f;      ///< radians, spot only
+    float outerConeAngle = 0.7853982f; ///< radians, spot only
+};
+
+} // namespace shutter::scene
