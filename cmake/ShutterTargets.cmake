@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
 # The two kinds of target in this tree: a library a folder, and shaders compiled to SPIR-V.
 
+get_filename_component(SHUTTER_ROOT ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+
 find_program(SHUTTER_GLSLANG NAMES glslang glslangValidator REQUIRED)
 
 # Settings every target of this project shares.
 function(shutter_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
-    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_include_directories(${target} PUBLIC ${SHUTTER_ROOT})
     # No contraction into fused multiply-add: the CPU reference of a shader must round as written.
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+                          -Wno-missing-field-initializers # Vulkan structs are opened by sType alone
                           -ffp-contract=off)
     if(SHUTTER_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
@@ -31,7 +34,7 @@ function(shutter_library name)
         target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
     else()
         add_library(${target} INTERFACE)
-        target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR})
+        target_include_directories(${target} INTERFACE ${SHUTTER_ROOT})
         target_link_libraries(${target} INTERFACE ${ARG_LINKS})
     endif()
 endfunction()
@@ -42,14 +45,14 @@ endfunction()
 function(shutter_shaders target)
     foreach(shader ${ARGN})
         string(MAKE_C_IDENTIFIER ${shader} symbol)
-        set(source ${CMAKE_SOURCE_DIR}/shaders/${shader})
+        set(source ${SHUTTER_ROOT}/shaders/${shader})
         set(output ${CMAKE_BINARY_DIR}/generated/spirv/${shader}.h)
         get_filename_component(output_dir ${output} DIRECTORY)
         file(MAKE_DIRECTORY ${output_dir})
         add_custom_command(
             OUTPUT ${output}
             COMMAND
-                ${SHUTTER_GLSLANG} -V --target-env vulkan1.3 --quiet -I${CMAKE_SOURCE_DIR}/shaders
+                ${SHUTTER_GLSLANG} -V --target-env vulkan1.3 --quiet -I${SHUTTER_ROOT}/shaders
                 --depfile ${output}.d --vn ${symbol} -o ${output} ${source}
             DEPENDS ${source}
             DEPFILE ${output}.d

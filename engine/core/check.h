@@ -15,7 +15,9 @@ failCheck(const char* file, int line, const char* expression, const std::string&
 #define SHUTTER_CHECK(condition, ...)                                                              \
     do {                                                                                           \
         if (!(condition)) [[unlikely]]                                                             \
-            ::shutter::core::failCheck(__FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)); \
+            ::shutter::core::failCheck(                                                            \
+                __FILE__, __LINE__, #condition, ::fmt::format(__VA_ARGS__)                         \
+            );                                                                                     \
     } while (false)
 
 #define SHUTTER_CHECK_EQ(a, b)                                                                     \

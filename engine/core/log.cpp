@@ -12,10 +12,13 @@ std::atomic<LogLevel> gLevel = LogLevel::Warning;
 
 } // namespace
 
-void setLogLevel(LogLevel level) { gLevel = level; }
+void setLogLevel(LogLevel level) {
+    gLevel = level;
+}
 
 void writeLog(LogLevel level, std::string_view text) {
-    if (level < gLevel.load()) return;
+    if (level < gLevel.load())
+        return;
     fmt::print(stderr, "shutter: {}{}\n", level == LogLevel::Warning ? "warning: " : "", text);
 }
 

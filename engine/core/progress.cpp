@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <unistd.h>
 
 namespace shutter::core {
 
@@ -25,15 +24,18 @@ Progress::Progress(std::string label, uint64_t total)
       mLastDraw(mStart) {}
 
 Progress::~Progress() {
-    if (mDrawn) fmt::print(stderr, "\r\x1b[K");
+    if (mDrawn)
+        fmt::print(stderr, "\r\x1b[K");
 }
 
 void Progress::advance() {
     mDone = std::min(mDone + 1, mTotal);
-    if (!mEnabled) return;
+    if (!mEnabled)
+        return;
     const auto now = std::chrono::steady_clock::now();
     const double elapsed = Seconds(now - mStart).count();
-    if (elapsed < kSilentSeconds || Seconds(now - mLastDraw).count() < kRedrawSeconds) return;
+    if (elapsed < kSilentSeconds || Seconds(now - mLastDraw).count() < kRedrawSeconds)
+        return;
     mLastDraw = now;
     mDrawn = true;
     draw(elapsed);
@@ -44,8 +46,16 @@ void Progress::draw(double elapsedSeconds) const {
     const int filled = static_cast<int>(share * kBarCells);
     const double left = mDone > 0 ? elapsedSeconds * (1.0 - share) / share : 0.0;
     fmt::print(
-        stderr, "\r\x1b[K{} [{:=<{}}{: <{}}] {}/{}  {:.0f} s left", mLabel, "", filled, "",
-        kBarCells - filled, mDone, mTotal, left
+        stderr,
+        "\r\x1b[K{} [{:=<{}}{: <{}}] {}/{}  {:.0f} s left",
+        mLabel,
+        "",
+        filled,
+        "",
+        kBarCells - filled,
+        mDone,
+        mTotal,
+        left
     );
     std::fflush(stderr);
 }

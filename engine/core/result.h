@@ -25,14 +25,19 @@ template <class... Args>
 template <class T> class [[nodiscard]] Result {
   public:
     Result(T value) : mState(std::in_place_index<0>, std::move(value)) {}
+
     Result(Error error) : mState(std::in_place_index<1>, std::move(error)) {}
 
     [[nodiscard]] bool ok() const { return mState.index() == 0; }
+
     explicit operator bool() const { return ok(); }
 
     [[nodiscard]] T& value() & { return std::get<0>(mState); }
+
     [[nodiscard]] const T& value() const& { return std::get<0>(mState); }
+
     [[nodiscard]] T&& value() && { return std::get<0>(std::move(mState)); }
+
     [[nodiscard]] const Error& error() const { return std::get<1>(mState); }
 
   private:
@@ -43,10 +48,13 @@ template <class T> class [[nodiscard]] Result {
 class [[nodiscard]] Status {
   public:
     Status() = default;
+
     Status(Error error) : mError(std::move(error)), mOk(false) {}
 
     [[nodiscard]] bool ok() const { return mOk; }
+
     explicit operator bool() const { return mOk; }
+
     [[nodiscard]] const Error& error() const { return mError; }
 
   private:

@@ -13,9 +13,12 @@ struct Bounds {
     dvec3 max{-std::numeric_limits<double>::infinity()};
 
     [[nodiscard]] bool isEmpty() const { return !(min.x <= max.x); }
+
     void add(const dvec3& point);
     void add(const Bounds& other);
+
     [[nodiscard]] dvec3 centre() const { return (min + max) * 0.5; }
+
     [[nodiscard]] dvec3 size() const { return max - min; }
 };
 

@@ -15,7 +15,6 @@ namespace shutter::math {
 
 /// Orthographic with reversed depth: 1 at `near`, 0 at `far`; clip w is 1.
 /// \param xMag, yMag half width and half height of the view in metres, above 0
-[[nodiscard]] dmat4
-clipFromViewOrthographic(double xMag, double yMag, double near, double far);
+[[nodiscard]] dmat4 clipFromViewOrthographic(double xMag, double yMag, double near, double far);
 
 } // namespace shutter::math

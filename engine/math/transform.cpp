@@ -16,14 +16,16 @@ dmat4 computeMatrix(const Transform& transform) {
 
 dquat integrateRotation(const dvec3& angularVelocity, double seconds) {
     const double speed = glm::length(angularVelocity);
-    if (!(speed > 0.0)) return dquat(1.0, 0.0, 0.0, 0.0);
+    if (!(speed > 0.0))
+        return dquat(1.0, 0.0, 0.0, 0.0);
     return glm::angleAxis(speed * seconds, angularVelocity / speed);
 }
 
 bool isFinite(const dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(matrix[column][row])) return false;
+            if (!std::isfinite(matrix[column][row]))
+                return false;
     return true;
 }
 

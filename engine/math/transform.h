@@ -7,9 +7,9 @@ namespace shutter::math {
 
 /// Translation, rotation and scale, applied in the order scale, rotation, translation (glTF).
 struct Transform {
-    dvec3 translation{0.0};                ///< metres
-    dquat rotation{1.0, 0.0, 0.0, 0.0};    ///< unit quaternion (w, x, y, z)
-    dvec3 scale{1.0};                      ///< per axis; 0 and negative values are allowed
+    dvec3 translation{0.0};             ///< metres
+    dquat rotation{1.0, 0.0, 0.0, 0.0}; ///< unit quaternion (w, x, y, z)
+    dvec3 scale{1.0};                   ///< per axis; 0 and negative values are allowed
 };
 
 /// Matrix that takes the transform's local space to its parent's.

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Bottom and top level acceleration structures (VK_KHR_acceleration_structure).
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// Indexed triangles of one primitive, in buffers already on the device.
+struct TriangleGeometry {
+    VkDeviceAddress vertices = 0; ///< of the first position: 3 floats at the start of each vertex
+    uint32_t vertexStride = 0;    ///< bytes
+    uint32_t vertexCount = 0;
+    VkDeviceAddress indices = 0; ///< 32-bit, 3 a triangle
+    uint32_t triangleCount = 0;
+    bool opaque = true; ///< false: candidates are shown to the shader (alpha mask)
+};
+
+class AccelerationStructure {
+  public:
+    AccelerationStructure() = default;
+    AccelerationStructure(
+        Device& device, std::string name, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes
+    );
+    ~AccelerationStructure();
+    AccelerationStructure(AccelerationStructure&& other) noexcept;
+    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept;
+
+    [[nodiscard]] VkAccelerationStructureKHR handle() const { return mHandle; }
+
+    [[nodiscard]] VkDeviceAddress address() const { return mAddress; }
+
+    [[nodiscard]] VkBuffer buffer() const { return mBuffer.handle(); }
+
+    [[nodiscard]] explicit operator bool() const { return mHandle != VK_NULL_HANDLE; }
+
+  private:
+    void release();
+
+    Device* mDevice = nullptr;
+    Buffer mBuffer;
+    VkAccelerationStructureKHR mHandle = VK_NULL_HANDLE;
+    VkDeviceAddress mAddress = 0;
+};
+
+/// One BLAS a mesh, built and waited for: load time only. A mesh whose geometries hold no triangle
+/// gets an empty structure (false).
+[[nodiscard]] std::vector<AccelerationStructure>
+buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> meshes);
+
+/// An instance of a BLAS.
+struct Instance {
+    float worldFromObject[3][4]; ///< row-major, rows x y z
+    uint32_t customIndex = 0;    ///< < 2^24
+    bool cullDisabled = true;    ///< double sided
+    VkDeviceAddress bottomLevel = 0;
+};
+
+/// A TLAS that is rebuilt whenever its instances moved. Keeps its buffers and grows them.
+class TopLevel {
+  public:
+    /// Writes the instances and (re)creates buffers; call before record(). The GPU must be done
+    /// with the last build's instances (one TopLevel a frame in flight).
+    void prepare(Device& device, std::span<const Instance> instances);
+    /// Records the build. The caller places barriers (build reads and writes
+    /// ACCELERATION_STRUCTURE_BUILD).
+    void record(const Device& device, VkCommandBuffer commands);
+
+    [[nodiscard]] const AccelerationStructure& structure() const { return mStructure; }
+
+  private:
+    /// Build description; `info` points into it, so it does not move.
+    struct Build {
+        VkAccelerationStructureGeometryKHR geometry{
+            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
+        VkAccelerationStructureBuildGeometryInfoKHR info{
+            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+    };
+
+    [[nodiscard]] std::unique_ptr<Build> describeBuild() const;
+
+    Buffer mInstances;
+    Buffer mScratch;
+    AccelerationStructure mStructure;
+    uint32_t mCapacity = 0;
+    uint32_t mCount = 0;
+};
+
+} // namespace shutter::gpu

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/device.h"
+
+#include "engine/core/log.h"
+
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <unistd.h>
+
+namespace shutter::gpu {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
+    VkDebugUtilsMessageSeverityFlagBitsEXT,
+    VkDebugUtilsMessageTypeFlagsEXT,
+    const VkDebugUtilsMessengerCallbackDataEXT* data,
+    void* user
+) {
+    ++*static_cast<std::atomic<uint32_t>*>(user);
+    core::logWarning("Vulkan validation: {}", data->pMessage);
+    return VK_FALSE;
+}
+
+bool hasLayer(const char* wanted) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    for (const auto& layer : layers)
+        if (std::strcmp(layer.layerName, wanted) == 0)
+            return true;
+    return false;
+}
+
+bool hasInstanceExtension(const char* wanted) {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    for (const auto& extension : extensions)
+        if (std::strcmp(extension.extensionName, wanted) == 0)
+            return true;
+    return false;
+}
+
+} // namespace
+
+std::string describe(VkResult result) {
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "out of main memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "out of device memory";
+    case VK_ERROR_DEVICE_LOST:
+        return "the device was lost";
+    case VK_ERROR_INITIALIZATION_FAILED:
+        return "initialisation failed";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        return "a layer is not installed";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        return "an extension is not there";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return "a feature is not there";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "no usable Vulkan driver";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "too many objects";
+    default:
+        return fmt::format("Vulkan error {}", static_cast<int>(result));
+    }
+}
+
+void require(VkResult result, std::string_view doing) {
+    if (result < 0)
+        throw DeviceError(fmt::format("{} failed: {}", doing, describe(result)));
+}
+
+core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
+    std::unique_ptr<Device> device(new Device);
+    try {
+        if (core::Status made = device->createInstance(options); !made)
+            return made.error();
+        auto chosen = chooseDevice(listDevices(device->mInstance), options.wanted);
+        if (!chosen)
+            return chosen.error();
+        device->mInfo = chosen.value();
+        if (!options.allowRays)
+            device->mInfo.rayTier = RayTier::None;
+        if (core::Status made = device->createLogicalDevice(); !made)
+            return made.error();
+        device->loadFunctions();
+        device->createSamplers();
+        if (!options.cacheFolder.empty())
+            device->mCacheFile = options.cacheFolder / "pipelines.bin";
+        device->loadPipelineCache();
+    } catch (const DeviceError& error) {
+        return core::Error{error.what()};
+    }
+    core::logInfo(
+        "device {} ({}), ray tracing: {}",
+        device->mInfo.name,
+        device->mInfo.driver,
+        describe(device->mInfo.rayTier)
+    );
+    return device;
+}
+
+Device::~Device() {
+    if (mDevice) {
+        vkDeviceWaitIdle(mDevice);
+        while (!mRetired.empty()) {
+            auto destroy = std::move(mRetired.front().second);
+            mRetired.pop_front();
+            destroy();
+        }
+        savePipelineCache();
+        vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
+        vkDestroySampler(mDevice, mNearestSampler, nullptr);
+        vkDestroySampler(mDevice, mLinearSampler, nullptr);
+        vkDestroySemaphore(mDevice, mTimeline, nullptr);
+        vkDestroyDevice(mDevice, nullptr);
+    }
+    if (mMessenger) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(mInstance, "vkDestroyDebugUtilsMessengerEXT")
+        );
+        destroy(mInstance, mMessenger, nullptr);
+    }
+    if (mInstance)
+        vkDestroyInstance(mInstance, nullptr);
+}
+
+core::Status Device::createInstance(const DeviceOptions& options) {
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.pApplicationName = "shutter";
+    application.pEngineName = "shutter";
+    application.apiVersion = VK_API_VERSION_1_3;
+
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    mHasDebugUtils = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (options.validate) {
+        if (!hasLayer(kValidationLayer))
+            return core::makeError(
+                "--validate: the layer {} is not installed (package "
+                "vulkan-validationlayers)",
+                kValidationLayer
+            );
+        layers.push_back(kValidationLayer);
+        mHasDebugUtils = true;
+    }
+    if (mHasDebugUtils)
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+
+    VkDebugUtilsMessengerCreateInfoEXT messenger{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    messenger.pfnUserCallback = onMessage;
+    messenger.pUserData = &mValidationMessages;
+
+    const std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger};
+    features.enabledValidationFeatureCount = enabled.size();
+    features.pEnabledValidationFeatures = enabled.data();
+
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    if (options.validate)
+        info.pNext = &features;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = static_cast<uint32_t>(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    require(vkCreateInstance(&info, nullptr, &mInstance), "creating the Vulkan instance");
+
+    if (options.validate) {
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(mInstance, "vkCreateDebugUtilsMessengerEXT")
+        );
+        require(create(mInstance, &messenger, nullptr, &mMessenger), "listening to validation");
+    }
+    return {};
+}
+
+core::Status Device::createLogicalDevice() {
+    uint32_t familyCount = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(mInfo.handle, &familyCount, nullptr);
+    std::vector<VkQueueFamilyProperties> families(familyCount);
+    vkGetPhysicalDeviceQueueFamilyProperties(mInfo.handle, &familyCount, families.data());
+    constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    mQueueFamily = familyCount;
+    for (uint32_t i = familyCount; i-- > 0;)
+        if ((families[i].queueFlags & kWanted) == kWanted && families[i].timestampValidBits > 0)
+            mQueueFamily = i;
+    if (mQueueFamily == familyCount)
+        return core::makeError("{} has no queue for graphics, compute and timestamps", mInfo.name);
+
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = mQueueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+
+    VkPhysicalDeviceRayQueryFeaturesKHR query{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    query.rayQuery = VK_TRUE;
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &query};
+    structure.accelerationStructure = VK_TRUE;
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    if (hasRays())
+        v13.pNext = &structure;
+    v13.dynamicRendering = VK_TRUE;
+    v13.synchronization2 = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features v12{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+    v12.timelineSemaphore = VK_TRUE;
+    v12.bufferDeviceAddress = VK_TRUE;
+    v12.descriptorIndexing = VK_TRUE;
+    v12.runtimeDescriptorArray = VK_TRUE;
+    v12.shaderSampledImageArrayNonUniformIndexing = VK_TRUE;
+    v12.descriptorBindingPartiallyBound = VK_TRUE;
+    v12.scalarBlockLayout = VK_TRUE;
+    v12.hostQueryReset = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    features.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    features.features.independentBlend = VK_TRUE;
+
+    std::vector<const char*> extensions;
+    if (hasRays())
+        extensions = {
+            VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+            VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+            VK_KHR_RAY_QUERY_EXTENSION_NAME};
+
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    require(
+        vkCreateDevice(mInfo.handle, &info, nullptr, &mDevice),
+        fmt::format("opening the device {}", mInfo.name)
+    );
+    vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
+
+    VkSemaphoreTypeCreateInfo timeline{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    timeline.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &timeline};
+    require(vkCreateSemaphore(mDevice, &semaphore, nullptr, &mTimeline), "creating the timeline");
+    return {};
+}
+
+void Device::loadFunctions() {
+    const auto load = [&](auto& function, const char* name) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+            vkGetDeviceProcAddr(mDevice, name)
+        );
+    };
+    if (hasRays()) {
+        load(mFunctions.createAccelerationStructure, "vkCreateAccelerationStructureKHR");
+        load(mFunctions.destroyAccelerationStructure, "vkDestroyAccelerationStructureKHR");
+        load(
+            mFunctions.getAccelerationStructureBuildSizes, "vkGetAccelerationStructureBuildSizesKHR"
+        );
+        load(
+            mFunctions.getAccelerationStructureDeviceAddress,
+            "vkGetAccelerationStructureDeviceAddressKHR"
+        );
+        load(mFunctions.cmdBuildAccelerationStructures, "vkCmdBuildAccelerationStructuresKHR");
+    }
+    if (mHasDebugUtils) {
+        load(mFunctions.cmdBeginDebugUtilsLabel, "vkCmdBeginDebugUtilsLabelEXT");
+        load(mFunctions.cmdEndDebugUtilsLabel, "vkCmdEndDebugUtilsLabelEXT");
+        load(mFunctions.setDebugUtilsObjectName, "vkSetDebugUtilsObjectNameEXT");
+    }
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    if (hasRays())
+        properties.pNext = &structure;
+    vkGetPhysicalDeviceProperties2(mInfo.handle, &properties);
+    mLimits = properties.properties.limits;
+    if (hasRays())
+        mMinScratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
+}
+
+void Device::createSamplers() {
+    VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    require(vkCreateSampler(mDevice, &info, nullptr, &mNearestSampler), "creating a sampler");
+    info.magFilter = VK_FILTER_LINEAR;
+    info.minFilter = VK_FILTER_LINEAR;
+    require(vkCreateSampler(mDevice, &info, nullptr, &mLinearSampler), "creating a sampler");
+}
+
+void Device::loadPipelineCache() {
+    std::vector<char> data;
+    if (std::ifstream file(mCacheFile, std::ios::binary); !mCacheFile.empty() && file)
+        data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    // A blob of another driver or a damaged one is recognised by its header and ignored.
+    info.initialDataSize = data.size();
+    info.pInitialData = data.data();
+    require(vkCreatePipelineCache(mDevice, &info, nullptr, &mPipelineCache), "making a cache");
+}
+
+void Device::savePipelineCache() const {
+    if (mCacheFile.empty() || !mPipelineCache)
+        return;
+    size_t bytes = 0;
+    if (vkGetPipelineCacheData(mDevice, mPipelineCache, &bytes, nullptr) != VK_SUCCESS)
+        return;
+    std::vector<char> data(bytes);
+    if (vkGetPipelineCacheData(mDevice, mPipelineCache, &bytes, data.data()) != VK_SUCCESS)
+        return;
+    // A cache that cannot be written costs time, nothing else: no error.
+    std::error_code ignored;
+    std::filesystem::create_directories(mCacheFile.parent_path(), ignored);
+    const std::filesystem::path temporary = mCacheFile.string() + fmt::format(".{}", getpid());
+    if (std::ofstream file(temporary, std::ios::binary); file)
+        file.write(data.data(), static_cast<std::streamsize>(bytes));
+    std::filesystem::rename(temporary, mCacheFile, ignored);
+}
+
+uint64_t Device::submit(VkCommandBuffer commands) {
+    VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    buffer.commandBuffer = commands;
+    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+    signal.semaphore = mTimeline;
+    signal.value = mLastSubmitted + 1;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    info.commandBufferInfoCount = 1;
+    info.pCommandBufferInfos = &buffer;
+    info.signalSemaphoreInfoCount = 1;
+    info.pSignalSemaphoreInfos = &signal;
+    require(vkQueueSubmit2(mQueue, 1, &info, VK_NULL_HANDLE), "submitting a frame");
+    return ++mLastSubmitted;
+}
+
+void Device::wait(uint64_t timelineValue) {
+    VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+    info.semaphoreCount = 1;
+    info.pSemaphores = &mTimeline;
+    info.pValues = &timelineValue;
+    require(vkWaitSemaphores(mDevice, &info, UINT64_MAX), "waiting for the device");
+    collect();
+}
+
+void Device::waitIdle() {
+    wait(mLastSubmitted);
+}
+
+uint64_t Device::completedValue() const {
+    uint64_t value = 0;
+    require(vkGetSemaphoreCounterValue(mDevice, mTimeline, &value), "asking the timeline");
+    return value;
+}
+
+void Device::retire(std::function<void()> destroy) {
+    mRetired.emplace_back(mLastSubmitted + 1, std::move(destroy));
+}
+
+void Device::collect() {
+    const uint64_t done = completedValue();
+    while (!mRetired.empty() && mRetired.front().first <= done) {
+        auto destroy = std::move(mRetired.front().second);
+        mRetired.pop_front();
+        destroy();
+    }
+}
+
+void Device::setName(VkObjectType type, uint64_t object, const std::string& name) const {
+    if (!mFunctions.setDebugUtilsObjectName || name.empty())
+        return;
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = name.c_str();
+    mFunctions.setDebugUtilsObjectName(mDevice, &info);
+}
+
+} // namespace shutter::gpu

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device_select.h"
+#include "engine/gpu/vulkan.h"
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shutter::gpu {
+
+struct DeviceOptions {
+    std::string wanted;    ///< see chooseDevice
+    bool validate = false; ///< core and synchronization validation; needs the layer installed
+    bool allowRays = true; ///< false hides ray tracing, so that the lower tier can be tested
+    /// Folder of the pipeline cache on disk; empty: none is kept.
+    std::filesystem::path cacheFolder;
+};
+
+/// Entry points of extensions, loaded once.
+struct ExtensionFunctions {
+    PFN_vkCreateAccelerationStructureKHR createAccelerationStructure = nullptr;
+    PFN_vkDestroyAccelerationStructureKHR destroyAccelerationStructure = nullptr;
+    PFN_vkGetAccelerationStructureBuildSizesKHR getAccelerationStructureBuildSizes = nullptr;
+    PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureDeviceAddress = nullptr;
+    PFN_vkCmdBuildAccelerationStructuresKHR cmdBuildAccelerationStructures = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT cmdBeginDebugUtilsLabel = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT cmdEndDebugUtilsLabel = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT setDebugUtilsObjectName = nullptr;
+};
+
+/// A logical device with one queue, its timeline and its retired objects. Everything made from it
+/// must be gone before it is. Not thread-safe.
+class Device {
+  public:
+    [[nodiscard]] static core::Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    [[nodiscard]] VkDevice handle() const { return mDevice; }
+
+    [[nodiscard]] VkPhysicalDevice physical() const { return mInfo.handle; }
+
+    [[nodiscard]] VkQueue queue() const { return mQueue; }
+
+    [[nodiscard]] uint32_t queueFamily() const { return mQueueFamily; }
+
+    [[nodiscard]] const DeviceInfo& info() const { return mInfo; }
+
+    [[nodiscard]] bool hasRays() const { return mInfo.rayTier != RayTier::None; }
+
+    [[nodiscard]] const ExtensionFunctions& functions() const { return mFunctions; }
+
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
+
+    [[nodiscard]] uint32_t minScratchAlignment() const { return mMinScratchAlignment; }
+
+    [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
+
+    [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
+
+    [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
+
+    /// Messages of the validation layers (warnings and errors) so far.
+    [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
+
+    /// Submits and returns the timeline value that is reached when it is done.
+    uint64_t submit(VkCommandBuffer commands);
+    void wait(uint64_t timelineValue);
+    void waitIdle();
+    [[nodiscard]] uint64_t completedValue() const;
+
+    [[nodiscard]] uint64_t lastSubmittedValue() const { return mLastSubmitted; }
+
+    /// Runs `destroy` once everything submitted so far (and the submission being recorded now) is
+    /// done. Destructors of gpu objects use it, so they may die at any time.
+    void retire(std::function<void()> destroy);
+    /// Destroys what is no longer in use.
+    void collect();
+
+    /// Name shown by validation messages and debuggers.
+    void setName(VkObjectType type, uint64_t object, const std::string& name) const;
+
+  private:
+    Device() = default;
+    core::Status createInstance(const DeviceOptions& options);
+    core::Status createLogicalDevice();
+    void loadFunctions();
+    void createSamplers();
+    void loadPipelineCache();
+    void savePipelineCache() const;
+
+    VkInstance mInstance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
+    VkDevice mDevice = VK_NULL_HANDLE;
+    VkQueue mQueue = VK_NULL_HANDLE;
+    uint32_t mQueueFamily = 0;
+    DeviceInfo mInfo;
+    VkPhysicalDeviceLimits mLimits{};
+    uint32_t mMinScratchAlignment = 1;
+    ExtensionFunctions mFunctions;
+    VkSemaphore mTimeline = VK_NULL_HANDLE;
+    uint64_t mLastSubmitted = 0;
+    VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
+    std::filesystem::path mCacheFile;
+    VkSampler mNearestSampler = VK_NULL_HANDLE;
+    VkSampler mLinearSampler = VK_NULL_HANDLE;
+    std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
+    bool mHasDebugUtils = false;
+    std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
+};
+
+} // namespace shutter::gpu

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/device_select.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+
+namespace shutter::gpu {
+
+namespace {
+
+const char* describeKind(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "software";
+    default:
+        return "other";
+    }
+}
+
+int rankOf(const DeviceInfo& info) {
+    int rank = info.rayTier == RayTier::RayQuery ? 100 : 0;
+    if (info.kind == "discrete")
+        rank += 40;
+    if (info.kind == "integrated")
+        rank += 30;
+    if (info.kind == "virtual")
+        rank += 20;
+    return rank;
+}
+
+bool hasExtension(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+std::vector<VkExtensionProperties> listExtensions(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    return extensions;
+}
+
+bool supportsRayQuery(VkPhysicalDevice device) {
+    const auto extensions = listExtensions(device);
+    for (const char* name :
+         {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+          VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+          VK_KHR_RAY_QUERY_EXTENSION_NAME})
+        if (!hasExtension(extensions, name))
+            return false;
+    VkPhysicalDeviceRayQueryFeaturesKHR query{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &query};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &structure};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    return query.rayQuery && structure.accelerationStructure;
+}
+
+std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
+    if (apiVersion < VK_API_VERSION_1_3)
+        return "Vulkan 1.3";
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    if (!v13.dynamicRendering)
+        return "dynamic rendering";
+    if (!v13.synchronization2)
+        return "synchronization2";
+    if (!v12.timelineSemaphore)
+        return "timeline semaphores";
+    if (!v12.bufferDeviceAddress)
+        return "buffer device addresses";
+    if (!v12.runtimeDescriptorArray || !v12.shaderSampledImageArrayNonUniformIndexing ||
+        !v12.descriptorBindingPartiallyBound)
+        return "descriptor indexing";
+    if (!v12.scalarBlockLayout)
+        return "scalar block layout";
+    if (!v12.hostQueryReset)
+        return "host query reset";
+    if (!features.features.shaderStorageImageExtendedFormats)
+        return "extended storage formats";
+    if (!features.features.independentBlend)
+        return "independent blending";
+    return {};
+}
+
+std::string toLower(std::string text) {
+    for (char& c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string listNames(const std::vector<DeviceInfo>& devices) {
+    std::string names;
+    for (size_t i = 0; i < devices.size(); ++i)
+        names += fmt::format("{}{}: {}", i ? ", " : "", i, devices[i].name);
+    return names;
+}
+
+} // namespace
+
+const char* describe(RayTier tier) {
+    return tier == RayTier::RayQuery ? "VK_KHR_ray_query" : "none";
+}
+
+std::vector<DeviceInfo> listDevices(VkInstance instance) {
+    uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    std::vector<VkPhysicalDevice> handles(count);
+    vkEnumeratePhysicalDevices(instance, &count, handles.data());
+
+    std::vector<DeviceInfo> devices;
+    for (VkPhysicalDevice handle : handles) {
+        VkPhysicalDeviceDriverProperties driver{
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+        VkPhysicalDeviceProperties2 properties{
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+        vkGetPhysicalDeviceProperties2(handle, &properties);
+        DeviceInfo info;
+        info.handle = handle;
+        info.name = properties.properties.deviceName;
+        info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+        info.kind = describeKind(properties.properties.deviceType);
+        info.apiVersion = properties.properties.apiVersion;
+        info.missing = findMissing(handle, info.apiVersion);
+        info.rayTier = supportsRayQuery(handle) ? RayTier::RayQuery : RayTier::None;
+        devices.push_back(std::move(info));
+    }
+    return devices;
+}
+
+core::Result<DeviceInfo>
+chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted) {
+    if (devices.empty())
+        return core::makeError(
+            "no Vulkan device was found; Mesa's lavapipe is one that always works "
+            "(package mesa-vulkan-drivers)"
+        );
+    const DeviceInfo* best = nullptr;
+    if (wanted.empty()) {
+        for (const DeviceInfo& device : devices)
+            if (device.missing.empty() && (!best || rankOf(device) > rankOf(*best)))
+                best = &device;
+        if (!best)
+            return core::makeError(
+                "no device can run the engine: {} lacks {}", devices[0].name, devices[0].missing
+            );
+        return *best;
+    }
+    size_t index = 0;
+    const auto [end, problem] =
+        std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (problem == std::errc() && end == wanted.data() + wanted.size()) {
+        if (index < devices.size())
+            best = &devices[index];
+    } else {
+        for (const DeviceInfo& device : devices)
+            if (!best && toLower(device.name).find(toLower(wanted)) != std::string::npos)
+                best = &device;
+    }
+    if (!best)
+        return core::makeError(
+            "--device '{}' names none of the devices ({})", wanted, listNames(devices)
+        );
+    if (!best->missing.empty())
+        return core::makeError("--device '{}': {} lacks {}", wanted, best->name, best->missing);
+    return *best;
+}
+
+} // namespace shutter::gpu

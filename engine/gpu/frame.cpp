@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/frame.h"
+
+#include "engine/core/check.h"
+
+#include <chrono>
+
+namespace shutter::gpu {
+
+namespace {
+
+constexpr uint32_t kMaxSpans = 256;
+
+double nowMilliseconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double, std::milli>(now).count();
+}
+
+} // namespace
+
+Frame::Frame(Device& device) : mDevice(device), mDescriptors(device) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device.queueFamily();
+    require(vkCreateCommandPool(device.handle(), &pool, nullptr, &mPool), "creating a frame");
+    VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    commands.commandPool = mPool;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands.commandBufferCount = 1;
+    require(vkAllocateCommandBuffers(device.handle(), &commands, &mCommands), "creating a frame");
+    VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    queries.queryCount = 2 * kMaxSpans;
+    require(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries), "creating a frame");
+}
+
+Frame::~Frame() {
+    mDevice.retire([device = mDevice.handle(), pool = mPool, queries = mQueries] {
+        vkDestroyCommandPool(device, pool, nullptr);
+        vkDestroyQueryPool(device, queries, nullptr);
+    });
+}
+
+void Frame::begin() {
+    wait();
+    mDescriptors.reset();
+    mSpans.clear();
+    require(vkResetCommandPool(mDevice.handle(), mPool, 0), "starting a frame");
+    vkResetQueryPool(mDevice.handle(), mQueries, 0, 2 * kMaxSpans);
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    require(vkBeginCommandBuffer(mCommands, &info), "starting a frame");
+}
+
+void Frame::submit() {
+    require(vkEndCommandBuffer(mCommands), "ending a frame");
+    mSubmittedValue = mDevice.submit(mCommands);
+}
+
+void Frame::wait() {
+    mDevice.wait(mSubmittedValue);
+}
+
+void Frame::bind(
+    const Pipeline& pipeline,
+    const BindingList& bindings,
+    const void* pushConstants,
+    uint32_t pushConstantBytes,
+    VkDescriptorSet sceneSet
+) {
+    SHUTTER_CHECK_EQ(bindings.count(), pipeline.bindingCount());
+    vkCmdBindPipeline(mCommands, pipeline.bindPoint(), pipeline.handle());
+    const VkDescriptorSet set = mDescriptors.allocate(pipeline.setLayout());
+    bindings.write(mDevice, set);
+    const std::array sets{set, sceneSet};
+    vkCmdBindDescriptorSets(
+        mCommands,
+        pipeline.bindPoint(),
+        pipeline.layout(),
+        0,
+        sceneSet ? 2 : 1,
+        sets.data(),
+        0,
+        nullptr
+    );
+    if (pushConstantBytes > 0)
+        vkCmdPushConstants(
+            mCommands, pipeline.layout(), pipeline.stages(), 0, pushConstantBytes, pushConstants
+        );
+}
+
+void Frame::beginSpan(const std::string& name) {
+    SHUTTER_CHECK(mSpans.size() < kMaxSpans, "more than {} spans in a frame", kMaxSpans);
+    if (mDevice.functions().cmdBeginDebugUtilsLabel) {
+        VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+        label.pLabelName = name.c_str();
+        mDevice.functions().cmdBeginDebugUtilsLabel(mCommands, &label);
+    }
+    vkCmdWriteTimestamp2(
+        mCommands,
+        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        mQueries,
+        static_cast<uint32_t>(2 * mSpans.size())
+    );
+    mSpans.push_back({name, 0.0, 0.0});
+    mSpanStartCpuMs = nowMilliseconds();
+}
+
+void Frame::endSpan() {
+    mSpans.back().cpuMilliseconds = nowMilliseconds() - mSpanStartCpuMs;
+    vkCmdWriteTimestamp2(
+        mCommands,
+        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        mQueries,
+        static_cast<uint32_t>(2 * mSpans.size() - 1)
+    );
+    if (mDevice.functions().cmdEndDebugUtilsLabel)
+        mDevice.functions().cmdEndDebugUtilsLabel(mCommands);
+}
+
+std::vector<PassTime> Frame::waitForTimes() {
+    wait();
+    if (mSpans.empty())
+        return {};
+    std::vector<uint64_t> ticks(2 * mSpans.size());
+    require(
+        vkGetQueryPoolResults(
+            mDevice.handle(),
+            mQueries,
+            0,
+            static_cast<uint32_t>(ticks.size()),
+            ticks.size() * 8,
+            ticks.data(),
+            8,
+            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT
+        ),
+        "reading timestamps"
+    );
+    const double millisecondsPerTick = static_cast<double>(mDevice.limits().timestampPeriod) * 1e-6;
+    for (size_t i = 0; i < mSpans.size(); ++i)
+        mSpans[i].gpuMilliseconds =
+            static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * millisecondsPerTick;
+    return mSpans;
+}
+
+} // namespace shutter::gpu

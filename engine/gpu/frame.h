@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Frames in flight: each has its command buffer, its descriptors and its timestamps.
+#pragma once
+
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/pipeline.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// GPU time of one labelled span, milliseconds.
+struct PassTime {
+    std::string name;
+    double gpuMilliseconds = 0.0;
+    double cpuMilliseconds = 0.0; ///< time to record it
+};
+
+/// One frame being recorded.
+class Frame {
+  public:
+    explicit Frame(Device& device);
+    ~Frame();
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+    [[nodiscard]] Device& device() const { return mDevice; }
+
+    [[nodiscard]] VkCommandBuffer commands() const { return mCommands; }
+
+    /// Binds `pipeline` with `bindings` as set 0, `sceneSet` as set 1 where the pipeline has one,
+    /// and the push constants.
+    void bind(
+        const Pipeline& pipeline,
+        const BindingList& bindings,
+        const void* pushConstants,
+        uint32_t pushConstantBytes,
+        VkDescriptorSet sceneSet = VK_NULL_HANDLE
+    );
+
+    /// A labelled, timed span of commands. Spans do not nest.
+    void beginSpan(const std::string& name);
+    void endSpan();
+
+    /// Waits until the GPU is done with this frame's last use and starts recording.
+    void begin();
+    /// Ends recording and submits.
+    void submit();
+    /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
+    [[nodiscard]] std::vector<PassTime> waitForTimes();
+    /// Waits for this frame's submission.
+    void wait();
+
+  private:
+    Device& mDevice;
+    VkCommandPool mPool = VK_NULL_HANDLE;
+    VkCommandBuffer mCommands = VK_NULL_HANDLE;
+    VkQueryPool mQueries = VK_NULL_HANDLE;
+    DescriptorArena mDescriptors;
+    std::vector<PassTime> mSpans;
+    double mSpanStartCpuMs = 0.0;
+    uint64_t mSubmittedValue = 0;
+};
+
+} // namespace shutter::gpu

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/memory.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shutter::gpu {
+
+namespace {
+
+VkDeviceMemory allocate(
+    Device& device,
+    const VkMemoryRequirements& needs,
+    VkMemoryPropertyFlags properties,
+    bool addressable,
+    const std::string& name
+) {
+    VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    if (addressable)
+        info.pNext = &flags;
+    info.allocationSize = needs.size;
+    info.memoryTypeIndex = findMemoryType(device, needs.memoryTypeBits, properties);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    require(
+        vkAllocateMemory(device.handle(), &info, nullptr, &memory),
+        fmt::format("allocating {} MiB for '{}'", (needs.size >> 20) + 1, name)
+    );
+    return memory;
+}
+
+} // namespace
+
+uint32_t findMemoryType(const Device& device, uint32_t typeBits, VkMemoryPropertyFlags properties) {
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
+    uint32_t fallback = UINT32_MAX;
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        if (!(typeBits & (1u << i)))
+            continue;
+        if ((memory.memoryTypes[i].propertyFlags & properties) == properties)
+            return i;
+        if (fallback == UINT32_MAX)
+            fallback = i;
+    }
+    SHUTTER_CHECK(fallback != UINT32_MAX, "no memory type fits");
+    return fallback;
+}
+
+Buffer::Buffer(
+    Device& device, std::string name, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use
+)
+    : mDevice(&device), mBytes(std::max<VkDeviceSize>(bytes, 16)) {
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = mBytes;
+    info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                 VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    require(
+        vkCreateBuffer(device.handle(), &info, nullptr, &mBuffer),
+        fmt::format("creating the buffer '{}'", name)
+    );
+    device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device.handle(), mBuffer, &needs);
+    VkMemoryPropertyFlags properties = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    if (use != MemoryUse::Device)
+        properties = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    if (use == MemoryUse::Readback)
+        properties |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    mMemory = allocate(device, needs, properties, true, name);
+    require(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0), "binding memory");
+    if (use != MemoryUse::Device)
+        require(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped), "mapping");
+    VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+    address.buffer = mBuffer;
+    mAddress = vkGetBufferDeviceAddress(device.handle(), &address);
+}
+
+Buffer::~Buffer() {
+    release();
+}
+
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept {
+    if (this == &other)
+        return *this;
+    release();
+    mDevice = std::exchange(other.mDevice, nullptr);
+    mBuffer = std::exchange(other.mBuffer, VK_NULL_HANDLE);
+    mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    mBytes = std::exchange(other.mBytes, 0);
+    mAddress = std::exchange(other.mAddress, 0);
+    mMapped = std::exchange(other.mMapped, nullptr);
+    return *this;
+}
+
+void Buffer::release() {
+    if (!mBuffer)
+        return;
+    mDevice->retire([device = mDevice->handle(), buffer = mBuffer, memory = mMemory] {
+        vkDestroyBuffer(device, buffer, nullptr);
+        vkFreeMemory(device, memory, nullptr);
+    });
+    mBuffer = VK_NULL_HANDLE;
+}
+
+void Buffer::writeBytes(const void* data, VkDeviceSize bytes, VkDeviceSize offset) {
+    SHUTTER_CHECK(mMapped != nullptr, "the buffer is not mapped");
+    SHUTTER_CHECK(offset + bytes <= mBytes, "{} + {} > {}", offset, bytes, mBytes);
+    if (bytes > 0)
+        std::memcpy(static_cast<char*>(mMapped) + offset, data, bytes);
+}
+
+uint32_t texelBytes(VkFormat format) {
+    switch (format) {
+    case VK_FORMAT_R8_UNORM:
+    case VK_FORMAT_R8_UINT:
+        return 1;
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_R16G16_SFLOAT:
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R32_SFLOAT:
+    case VK_FORMAT_D32_SFLOAT:
+        return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+    case VK_FORMAT_R32G32_SFLOAT:
+        return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return 16;
+    default:
+        break;
+    }
+    SHUTTER_CHECK(false, "format {} has no size here", static_cast<int>(format));
+    return 0;
+}
+
+VkImageAspectFlags aspectOf(VkFormat format) {
+    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+Image::Image(Device& device, std::string name, const ImageDesc& desc)
+    : Image(createUnbound(device, std::move(name), desc)) {
+    const VkMemoryRequirements needs = requirements();
+    mMemory = allocate(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, mName);
+    bind(mMemory, 0);
+}
+
+Image Image::createUnbound(Device& device, std::string name, const ImageDesc& desc) {
+    Image image;
+    image.mDevice = &device;
+    image.mName = std::move(name);
+    image.mDesc = desc;
+    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = desc.format;
+    info.extent = {desc.width, desc.height, 1};
+    info.mipLevels = desc.mipLevels;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = desc.usage;
+    require(
+        vkCreateImage(device.handle(), &info, nullptr, &image.mImage),
+        fmt::format("creating the image '{}' ({} x {})", image.mName, desc.width, desc.height)
+    );
+    device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image.mImage), image.mName);
+    return image;
+}
+
+Image::~Image() {
+    release();
+}
+
+Image::Image(Image&& other) noexcept {
+    *this = std::move(other);
+}
+
+Image& Image::operator=(Image&& other) noexcept {
+    if (this == &other)
+        return *this;
+    release();
+    mDevice = std::exchange(other.mDevice, nullptr);
+    mName = std::move(other.mName);
+    mDesc = other.mDesc;
+    mImage = std::exchange(other.mImage, VK_NULL_HANDLE);
+    mView = std::exchange(other.mView, VK_NULL_HANDLE);
+    mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    return *this;
+}
+
+VkMemoryRequirements Image::requirements() const {
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(mDevice->handle(), mImage, &needs);
+    return needs;
+}
+
+void Image::bind(VkDeviceMemory memory, VkDeviceSize offset) {
+    require(vkBindImageMemory(mDevice->handle(), mImage, memory, offset), "binding memory");
+    createView();
+}
+
+void Image::createView() {
+    // Copies need no view, and an image for nothing but copies may not have one.
+    constexpr VkImageUsageFlags kTransfer =
+        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    if (!(mDesc.usage & ~kTransfer))
+        return;
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.image = mImage;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = mDesc.format;
+    info.subresourceRange = {aspectOf(mDesc.format), 0, mDesc.mipLevels, 0, 1};
+    require(vkCreateImageView(mDevice->handle(), &info, nullptr, &mView), "creating a view");
+}
+
+void Image::release() {
+    if (!mImage)
+        return;
+    mDevice->retire([device = mDevice->handle(), image = mImage, view = mView, memory = mMemory] {
+        vkDestroyImageView(device, view, nullptr);
+        vkDestroyImage(device, image, nullptr);
+        vkFreeMemory(device, memory, nullptr);
+    });
+    mImage = VK_NULL_HANDLE;
+}
+
+MemoryBlock::MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits) : mDevice(&device) {
+    VkMemoryRequirements needs{};
+    needs.size = bytes;
+    needs.memoryTypeBits = typeBits;
+    mMemory =
+        allocate(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, "transient images");
+}
+
+MemoryBlock::~MemoryBlock() {
+    release();
+}
+
+MemoryBlock::MemoryBlock(MemoryBlock&& other) noexcept {
+    *this = std::move(other);
+}
+
+MemoryBlock& MemoryBlock::operator=(MemoryBlock&& other) noexcept {
+    if (this == &other)
+        return *this;
+    release();
+    mDevice = std::exchange(other.mDevice, nullptr);
+    mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    return *this;
+}
+
+void MemoryBlock::release() {
+    if (!mMemory)
+        return;
+    mDevice->retire([device = mDevice->handle(), memory = mMemory] {
+        vkFreeMemory(device, memory, nullptr);
+    });
+    mMemory = VK_NULL_HANDLE;
+}
+
+} // namespace shutter::gpu

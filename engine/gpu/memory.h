@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Buffers and images with memory of their own. Few and large by design: meshes share one buffer,
+// transient images share the render graph's memory.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/vulkan.h"
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+
+namespace shutter::gpu {
+
+enum class MemoryUse : uint8_t {
+    Device,   ///< fast for the GPU, not mapped
+    Upload,   ///< mapped, written by the CPU
+    Readback, ///< mapped, read by the CPU
+};
+
+/// First memory type in `typeBits` that has `properties`; falls back to any in `typeBits`.
+[[nodiscard]] uint32_t
+findMemoryType(const Device& device, uint32_t typeBits, VkMemoryPropertyFlags properties);
+
+class Buffer {
+  public:
+    Buffer() = default;
+    /// \param bytes 0 makes a buffer of 16 bytes, so that empty scenes need no special case
+    /// Always usable as transfer source, transfer target and by device address.
+    Buffer(
+        Device& device,
+        std::string name,
+        VkDeviceSize bytes,
+        VkBufferUsageFlags usage,
+        MemoryUse use
+    );
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    [[nodiscard]] VkBuffer handle() const { return mBuffer; }
+
+    [[nodiscard]] VkDeviceSize bytes() const { return mBytes; }
+
+    [[nodiscard]] VkDeviceAddress address() const { return mAddress; }
+
+    [[nodiscard]] void* mapped() const { return mMapped; } ///< null for MemoryUse::Device
+
+    [[nodiscard]] explicit operator bool() const { return mBuffer != VK_NULL_HANDLE; }
+
+    /// Copies into mapped memory.
+    template <class T> void write(std::span<const T> data, VkDeviceSize offset = 0) {
+        writeBytes(data.data(), data.size_bytes(), offset);
+    }
+
+    void writeBytes(const void* data, VkDeviceSize bytes, VkDeviceSize offset);
+
+  private:
+    void release();
+
+    Device* mDevice = nullptr;
+    VkBuffer mBuffer = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkDeviceSize mBytes = 0;
+    VkDeviceAddress mAddress = 0;
+    void* mMapped = nullptr;
+};
+
+struct ImageDesc {
+    uint32_t width = 1;
+    uint32_t height = 1;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkImageUsageFlags usage = 0;
+    uint32_t mipLevels = 1;
+
+    bool operator==(const ImageDesc&) const = default;
+};
+
+/// Bytes of one texel of the uncompressed formats this engine uses.
+[[nodiscard]] uint32_t texelBytes(VkFormat format);
+[[nodiscard]] VkImageAspectFlags aspectOf(VkFormat format);
+
+/// A 2D image and its view. Owns its memory unless it was placed into somebody else's.
+class Image {
+  public:
+    Image() = default;
+    /// With memory of its own.
+    Image(Device& device, std::string name, const ImageDesc& desc);
+    /// Without memory: ask requirements(), then bind().
+    [[nodiscard]] static Image
+    createUnbound(Device& device, std::string name, const ImageDesc& desc);
+    ~Image();
+    Image(Image&& other) noexcept;
+    Image& operator=(Image&& other) noexcept;
+
+    [[nodiscard]] VkMemoryRequirements requirements() const;
+    /// \param memory must outlive the image
+    void bind(VkDeviceMemory memory, VkDeviceSize offset);
+
+    [[nodiscard]] VkImage handle() const { return mImage; }
+
+    [[nodiscard]] VkImageView view() const { return mView; }
+
+    [[nodiscard]] const ImageDesc& desc() const { return mDesc; }
+
+    [[nodiscard]] const std::string& name() const { return mName; }
+
+  private:
+    void createView();
+    void release();
+
+    Device* mDevice = nullptr;
+    std::string mName;
+    ImageDesc mDesc;
+    VkImage mImage = VK_NULL_HANDLE;
+    VkImageView mView = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+};
+
+/// A block of device memory that images are placed into.
+class MemoryBlock {
+  public:
+    MemoryBlock() = default;
+    MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits);
+    ~MemoryBlock();
+    MemoryBlock(MemoryBlock&& other) noexcept;
+    MemoryBlock& operator=(MemoryBlock&& other) noexcept;
+
+    [[nodiscard]] VkDeviceMemory handle() const { return mMemory; }
+
+  private:
+    void release();
+
+    Device* mDevice = nullptr;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+};
+
+} // namespace shutter::gpu

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/pipeline.h"
+
+#include "engine/core/check.h"
+
+#include <array>
+#include <utility>
+
+namespace shutter::gpu {
+
+namespace {
+
+/// A shader module that lives while a pipeline is made.
+class Module {
+  public:
+    Module(Device& device, std::span<const uint32_t> spirv, const std::string& name)
+        : mDevice(device) {
+        VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+        info.codeSize = spirv.size_bytes();
+        info.pCode = spirv.data();
+        require(
+            vkCreateShaderModule(device.handle(), &info, nullptr, &mModule),
+            fmt::format("loading the shader '{}'", name)
+        );
+    }
+
+    ~Module() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
+
+    Module(const Module&) = delete;
+    Module& operator=(const Module&) = delete;
+
+    [[nodiscard]] VkShaderModule handle() const { return mModule; }
+
+  private:
+    Device& mDevice;
+    VkShaderModule mModule = VK_NULL_HANDLE;
+};
+
+/// Specialization constants 0, 1, 2, ... of 32 bits each. Must outlive info().
+class Specialization {
+  public:
+    explicit Specialization(const std::vector<uint32_t>& values) {
+        for (uint32_t i = 0; i < values.size(); ++i)
+            mEntries.push_back({i, i * 4, 4});
+        mInfo.mapEntryCount = static_cast<uint32_t>(mEntries.size());
+        mInfo.pMapEntries = mEntries.data();
+        mInfo.dataSize = values.size() * 4;
+        mInfo.pData = values.data();
+    }
+
+    [[nodiscard]] const VkSpecializationInfo* info() const { return &mInfo; }
+
+  private:
+    std::vector<VkSpecializationMapEntry> mEntries;
+    VkSpecializationInfo mInfo{};
+};
+
+VkPipelineShaderStageCreateInfo
+makeStage(VkShaderStageFlagBits stage, VkShaderModule module, const Specialization& constants) {
+    VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    info.pSpecializationInfo = constants.info();
+    return info;
+}
+
+std::vector<VkPipelineColorBlendAttachmentState> makeBlend(size_t targets, bool blendFirstOnly) {
+    constexpr VkColorComponentFlags kAll = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    std::vector<VkPipelineColorBlendAttachmentState> states(targets);
+    for (size_t i = 0; i < targets; ++i) {
+        states[i].colorWriteMask = blendFirstOnly && i > 0 ? 0 : kAll;
+        if (!blendFirstOnly || i > 0)
+            continue;
+        states[i].blendEnable = VK_TRUE;
+        states[i].srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        states[i].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        states[i].colorBlendOp = VK_BLEND_OP_ADD;
+        states[i].srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        states[i].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        states[i].alphaBlendOp = VK_BLEND_OP_ADD;
+    }
+    return states;
+}
+
+} // namespace
+
+void Pipeline::createLayout(const PipelineInterface& interface) {
+    SHUTTER_CHECK(interface.pushConstantBytes <= 128, "{}", interface.pushConstantBytes);
+    mBindingCount = interface.bindings.size();
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (uint32_t i = 0; i < interface.bindings.size(); ++i)
+        bindings.push_back({i, interface.bindings[i], 1, mStages, nullptr});
+    VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    set.bindingCount = static_cast<uint32_t>(bindings.size());
+    set.pBindings = bindings.data();
+    require(
+        vkCreateDescriptorSetLayout(mDevice->handle(), &set, nullptr, &mSetLayout),
+        "creating a descriptor layout"
+    );
+    const std::array layouts{mSetLayout, interface.sceneLayout};
+    const VkPushConstantRange range{mStages, 0, interface.pushConstantBytes};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = interface.sceneLayout ? 2 : 1;
+    info.pSetLayouts = layouts.data();
+    info.pushConstantRangeCount = interface.pushConstantBytes > 0 ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    require(
+        vkCreatePipelineLayout(mDevice->handle(), &info, nullptr, &mLayout),
+        "creating a pipeline layout"
+    );
+}
+
+Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
+    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_COMPUTE),
+      mStages(VK_SHADER_STAGE_COMPUTE_BIT) {
+    createLayout(desc.interface);
+    const Module module(device, desc.spirv, desc.name);
+    const Specialization constants(desc.specialization);
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage = makeStage(VK_SHADER_STAGE_COMPUTE_BIT, module.handle(), constants);
+    info.layout = mLayout;
+    require(
+        vkCreateComputePipelines(
+            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mPipeline
+        ),
+        fmt::format("creating the pipeline '{}'", desc.name)
+    );
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+}
+
+Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
+    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_GRAPHICS),
+      mStages(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT) {
+    createLayout(desc.interface);
+    const Module vertex(device, desc.vertexSpirv, desc.name);
+    const Module fragment(device, desc.fragmentSpirv, desc.name);
+    const Specialization constants(desc.specialization);
+    const std::array stages{
+        makeStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.handle(), constants),
+        makeStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.handle(), constants)};
+
+    VkPipelineVertexInputStateCreateInfo input{
+        VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    VkPipelineViewportStateCreateInfo viewport{
+        VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+    viewport.viewportCount = 1;
+    viewport.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster{
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.lineWidth = 1.0f;
+    VkPipelineMultisampleStateCreateInfo multisample{
+        VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+    multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineDepthStencilStateCreateInfo depth{
+        VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+    depth.depthTestEnable = desc.depthFormat != VK_FORMAT_UNDEFINED;
+    depth.depthWriteEnable = desc.depthWrite;
+    depth.depthCompareOp = desc.depthCompare;
+    const auto blendStates = makeBlend(desc.colorFormats.size(), desc.blendFirstOnly);
+    VkPipelineColorBlendStateCreateInfo blend{
+        VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+    blend.attachmentCount = static_cast<uint32_t>(blendStates.size());
+    blend.pAttachments = blendStates.data();
+    constexpr std::array kDynamic{
+        VK_DYNAMIC_STATE_VIEWPORT,
+        VK_DYNAMIC_STATE_SCISSOR,
+        VK_DYNAMIC_STATE_CULL_MODE,
+        VK_DYNAMIC_STATE_FRONT_FACE};
+    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+    dynamic.dynamicStateCount = kDynamic.size();
+    dynamic.pDynamicStates = kDynamic.data();
+    VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+    rendering.colorAttachmentCount = static_cast<uint32_t>(desc.colorFormats.size());
+    rendering.pColorAttachmentFormats = desc.colorFormats.data();
+    rendering.depthAttachmentFormat = desc.depthFormat;
+
+    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
+    info.stageCount = stages.size();
+    info.pStages = stages.data();
+    info.pVertexInputState = &input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewport;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &multisample;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend;
+    info.pDynamicState = &dynamic;
+    info.layout = mLayout;
+    require(
+        vkCreateGraphicsPipelines(
+            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mPipeline
+        ),
+        fmt::format("creating the pipeline '{}'", desc.name)
+    );
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+}
+
+Pipeline::~Pipeline() {
+    release();
+}
+
+Pipeline::Pipeline(Pipeline&& other) noexcept {
+    *this = std::move(other);
+}
+
+Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
+    if (this == &other)
+        return *this;
+    release();
+    mDevice = std::exchange(other.mDevice, nullptr);
+    mPipeline = std::exchange(other.mPipeline, VK_NULL_HANDLE);
+    mLayout = std::exchange(other.mLayout, VK_NULL_HANDLE);
+    mSetLayout = std::exchange(other.mSetLayout, VK_NULL_HANDLE);
+    mBindPoint = other.mBindPoint;
+    mStages = other.mStages;
+    mBindingCount = other.mBindingCount;
+    return *this;
+}
+
+void Pipeline::release() {
+    if (!mDevice)
+        return;
+    mDevice->retire(
+        [device = mDevice->handle(), pipeline = mPipeline, layout = mLayout, set = mSetLayout] {
+            vkDestroyPipeline(device, pipeline, nullptr);
+            vkDestroyPipelineLayout(device, layout, nullptr);
+            vkDestroyDescriptorSetLayout(device, set, nullptr);
+        }
+    );
+    mDevice = nullptr;
+}
+
+} // namespace shutter::gpu

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/vulkan.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// What a pipeline binds. Set 0 is the pass's own, bound anew each frame; set 1, where given, is
+/// the scene's (bindless textures) and lives long.
+struct PipelineInterface {
+    std::vector<VkDescriptorType> bindings; ///< set 0, binding i
+    uint32_t pushConstantBytes = 0;         ///< [0, 128]
+    VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
+};
+
+struct ComputePipelineDesc {
+    std::string name;
+    std::span<const uint32_t> spirv;
+    PipelineInterface interface;
+    std::vector<uint32_t> specialization; ///< constant_id 0, 1, 2, ...
+};
+
+struct GraphicsPipelineDesc {
+    std::string name;
+    std::span<const uint32_t> vertexSpirv;
+    std::span<const uint32_t> fragmentSpirv;
+    PipelineInterface interface;
+    std::vector<uint32_t> specialization;
+    std::vector<VkFormat> colorFormats;
+    VkFormat depthFormat = VK_FORMAT_UNDEFINED;
+    VkCompareOp depthCompare = VK_COMPARE_OP_GREATER; ///< reversed depth
+    bool depthWrite = true;
+    /// True: attachment 0 is alpha-blended "over", the others are not written.
+    bool blendFirstOnly = false;
+};
+
+/// A compute or graphics pipeline with its layout. Cull mode is dynamic for graphics.
+class Pipeline {
+  public:
+    Pipeline() = default;
+    Pipeline(Device& device, const ComputePipelineDesc& desc);
+    Pipeline(Device& device, const GraphicsPipelineDesc& desc);
+    ~Pipeline();
+    Pipeline(Pipeline&& other) noexcept;
+    Pipeline& operator=(Pipeline&& other) noexcept;
+
+    [[nodiscard]] VkPipeline handle() const { return mPipeline; }
+
+    [[nodiscard]] VkPipelineLayout layout() const { return mLayout; }
+
+    [[nodiscard]] VkDescriptorSetLayout setLayout() const { return mSetLayout; }
+
+    [[nodiscard]] VkPipelineBindPoint bindPoint() const { return mBindPoint; }
+
+    [[nodiscard]] VkShaderStageFlags stages() const { return mStages; }
+
+    [[nodiscard]] size_t bindingCount() const { return mBindingCount; }
+
+  private:
+    void createLayout(const PipelineInterface& interface);
+    void release();
+
+    Device* mDevice = nullptr;
+    VkPipeline mPipeline = VK_NULL_HANDLE;
+    VkPipelineLayout mLayout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout mSetLayout = VK_NULL_HANDLE;
+    VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
+    VkShaderStageFlags mStages = 0;
+    size_t mBindingCount = 0;
+};
+
+} // namespace shutter::gpu

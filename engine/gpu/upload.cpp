@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/upload.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace shutter::gpu {
+
+namespace {
+
+void transition(
+    VkCommandBuffer commands, VkImage image, uint32_t mip, VkImageLayout from, VkImageLayout to
+) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.image = image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 1, 0, 1};
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+/// Half of a mip extent, at least 1.
+int32_t halve(uint32_t extent, uint32_t mip) {
+    return static_cast<int32_t>(std::max(extent >> mip, 1u));
+}
+
+} // namespace
+
+void fullBarrier(VkCommandBuffer commands) {
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device.queueFamily();
+    VkCommandPool handle = VK_NULL_HANDLE;
+    require(vkCreateCommandPool(device.handle(), &pool, nullptr, &handle), "starting a transfer");
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = handle;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    require(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "starting a transfer");
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    require(vkBeginCommandBuffer(commands, &begin), "starting a transfer");
+    record(commands);
+    fullBarrier(commands);
+    require(vkEndCommandBuffer(commands), "ending a transfer");
+    device.wait(device.submit(commands));
+    vkDestroyCommandPool(device.handle(), handle, nullptr);
+}
+
+void uploadBuffer(
+    Device& device, Buffer& target, std::span<const std::byte> data, VkDeviceSize offset
+) {
+    if (data.empty())
+        return;
+    SHUTTER_CHECK(offset + data.size() <= target.bytes(), "upload past the end of a buffer");
+    Buffer staging(device, "staging", data.size(), 0, MemoryUse::Upload);
+    staging.write(data);
+    runOnce(device, [&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, offset, data.size()};
+        vkCmdCopyBuffer(commands, staging.handle(), target.handle(), 1, &region);
+    });
+}
+
+uint32_t countMipLevels(uint32_t width, uint32_t height) {
+    return static_cast<uint32_t>(std::bit_width(std::max({width, height, 1u})));
+}
+
+void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels) {
+    const ImageDesc& desc = target.desc();
+    SHUTTER_CHECK_EQ(texels.size(), size_t(desc.width) * desc.height * texelBytes(desc.format));
+    Buffer staging(device, "staging", texels.size(), 0, MemoryUse::Upload);
+    staging.write(texels);
+    runOnce(device, [&](VkCommandBuffer commands) {
+        const VkImage image = target.handle();
+        transition(
+            commands, image, 0, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
+        );
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {desc.width, desc.height, 1};
+        vkCmdCopyBufferToImage(
+            commands, staging.handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region
+        );
+        for (uint32_t mip = 1; mip < desc.mipLevels; ++mip) {
+            transition(
+                commands,
+                image,
+                mip - 1,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+            );
+            transition(
+                commands,
+                image,
+                mip,
+                VK_IMAGE_LAYOUT_UNDEFINED,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
+            );
+            VkImageBlit blit{};
+            blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1};
+            blit.srcOffsets[1] = {halve(desc.width, mip - 1), halve(desc.height, mip - 1), 1};
+            blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1};
+            blit.dstOffsets[1] = {halve(desc.width, mip), halve(desc.height, mip), 1};
+            vkCmdBlitImage(
+                commands,
+                image,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                image,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                1,
+                &blit,
+                VK_FILTER_LINEAR
+            );
+        }
+        for (uint32_t mip = 0; mip < desc.mipLevels; ++mip)
+            transition(
+                commands,
+                image,
+                mip,
+                mip + 1 < desc.mipLevels ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+                                         : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+            );
+    });
+}
+
+} // namespace shutter::gpu

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// One-off transfers at load and readback at the end. Each call submits and waits: never in a frame.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// Records with `record`, submits, waits.
+void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record);
+
+/// Fills a device buffer through staging memory.
+void uploadBuffer(
+    Device& device, Buffer& target, std::span<const std::byte> data, VkDeviceSize offset = 0
+);
+
+/// Fills mip 0 with `texels` (tightly packed) and the others by successive halving with a linear
+/// filter (in linear light for sRGB formats). Leaves the image in SHADER_READ_ONLY_OPTIMAL.
+void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels);
+
+/// Mip levels of a full chain.
+[[nodiscard]] uint32_t countMipLevels(uint32_t width, uint32_t height);
+
+/// A full-frame memory barrier (everything before, everything after), for the helpers here and for
+/// acceleration structure builds outside the render graph.
+void fullBarrier(VkCommandBuffer commands);
+
+} // namespace shutter::gpu
