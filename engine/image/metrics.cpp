@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "engine/image/metrics.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace shutter::image {
+
+namespace {
+
+constexpr uint32_t kWindowRadius = 5;
+constexpr uint32_t kWindowSize = 2 * kWindowRadius + 1;
+constexpr double kWindowSigma = 1.5;
+// Wang et al. 2004, section III.B: C = (K L)^2 with L = 1.
+constexpr double kC1 = 0.01 * 0.01;
+constexpr double kC2 = 0.03 * 0.03;
+
+void checkComparable(const Image& a, const Image& b) {
+    SHUTTER_CHECK_EQ(a.width, b.width);
+    SHUTTER_CHECK_EQ(a.height, b.height);
+    SHUTTER_CHECK_EQ(a.channels, b.channels);
+    SHUTTER_CHECK_EQ(a.pixels.size(), size_t(a.width) * a.height * a.channels);
+    SHUTTER_CHECK_EQ(b.pixels.size(), a.pixels.size());
+}
+
+/// Calls visit(valueOfA, valueOfB) for every compared channel of every pixel.
+template <typename Visit> void forEachValue(const Image& a, const Image& b, Visit visit) {
+    const uint32_t compared = std::min(a.channels, 3u);
+    for (size_t pixel = 0; pixel < size_t(a.width) * a.height; ++pixel) {
+        for (uint32_t c = 0; c < compared; ++c) {
+            const size_t index = pixel * a.channels + c;
+            visit(double(a.pixels[index]), double(b.pixels[index]));
+        }
+    }
+}
+
+/// Clamped to [0, 1]; NaN passes through (each comparison with it is false).
+double clampToUnit(double value) {
+    return value < 0.0 ? 0.0 : (value > 1.0 ? 1.0 : value);
+}
+
+/// Luminance of a pixel from its clamped channels; NaN where one of them is.
+double luminanceAt(const Image& image, uint32_t x, uint32_t y) {
+    const double first = clampToUnit(image.at(x, y, 0));
+    if (image.channels < 3)
+        return first;
+    return 0.2126 * first + 0.7152 * clampToUnit(image.at(x, y, 1)) +
+           0.0722 * clampToUnit(image.at(x, y, 2));
+}
+
+/// The part of one window that lies inside the picture, along one axis; the weights sum to 1.
+struct Taps {
+    uint32_t first = 0;
+    uint32_t count = 0;
+    std::array<double, kWindowSize> weights{};
+};
+
+/// One entry a window centre along an axis of `size` pixels.
+std::vector<Taps> buildTaps(uint32_t size) {
+    const bool wholeWindows = size >= kWindowSize;
+    const uint32_t firstCentre = wholeWindows ? kWindowRadius : 0;
+    const uint32_t endCentre = wholeWindows ? size - kWindowRadius : size;
+    std::vector<Taps> axis;
+    axis.reserve(endCentre - firstCentre);
+    for (uint32_t centre = firstCentre; centre < endCentre; ++centre) {
+        Taps taps;
+        taps.first = centre - std::min(centre, kWindowRadius);
+        taps.count = std::min(centre + kWindowRadius + 1, size) - taps.first;
+        double sum = 0.0;
+        for (uint32_t i = 0; i < taps.count; ++i) {
+            const double distance = double(taps.first + i) - double(centre);
+            taps.weights[i] = std::exp(-distance * distance / (2.0 * kWindowSigma * kWindowSigma));
+            sum += taps.weights[i];
+        }
+        for (double& weight : taps.weights)
+            weight /= sum;
+        axis.push_back(taps);
+    }
+    return axis;
+}
+
+/// Weighted sums of the two luminances, their squares and their product.
+struct Moments {
+    double a = 0.0;
+    double b = 0.0;
+    double aa = 0.0;
+    double bb = 0.0;
+    double ab = 0.0;
+
+    void add(const Moments& m, double weight) {
+        a += weight * m.a;
+        b += weight * m.b;
+        aa += weight * m.aa;
+        bb += weight * m.bb;
+        ab += weight * m.ab;
+    }
+};
+
+/// Wang et al. 2004, eq. 13, from the moments of one window.
+double scoreWindow(const Moments& m) {
+    const double varianceA = m.aa - m.a * m.a;
+    const double varianceB = m.bb - m.b * m.b;
+    const double covariance = m.ab - m.a * m.b;
+    const double score = ((2.0 * m.a * m.b + kC1) * (2.0 * covariance + kC2)) /
+                         ((m.a * m.a + m.b * m.b + kC1) * (varianceA + varianceB + kC2));
+    return std::isnan(score) ? 0.0 : score;
+}
+
+/// Row y filtered along x; `scratch` holds a row of the picture.
+void filterRow(
+    const Image& a,
+    const Image& b,
+    uint32_t y,
+    const std::vector<Taps>& columns,
+    std::vector<Moments>& scratch,
+    std::vector<Moments>& filtered
+) {
+    for (uint32_t x = 0; x < a.width; ++x) {
+        const double va = luminanceAt(a, x, y);
+        const double vb = luminanceAt(b, x, y);
+        scratch[x] = {va, vb, va * va, vb * vb, va * vb};
+    }
+    for (size_t i = 0; i < columns.size(); ++i) {
+        Moments sum;
+        for (uint32_t tap = 0; tap < columns[i].count; ++tap)
+            sum.add(scratch[columns[i].first + tap], columns[i].weights[tap]);
+        filtered[i] = sum;
+    }
+}
+
+} // namespace
+
+double computePsnr(const Image& a, const Image& b) {
+    checkComparable(a, b);
+    double squaredSum = 0.0;
+    size_t count = 0;
+    forEachValue(a, b, [&](double va, double vb) {
+        const double difference = clampToUnit(va) - clampToUnit(vb);
+        squaredSum += std::isnan(difference) ? 1.0 : difference * difference;
+        ++count;
+    });
+    if (squaredSum == 0.0)
+        return std::numeric_limits<double>::infinity();
+    return 10.0 * std::log10(double(count) / squaredSum);
+}
+
+double computeSsim(const Image& a, const Image& b) {
+    checkComparable(a, b);
+    if (a.pixels.empty())
+        return 1.0;
+    const std::vector<Taps> columns = buildTaps(a.width);
+    const std::vector<Taps> rows = buildTaps(a.height);
+
+    // Windows never reach over more rows than this ring holds, so memory does not grow with height.
+    std::array<std::vector<Moments>, kWindowSize> ring;
+    ring.fill(std::vector<Moments>(columns.size()));
+    std::vector<Moments> scratch(a.width);
+    uint32_t rowsFiltered = 0;
+    double sum = 0.0;
+    for (const Taps& row : rows) {
+        for (; rowsFiltered < row.first + row.count; ++rowsFiltered)
+            filterRow(a, b, rowsFiltered, columns, scratch, ring[rowsFiltered % kWindowSize]);
+        for (size_t i = 0; i < columns.size(); ++i) {
+            Moments window;
+            for (uint32_t tap = 0; tap < row.count; ++tap)
+                window.add(ring[(row.first + tap) % kWindowSize][i], row.weights[tap]);
+            sum += scoreWindow(window);
+        }
+    }
+    return sum / (double(rows.size()) * double(columns.size()));
+}
+
+double computeMaxDifference(const Image& a, const Image& b) {
+    checkComparable(a, b);
+    double largest = 0.0;
+    forEachValue(a, b, [&](double va, double vb) {
+        if (va == vb)
+            return; // also infinity against itself, whose difference would be NaN
+        const double difference = std::abs(va - vb);
+        largest = std::max(
+            largest, std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference
+        );
+    });
+    return largest;
+}
+
+} // namespace shutter::image

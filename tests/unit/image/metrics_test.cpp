@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#include "engine/image/metrics.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+using namespace shutter::image;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+Image makeConstant(uint32_t width, uint32_t height, uint32_t channels, float value) {
+    Image image(width, height, channels);
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return image;
+}
+
+/// Steps of 1/255 without a pattern, so that the same picture can be written in eight bits.
+Image makeNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
+    Image image(width, height, channels);
+    std::mt19937 random(seed);
+    for (float& value : image.pixels)
+        value = float(random() % 256u) / 255.0f;
+    return image;
+}
+
+double luminanceOf(const Image& image, uint32_t x, uint32_t y) {
+    if (image.channels < 3)
+        return image.at(x, y, 0);
+    return 0.2126 * image.at(x, y, 0) + 0.7152 * image.at(x, y, 1) + 0.0722 * image.at(x, y, 2);
+}
+
+/// The definition, one window: centred moments summed in two dimensions over the part inside.
+double scoreWindowDirectly(const Image& a, const Image& b, int centreX, int centreY) {
+    struct Sample {
+        double weight, a, b;
+    };
+
+    std::vector<Sample> samples;
+    double weightSum = 0.0;
+    for (int y = std::max(centreY - 5, 0); y <= std::min(centreY + 5, int(a.height) - 1); ++y) {
+        for (int x = std::max(centreX - 5, 0); x <= std::min(centreX + 5, int(a.width) - 1); ++x) {
+            const double squared = std::pow(x - centreX, 2) + std::pow(y - centreY, 2);
+            const auto ux = uint32_t(x);
+            const auto uy = uint32_t(y);
+            const double weight = std::exp(-squared / (2.0 * 1.5 * 1.5));
+            samples.push_back({weight, luminanceOf(a, ux, uy), luminanceOf(b, ux, uy)});
+            weightSum += weight;
+        }
+    }
+    double meanA = 0.0, meanB = 0.0, varianceA = 0.0, varianceB = 0.0, covariance = 0.0;
+    for (const Sample& s : samples) {
+        meanA += s.weight / weightSum * s.a;
+        meanB += s.weight / weightSum * s.b;
+    }
+    for (const Sample& s : samples) {
+        varianceA += s.weight / weightSum * (s.a - meanA) * (s.a - meanA);
+        varianceB += s.weight / weightSum * (s.b - meanB) * (s.b - meanB);
+        covariance += s.weight / weightSum * (s.a - meanA) * (s.b - meanB);
+    }
+    return (2.0 * meanA * meanB + 1e-4) * (2.0 * covariance + 9e-4) /
+           ((meanA * meanA + meanB * meanB + 1e-4) * (varianceA + varianceB + 9e-4));
+}
+
+double computeSsimDirectly(const Image& a, const Image& b) {
+    const auto range = [](uint32_t size) {
+        return size >= 11 ? std::array{5, int(size) - 5} : std::array{0, int(size)};
+    };
+    const auto [firstX, endX] = range(a.width);
+    const auto [firstY, endY] = range(a.height);
+    double sum = 0.0;
+    for (int y = firstY; y < endY; ++y)
+        for (int x = firstX; x < endX; ++x)
+            sum += scoreWindowDirectly(a, b, x, y);
+    return sum / ((endX - firstX) * (endY - firstY));
+}
+
+double ssimOfConstants(double a, double b) {
+    return (2.0 * a * b + 1e-4) / (a * a + b * b + 1e-4);
+}
+
+/// An empty folder that goes with the object.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "shutter-metrics-XXXXXX").string();
+        const char* made = mkdtemp(pattern.data());
+        mPath = made == nullptr ? "" : made;
+    }
+
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(mPath, ignored);
+    }
+
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return mPath; }
+
+  private:
+    std::filesystem::path mPath;
+};
+
+/// Binary PGM (one channel) or PPM (three), eight bits.
+void writePnm(const Image& image, const std::filesystem::path& path) {
+    std::ofstream file(path, std::ios::binary);
+    file << (image.channels == 1 ? "P5" : "P6") << "\n"
+         << image.width << " " << image.height << "\n255\n";
+    for (float value : image.pixels)
+        file.put(static_cast<char>(std::lround(value * 255.0f)));
+    ASSERT_TRUE(file.good()) << path;
+}
+
+/// What ffmpeg's psnr filter says of the two pictures; the plane format keeps RGB as it is.
+std::optional<double> measureWithFfmpeg(const Image& a, const Image& b) {
+    const TemporaryFolder folder;
+    const std::string extension = a.channels == 1 ? ".pgm" : ".ppm";
+    const std::string format = a.channels == 1 ? "gray" : "gbrp";
+    const std::string pathA = (folder.path() / ("a" + extension)).string();
+    const std::string pathB = (folder.path() / ("b" + extension)).string();
+    writePnm(a, pathA);
+    writePnm(b, pathB);
+    const std::string command = "ffmpeg -nostdin -hide_banner -i '" + pathA + "' -i '" + pathB +
+                                "' -lavfi '[0:v]format=" + format + "[a];[1:v]format=" + format +
+                                "[b];[a][b]psnr' -f null - 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr)
+        return std::nullopt;
+    std::string output;
+    std::array<char, 512> chunk{};
+    while (fgets(chunk.data(), int(chunk.size()), pipe) != nullptr)
+        output += chunk.data();
+    const int status = pclose(pipe);
+    const size_t average = output.find("average:");
+    if (status != 0 || average == std::string::npos) {
+        ADD_FAILURE() << "ffmpeg said:\n" << output;
+        return std::nullopt;
+    }
+    return std::strtod(output.c_str() + average + 8, nullptr);
+}
+
+bool isFfmpegInstalled() {
+    return std::system("command -v ffmpeg >/dev/null 2>&1") == 0;
+}
+
+} // namespace
+
+TEST(Psnr, EqualPicturesAreInfinitelyClose) {
+    const Image image = makeNoise(7, 5, 3, 1);
+    EXPECT_EQ(computePsnr(image, image), std::numeric_limits<double>::infinity());
+}
+
+TEST(Psnr, AConstantOffsetOfATenthIsTwentyDecibels) {
+    const Image a = makeConstant(31, 17, 3, 0.25f);
+    const Image b = makeConstant(31, 17, 3, 0.35f);
+    EXPECT_NEAR(computePsnr(a, b), 20.0, 1e-5);
+}
+
+TEST(Psnr, OneWrongPixelOfManyIsAveragedOverAll) {
+    const Image a = makeConstant(10, 10, 1, 0.0f);
+    Image b = a;
+    b.at(3, 4, 0) = 1.0f;
+    EXPECT_NEAR(computePsnr(a, b), 20.0, 1e-12);
+}
+
+TEST(Psnr, AlphaIsNotCompared) {
+    const Image a = makeConstant(4, 4, 4, 0.5f);
+    Image b = a;
+    b.at(1, 1, 3) = 0.0f;
+    EXPECT_EQ(computePsnr(a, b), std::numeric_limits<double>::infinity());
+    b.at(1, 1, 2) = 0.0f;
+    EXPECT_NEAR(computePsnr(a, b), 10.0 * std::log10(48.0 / 0.25), 1e-12);
+}
+
+TEST(Psnr, ValuesOutsideTheUnitRangeAreClamped) {
+    const Image bright = makeConstant(3, 3, 3, kInfinity);
+    const Image dark = makeConstant(3, 3, 3, -5.0f);
+    EXPECT_EQ(
+        computePsnr(bright, makeConstant(3, 3, 3, 1.0f)), std::numeric_limits<double>::infinity()
+    );
+    EXPECT_EQ(
+        computePsnr(dark, makeConstant(3, 3, 3, 0.0f)), std::numeric_limits<double>::infinity()
+    );
+    EXPECT_NEAR(computePsnr(bright, dark), 0.0, 1e-12);
+}
+
+TEST(Psnr, NanInEitherPictureIsTheLargestError) {
+    const Image good = makeConstant(2, 2, 1, 0.5f);
+    Image bad = good;
+    bad.at(0, 1, 0) = kNan;
+    const double expectedDb = 10.0 * std::log10(4.0);
+    EXPECT_NEAR(computePsnr(good, bad), expectedDb, 1e-12);
+    EXPECT_NEAR(computePsnr(bad, good), expectedDb, 1e-12);
+    EXPECT_NEAR(computePsnr(bad, bad), expectedDb, 1e-12);
+}
+
+TEST(Psnr, PicturesWithoutPixelsAreEqual) {
+    EXPECT_EQ(computePsnr(Image(), Image()), std::numeric_limits<double>::infinity());
+}
+
+TEST(PsnrDeathTest, PicturesOfDifferentShapesAreRefused) {
+    EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(3, 2, 1)), "width");
+    EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(2, 2, 1)), "height");
+    EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(2, 3, 3)), "channels");
+}
+
+TEST(Psnr, AgreesWithFfmpegOnGreyPictures) {
+    if (!isFfmpegInstalled())
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const Image a = makeNoise(64, 48, 1, 2);
+    Image b = a;
+    for (size_t i = 0; i < b.pixels.size(); i += 3)
+        b.pixels[i] = std::round(b.pixels[i] * 200.0f) / 255.0f;
+    const std::optional<double> expectedDb = measureWithFfmpeg(a, b);
+    ASSERT_TRUE(expectedDb.has_value());
+    EXPECT_NEAR(computePsnr(a, b), *expectedDb, 0.01);
+}
+
+TEST(Psnr, AgreesWithFfmpegOnColourPictures) {
+    if (!isFfmpegInstalled())
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const Image a = makeNoise(64, 48, 3, 3);
+    const Image b = makeNoise(64, 48, 3, 4);
+    const std::optional<double> expectedDb = measureWithFfmpeg(a, b);
+    ASSERT_TRUE(expectedDb.has_value());
+    EXPECT_NEAR(computePsnr(a, b), *expectedDb, 0.01);
+}
+
+TEST(Ssim, EqualPicturesScoreOne) {
+    const Image image = makeNoise(40, 30, 3, 5);
+    EXPECT_DOUBLE_EQ(computeSsim(image, image), 1.0);
+}
+
+TEST(Ssim, ConstantsLeaveTheLuminanceTermAlone) {
+    for (const uint32_t size : {1u, 5u, 10u, 11u, 12u, 40u}) {
+        const Image a = makeConstant(size, size, 3, 0.25f);
+        const Image b = makeConstant(size, size, 3, 0.75f);
+        EXPECT_NEAR(computeSsim(a, b), ssimOfConstants(0.25, 0.75), 1e-12) << size;
+    }
+}
+
+TEST(Ssim, BlackAgainstWhiteIsNearlyZeroAndBlackAgainstBlackOne) {
+    const Image black = makeConstant(16, 16, 1, 0.0f);
+    const Image white = makeConstant(16, 16, 1, 1.0f);
+    EXPECT_NEAR(computeSsim(black, white), 1e-4 / 1.0001, 1e-12);
+    EXPECT_DOUBLE_EQ(computeSsim(black, black), 1.0);
+}
+
+TEST(Ssim, FollowsTheDefinitionOnEverySizeAroundTheWindow) {
+    for (const auto& [width, height] :
+         {std::array{1u, 1u}, {5u, 5u}, {11u, 11u}, {13u, 5u}, {4u, 25u}, {33u, 27u}}) {
+        for (const uint32_t channels : {1u, 3u, 4u}) {
+            const Image a = makeNoise(width, height, channels, 6);
+            const Image b = makeNoise(width, height, channels, 7);
+            EXPECT_NEAR(computeSsim(a, b), computeSsimDirectly(a, b), 1e-10)
+                << width << "x" << height << "x" << channels;
+        }
+    }
+}
+
+TEST(Ssim, AnInvertedPictureScoresBelowZero) {
+    const Image a = makeNoise(24, 24, 1, 8);
+    Image b = a;
+    for (float& value : b.pixels)
+        value = 1.0f - value;
+    EXPECT_LT(computeSsim(a, b), -0.5);
+}
+
+TEST(Ssim, ColourIsWeighedAsLuminance) {
+    const Image black = makeConstant(12, 12, 3, 0.0f);
+    Image green = black;
+    for (size_t i = 1; i < green.pixels.size(); i += 3)
+        green.pixels[i] = 1.0f;
+    EXPECT_NEAR(computeSsim(black, green), ssimOfConstants(0.0, 0.7152), 1e-12);
+}
+
+TEST(Ssim, ANanSpoilsTheWindowsItLiesInAndNoOthers) {
+    const Image good = makeConstant(33, 11, 1, 0.5f);
+    Image bad = good;
+    bad.at(0, 0, 0) = kNan;
+    // 23 windows in one row; only the first reaches column 0.
+    EXPECT_NEAR(computeSsim(good, bad), 22.0 / 23.0, 1e-12);
+    EXPECT_NEAR(computeSsim(bad, good), 22.0 / 23.0, 1e-12);
+}
+
+TEST(Ssim, InfinityIsClampedToOne) {
+    const Image a = makeConstant(12, 12, 1, kInfinity);
+    const Image b = makeConstant(12, 12, 1, 0.5f);
+    EXPECT_NEAR(computeSsim(a, b), ssimOfConstants(1.0, 0.5), 1e-12);
+}
+
+TEST(Ssim, PicturesWithoutPixelsAreEqual) {
+    EXPECT_EQ(computeSsim(Image(), Image()), 1.0);
+}
+
+TEST(MaxDifference, IsTheLargestOverAllChannelsOfAllPixels) {
+    const Image a = makeConstant(9, 4, 3, 0.5f);
+    Image b = a;
+    EXPECT_EQ(computeMaxDifference(a, b), 0.0);
+    b.at(2, 1, 0) = 0.75f;
+    b.at(8, 3, 2) = -0.5f;
+    EXPECT_EQ(computeMaxDifference(a, b), 1.0);
+}
+
+TEST(MaxDifference, IsNotClamped) {
+    const Image a = makeConstant(1, 1, 1, 8.0f);
+    const Image b = makeConstant(1, 1, 1, 3.0f);
+    EXPECT_EQ(computeMaxDifference(a, b), 5.0);
+}
+
+TEST(MaxDifference, NanIsInfinitelyFarEvenFromItself) {
+    const Image a = makeConstant(1, 1, 1, kNan);
+    const Image b = makeConstant(1, 1, 1, 0.0f);
+    EXPECT_EQ(computeMaxDifference(a, b), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(computeMaxDifference(a, a), std::numeric_limits<double>::infinity());
+}
+
+TEST(MaxDifference, InfinityEqualsItselfOnly) {
+    const Image a = makeConstant(1, 1, 1, kInfinity);
+    EXPECT_EQ(computeMaxDifference(a, a), 0.0);
+    EXPECT_EQ(
+        computeMaxDifference(a, makeConstant(1, 1, 1, -kInfinity)),
+        std::numeric_limits<double>::infinity()
+    );
+}
+
+TEST(MaxDifference, PicturesWithoutPixelsAreEqual) {
+    EXPECT_EQ(computeMaxDifference(Image(), Image()), 0.0);
+}
