@@ -1,0 +1,33 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: MIT
+# Picks Mesa's software device, so that a test sees the same driver on every machine.
+
+# Prints the path of lavapipe's driver description; returns 1 if there is none. The name carries the
+# architecture in some versions of the package and not in others.
+find_lavapipe() {
+    local folder name
+    for folder in /usr/share/vulkan/icd.d /usr/local/share/vulkan/icd.d /etc/vulkan/icd.d; do
+        for name in "lvp_icd.$(uname -m).json" lvp_icd.json; do
+            if [[ -r $folder/$name ]]; then
+                printf '%s\n' "$folder/$name"
+                return 0
+            fi
+        done
+    done
+    return 1
+}
+
+# Exports the two names under which old and new Vulkan loaders look for a driver. A choice that the
+# caller made stays, so that the tests can be pointed at another device.
+force_lavapipe() {
+    local chosen=${VK_DRIVER_FILES:-${VK_ICD_FILENAMES:-}}
+    if [[ -n $chosen ]]; then
+        say "Vulkan driver as the environment asks: $chosen"
+    else
+        chosen=$(find_lavapipe) ||
+            die "lavapipe is not installed: no lvp_icd*.json below /usr/share/vulkan/icd.d" \
+                "(package mesa-vulkan-drivers)"
+        say "Vulkan driver: $chosen"
+    fi
+    export VK_DRIVER_FILES=$chosen VK_ICD_FILENAMES=$chosen
+}

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Sets up and runs the tests on Mesa's software device; arguments go to ctest, e.g. -L unit.
+# VK_DRIVER_FILES picks another device, CTEST_PARALLEL_LEVEL the number of tests at a time.
+set -euo pipefail
+
+script_name='test'
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/lib/messages.sh
+source "$root/scripts/lib/messages.sh"
+# shellcheck source=scripts/lib/lavapipe.sh
+source "$root/scripts/lib/lavapipe.sh"
+
+"$root/scripts/setup.sh" --with-tests
+force_lavapipe
+cd "$root"
+ctest --preset release -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
