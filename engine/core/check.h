@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 namespace shutter::core {
 
 /// Prints "file:line: CHECK failed: expression (detail)" to stderr and aborts.

@@ -3,6 +3,8 @@
 // sentence that names the file, field or option. Programmer's mistakes are CHECKs (check.h).
 #pragma once
 
+#include "engine/core/check.h"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -21,7 +23,8 @@ template <class... Args>
     return Error{fmt::format(format, std::forward<Args>(args)...)};
 }
 
-/// A value of type T, or an Error. Ask `ok()` (or bool) before `value()`.
+/// A value of type T, or an Error. Ask `ok()` (or bool) first: value() of an error and error() of a
+/// value are CHECK failures.
 template <class T> class [[nodiscard]] Result {
   public:
     Result(T value) : mState(std::in_place_index<0>, std::move(value)) {}
@@ -32,19 +35,35 @@ template <class T> class [[nodiscard]] Result {
 
     explicit operator bool() const { return ok(); }
 
-    [[nodiscard]] T& value() & { return std::get<0>(mState); }
+    [[nodiscard]] T& value() & {
+        checkOk();
+        return *std::get_if<0>(&mState);
+    }
 
-    [[nodiscard]] const T& value() const& { return std::get<0>(mState); }
+    [[nodiscard]] const T& value() const& {
+        checkOk();
+        return *std::get_if<0>(&mState);
+    }
 
-    [[nodiscard]] T&& value() && { return std::get<0>(std::move(mState)); }
+    [[nodiscard]] T&& value() && {
+        checkOk();
+        return std::move(*std::get_if<0>(&mState));
+    }
 
-    [[nodiscard]] const Error& error() const { return std::get<1>(mState); }
+    [[nodiscard]] const Error& error() const {
+        SHUTTER_CHECK(!ok(), "error() of a result that has a value");
+        return *std::get_if<1>(&mState);
+    }
 
   private:
+    void checkOk() const {
+        SHUTTER_CHECK(ok(), "value() of an error: {}", std::get_if<1>(&mState)->message);
+    }
+
     std::variant<T, Error> mState;
 };
 
-/// Success without a value, or an Error.
+/// Success without a value, or an Error. error() of a success is a CHECK failure.
 class [[nodiscard]] Status {
   public:
     Status() = default;
@@ -55,7 +74,10 @@ class [[nodiscard]] Status {
 
     explicit operator bool() const { return mOk; }
 
-    [[nodiscard]] const Error& error() const { return mError; }
+    [[nodiscard]] const Error& error() const {
+        SHUTTER_CHECK(!mOk, "error() of a success");
+        return mError;
+    }
 
   private:
     Error mError;
