@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <unistd.h>
+#include <utility>
 
 namespace shutter::core {
 
@@ -16,48 +16,57 @@ constexpr double kSilentSeconds = 1.0;
 constexpr double kRedrawSeconds = 0.1;
 constexpr int kBarCells = 30;
 
+Progress::TimePoint readClock() {
+    return std::chrono::steady_clock::now();
+}
+
 } // namespace
 
+std::string
+formatProgress(std::string_view label, uint64_t done, uint64_t total, double elapsedSeconds) {
+    const double share = static_cast<double>(done) / static_cast<double>(total);
+    const int filled = static_cast<int>(share * kBarCells);
+    const std::string left =
+        done > 0 ? fmt::format("{:.0f}", elapsedSeconds * (1.0 - share) / share) : "?";
+    return fmt::format(
+        "{} [{:=<{}}{: <{}}] {}/{}  {} s left",
+        label,
+        "",
+        filled,
+        "",
+        kBarCells - filled,
+        done,
+        total,
+        left
+    );
+}
+
 Progress::Progress(std::string label, uint64_t total)
-    : mLabel(std::move(label)), mTotal(std::max<uint64_t>(total, 1)),
-      mEnabled(isatty(fileno(stderr)) != 0), mStart(std::chrono::steady_clock::now()),
-      mLastDraw(mStart) {}
+    : Progress(std::move(label), total, stderr, readClock) {}
+
+Progress::Progress(std::string label, uint64_t total, std::FILE* output, Clock clock)
+    : mLabel(std::move(label)), mTotal(std::max<uint64_t>(total, 1)), mOutput(output),
+      mClock(clock), mEnabled(isatty(fileno(output)) != 0), mStart(clock()), mLastDraw(mStart) {}
 
 Progress::~Progress() {
-    if (mDrawn)
-        fmt::print(stderr, "\r\x1b[K");
+    if (!mDrawn)
+        return;
+    fmt::print(mOutput, "\r\x1b[K");
+    std::fflush(mOutput);
 }
 
 void Progress::advance() {
     mDone = std::min(mDone + 1, mTotal);
     if (!mEnabled)
         return;
-    const auto now = std::chrono::steady_clock::now();
+    const TimePoint now = mClock();
     const double elapsed = Seconds(now - mStart).count();
     if (elapsed < kSilentSeconds || Seconds(now - mLastDraw).count() < kRedrawSeconds)
         return;
     mLastDraw = now;
     mDrawn = true;
-    draw(elapsed);
-}
-
-void Progress::draw(double elapsedSeconds) const {
-    const double share = static_cast<double>(mDone) / static_cast<double>(mTotal);
-    const int filled = static_cast<int>(share * kBarCells);
-    const double left = mDone > 0 ? elapsedSeconds * (1.0 - share) / share : 0.0;
-    fmt::print(
-        stderr,
-        "\r\x1b[K{} [{:=<{}}{: <{}}] {}/{}  {:.0f} s left",
-        mLabel,
-        "",
-        filled,
-        "",
-        kBarCells - filled,
-        mDone,
-        mTotal,
-        left
-    );
-    std::fflush(stderr);
+    fmt::print(mOutput, "\r\x1b[K{}", formatProgress(mLabel, mDone, mTotal, elapsed));
+    std::fflush(mOutput);
 }
 
 } // namespace shutter::core

@@ -3,17 +3,30 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace shutter::core {
 
-/// A bar with the time left on stderr, for work that takes over a second. Silent when stderr is no
-/// terminal, and silent for the first second.
+/// "label [=====     ] 5/10  3 s left"; the time left assumes that every step takes as long.
+/// \param done steps done, at most `total`; at 0 no time is known and "? s left" is said
+[[nodiscard]] std::string
+formatProgress(std::string_view label, uint64_t done, uint64_t total, double elapsedSeconds);
+
+/// A bar with the time left on stderr, for work that takes over a second. Silent when the output is
+/// no terminal, and silent for the first second.
 class Progress {
   public:
+    using TimePoint = std::chrono::steady_clock::time_point;
+    using Clock = TimePoint (*)();
+
     /// \param label what is being done, e.g. "rendering"
-    /// \param total number of steps, at least 1
+    /// \param total number of steps; 0 counts as 1
     Progress(std::string label, uint64_t total);
+    /// \param output where the bar goes; must outlive the bar
+    /// \param clock tells the time, for tests
+    Progress(std::string label, uint64_t total, std::FILE* output, Clock clock);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -22,15 +35,15 @@ class Progress {
     void advance();
 
   private:
-    void draw(double elapsedSeconds) const;
-
     std::string mLabel;
     uint64_t mTotal;
     uint64_t mDone = 0;
+    std::FILE* mOutput;
+    Clock mClock;
     bool mEnabled;
     bool mDrawn = false;
-    std::chrono::steady_clock::time_point mStart;
-    std::chrono::steady_clock::time_point mLastDraw;
+    TimePoint mStart;
+    TimePoint mLastDraw;
 };
 
 } // namespace shutter::core
