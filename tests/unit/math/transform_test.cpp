@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "engine/math/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+namespace shutter::math {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+void expectNear(const dvec3& actual, const dvec3& expected, double tolerance = 1e-12) {
+    EXPECT_NEAR(actual.x, expected.x, tolerance);
+    EXPECT_NEAR(actual.y, expected.y, tolerance);
+    EXPECT_NEAR(actual.z, expected.z, tolerance);
+}
+
+dvec3 applyTo(const dmat4& matrix, const dvec3& point) {
+    return dvec3(matrix * dvec4(point, 1.0));
+}
+
+dquat quarterTurnZ() {
+    return glm::angleAxis(kPi / 2.0, dvec3(0.0, 0.0, 1.0));
+}
+
+TEST(Transform, TheDefaultIsExactlyTheIdentity) {
+    EXPECT_EQ(computeMatrix(Transform{}), dmat4(1.0));
+}
+
+TEST(Transform, ScalesThenRotatesThenTranslates) {
+    const Transform transform{{10.0, 20.0, 30.0}, quarterTurnZ(), {2.0, 3.0, 4.0}};
+    // (1, 1, 1) scaled is (2, 3, 4), turned (-3, 2, 4), moved (7, 22, 34).
+    expectNear(applyTo(computeMatrix(transform), {1.0, 1.0, 1.0}), {7.0, 22.0, 34.0});
+}
+
+TEST(Transform, ANegativeScaleMirrors) {
+    const Transform transform{{0.0, 0.0, 0.0}, quarterTurnZ(), {-1.0, 1.0, 1.0}};
+    const dmat4 matrix = computeMatrix(transform);
+    expectNear(applyTo(matrix, {1.0, 0.0, 0.0}), {0.0, -1.0, 0.0});
+    EXPECT_NEAR(glm::determinant(dmat3(matrix)), -1.0, 1e-12);
+}
+
+TEST(Transform, AZeroScaleFlattensAndStaysFinite) {
+    const Transform transform{{1.0, 2.0, 3.0}, quarterTurnZ(), {0.0, 0.0, 0.0}};
+    const dmat4 matrix = computeMatrix(transform);
+    EXPECT_TRUE(isFinite(matrix));
+    EXPECT_EQ(applyTo(matrix, {5.0, 6.0, 7.0}), dvec3(1.0, 2.0, 3.0));
+}
+
+TEST(IntegrateRotation, IsExactlyTheIdentityAtZeroVelocityAndAtZeroSeconds) {
+    const dquat identity(1.0, 0.0, 0.0, 0.0);
+    EXPECT_EQ(integrateRotation(dvec3(0.0), 123.0), identity);
+    EXPECT_EQ(integrateRotation({0.0, 5.0, 0.0}, 0.0), identity);
+}
+
+TEST(IntegrateRotation, HalfATurnReversesThePlane) {
+    const dquat rotation = integrateRotation({0.0, kPi, 0.0}, 1.0);
+    expectNear(rotation * dvec3(1.0, 2.0, 3.0), {-1.0, 2.0, -3.0});
+}
+
+TEST(IntegrateRotation, TurnsCounterClockwiseAboutTheAxisOfTheVelocity) {
+    expectNear(
+        integrateRotation({0.0, 0.0, kPi / 2.0}, 1.0) * dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}
+    );
+    expectNear(
+        integrateRotation({0.0, 0.0, kPi / 2.0}, -1.0) * dvec3(1.0, 0.0, 0.0), {0.0, -1.0, 0.0}
+    );
+}
+
+TEST(IntegrateRotation, ManyTurnsKeepTheAngleAndTheLength) {
+    // 1,000 turns and a quarter.
+    const dquat rotation = integrateRotation({0.0, 0.0, 2.0 * kPi}, 1000.25);
+    expectNear(rotation * dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}, 1e-9);
+    EXPECT_NEAR(glm::length(rotation), 1.0, 1e-12);
+}
+
+TEST(IntegrateRotation, ATinyVelocityStillTurns) {
+    const dquat rotation = integrateRotation({1e-12, 0.0, 0.0}, 1.0);
+    EXPECT_NEAR(rotation.x, 5e-13, 1e-24);
+}
+
+TEST(IntegrateRotation, AVelocityThatIsNoNumberDoesNotTurn) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(integrateRotation({nan, 0.0, 0.0}, 1.0), dquat(1.0, 0.0, 0.0, 0.0));
+}
+
+TEST(IsFinite, FindsASingleBadElementAnywhere) {
+    EXPECT_TRUE(isFinite(dmat4(1.0)));
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            dmat4 matrix(1.0);
+            matrix[column][row] = std::numeric_limits<double>::quiet_NaN();
+            EXPECT_FALSE(isFinite(matrix)) << column << ", " << row;
+            matrix[column][row] = -std::numeric_limits<double>::infinity();
+            EXPECT_FALSE(isFinite(matrix)) << column << ", " << row;
+        }
+    }
+}
+
+} // namespace
+} // namespace shutter::math
