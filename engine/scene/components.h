@@ -23,13 +23,14 @@ struct LocalTransform {
     math::Transform transform;
 };
 
-/// For nodes given by a matrix that no TRS can express (shear). Replaces LocalTransform.
+/// For nodes given by a matrix that no TRS can express (shear). Replaces LocalTransform; velocities
+/// move it, clips do not (glTF has no clips on matrix nodes).
 struct LocalMatrix {
     math::dmat4 matrix{1.0};
 };
 
 struct Parent {
-    ecs::Entity entity; ///< chains must end; the loader refuses cycles
+    ecs::Entity entity; ///< null: a root; chains must end, the loader refuses cycles
 };
 
 /// Draws a mesh.

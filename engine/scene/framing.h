@@ -10,7 +10,8 @@ namespace shutter::scene {
 [[nodiscard]] math::Bounds computeWorldBounds(const World& world, double seconds);
 
 /// Adds a camera that sees the whole scene from the front, a little above, and returns its entity.
-/// Works for an empty scene, a point and a kilometre. The picture's aspect is width / height.
+/// It comes last in world.cameras. Works for an empty scene, a point and a kilometre. The picture's
+/// aspect is width / height, above 0.
 ecs::Entity addFramingCamera(World& world, double aspect, double seconds);
 
 } // namespace shutter::scene

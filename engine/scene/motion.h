@@ -7,11 +7,14 @@
 #include "engine/scene/components.h"
 #include "engine/scene/world.h"
 
+#include <cmath>
+
 namespace shutter::scene {
 
 /// World transform of `entity` at `seconds`, whatever moves it: clips, velocity components, its
 /// parents, or several of them. A clip gives the pose, velocities are added to it. Any time may be
-/// asked for, in any order; nothing is integrated step by step, so the answer is exact.
+/// asked for, in any order; nothing is integrated step by step, so the answer is exact. `entity` and
+/// its parents must be alive, `seconds` finite. An entity without a transform sits at its parent.
 [[nodiscard]] math::dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds);
 
 /// Time interval of the exposure around a frame's own time.
@@ -20,11 +23,12 @@ struct ExposureInterval {
     double raster = 0.0; ///< seconds: when the raster image is taken
     double close = 0.0;  ///< seconds
 
-    [[nodiscard]] double at(double s) const { return open + (close - open) * s; } ///< s in [0, 1]
+    [[nodiscard]] double at(double s) const { return std::lerp(open, close, s); } ///< s in [0, 1]
     /// s of the raster instant: 0 start, 0.5 centre, 1 end.
     double rasterShare = 1.0;
 };
 
+/// Exposure times that are negative or not finite count as 0: open, raster and close are one.
 [[nodiscard]] ExposureInterval computeExposure(const CameraShutter& shutter, double frameSeconds);
 
 } // namespace shutter::scene

@@ -12,7 +12,7 @@ namespace shutter::scene {
 /// How time runs for the animation clips.
 struct Playback {
     bool loop = false;               ///< false: clips hold at their ends
-    std::vector<bool> activeClips;   ///< one a clip of Assets::clips; false: does not play
+    std::vector<bool> activeClips;   ///< by clip; false: does not play; clips past its end play
 };
 
 /// The entities and what they refer to. Systems and extraction take it by reference; rendering

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/motion.h"
+
+#include "engine/core/check.h"
+#include "engine/math/transform.h"
+#include "engine/scene/animation.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace shutter::scene {
+
+using math::dmat3;
+using math::dmat4;
+using math::dquat;
+using math::dvec3;
+using math::dvec4;
+
+namespace {
+
+struct Displacement {
+    dvec3 translation{0.0};
+    dquat rotation{1.0, 0.0, 0.0, 0.0};
+};
+
+/// What the velocity components add to the pose after `seconds`, in the parent's space.
+Displacement
+computeDisplacement(const ecs::Registry& registry, ecs::Entity entity, double seconds) {
+    Displacement result;
+    if (const auto* linear = registry.find<LinearVelocity>(entity))
+        result.translation = linear->metresPerSecond * seconds;
+    if (const auto* angular = registry.find<AngularVelocity>(entity))
+        result.rotation = math::integrateRotation(angular->radiansPerSecond, seconds);
+    return result;
+}
+
+dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds) {
+    const ecs::Registry& registry = world.registry;
+    const Displacement displacement = computeDisplacement(registry, entity, seconds);
+    if (const auto* local = registry.find<LocalMatrix>(entity)) {
+        dmat4 matrix = dmat4(glm::mat3_cast(displacement.rotation) * dmat3(local->matrix));
+        matrix[3] = local->matrix[3] + dvec4(displacement.translation, 0.0);
+        return matrix;
+    }
+    math::Transform pose;
+    if (const auto* local = registry.find<LocalTransform>(entity))
+        pose = local->transform;
+    if (const auto* animated = registry.find<Animated>(entity))
+        pose = sampleAnimated(world.assets, world.playback, *animated, pose, seconds);
+    pose.translation += displacement.translation;
+    pose.rotation = displacement.rotation * pose.rotation;
+    return math::computeMatrix(pose);
+}
+
+} // namespace
+
+dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
+    const ecs::Registry& registry = world.registry;
+    SHUTTER_CHECK(std::isfinite(seconds), "worldFromEntity at {} seconds", seconds);
+    // Up the chain in a loop: a deep hierarchy must not overflow the stack.
+    dmat4 result(1.0);
+    size_t steps = 0;
+    for (ecs::Entity ancestor = entity; ancestor != ecs::kNullEntity || steps == 0; ++steps) {
+        SHUTTER_CHECK(
+            registry.isAlive(ancestor), "{} in the chain of {} is not alive", ancestor, entity
+        );
+        SHUTTER_CHECK(steps < registry.aliveCount(), "the parents of {} form a cycle", entity);
+        result = parentFromEntity(world, ancestor, seconds) * result;
+        const auto* parent = registry.find<Parent>(ancestor);
+        ancestor = parent ? parent->entity : ecs::kNullEntity;
+    }
+    return result;
+}
+
+ExposureInterval computeExposure(const CameraShutter& shutter, double frameSeconds) {
+    const double asked = shutter.exposureSeconds;
+    const double exposure = asked > 0.0 && std::isfinite(asked) ? asked : 0.0;
+    ExposureInterval interval;
+    switch (shutter.phase) {
+    case ShutterPhase::Start:
+        interval.rasterShare = 0.0;
+        break;
+    case ShutterPhase::Centre:
+        interval.rasterShare = 0.5;
+        break;
+    case ShutterPhase::End:
+        interval.rasterShare = 1.0;
+        break;
+    }
+    interval.open = frameSeconds - exposure * interval.rasterShare;
+    interval.raster = frameSeconds;
+    interval.close = frameSeconds + exposure * (1.0 - interval.rasterShare);
+    return interval;
+}
+
+} // namespace shutter::scene
