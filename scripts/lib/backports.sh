@@ -90,9 +90,9 @@ find_entry() {
 }
 
 # Adds the backports of code name $1 to apt, from the mirror that this machine already uses; takes
-# them away again when the mirror has no Mesa there.
+# them away again when the mirror has no package $2 there.
 add_backports() {
-    local codename=$1 uri='' suite='' entry='' added
+    local codename=$1 package=$2 uri='' suite='' entry='' added
     read -r uri suite < <(distribution_archive "$codename") || true
     [[ -z $uri ]] || entry=$(find_entry /etc/apt "$uri" "$suite" "$codename-backports")
     if [[ -z $entry ]]; then
@@ -102,17 +102,16 @@ add_backports() {
     added=/etc/apt/sources.list.d/shutter-backports.${entry%%$'\n'*}
     say "adding $codename-backports of the mirror $uri to apt, in $added"
     printf '%s\n' "${entry#*$'\n'}" | as_root tee "$added" >/dev/null
-    apt_lists_are_fresh=no
-    refresh_apt_lists
-    if [[ -z $(backports_mesa_version "$codename") ]]; then
+    refresh_apt_lists again
+    if [[ -z $(backports_version "$codename" "$package") ]]; then
         as_root rm -f "$added"
-        say "the mirror $uri has no $mesa_package in $codename-backports; its entry is removed again"
+        say "the mirror $uri has no $package in $codename-backports; its entry is removed again"
     fi
 }
 
-# The version of Mesa in the backports of code name $1 that apt knows of, or nothing.
-backports_mesa_version() {
-    apt-cache madison "$mesa_package" |
+# The version of package $2 in the backports of code name $1 that apt knows of, or nothing.
+backports_version() {
+    apt-cache madison "$2" |
         awk -F ' *[|] *' -v suite=" $1-backports/" \
             'index($3, suite) && !found { print $2; found = 1 }'
 }

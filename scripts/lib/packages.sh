@@ -63,9 +63,9 @@ as_root() {
 }
 
 # Goes on when it fails: an archive that cannot be reached need not be one that we take from, and
-# apt-get install says what it did not find.
+# apt-get install says what it did not find. Once a run, unless called with "again".
 refresh_apt_lists() {
-    [[ $apt_lists_are_fresh == no ]] || return 0
+    [[ $apt_lists_are_fresh == no || ${1:-} == again ]] || return 0
     say "refreshing the package lists"
     if ! as_root apt-get -q --error-on=any update; then
         say "apt-get update failed; once more"
@@ -93,8 +93,9 @@ install_mesa() {
     if [[ $codename == bookworm ]]; then
         say "the stock Mesa is $(short_version "$version");" \
             "ray tracing without a GPU needs $mesa_minimum, which $codename-backports has"
-        [[ -n $(backports_mesa_version "$codename") ]] || add_backports "$codename"
-        version=$(backports_mesa_version "$codename")
+        [[ -n $(backports_version "$codename" "$mesa_package") ]] ||
+            add_backports "$codename" "$mesa_package"
+        version=$(backports_version "$codename" "$mesa_package")
         if mesa_is_new_enough "$version"; then
             say "installing Mesa $(short_version "$version") from $codename-backports"
             install_packages -t "$codename-backports" "$mesa_package"
