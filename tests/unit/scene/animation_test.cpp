@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/animation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace shutter::scene {
+namespace {
+
+using math::dquat;
+using math::dvec3;
+using math::dvec4;
+using math::vec4;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTolerance = 1e-6; // keys are single precision
+
+void expectNear(const dvec4& actual, const dvec4& expected) {
+    for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(actual[i], expected[i], kTolerance) << "component " << i;
+}
+
+/// Rotation about z as glTF stores it.
+vec4 turnZ(double degrees) {
+    const double half = degrees * std::numbers::pi / 360.0;
+    return vec4(dvec4(0.0, 0.0, std::sin(half), std::cos(half)));
+}
+
+AnimationChannel makeMove(Interpolation interpolation) {
+    AnimationChannel channel;
+    channel.interpolation = interpolation;
+    channel.times = {1.0f, 2.0f, 4.0f};
+    channel.values = {vec4(0.0f), vec4(10.0f, 0.0f, 0.0f, 0.0f), vec4(10.0f, 8.0f, 0.0f, 0.0f)};
+    return channel;
+}
+
+AnimationChannel makeTurn(const vec4& from, const vec4& to) {
+    AnimationChannel channel;
+    channel.path = AnimationPath::Rotation;
+    channel.times = {0.0f, 1.0f};
+    channel.values = {from, to};
+    return channel;
+}
+
+TEST(SampleChannel, LinearMixesTheKeysAroundTheTime) {
+    const AnimationChannel channel = makeMove(Interpolation::Linear);
+    expectNear(sampleChannel(channel, 1.25), {2.5, 0.0, 0.0, 0.0});
+    expectNear(sampleChannel(channel, 3.5), {10.0, 6.0, 0.0, 0.0});
+}
+
+TEST(SampleChannel, StepHoldsTheLastKeyUntilTheNext) {
+    const AnimationChannel channel = makeMove(Interpolation::Step);
+    expectNear(sampleChannel(channel, 1.999), {0.0, 0.0, 0.0, 0.0});
+    expectNear(sampleChannel(channel, 2.0), {10.0, 0.0, 0.0, 0.0});
+    expectNear(sampleChannel(channel, 3.999), {10.0, 0.0, 0.0, 0.0});
+    expectNear(sampleChannel(channel, 4.0), {10.0, 8.0, 0.0, 0.0});
+}
+
+TEST(SampleChannel, AKeyIsMetAtItsOwnTime) {
+    for (const Interpolation kind : {Interpolation::Step, Interpolation::Linear}) {
+        const AnimationChannel channel = makeMove(kind);
+        for (size_t key = 0; key < channel.times.size(); ++key)
+            EXPECT_EQ(sampleChannel(channel, channel.times[key]), dvec4(channel.values[key]));
+    }
+}
+
+TEST(SampleChannel, TimesOutsideTheKeysAreClamped) {
+    const AnimationChannel channel = makeMove(Interpolation::Linear);
+    for (const double before : {0.0, -5.0, -kInfinity, kNan})
+        EXPECT_EQ(sampleChannel(channel, before), dvec4(0.0)) << before;
+    for (const double after : {4.5, 1e300, kInfinity})
+        EXPECT_EQ(sampleChannel(channel, after), dvec4(10.0, 8.0, 0.0, 0.0)) << after;
+}
+
+TEST(SampleChannel, OneKeyHoldsForEver) {
+    AnimationChannel channel;
+    channel.times = {3.0f};
+    channel.values = {vec4(1.0f, 2.0f, 3.0f, 0.0f)};
+    for (const double seconds : {-1.0, 3.0, 9.0})
+        EXPECT_EQ(sampleChannel(channel, seconds), dvec4(1.0, 2.0, 3.0, 0.0));
+    channel.interpolation = Interpolation::CubicSpline;
+    channel.values = {vec4(7.0f), vec4(1.0f, 2.0f, 3.0f, 0.0f), vec4(8.0f)};
+    for (const double seconds : {-1.0, 3.0, 9.0})
+        EXPECT_EQ(sampleChannel(channel, seconds), dvec4(1.0, 2.0, 3.0, 0.0));
+}
+
+TEST(SampleChannel, CubicSplineScalesTangentsByTheKeyInterval) {
+    AnimationChannel channel;
+    channel.interpolation = Interpolation::CubicSpline;
+    channel.times = {1.0f, 3.0f};
+    channel.values = {
+        vec4(99.0f),
+        vec4(1.0f),
+        vec4(4.0f), // in-tangent (unused), value, out-tangent
+        vec4(-2.0f),
+        vec4(5.0f),
+        vec4(99.0f), // in-tangent, value, out-tangent (unused)
+    };
+    // s = 1/4, interval 2: h00 = 27/32, h10 = 9/64, h01 = 5/32, h11 = -3/64, so
+    // 27/32 * 1 + 9/64 * 2 * 4 + 5/32 * 5 - 3/64 * 2 * -2 = 0.84375 + 1.125 + 0.78125 + 0.1875.
+    expectNear(sampleChannel(channel, 1.5), dvec4(2.9375));
+    expectNear(sampleChannel(channel, 1.0), dvec4(1.0));
+    expectNear(sampleChannel(channel, 3.0), dvec4(5.0));
+    expectNear(sampleChannel(channel, 0.0), dvec4(1.0));
+    expectNear(sampleChannel(channel, 9.0), dvec4(5.0));
+}
+
+TEST(SampleChannel, CubicSplineRotationsHaveUnitLength) {
+    AnimationChannel channel = makeTurn(turnZ(0), turnZ(90));
+    channel.interpolation = Interpolation::CubicSpline;
+    channel.values = {vec4(0.0f), turnZ(0), vec4(0.0f), vec4(0.0f), turnZ(90), vec4(0.0f)};
+    // Without tangents the middle is the mean of the two, 45 degrees once normalised.
+    expectNear(sampleChannel(channel, 0.5), dvec4(turnZ(45)));
+    EXPECT_NEAR(glm::length(sampleChannel(channel, 0.3)), 1.0, 1e-12);
+}
+
+TEST(SampleChannel, LinearRotationsTurnAtConstantSpeed) {
+    const AnimationChannel channel = makeTurn(turnZ(0), turnZ(120));
+    expectNear(sampleChannel(channel, 0.25), dvec4(turnZ(30)));
+    expectNear(sampleChannel(channel, 0.75), dvec4(turnZ(90)));
+}
+
+TEST(SampleChannel, LinearRotationsTakeTheShorterArcWhenTheSignFlips) {
+    const AnimationChannel channel = makeTurn(turnZ(10), -turnZ(50));
+    const dvec4 middle = sampleChannel(channel, 0.5);
+    EXPECT_NEAR(std::abs(glm::dot(middle, dvec4(turnZ(30)))), 1.0, kTolerance);
+    // 200 degrees one way are 160 the other.
+    const dvec4 back = sampleChannel(makeTurn(turnZ(0), turnZ(200)), 0.5);
+    EXPECT_NEAR(std::abs(glm::dot(back, dvec4(turnZ(-80)))), 1.0, kTolerance);
+}
+
+TEST(SampleChannel, EqualRotationsStayEqual) {
+    const AnimationChannel channel = makeTurn(turnZ(33), turnZ(33));
+    expectNear(sampleChannel(channel, 0.4), dvec4(turnZ(33)));
+}
+
+TEST(SampleChannel, RotationKeysAreNormalisedAndZeroIsTheIdentity) {
+    const AnimationChannel doubled = makeTurn(2.0f * turnZ(0), 3.0f * turnZ(90));
+    expectNear(sampleChannel(doubled, 0.0), dvec4(turnZ(0)));
+    expectNear(sampleChannel(doubled, 0.5), dvec4(turnZ(45)));
+    expectNear(sampleChannel(doubled, 1.0), dvec4(turnZ(90)));
+    expectNear(sampleChannel(makeTurn(vec4(0.0f), vec4(0.0f)), 0.5), {0.0, 0.0, 0.0, 1.0});
+}
+
+TEST(SampleChannelDeathTest, AChannelWithoutKeysOrWithMissingValuesIsRefused) {
+    AnimationChannel channel;
+    channel.node = 12;
+    EXPECT_DEATH((void)sampleChannel(channel, 0.0), "node 12 has no keys");
+    channel = makeMove(Interpolation::Linear);
+    channel.values.pop_back();
+    EXPECT_DEATH((void)sampleChannel(channel, 0.0), "2 and 3");
+    channel = makeMove(Interpolation::CubicSpline);
+    EXPECT_DEATH((void)sampleChannel(channel, 0.0), "3 and 9");
+}
+
+/// Two clips that move along x: the first from 0 to 4 in 4 s, the second from 100 to 102 in 2 s;
+/// the second also scales to 3.
+class SampleAnimated : public testing::Test {
+  protected:
+    SampleAnimated() {
+        mAssets.clips.resize(2);
+        mAssets.clips[0] = {"walk", 4.0, {makeRamp(0.0f, 4.0f, 4.0f)}};
+        AnimationChannel scale = makeRamp(3.0f, 3.0f, 2.0f);
+        scale.path = AnimationPath::Scale;
+        mAssets.clips[1] = {"fly", 2.0, {makeRamp(100.0f, 102.0f, 2.0f), scale}};
+        mPlayback.activeClips = {true, true};
+        mRest.translation = {-1.0, -2.0, -3.0};
+    }
+
+    static AnimationChannel makeRamp(float from, float to, float end) {
+        AnimationChannel channel;
+        channel.times = {0.0f, end};
+        channel.values = {vec4(from), vec4(to)};
+        return channel;
+    }
+
+    [[nodiscard]] double sampleX(double seconds) const {
+        return sampleAnimated(mAssets, mPlayback, mAnimated, mRest, seconds).translation.x;
+    }
+
+    Assets mAssets;
+    Playback mPlayback;
+    Animated mAnimated;
+    math::Transform mRest;
+};
+
+TEST_F(SampleAnimated, WithoutChannelsTheRestPoseStays) {
+    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_EQ(pose.translation, mRest.translation);
+    EXPECT_EQ(pose.rotation, mRest.rotation);
+    EXPECT_EQ(pose.scale, mRest.scale);
+}
+
+TEST_F(SampleAnimated, OnlyTheDrivenPropertyIsReplaced) {
+    mRest.scale = {7.0, 8.0, 9.0};
+    mAnimated.channels = {{0, 0}};
+    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_EQ(pose.translation, dvec3(1.0));
+    EXPECT_EQ(pose.scale, mRest.scale);
+}
+
+TEST_F(SampleAnimated, ARotationChannelTurnsThePose) {
+    mAssets.clips[0].channels[0] = makeTurn(turnZ(0), turnZ(90));
+    mAnimated.channels = {{0, 0}};
+    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_NEAR(pose.rotation.w, std::numbers::sqrt2 / 2.0, kTolerance);
+    EXPECT_NEAR(pose.rotation.z, std::numbers::sqrt2 / 2.0, kTolerance);
+    EXPECT_EQ(pose.translation, mRest.translation);
+}
+
+TEST_F(SampleAnimated, TheLaterClipWinsInWhateverOrderTheyAreListed) {
+    mAnimated.channels = {{0, 0}, {1, 0}};
+    EXPECT_EQ(sampleX(1.0), 101.0);
+    mAnimated.channels = {{1, 0}, {0, 0}};
+    EXPECT_EQ(sampleX(1.0), 101.0);
+}
+
+TEST_F(SampleAnimated, ClipsOfDifferentPropertiesCombine) {
+    mAnimated.channels = {{0, 0}, {1, 1}};
+    const math::Transform pose = sampleAnimated(mAssets, mPlayback, mAnimated, mRest, 1.0);
+    EXPECT_EQ(pose.translation, dvec3(1.0));
+    EXPECT_EQ(pose.scale, dvec3(3.0));
+}
+
+TEST_F(SampleAnimated, AnInactiveClipLeavesTheEarlierOneOrTheRestPose) {
+    mAnimated.channels = {{0, 0}, {1, 0}};
+    mPlayback.activeClips = {true, false};
+    EXPECT_EQ(sampleX(1.0), 1.0);
+    mPlayback.activeClips = {false, false};
+    EXPECT_EQ(sampleX(1.0), -1.0);
+    mPlayback.activeClips = {}; // nothing said: all play
+    EXPECT_EQ(sampleX(1.0), 101.0);
+}
+
+TEST_F(SampleAnimated, HoldsAtTheEndsUnlessLooping) {
+    mAnimated.channels = {{0, 0}};
+    EXPECT_EQ(sampleX(5.0), 4.0);
+    EXPECT_EQ(sampleX(-1.0), 0.0);
+    mPlayback.loop = true;
+    EXPECT_EQ(sampleX(5.0), 1.0);
+    EXPECT_EQ(sampleX(4.0), 0.0);
+    EXPECT_EQ(sampleX(4001.5), 1.5);
+    EXPECT_EQ(sampleX(-1.0), 3.0);
+}
+
+TEST_F(SampleAnimated, LoopingWrapsByTheClipNotByTheChannel) {
+    mAssets.clips[0].duration = 10.0; // another channel runs longer
+    mAnimated.channels = {{0, 0}};
+    mPlayback.loop = true;
+    EXPECT_EQ(sampleX(7.0), 4.0);
+    EXPECT_EQ(sampleX(12.0), 2.0);
+}
+
+TEST_F(SampleAnimated, LoopingAClipOfNoDurationHolds) {
+    mAssets.clips[0] = {"pose", 0.0, {AnimationChannel{}}};
+    mAssets.clips[0].channels[0].times = {0.0f};
+    mAssets.clips[0].channels[0].values = {vec4(6.0f)};
+    mAnimated.channels = {{0, 0}};
+    mPlayback.loop = true;
+    for (const double seconds : {-3.0, 0.0, 2.5, kInfinity, kNan})
+        EXPECT_EQ(sampleX(seconds), 6.0);
+}
+
+} // namespace
+} // namespace shutter::scene
