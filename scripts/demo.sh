@@ -24,7 +24,7 @@ The pictures and their statistics are left in $out.
 TEXT
 }
 
-# Renders scene $1 with method $2 and the options that follow; returns 1, having said so, on failure.
+# Renders scene $1 with method $2 and the options that follow.
 render() {
     local scene=$1 method=$2 stem
     shift 2
@@ -45,7 +45,8 @@ compare_methods() {
     for method in "$@"; do
         if [[ $method != "$reference" && -e ${stem}_$method.png ]]; then
             printf '\n%s against %s:\n' "${stem}_$method.png" "$reference"
-            "$shutter" compare "${stem}_$method.png" "${stem}_$reference.png" || failed+=("compare $method")
+            "$shutter" compare "${stem}_$method.png" "${stem}_$reference.png" ||
+                failed+=("compare ${stem##*/} $method")
         fi
     done
 }

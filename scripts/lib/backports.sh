@@ -102,7 +102,7 @@ add_backports() {
     added=/etc/apt/sources.list.d/shutter-backports.${entry%%$'\n'*}
     say "adding $codename-backports of the mirror $uri to apt, in $added"
     printf '%s\n' "${entry#*$'\n'}" | as_root tee "$added" >/dev/null
-    refresh_apt_lists again
+    update_apt_lists
     if [[ -z $(backports_version "$codename" "$package") ]]; then
         as_root rm -f "$added"
         say "the mirror $uri has no $package in $codename-backports; its entry is removed again"

@@ -28,11 +28,10 @@ short_version() {
 
 # Prints those of its arguments that are not installed, one a line.
 missing_packages() {
-    local name
+    local name state
     for name in "$@"; do
-        if [[ $(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null || true) != installed ]]; then
-            printf '%s\n' "$name"
-        fi
+        state=$(dpkg-query -W -f '${db:Status-Status}' "$name" 2>/dev/null || true)
+        [[ $state == installed ]] || printf '%s\n' "$name"
     done
 }
 
@@ -63,9 +62,8 @@ as_root() {
 }
 
 # Goes on when it fails: an archive that cannot be reached need not be one that we take from, and
-# apt-get install says what it did not find. Once a run, unless called with "again".
-refresh_apt_lists() {
-    [[ $apt_lists_are_fresh == no || ${1:-} == again ]] || return 0
+# apt-get install says what it did not find.
+update_apt_lists() {
     say "refreshing the package lists"
     if ! as_root apt-get -q --error-on=any update; then
         say "apt-get update failed; once more"
@@ -73,6 +71,11 @@ refresh_apt_lists() {
             say "warning: apt-get update failed twice; going on with the lists there are"
     fi
     apt_lists_are_fresh=yes
+}
+
+# The same, once a run.
+refresh_apt_lists() {
+    [[ $apt_lists_are_fresh == yes ]] || update_apt_lists
 }
 
 # apt-get install without questions and without recommended packages.
@@ -154,8 +157,8 @@ ensure_packages() {
             die "packages are missing, and there is no sudo to install them with; as root, run:" \
                 "apt-get install --no-install-recommends ${missing[*]} $mesa_package"
         fi
-        say "warning: $mesa_package is missing or older than $mesa_minimum, and there is no sudo to" \
-            "install it with; methods that trace rays will need a GPU"
+        say "warning: there is no Mesa $mesa_minimum or newer, and no sudo to install it with;" \
+            "methods that trace rays will need a GPU"
         return
     fi
     if ((${#missing[@]})); then
