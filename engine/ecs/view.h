@@ -107,7 +107,7 @@ template <class... Components> class View {
   private:
     [[nodiscard]] std::span<const Entity> findSmallest() const {
         const auto smallest = [](auto*... sets) -> std::span<const Entity> {
-            if (((sets == nullptr) || ...))
+            if ((!sets || ...))
                 return {};
             const SparseSetBase* best = nullptr;
             ((best = best && best->size() <= sets->size() ? best : sets), ...);
