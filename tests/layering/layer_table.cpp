@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "tests/layering/layer_table.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+namespace shutter::layering {
+
+namespace {
+
+using Names = std::set<std::string_view>;
+
+/// Which folders of engine/ a part of the tree may see.
+struct Row {
+    std::string_view from;
+    Names sees;
+};
+
+const Names kUpToIo = {"core", "math", "ecs", "gpu", "image", "graph", "scene", "io"};
+const Names kUpToRender = {"core", "math", "ecs", "gpu", "image", "graph", "scene", "io", "render"};
+
+const std::vector<Row> kEngineRows = {
+    {"core", {}},
+    {"math", {"core"}},
+    {"ecs", {"core", "math"}},
+    {"gpu", {"core", "math"}},
+    {"image", {"core", "math"}},
+    {"graph", {"core", "math", "gpu"}},
+    {"scene", {"core", "math", "ecs"}},
+    {"io", {"core", "math", "ecs", "image", "scene"}},
+    {"render", kUpToIo},
+    {"app", kUpToRender},
+};
+
+/// A module that other engines may take without our scene: what lies outside its plugin/ sees this.
+const Names kModulesWithEffect = {"motion_blur"};
+const Names kEffectSees = {"core", "math", "gpu", "graph"};
+
+/// Libraries that only some parts of the tree may name; "modules" stands for any module.
+struct LibraryRow {
+    std::string_view prefix;
+    Names owners;
+};
+
+const std::vector<LibraryRow> kLibraryRows = {
+    {"tiny_gltf.h", {"io"}},
+    {"OpenImageIO/", {"io"}},
+    {"GLFW/", {"app"}},
+    {"vulkan/", {"gpu", "graph", "render", "modules"}},
+};
+
+enum class Kind { Unknown, Engine, Effect, Module, Game, Generator, Shaders, Tests };
+
+/// The part of the tree a file belongs to. `name` is the folder below engine/, modules/, shaders/.
+struct Part {
+    Kind kind = Kind::Unknown;
+    std::string name;
+    bool isPlugin = false;
+
+    bool operator==(const Part&) const = default;
+};
+
+const Row* findEngineRow(std::string_view folder) {
+    const auto row = std::find_if(kEngineRows.begin(), kEngineRows.end(), [&](const Row& r) {
+        return r.from == folder;
+    });
+    return row == kEngineRows.end() ? nullptr : &*row;
+}
+
+/// The n-th component of a path, or nothing when that is its last one, the file name.
+std::string folderAt(std::string_view path, size_t n) {
+    for (; n > 0; --n) {
+        const size_t slash = path.find('/');
+        if (slash == std::string_view::npos)
+            return {};
+        path.remove_prefix(slash + 1);
+    }
+    const size_t slash = path.find('/');
+    return slash == std::string_view::npos ? std::string() : std::string(path.substr(0, slash));
+}
+
+Part findPart(std::string_view path) {
+    const std::string top = folderAt(path, 0);
+    const std::string name = folderAt(path, 1);
+    if (top == "engine" && findEngineRow(name) != nullptr)
+        return {Kind::Engine, name};
+    if (top == "modules" && !name.empty()) {
+        const bool isPlugin = folderAt(path, 2) == "plugin";
+        const bool isEffect = kModulesWithEffect.contains(name) && !isPlugin;
+        return {isEffect ? Kind::Effect : Kind::Module, name, isPlugin};
+    }
+    if (top == "game")
+        return {Kind::Game, {}};
+    if (top == "assets" && name == "generator")
+        return {Kind::Generator, {}};
+    // Shaders compiled to headers belong to the folder they were compiled from.
+    if ((top == "shaders" || top == "spirv") && !name.empty())
+        return {Kind::Shaders, name};
+    if (top == "tests")
+        return {Kind::Tests, {}};
+    return {};
+}
+
+std::string describe(const Part& part) {
+    switch (part.kind) {
+    case Kind::Engine:
+        return part.name;
+    case Kind::Effect:
+        return "modules/" + part.name + " outside plugin/";
+    case Kind::Module:
+        return "modules/" + part.name + (part.isPlugin ? "/plugin" : "");
+    case Kind::Game:
+        return "game";
+    case Kind::Generator:
+        return "assets/generator";
+    case Kind::Shaders:
+        return "shaders/" + part.name;
+    case Kind::Tests:
+        return "tests";
+    case Kind::Unknown:
+        break;
+    }
+    return "a folder without a row in the layer table";
+}
+
+bool maySeeEngine(const Part& from, std::string_view folder) {
+    switch (from.kind) {
+    case Kind::Engine:
+        return from.name == folder || findEngineRow(from.name)->sees.contains(folder);
+    case Kind::Effect:
+        return kEffectSees.contains(folder);
+    case Kind::Module:
+        return kUpToRender.contains(folder);
+    case Kind::Game:
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool maySeeModule(const Part& from, const Part& to) {
+    if (from.kind == Kind::Game)
+        return true;
+    if (from.kind == Kind::Effect)
+        return from.name == to.name && !to.isPlugin;
+    return from.kind == Kind::Module && from.name == to.name;
+}
+
+bool isShared(std::string_view path) {
+    return path.ends_with("_shared.h");
+}
+
+/// C++ takes shared headers, functions and compiled shaders, each from their owner or above it.
+bool cppMaySeeShaders(const Part& from, const Part& to, std::string_view path) {
+    if (from.kind == Kind::Generator || from.kind == Kind::Tests)
+        return false;
+    if (to.name == "common")
+        return true;
+    if (!isShared(path) && !path.ends_with(".glsl") && !path.starts_with("spirv/"))
+        return false;
+    if (findEngineRow(to.name) == nullptr)
+        return maySeeModule(from, Part{Kind::Module, to.name});
+    // The effect alone reads what its shaders share with the renderer's, but runs no shader of it.
+    if (from.kind == Kind::Effect)
+        return isShared(path);
+    return maySeeEngine(from, to.name);
+}
+
+/// common, then render, then the modules' own.
+bool shadersMaySee(const Part& from, const Part& to) {
+    if (to.kind != Kind::Shaders)
+        return false;
+    if (from.name == to.name)
+        return true;
+    if (from.name == "common")
+        return false;
+    return to.name == "common" || (from.name != "render" && to.name == "render");
+}
+
+bool maySee(const Part& from, const Part& to, std::string_view path) {
+    if (from == to)
+        return true;
+    if (from.kind == Kind::Shaders)
+        return shadersMaySee(from, to);
+    switch (to.kind) {
+    case Kind::Engine:
+        return maySeeEngine(from, to.name);
+    case Kind::Effect:
+    case Kind::Module:
+        return maySeeModule(from, to);
+    case Kind::Shaders:
+        return cppMaySeeShaders(from, to, path);
+    default:
+        return false;
+    }
+}
+
+/// The file an include means, from the repository root; empty for one that is not of this tree.
+std::string resolve(const Include& include, const FileExists& exists) {
+    namespace fs = std::filesystem;
+    const std::string asWritten = fs::path(include.target).lexically_normal().generic_string();
+    if (include.quoted) {
+        const fs::path beside = fs::path(include.file).parent_path() / include.target;
+        const std::string candidate = beside.lexically_normal().generic_string();
+        if (exists(candidate))
+            return candidate;
+    }
+    // A file that does not exist yet, or is generated, still tells its part of the tree.
+    static const Names kTops = {"engine", "modules", "game", "assets", "shaders", "spirv", "tests"};
+    if (kTops.contains(folderAt(asWritten, 0)) || exists(asWritten))
+        return asWritten;
+    const std::string belowShaders = "shaders/" + asWritten;
+    return exists(belowShaders) ? belowShaders : std::string();
+}
+
+/// Why a library may not be named there, or nothing.
+std::optional<std::string> findLibraryViolation(const Part& from, std::string_view target) {
+    const bool isModule = from.kind == Kind::Module || from.kind == Kind::Effect;
+    const std::string_view owner = isModule                    ? "modules"
+                                   : from.kind == Kind::Engine ? std::string_view(from.name)
+                                                               : std::string_view();
+    for (const LibraryRow& row : kLibraryRows)
+        if (target.starts_with(row.prefix) && !row.owners.contains(owner))
+            return describe(from) + " may not see " + std::string(row.prefix);
+    return std::nullopt;
+}
+
+std::optional<std::string> findReason(const Include& include, const FileExists& exists) {
+    const Part from = findPart(include.file);
+    if (from.kind == Kind::Unknown)
+        return "the file lies in " + describe(from);
+    if (include.target.empty())
+        return "an include must name its file";
+    if (const auto reason = findLibraryViolation(from, include.target))
+        return reason;
+    const std::string path = resolve(include, exists);
+    if (path.empty()) {
+        if (include.quoted)
+            return "not a file of this tree; write <" + include.target + "> if it is a library's";
+        return std::nullopt;
+    }
+    const Part to = findPart(path);
+    if (maySee(from, to, path))
+        return std::nullopt;
+    return describe(from) + " may not see " + describe(to);
+}
+
+} // namespace
+
+const std::vector<std::string_view>& engineFolders() {
+    static const std::vector<std::string_view> folders = [] {
+        std::vector<std::string_view> names;
+        for (const Row& row : kEngineRows)
+            names.push_back(row.from);
+        return names;
+    }();
+    return folders;
+}
+
+std::optional<std::string> findViolation(const Include& include, const FileExists& exists) {
+    const std::optional<std::string> reason = findReason(include, exists);
+    if (!reason)
+        return std::nullopt;
+    return include.file + ":" + std::to_string(include.line) + " includes " +
+           (include.target.empty() ? "a macro" : include.target) + ": " + *reason;
+}
+
+} // namespace shutter::layering
