@@ -155,7 +155,7 @@ ensure_packages() {
     if ! can_be_root; then
         if ((${#missing[@]})); then
             die "packages are missing, and there is no sudo to install them with; as root, run:" \
-                "apt-get install --no-install-recommends ${missing[*]} $mesa_package"
+                "apt-get install --no-install-recommends ${missing[*]}"
         fi
         say "warning: there is no Mesa $mesa_minimum or newer, and no sudo to install it with;" \
             "methods that trace rays will need a GPU"
