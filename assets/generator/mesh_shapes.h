@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Closed solids in metres, wound counter-clockwise seen from outside, smooth normals, uv0 with v
+// downwards.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::generator {
+
+struct Shape {
+    std::vector<glm::vec3> positions; ///< metres, about the shape's own pivot
+    std::vector<glm::vec3> normals;   ///< unit length
+    std::vector<glm::vec2> uvs;
+    std::vector<uint32_t> indices; ///< three a triangle
+};
+
+void addVertex(Shape& shape, glm::vec3 position, glm::vec3 normal, glm::vec2 uv);
+
+/// Of three vertices of the shape, counter-clockwise.
+void addTriangle(Shape& shape, size_t a, size_t b, size_t c);
+
+/// Adds `added`, moved by `transform` (no mirroring: it would turn the winding round).
+void append(Shape& shape, const Shape& added, const glm::mat4& transform = glm::mat4(1.0f));
+
+/// Multiplies the texture coordinates by `scale`.
+[[nodiscard]] Shape withUvScale(Shape shape, glm::vec2 scale);
+
+/// Samples a Catmull-Rom curve through `controls` (at least two) in `spanCount` equal steps.
+[[nodiscard]] std::vector<glm::vec2>
+smoothCurve(std::span<const glm::vec2> controls, int spanCount);
+
+/// Turns one smooth run of (radius, height) points about +Y. Going up with the solid on the axis'
+/// side faces outwards. u runs once around, v from 1 at the run's first point to 0 at its last.
+/// A closed solid is several runs that share end points.
+[[nodiscard]] Shape lathe(std::span<const glm::vec2> run, int segmentCount);
+
+/// Along +Y, centred; side and both caps each take the whole texture.
+[[nodiscard]] Shape cylinder(float radius, float height, int segmentCount);
+
+/// Poles on Y.
+[[nodiscard]] Shape sphere(float radius, int segmentCount, int ringCount);
+
+/// Ring about Y. \param tubeRadius half the ring's thickness
+[[nodiscard]] Shape
+torus(float ringRadius, float tubeRadius, int segmentCount, int tubeSegmentCount);
+
+/// Sharp edges; uv in tiles of `tileMetres`, centred on each face.
+[[nodiscard]] Shape box(glm::vec3 halfExtents, float tileMetres);
+
+/// Edges and corners of `radius` (below the smallest half extent), `cornerSteps` quads on each half
+/// of an edge; uv along the surface in tiles of `tileMetres`.
+[[nodiscard]] Shape
+roundedBox(glm::vec3 halfExtents, float radius, int cornerSteps, float tileMetres);
+
+/// A stuffed cushion in the XY plane, bulging along Z; each side takes the whole texture.
+[[nodiscard]] Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize);
+
+/// A spoked wheel about Z: rim, `spokeCount` thin spokes and a hub.
+struct WheelSize {
+    float radius = 1.0f;       ///< metres, to the middle of the rim
+    float rimRadius = 0.03f;   ///< metres, half the rim's thickness
+    float spokeRadius = 0.01f; ///< metres
+    float hubRadius = 0.1f;    ///< metres
+    int spokeCount = 16;
+};
+
+struct Wheel {
+    Shape rim;
+    Shape spokes;
+    Shape hub;
+};
+
+[[nodiscard]] Wheel wheel(const WheelSize& size);
+
+} // namespace shutter::generator
