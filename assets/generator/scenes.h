@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The scenes themselves and the little they share: how a shot is framed.
+#pragma once
+
+#include "assets/generator/gltf_writer.h"
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <string>
+
+namespace shutter::generator {
+
+/// Motions are laid out for this exposure, which ends at time 0, and this picture.
+inline constexpr float kExposureSeconds = 1.0f / 60.0f;
+inline constexpr glm::vec2 kPictureSizePx{1280.0f, 720.0f};
+
+/// A pinhole camera; looks down -Z of its rotation.
+struct Shot {
+    glm::vec3 position{0.0f}; ///< metres
+    float yaw = 0.0f;         ///< radians about +Y, applied after pitch
+    float pitch = 0.0f;       ///< radians about +X, negative looks down
+    float yFov = 0.6f;        ///< radians
+
+    [[nodiscard]] glm::quat rotation() const;
+    [[nodiscard]] float focalLengthPx() const;
+    /// The point at `depth` metres along the view axis seen at `pixel` (y downwards).
+    [[nodiscard]] glm::vec3 pointAt(glm::vec2 pixel, float depth) const;
+    /// Metres a second, parallel to the picture, that cross `pixels` (y downwards) in one exposure
+    /// at `depth` metres along the view axis.
+    [[nodiscard]] glm::vec3 velocityFor(glm::vec2 pixels, float depth) const;
+};
+
+/// Rotation of a directional light's node so that the light travels along `direction`.
+[[nodiscard]] glm::quat rotationTowards(glm::vec3 direction);
+
+/// Adds a node with a mesh of a single material. \return the node
+Index addObject(GltfWriter& writer, NodeDesc node, const Shape& shape, Index material);
+
+/// Adds a texture and a material of the same name. \return the material
+Index addTextured(GltfWriter& writer, const char* name, const Picture& picture, float roughness);
+
+[[nodiscard]] GltfWriter buildVaseScene();
+[[nodiscard]] GltfWriter buildCourtyardScene();
+
+} // namespace shutter::generator
