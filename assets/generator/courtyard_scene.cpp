@@ -55,9 +55,9 @@ void addWindow(GltfWriter& writer, int number, vec3 at, Index panes, Index stone
     addBar({0.45f, 0.0f, 0.0f}, {0.05f, 0.62f, 0.07f});
     const Index trim =
         addObject(writer, {.name = name + "_trim", .translation = at}, frame, stoneTrim);
-    Shape glass = box({0.41f, 0.61f, 0.03f}, 1.0f);
+    Shape glass = box({0.41f, 0.615f, 0.03f}, 1.0f);
     for (size_t i = 0; i < glass.uvs.size(); ++i) {
-        glass.uvs[i] = vec2(glass.positions[i].x / 0.82f, -glass.positions[i].y / 1.22f) + 0.5f;
+        glass.uvs[i] = vec2(glass.positions[i].x / 0.82f, -glass.positions[i].y / 1.23f) + 0.5f;
     }
     addObject(writer, {.name = name, .parent = trim, .translation = {0, 0, 0.005f}}, glass, panes);
 }
