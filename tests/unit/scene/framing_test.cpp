@@ -74,11 +74,11 @@ TEST(ComputeWorldBounds, LeaveOutWhatIsNowhere) {
     addBox(world, dvec3(-1.0), dvec3(1.0));
     const ecs::Entity lost = addBox(world, dvec3(-1.0), dvec3(1.0));
     math::Transform nowhere;
-    nowhere.translation.y = 100.0; // the finite axes must not count either
-    nowhere.translation.x = std::numeric_limits<double>::quiet_NaN();
+    nowhere.translation.x = 100.0; // the finite axes must not count either
+    nowhere.translation.y = std::numeric_limits<double>::quiet_NaN();
     world.registry.add(lost, LocalTransform{nowhere});
     EXPECT_EQ(computeWorldBounds(world, 0.0).max, dvec3(1.0));
-    nowhere.translation.x = std::numeric_limits<double>::infinity();
+    nowhere.translation.y = std::numeric_limits<double>::infinity();
     world.registry.add(lost, LocalTransform{nowhere});
     EXPECT_EQ(computeWorldBounds(world, 0.0).max, dvec3(1.0));
 }
