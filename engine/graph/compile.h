@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// From a declared frame to a plan: what runs, in which order, with which barriers, and which
+// transient images share memory. Pure: needs no device.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/graph/graph.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shutter::graph {
+
+struct ImageBarrier {
+    uint32_t resource = 0;
+    VkPipelineStageFlags2 srcStages = 0;
+    VkAccessFlags2 srcAccess = 0;
+    VkPipelineStageFlags2 dstStages = 0;
+    VkAccessFlags2 dstAccess = 0;
+    VkImageLayout oldLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageLayout newLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+struct BufferBarrier {
+    uint32_t resource = 0;
+    VkPipelineStageFlags2 srcStages = 0;
+    VkAccessFlags2 srcAccess = 0;
+    VkPipelineStageFlags2 dstStages = 0;
+    VkAccessFlags2 dstAccess = 0;
+};
+
+struct PlannedPass {
+    uint32_t pass = 0;                         ///< index into Graph::passes()
+    std::vector<ImageBarrier> imageBarriers;   ///< before the pass
+    std::vector<BufferBarrier> bufferBarriers; ///< before the pass
+};
+
+/// Where a transient image or buffer lives while it is alive.
+struct Placement {
+    uint32_t resource = 0;
+    uint32_t firstPass = 0;             ///< position in Plan::passes
+    uint32_t lastPass = 0;              ///< position in Plan::passes, inclusive
+    VkImageUsageFlags imageUsage = 0;   ///< images: what the passes do with it
+    VkBufferUsageFlags bufferUsage = 0; ///< buffers: the description's and what the passes do
+    VkDeviceSize bytes = 0;             ///< images: as the requirement function says
+    VkDeviceSize alignment = 1;
+    VkDeviceSize offset = 0; ///< images: in the one block of memory they share
+};
+
+struct CulledPass {
+    std::string name;
+    std::string reason;
+};
+
+/// What execute() records. Resources nobody uses appear nowhere in it.
+struct Plan {
+    std::vector<PlannedPass> passes;              ///< in execution order
+    std::vector<ImageBarrier> finalImageBarriers; ///< imported images to their final layout
+    std::vector<BufferBarrier> finalBufferBarriers;
+    std::vector<Placement> images;  ///< transient images that are used
+    std::vector<Placement> buffers; ///< transient buffers that are used (never aliased)
+    std::vector<CulledPass> culled;
+    VkDeviceSize blockBytes = 0;     ///< memory the aliased images need together
+    VkDeviceSize unaliasedBytes = 0; ///< what they would need without aliasing
+};
+
+struct MemoryRequirement {
+    VkDeviceSize bytes = 0;
+    VkDeviceSize alignment = 1;
+};
+
+using RequirementFunction =
+    std::function<MemoryRequirement(const TransientImageDesc&, VkImageUsageFlags)>;
+
+/// Errors name the pass and the resource: a read of something nobody writes, a write to an old
+/// version, a cycle (such as an old version that is overwritten before it could be read), a handle
+/// of another graph, attachments of different size, an access that does not fit the pass's kind or
+/// the resource's (an image used as acceleration structure), a resource used twice by one pass in
+/// ways that clash, an output that a later pass overwrites.
+[[nodiscard]] core::Result<Plan>
+compile(const Graph& graph, const RequirementFunction& requirement);
+
+} // namespace shutter::graph

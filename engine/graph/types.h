@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/vulkan.h"
+
+#include <cstdint>
+#include <string>
+
+namespace shutter::graph {
+
+/// A version of an image of one frame. Writing gives a new version; the old one may still be read
+/// by passes that the graph can order before the write.
+struct ImageHandle {
+    uint32_t resource = UINT32_MAX;
+    uint32_t version = 0;
+    uint32_t graph = 0; ///< which graph made it, so that last frame's handles are caught
+
+    [[nodiscard]] bool isValid() const { return resource != UINT32_MAX; }
+
+    bool operator==(const ImageHandle&) const = default;
+};
+
+/// The same for a buffer (or an acceleration structure, which is one as far as order goes).
+struct BufferHandle {
+    uint32_t resource = UINT32_MAX;
+    uint32_t version = 0;
+    uint32_t graph = 0; ///< which graph made it, so that last frame's handles are caught
+
+    [[nodiscard]] bool isValid() const { return resource != UINT32_MAX; }
+
+    bool operator==(const BufferHandle&) const = default;
+};
+
+/// Size and format of a transient image; how it is used follows from the passes.
+struct TransientImageDesc {
+    uint32_t width = 1;
+    uint32_t height = 1;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+
+    bool operator==(const TransientImageDesc&) const = default;
+};
+
+struct TransientBufferDesc {
+    VkDeviceSize bytes = 0;
+    VkBufferUsageFlags usage = 0;
+
+    bool operator==(const TransientBufferDesc&) const = default;
+};
+
+/// How a pass touches a resource: what barriers, layouts and usage flags follow from.
+enum class Access : uint8_t {
+    SampledCompute,    ///< image: texture() in a compute shader
+    SampledFragment,   ///< image: texture() in a fragment shader
+    StorageRead,       ///< image or buffer: load in a compute shader
+    StorageWrite,      ///< image or buffer: store (and load) in a compute shader
+    ColorAttachment,   ///< image: written as colour attachment
+    DepthAttachment,   ///< image: tested and written as depth attachment
+    TransferRead,      ///< copy source
+    TransferWrite,     ///< copy or clear target
+    IndirectRead,      ///< buffer: dispatch or draw arguments
+    ShaderRead,        ///< buffer: read in any shader stage
+    AccelerationRead,  ///< buffer: traced in a compute shader
+    AccelerationBuild, ///< buffer: built
+    HostRead,          ///< buffer: read by the CPU after the frame
+};
+
+[[nodiscard]] bool isWrite(Access access);
+[[nodiscard]] const char* describe(Access access);
+
+enum class PassKind : uint8_t { Compute, Raster, Transfer, Build };
+
+} // namespace shutter::graph
