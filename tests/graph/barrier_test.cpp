@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+// Each hazard in the smallest frame that has it.
+#include "tests/graph/story.h"
+
+namespace shutter::graph {
+namespace {
+
+constexpr VkPipelineStageFlags2 kComputeStage = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kFragmentStage = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags2 kColorStage = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+constexpr VkAccessFlags2 kSampledRead = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+
+template <class Barrier>
+void expectHalves(
+    const Barrier& barrier,
+    std::pair<VkPipelineStageFlags2, VkAccessFlags2> src,
+    std::pair<VkPipelineStageFlags2, VkAccessFlags2> dst
+) {
+    EXPECT_EQ(barrier.srcStages, src.first);
+    EXPECT_EQ(barrier.srcAccess, src.second);
+    EXPECT_EQ(barrier.dstStages, dst.first);
+    EXPECT_EQ(barrier.dstAccess, dst.second);
+}
+
+void expectLayouts(const ImageBarrier& barrier, VkImageLayout before, VkImageLayout after) {
+    EXPECT_EQ(barrier.oldLayout, before);
+    EXPECT_EQ(barrier.newLayout, after);
+}
+
+/// The only image barrier of a pass; a failure if there is not exactly one.
+ImageBarrier onlyBarrier(const Plan& plan, size_t position) {
+    if (position >= plan.passes.size() || plan.passes[position].imageBarriers.size() != 1) {
+        ADD_FAILURE() << "not one image barrier before pass " << position;
+        return {};
+    }
+    return plan.passes[position].imageBarriers[0];
+}
+
+BufferBarrier onlyBufferBarrier(const Plan& plan, size_t position) {
+    if (position >= plan.passes.size() || plan.passes[position].bufferBarriers.size() != 1) {
+        ADD_FAILURE() << "not one buffer barrier before pass " << position;
+        return {};
+    }
+    return plan.passes[position].bufferBarriers[0];
+}
+
+BufferHandle fill(Graph& graph, BufferHandle buffer) {
+    addPass(graph, "fill", PassKind::Compute, [&](PassBuilder& builder) {
+        buffer = builder.write(buffer, Access::StorageWrite);
+    });
+    return buffer;
+}
+
+void readBuffer(Graph& graph, BufferHandle buffer, Access access, PassKind kind) {
+    addPass(graph, "read", kind, [&](PassBuilder& builder) {
+        builder.read(buffer, access);
+        builder.sideEffect();
+        if (kind == PassKind::Raster)
+            (void)builder.colorTarget(makeImage(graph, "target"), std::nullopt);
+    });
+}
+
+TEST(Barriers, AFirstUseComesFromNothing) {
+    Graph graph;
+    graph.markOutput(store(graph, "store", makeImage(graph, "a")));
+    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 0);
+    expectHalves(barrier, {0, 0}, {kComputeStage, kStorageRead | kStorageWrite});
+    expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+TEST(Barriers, AReadAfterAWriteWaitsAndSees) {
+    Graph graph;
+    sample(graph, "sample", draw(graph, "draw", makeImage(graph, "a"), true));
+    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 1);
+    expectHalves(
+        barrier,
+        {kColorStage, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+        {kComputeStage, kSampledRead}
+    );
+    expectLayouts(
+        barrier, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+    );
+}
+
+TEST(Barriers, ASecondReadInTheSameLayoutNeedsNone) {
+    Graph graph;
+    const ImageHandle a = store(graph, "store", makeImage(graph, "a"));
+    sample(graph, "one", a);
+    sample(graph, "two", a);
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(plan.passes[1].imageBarriers.size(), 1u);
+    EXPECT_TRUE(plan.passes[2].imageBarriers.empty());
+}
+
+TEST(Barriers, ReadersInSeveralStagesShareTheFirstOnesBarrier) {
+    Graph graph;
+    const ImageHandle a = store(graph, "store", makeImage(graph, "a"));
+    sample(graph, "compute", a);
+    addPass(graph, "raster", PassKind::Raster, [&](PassBuilder& builder) {
+        builder.read(a, Access::SampledFragment);
+        graph.markOutput(builder.colorTarget(makeImage(graph, "b"), std::nullopt));
+    });
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(onlyBarrier(plan, 1).dstStages, kComputeStage | kFragmentStage);
+    for (const ImageBarrier& barrier : plan.passes[2].imageBarriers)
+        EXPECT_NE(barrier.resource, a.resource);
+}
+
+TEST(Barriers, AReadInAnotherLayoutIsATransitionBehindTheReaders) {
+    Graph graph;
+    const ImageHandle a = store(graph, "store", makeImage(graph, "a"));
+    sample(graph, "sample", a);
+    addPass(graph, "copy", PassKind::Transfer, [&](PassBuilder& builder) {
+        builder.read(a, Access::TransferRead);
+        builder.sideEffect();
+    });
+    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 2);
+    expectHalves(
+        barrier,
+        {kComputeStage, 0},
+        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT}
+    );
+    expectLayouts(
+        barrier, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+    );
+}
+
+TEST(Barriers, AWriteAfterAReadWaitsOnly) {
+    Graph graph;
+    const BufferHandle v1 = fill(graph, makeBuffer(graph, "a"));
+    readBuffer(graph, v1, Access::StorageRead, PassKind::Compute);
+    graph.markOutput(fill(graph, v1));
+    expectHalves(onlyBufferBarrier(mustCompile(graph), 2), {kComputeStage, 0}, {kComputeStage, 0});
+}
+
+TEST(Barriers, AWriteAfterAReadElsewhereSeesWhatItAddsTo) {
+    Graph graph;
+    const BufferHandle v1 = fill(graph, makeBuffer(graph, "a"));
+    readBuffer(graph, v1, Access::IndirectRead, PassKind::Compute);
+    graph.markOutput(fill(graph, v1));
+    expectHalves(
+        onlyBufferBarrier(mustCompile(graph), 2),
+        {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | kComputeStage, kStorageWrite},
+        {kComputeStage, kStorageRead | kStorageWrite}
+    );
+}
+
+TEST(Barriers, AWriteAfterAWriteWaitsAndSees) {
+    Graph graph;
+    const ImageHandle v1 = store(graph, "one", makeImage(graph, "a"));
+    graph.markOutput(store(graph, "two", v1));
+    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 1);
+    expectHalves(
+        barrier, {kComputeStage, kStorageWrite}, {kComputeStage, kStorageRead | kStorageWrite}
+    );
+    expectLayouts(barrier, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+TEST(Barriers, AClearDropsTheOldContentsWithTheLayout) {
+    Graph graph;
+    const ImageHandle v1 = store(graph, "store", makeImage(graph, "a"));
+    sample(graph, "sample", v1);
+    graph.markOutput(draw(graph, "clear", v1, true));
+    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 2);
+    EXPECT_EQ(barrier.srcStages, kComputeStage);
+    expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+}
+
+TEST(Barriers, ADepthTargetIsTestedEarlyAndLate) {
+    Graph graph;
+    ImageHandle depth = makeImage(graph, "depth", 16, kDepth);
+    addPass(graph, "draw", PassKind::Raster, [&](PassBuilder& builder) {
+        depth = builder.depthTarget(depth, 0.0f);
+    });
+    sample(graph, "sample", depth);
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(onlyBarrier(plan, 0).newLayout, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    expectHalves(
+        onlyBarrier(plan, 1),
+        {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
+        {kComputeStage, kSampledRead}
+    );
+}
+
+TEST(Barriers, ReusedMemoryWaitsForItsLastTenant) {
+    Graph graph;
+    const ImageHandle a = draw(graph, "draw", makeImage(graph, "a"), true);
+    const ImageHandle b = filter(graph, "filter", a, makeImage(graph, "b"));
+    const ImageHandle c = filter(graph, "reuse", b, makeImage(graph, "c"));
+    graph.markOutput(c);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(placementOf(plan, a).offset, placementOf(plan, c).offset);
+    ASSERT_EQ(plan.passes[2].imageBarriers.size(), 2u);
+    for (const ImageBarrier& barrier : plan.passes[2].imageBarriers)
+        if (barrier.resource == c.resource) {
+            expectHalves(
+                barrier, {kComputeStage, 0}, {kComputeStage, kStorageRead | kStorageWrite}
+            );
+            expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+        }
+}
+
+TEST(Barriers, ReusedMemoryWaitsForALastTenantThatWrote) {
+    Graph graph;
+    ImageHandle scratch = makeImage(graph, "scratch");
+    addPass(graph, "scribble", PassKind::Compute, [&](PassBuilder& builder) {
+        scratch = builder.write(scratch, Access::StorageWrite);
+        builder.sideEffect();
+    });
+    graph.markOutput(draw(graph, "reuse", makeImage(graph, "b"), true));
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(plan.blockBytes, 16u * 16 * 4);
+    const ImageBarrier barrier = onlyBarrier(plan, 1);
+    EXPECT_EQ(barrier.srcStages, kComputeStage);
+    EXPECT_EQ(barrier.srcAccess, kStorageWrite);
+}
+
+TEST(Barriers, AFirstUseDoesNotWaitForTenantsOfOtherMemory) {
+    Graph graph;
+    const ImageHandle elsewhere = store(graph, "1", makeImage(graph, "elsewhere", 16));
+    ImageHandle large = makeImage(graph, "large", 64);
+    addPass(graph, "2", PassKind::Raster, [&](PassBuilder& builder) {
+        builder.read(elsewhere, Access::SampledFragment);
+        large = builder.colorTarget(large, std::nullopt);
+    });
+    const ImageHandle middle = filter(graph, "3", large, makeImage(graph, "middle", 32));
+    const ImageHandle last = filter(graph, "4", middle, makeImage(graph, "last", 16));
+    graph.markOutput(last);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(placementOf(plan, last).offset, placementOf(plan, large).offset);
+    ASSERT_NE(placementOf(plan, last).offset, placementOf(plan, elsewhere).offset);
+    ASSERT_EQ(plan.passes[3].imageBarriers.size(), 2u);
+    for (const ImageBarrier& barrier : plan.passes[3].imageBarriers)
+        if (barrier.resource == last.resource) {
+            EXPECT_EQ(barrier.srcStages, kComputeStage) << "elsewhere was read in fragment";
+        }
+}
+
+TEST(Barriers, AnImportedImageWaitsForEarlierSubmissionsAndEndsInItsLayout) {
+    Graph graph;
+    const gpu::Image image;
+    const ImageHandle history = graph.importImage(
+        "history", image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+    );
+    sample(graph, "sample", history);
+    const Plan plan = mustCompile(graph);
+    const ImageBarrier barrier = onlyBarrier(plan, 0);
+    expectHalves(
+        barrier,
+        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+        {kComputeStage, kSampledRead}
+    );
+    expectLayouts(barrier, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    ASSERT_EQ(plan.finalImageBarriers.size(), 1u);
+    expectLayouts(
+        plan.finalImageBarriers[0],
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+    );
+    EXPECT_EQ(plan.finalImageBarriers[0].srcStages, kComputeStage);
+}
+
+TEST(Barriers, AnImportedImageThatAnyLayoutSuitsIsLeftAsItIs) {
+    Graph graph;
+    const gpu::Image image;
+    sample(
+        graph,
+        "sample",
+        graph.importImage("history", image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_UNDEFINED)
+    );
+    EXPECT_TRUE(mustCompile(graph).finalImageBarriers.empty());
+}
+
+TEST(Barriers, AnImportedBufferWaitsForEarlierSubmissions) {
+    Graph graph;
+    const BufferHandle lights = graph.importBuffer("lights", fakeBuffer(1), 64);
+    readBuffer(graph, lights, Access::ShaderRead, PassKind::Raster);
+    expectHalves(
+        onlyBufferBarrier(mustCompile(graph), 0),
+        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | kFragmentStage | kComputeStage,
+         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT}
+    );
+}
+
+TEST(Barriers, AnOutputBufferIsShownToTheHost) {
+    Graph graph;
+    BufferHandle result = graph.importBuffer("result", fakeBuffer(1), 64);
+    addPass(graph, "copy", PassKind::Transfer, [&](PassBuilder& builder) {
+        result = builder.write(result, Access::TransferWrite);
+    });
+    graph.markOutput(result);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.finalBufferBarriers.size(), 1u);
+    expectHalves(
+        plan.finalBufferBarriers[0],
+        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
+        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}
+    );
+}
+
+TEST(Barriers, ABufferAPassLetsTheHostReadIsShownToTheHostAtTheEnd) {
+    Graph graph;
+    const BufferHandle result = fill(graph, graph.importBuffer("result", fakeBuffer(1), 64));
+    readBuffer(graph, result, Access::HostRead, PassKind::Transfer);
+    const Plan plan = mustCompile(graph);
+    EXPECT_TRUE(plan.passes[1].bufferBarriers.empty());
+    ASSERT_EQ(plan.finalBufferBarriers.size(), 1u);
+    EXPECT_EQ(plan.finalBufferBarriers[0].dstStages, VK_PIPELINE_STAGE_2_HOST_BIT);
+}
+
+TEST(Barriers, ATraceWaitsForTheBuild) {
+    Graph graph;
+    BufferHandle top = graph.importBuffer("top level", fakeBuffer(1), 64);
+    addPass(graph, "build", PassKind::Build, [&](PassBuilder& builder) {
+        top = builder.write(top, Access::AccelerationBuild);
+    });
+    readBuffer(graph, top, Access::AccelerationRead, PassKind::Compute);
+    expectHalves(
+        onlyBufferBarrier(mustCompile(graph), 1),
+        {VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
+         VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR},
+        {kComputeStage, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR}
+    );
+}
+
+TEST(Barriers, ABuildReadsItsInputsInItsOwnStage) {
+    Graph graph;
+    const BufferHandle instances = fill(graph, makeBuffer(graph, "instances"));
+    readBuffer(graph, instances, Access::ShaderRead, PassKind::Build);
+    const BufferBarrier barrier = onlyBufferBarrier(mustCompile(graph), 1);
+    EXPECT_EQ(barrier.dstStages, VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR);
+    EXPECT_EQ(barrier.dstAccess, VK_ACCESS_2_SHADER_READ_BIT);
+}
+
+} // namespace
+} // namespace shutter::graph
