@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Plays a plan pass by pass and watches every piece of memory: who wrote it, who read it since, who
+// has been made to wait for that and who may see it. Written from Vulkan's rules (chapter
+// "Synchronization"), not from the graph's code; stricter in one way: a barrier is taken to order
+// only the memory it names.
+#pragma once
+
+#include "engine/graph/compile.h"
+
+#include <string>
+#include <vector>
+
+namespace shutter::graph {
+
+/// A sentence for each hazard, wrong layout, wrong contents and lost result; empty: the plan holds.
+[[nodiscard]] std::vector<std::string> findHazards(const Graph& graph, const Plan& plan);
+
+} // namespace shutter::graph
