@@ -8,7 +8,7 @@ find_program(SHUTTER_GLSLANG NAMES glslang glslangValidator REQUIRED)
 # Settings every target of this project shares.
 function(shutter_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
-    target_include_directories(${target} PUBLIC ${SHUTTER_ROOT})
+    target_include_directories(${target} PUBLIC ${SHUTTER_ROOT} ${SHUTTER_ROOT}/shaders)
     # No contraction into fused multiply-add: the CPU reference of a shader must round as written.
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion

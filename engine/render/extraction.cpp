@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/extraction.h"
+
+#include "engine/core/check.h"
+#include "engine/math/projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace shutter::render {
+
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+/// The camera at one instant.
+struct CameraPose {
+    dmat4 clipFromWorld{1.0};
+    dvec3 position{0.0};
+    dvec3 forward{0.0, 0.0, -1.0};
+    dmat4 viewFromWorld{1.0};
+};
+
+dmat4 makeProjection(const scene::Camera& camera, double aspect) {
+    if (camera.kind == scene::CameraKind::Perspective)
+        return math::clipFromViewPerspective(camera.yFov, aspect, camera.near);
+    return math::clipFromViewOrthographic(
+        camera.yMag * aspect, camera.yMag, camera.near, camera.far
+    );
+}
+
+/// Scale in a camera's node has no meaning for the view: only where it stands and looks counts.
+dmat4 removeScale(const dmat4& world) {
+    dmat4 rigid = world;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = glm::length(dvec3(world[axis]));
+        if (size > 0.0)
+            rigid[axis] = dvec4(dvec3(world[axis]) / size, 0.0);
+    }
+    return rigid;
+}
+
+CameraPose poseCamera(
+    const scene::World& world, ecs::Entity entity, const dmat4& clipFromView, double seconds
+) {
+    const dmat4 worldFromView = removeScale(scene::worldFromEntity(world, entity, seconds));
+    CameraPose pose;
+    pose.viewFromWorld = glm::inverse(worldFromView);
+    pose.clipFromWorld = clipFromView * pose.viewFromWorld;
+    pose.position = dvec3(worldFromView[3]);
+    pose.forward = -glm::normalize(dvec3(worldFromView[2]));
+    return pose;
+}
+
+struct Poses {
+    CameraPose open, raster, close;
+};
+
+bool isDrawable(const dmat4& matrix) {
+    const double determinant = glm::determinant(math::dmat3(matrix));
+    return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
+}
+
+/// True when the box lies wholly beyond one of the side planes or behind the near plane.
+bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
+    std::array<int, 5> outside{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 point(
+            corner & 1 ? bounds.max.x : bounds.min.x,
+            corner & 2 ? bounds.max.y : bounds.min.y,
+            corner & 4 ? bounds.max.z : bounds.min.z
+        );
+        const dvec4 clip = clipFromObject * dvec4(point, 1.0);
+        outside[0] += clip.x < -clip.w;
+        outside[1] += clip.x > clip.w;
+        outside[2] += clip.y < -clip.w;
+        outside[3] += clip.y > clip.w;
+        outside[4] += clip.z > clip.w; // reversed depth: nearer than the near plane
+    }
+    return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
+}
+
+shader::LightRow makeLight(const scene::Light& light, const dmat4& world, const dvec3& origin) {
+    shader::LightRow row{};
+    const dvec3 direction = -dvec3(world[2]);
+    const double size = glm::length(direction);
+    const dvec3 unit = size > 0.0 ? direction / size : dvec3(0.0, 0.0, -1.0);
+    const float range = std::isfinite(light.range) ? light.range : 0.0f;
+    row.positionRange = math::vec4(math::vec3(dvec3(world[3]) - origin), range);
+    row.direction = math::vec4(math::vec3(unit), 0.0f);
+    row.radiance = math::vec4(light.color * light.intensity, 0.0f);
+    row.kind = static_cast<uint32_t>(light.kind);
+    // KHR_lights_punctual, "Inner and Outer Cone Angles".
+    const float outer = std::cos(light.outerConeAngle);
+    row.spotScale = 1.0f / std::max(0.001f, std::cos(light.innerConeAngle) - outer);
+    row.spotOffset = -outer * row.spotScale;
+    return row;
+}
+
+class Extractor {
+  public:
+    Extractor(const scene::World& world, const SceneLayout& layout, const ViewRequest& request)
+        : mWorld(world), mLayout(layout), mRequest(request),
+          mCamera(world.registry.get<scene::Camera>(request.camera)),
+          mClipFromView(makeProjection(mCamera, double(request.width) / request.height)) {
+        const scene::ExposureInterval& exposure = request.exposure;
+        mPoses.open = poseCamera(world, request.camera, mClipFromView, exposure.open);
+        mPoses.raster = poseCamera(world, request.camera, mClipFromView, exposure.raster);
+        mPoses.close = poseCamera(world, request.camera, mClipFromView, exposure.close);
+    }
+
+    core::Result<ExtractedFrame> run() {
+        fillConstants();
+        for (auto [entity, instance] : mWorld.registry.view<scene::MeshInstance>()) {
+            if (mFrame.entities.size() >= kMaxEntities)
+                return core::makeError(
+                    "the scene draws more than {} entities, the most the entity table holds",
+                    kMaxEntities
+                );
+            addEntity(entity, instance.mesh);
+        }
+        for (auto [entity, light] : mWorld.registry.view<scene::Light>())
+            mFrame.lights.push_back(makeLight(light, worldAt(entity), mPoses.raster.position));
+        mFrame.constants.lightCount = static_cast<uint32_t>(mFrame.lights.size());
+        std::stable_sort(
+            mFrame.opaque.begin(),
+            mFrame.opaque.end(),
+            [](const DrawItem& a, const DrawItem& b) { return a.distance < b.distance; }
+        );
+        std::stable_sort(
+            mFrame.blended.begin(),
+            mFrame.blended.end(),
+            [](const DrawItem& a, const DrawItem& b) { return a.distance > b.distance; }
+        );
+        return std::move(mFrame);
+    }
+
+  private:
+    dmat4 worldAt(ecs::Entity entity) const {
+        return scene::worldFromEntity(mWorld, entity, mRequest.exposure.raster);
+    }
+
+    /// Clip space moved by a part of a pixel, for sampling inside it.
+    dmat4 jitterClip() const {
+        const math::dvec2 shift =
+            -2.0 * mRequest.jitterPx / math::dvec2(double(mRequest.width), double(mRequest.height));
+        return glm::translate(dmat4(1.0), dvec3(shift, 0.0));
+    }
+
+    void fillConstants() {
+        shader::FrameConstants& constants = mFrame.constants;
+        const dmat4 worldFromEye = glm::translate(dmat4(1.0), mPoses.raster.position);
+        const dmat4 clipFromEye = jitterClip() * mPoses.raster.clipFromWorld * worldFromEye;
+        constants.clipFromEye = math::mat4(clipFromEye);
+        constants.eyeFromClip = math::mat4(glm::inverse(clipFromEye));
+        constants.clipFromDirectionOpen = math::mat4(directionMatrix(mPoses.open));
+        constants.clipFromDirectionClose = math::mat4(directionMatrix(mPoses.close));
+        const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
+        // Clip w is the distance for a perspective camera and 1 for an orthographic one.
+        const double minW = perspective ? mCamera.near : 0.5;
+        constants.forward = math::vec4(math::vec3(mPoses.raster.forward), float(minW));
+        constants.background = math::vec4(mRequest.background, 1.0f);
+        constants.ambient = math::vec4(mRequest.ambient, 1.0f);
+        constants.sizePx = {float(mRequest.width), float(mRequest.height)};
+        const double height = double(mRequest.height);
+        constants.pixelFootprint =
+            perspective ? math::vec2(float(2.0 * std::tan(mCamera.yFov / 2.0) / height), 0.0f)
+                        : math::vec2(0.0f, float(2.0 * mCamera.yMag / height));
+        constants.lodBias = mRequest.lodBias;
+        constants.flags = mRequest.unlit ? shader::kFrameUnlit : 0u;
+        mFrame.moves = constants.clipFromDirectionOpen != constants.clipFromDirectionClose ||
+                       mPoses.open.position != mPoses.close.position;
+    }
+
+    dmat4 directionMatrix(const CameraPose& pose) const {
+        return mClipFromView * dmat4(math::dmat3(pose.viewFromWorld));
+    }
+
+    void addEntity(ecs::Entity entity, uint32_t mesh) {
+        const uint32_t firstGeometry = mLayout.firstGeometry[mesh];
+        const uint32_t endGeometry = mLayout.firstGeometry[mesh + 1];
+        if (mLayout.bounds[mesh].isEmpty() || firstGeometry == endGeometry)
+            return;
+        const scene::ExposureInterval& exposure = mRequest.exposure;
+        const dmat4 open = scene::worldFromEntity(mWorld, entity, exposure.open);
+        const dmat4 raster = scene::worldFromEntity(mWorld, entity, exposure.raster);
+        const dmat4 close = scene::worldFromEntity(mWorld, entity, exposure.close);
+        if (!isDrawable(raster) || !math::isFinite(open) || !math::isFinite(close))
+            return;
+
+        const dmat4 clipRaster = jitterClip() * mPoses.raster.clipFromWorld * raster;
+        shader::EntityRow row{};
+        row.clipFromObjectOpen = math::mat4(mPoses.open.clipFromWorld * open);
+        row.clipFromObjectRaster = math::mat4(clipRaster);
+        row.clipFromObjectClose = math::mat4(mPoses.close.clipFromWorld * close);
+        const dmat4 eye = glm::translate(dmat4(1.0), -mPoses.raster.position) * raster;
+        for (int i = 0; i < 3; ++i)
+            row.eyeFromObject[i] = math::vec4(eye[0][i], eye[1][i], eye[2][i], eye[3][i]);
+        row.firstGeometry = firstGeometry;
+        const bool mirrored = glm::determinant(math::dmat3(raster)) < 0.0;
+        row.handedness = mirrored ? -1.0f : 1.0f;
+
+        const auto index = static_cast<uint32_t>(mFrame.entities.size());
+        mFrame.entities.push_back(row);
+        mFrame.entityMeshes.push_back(mesh);
+        if (isOutside(clipRaster, mLayout.bounds[mesh]))
+            return;
+        mFrame.moves = mFrame.moves || row.clipFromObjectOpen != row.clipFromObjectClose;
+        const double distance = glm::length(dvec3(eye * dvec4(mLayout.bounds[mesh].centre(), 1.0)));
+        for (uint32_t geometry = firstGeometry; geometry < endGeometry; ++geometry) {
+            const SceneLayout::GeometryInfo& info = mLayout.geometries[geometry];
+            const bool blended = info.alphaMode == scene::AlphaMode::Blend;
+            (blended ? mFrame.blended : mFrame.opaque)
+                .push_back(
+                    {index, geometry, info.alphaMode, info.doubleSided, mirrored, float(distance)}
+                );
+        }
+    }
+
+    const scene::World& mWorld;
+    const SceneLayout& mLayout;
+    const ViewRequest& mRequest;
+    const scene::Camera& mCamera;
+    dmat4 mClipFromView;
+    Poses mPoses;
+    ExtractedFrame mFrame;
+};
+
+} // namespace
+
+core::Result<ExtractedFrame>
+extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request) {
+    SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
+    return Extractor(world, layout, request).run();
+}
+
+} // namespace shutter::render

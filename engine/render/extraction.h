@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The world, copied for one frame into what rendering reads: the entity table (one row an entity
+// that is drawn; the row's index is the mesh id), lights, draws and constants.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/scene/motion.h"
+#include "engine/scene/world.h"
+#include "shaders/render/scene_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::render {
+
+/// Most rows of the entity table: ray tracing gives instances 24 bits.
+inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
+
+struct ViewRequest {
+    ecs::Entity camera;
+    scene::ExposureInterval exposure;
+    uint32_t width = 1280;       ///< pixels, above 0
+    uint32_t height = 720;       ///< pixels, above 0
+    math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]
+    math::vec3 background{0.0f}; ///< linear RGB where nothing is
+    math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
+    float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
+    bool unlit = false;          ///< base colour only
+};
+
+struct DrawItem {
+    uint32_t entity = 0;   ///< row of the entity table
+    uint32_t geometry = 0; ///< row of the geometry table
+    scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
+    bool doubleSided = false;
+    bool mirrored = false; ///< the transform turns the winding round
+    float distance = 0.0f; ///< of the bounds' centre from the camera, metres
+};
+
+struct ExtractedFrame {
+    std::vector<shader::EntityRow> entities;
+    std::vector<uint32_t> entityMeshes; ///< one a row: index into Assets::meshes
+    std::vector<DrawItem> opaque;       ///< opaque and masked, near to far
+    std::vector<DrawItem> blended;      ///< far to near
+    std::vector<shader::LightRow> lights;
+    shader::FrameConstants constants{}; ///< without the tables' addresses
+    bool moves = false;                 ///< something in the picture, or the camera, moves
+};
+
+/// Entities whose transform is singular or not finite, or whose mesh has no triangles, get no row.
+/// Error: the world has more entities than the table can hold.
+[[nodiscard]] core::Result<ExtractedFrame>
+extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+} // namespace shutter::render

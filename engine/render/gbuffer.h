@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "engine/render/extraction.h"
+#include "engine/render/gpu_scene.h"
+
+namespace shutter::render {
+
+/// What the raster pass leaves. Formats are chosen for one nearest fetch a tap (lavapipe) and for
+/// motion to a hundredth of a pixel.
+struct GBuffer {
+    graph::ImageHandle color;  ///< RGBA16F, linear HDR, at most kMaxColor
+    graph::ImageHandle normal; ///< RGBA16F, xyz unit, world axes; 0 where nothing is
+    graph::ImageHandle
+        motionDepth; ///< RGBA32F: motion.xy pixels open to close, depth metres along the view
+    graph::ImageHandle meshId; ///< R32_UINT: row of the entity table, or kNoEntity
+};
+
+/// The pipelines of the G-buffer; one a scene (they know its texture table).
+class GBufferPass {
+  public:
+    GBufferPass(gpu::Device& device, const GpuScene& scene);
+
+    /// Declares the pass. `frame` and `scene` must live until it has been recorded.
+    [[nodiscard]] GBuffer declare(
+        graph::Graph& graph,
+        const ExtractedFrame& frame,
+        const GpuScene& scene,
+        VkDeviceAddress frameConstants
+    ) const;
+
+  private:
+    gpu::Pipeline mOpaque;
+    gpu::Pipeline mMasked;
+    gpu::Pipeline mBlended;
+    gpu::Pipeline mSky;
+};
+
+} // namespace shutter::render

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/acceleration_structure.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+#include "engine/scene/assets.h"
+#include "shaders/render/scene_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::render {
+
+/// A device address as the two words shaders make a reference of.
+[[nodiscard]] inline math::uvec2 splitAddress(VkDeviceAddress address) {
+    return {static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)};
+}
+
+/// Where a mesh's triangles are, as extraction needs it.
+struct SceneLayout {
+    struct GeometryInfo {
+        uint32_t firstIndex = 0;
+        uint32_t indexCount = 0;
+        scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
+        bool doubleSided = false;
+    };
+
+    std::vector<uint32_t> firstGeometry;  ///< one a mesh, and one past the last
+    std::vector<GeometryInfo> geometries; ///< all meshes' primitives in order
+    std::vector<math::Bounds> bounds;     ///< one a mesh, object space
+};
+
+/// The assets of a scene on the device: one vertex and one index buffer, tables of geometries and
+/// materials, bindless textures, and, once asked for, a BLAS a mesh.
+class GpuScene {
+  public:
+    GpuScene(gpu::Device& device, const scene::Assets& assets);
+    ~GpuScene();
+    GpuScene(const GpuScene&) = delete;
+    GpuScene& operator=(const GpuScene&) = delete;
+
+    [[nodiscard]] const SceneLayout& layout() const { return mLayout; }
+
+    [[nodiscard]] VkBuffer indexBuffer() const { return mIndices.handle(); }
+
+    [[nodiscard]] VkDeviceAddress geometryTable() const { return mGeometries.address(); }
+
+    [[nodiscard]] VkDeviceAddress materialTable() const { return mMaterials.address(); }
+
+    [[nodiscard]] VkDescriptorSetLayout textureLayout() const { return mTextureLayout; }
+
+    [[nodiscard]] VkDescriptorSet textureSet() const { return mTextureSet; }
+
+    /// Builds every mesh's BLAS the first time; blended geometries are left out of them.
+    void buildBottomLevels();
+
+    /// Null (false) for a mesh without triangles that rays can meet.
+    [[nodiscard]] const gpu::AccelerationStructure& bottomLevel(uint32_t mesh) const {
+        return mBottomLevels[mesh];
+    }
+
+  private:
+    void uploadMeshes(const scene::Assets& assets);
+    void uploadMaterials(const scene::Assets& assets);
+    void uploadTextures(const scene::Assets& assets);
+    void createTextureSet(uint32_t count);
+
+    gpu::Device& mDevice;
+    SceneLayout mLayout;
+    gpu::Buffer mVertices;
+    gpu::Buffer mIndices;
+    gpu::Buffer mGeometries;
+    gpu::Buffer mMaterials;
+    std::vector<gpu::Image> mTextures;
+    std::vector<VkSampler> mSamplers;
+    VkDescriptorSetLayout mTextureLayout = VK_NULL_HANDLE;
+    VkDescriptorPool mTexturePool = VK_NULL_HANDLE;
+    VkDescriptorSet mTextureSet = VK_NULL_HANDLE;
+    std::vector<gpu::AccelerationStructure> mBottomLevels;
+    std::vector<uint32_t> mFirstVertex;  ///< one a geometry
+    std::vector<uint32_t> mVertexCounts; ///< one a geometry
+    bool mBottomLevelsBuilt = false;
+};
+
+} // namespace shutter::render

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// How an effect takes its place in a frame: it is asked whether the frame calls for it, then
+// declares passes. The renderer knows no effect by name.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
+#include "engine/render/gbuffer.h"
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+/// What an effect may base its decision on.
+struct ViewFacts {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool moves = false; ///< something in the picture, or the camera, moves
+    double exposureSeconds = 0.0;
+    double rasterShare = 1.0; ///< s of the raster instant in the exposure, [0, 1]
+    bool deviceHasRays = false;
+    bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
+};
+
+struct Decision {
+    bool run = false;
+    std::string reason; ///< why it runs or is skipped, for a person
+};
+
+/// What rays need; handles of this frame.
+struct RayScene {
+    graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
+    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
+    VkDescriptorSet textures = VK_NULL_HANDLE;
+    VkDeviceAddress frameConstants = 0;
+};
+
+/// Named intermediates that somebody asked to see (`--aov`).
+class Intermediates {
+  public:
+    explicit Intermediates(std::set<std::string> wanted) : mWanted(std::move(wanted)) {}
+
+    [[nodiscard]] bool isWanted(const std::string& name) const { return mWanted.contains(name); }
+
+    /// Does nothing unless the name is wanted.
+    void publish(const std::string& name, graph::ImageHandle image) {
+        if (isWanted(name))
+            mImages[name] = image;
+    }
+
+    [[nodiscard]] const std::map<std::string, graph::ImageHandle>& images() const {
+        return mImages;
+    }
+
+  private:
+    std::set<std::string> mWanted;
+    std::map<std::string, graph::ImageHandle> mImages;
+};
+
+struct PostContext {
+    graph::Graph& graph;
+    const ViewFacts& facts;
+    const GBuffer& gbuffer;
+    const RayScene* rays;       ///< null where no effect asked for rays
+    graph::ImageHandle color;   ///< linear HDR so far; an effect replaces it
+    graph::ImageHandle display; ///< display-encoded, once somebody made it
+    Intermediates& intermediates;
+};
+
+/// Numbers an effect reports about a frame, e.g. "rays traced".
+using Counters = std::map<std::string, uint64_t>;
+
+class PostEffect {
+  public:
+    virtual ~PostEffect() = default;
+
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// Pure: depends on the facts and the effect's settings only.
+    [[nodiscard]] virtual Decision ask(const ViewFacts& facts) const = 0;
+
+    [[nodiscard]] virtual bool needsRays() const { return false; }
+
+    /// Declares passes; called only when ask() said run.
+    virtual void declare(PostContext& context) = 0;
+
+    /// Counters of the frame declared last; called when the GPU is done with it.
+    virtual void collect(Counters&) {}
+};
+
+} // namespace shutter::render

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+#include "engine/graph/graph.h"
+#include "engine/image/image.h"
+
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+/// Copies images of a frame to main memory. Add passes while declaring, take the pictures once the
+/// GPU is done.
+class Readback {
+  public:
+    explicit Readback(gpu::Device& device) : mDevice(device) {}
+
+    /// Declares the copy. \return the ticket for take()
+    size_t add(graph::Graph& graph, const std::string& name, graph::ImageHandle image);
+
+    /// The picture as floats: halves and 8-bit values converted, unsigned integers rounded to the
+    /// nearest float except the all-ones id, which becomes -1.
+    [[nodiscard]] image::Image take(size_t ticket) const;
+
+    /// Forgets all tickets; buffers are kept for the next frame.
+    void reset() { mEntries.clear(); }
+
+  private:
+    struct Entry {
+        size_t buffer = 0;
+        graph::TransientImageDesc desc;
+    };
+
+    gpu::Device& mDevice;
+    std::vector<gpu::Buffer> mBuffers;
+    std::vector<Entry> mEntries;
+};
+
+} // namespace shutter::render

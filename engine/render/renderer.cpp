@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/renderer.h"
+
+#include "engine/graph/dump.h"
+#include "engine/graph/execute.h"
+#include "engine/render/spatial_order.h"
+
+#include <chrono>
+#include <cstring>
+
+namespace shutter::render {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+VkDeviceSize alignTable(VkDeviceSize bytes) {
+    return (bytes + 255) / 256 * 256;
+}
+
+/// Rows that rays can meet, in an order that builders which keep it make a good tree of.
+std::vector<gpu::Instance> makeInstances(const ExtractedFrame& frame, const GpuScene& scene) {
+    std::vector<gpu::Instance> instances;
+    std::vector<Box> boxes;
+    const SceneLayout& layout = scene.layout();
+    for (uint32_t i = 0; i < frame.entities.size(); ++i) {
+        const uint32_t mesh = frame.entityMeshes[i];
+        const gpu::AccelerationStructure& bottomLevel = scene.bottomLevel(mesh);
+        if (!bottomLevel)
+            continue;
+        gpu::Instance instance;
+        instance.customIndex = i;
+        instance.bottomLevel = bottomLevel.address();
+        instance.cullDisabled = false;
+        for (uint32_t g = layout.firstGeometry[mesh]; g < layout.firstGeometry[mesh + 1]; ++g)
+            instance.cullDisabled = instance.cullDisabled || layout.geometries[g].doubleSided;
+        math::dmat4 eyeFromObject(1.0);
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column) {
+                instance.worldFromObject[row][column] =
+                    frame.entities[i].eyeFromObject[row][column];
+                eyeFromObject[column][row] = double(instance.worldFromObject[row][column]);
+            }
+        const math::Bounds bounds = math::transformBounds(eyeFromObject, layout.bounds[mesh]);
+        boxes.push_back({math::vec3(bounds.min), math::vec3(bounds.max)});
+        instances.push_back(instance);
+    }
+    std::vector<gpu::Instance> ordered;
+    ordered.reserve(instances.size());
+    for (uint32_t index : computeSpatialOrder(boxes))
+        ordered.push_back(instances[index]);
+    return ordered;
+}
+
+} // namespace
+
+Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
+    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
+      mPool(device), mReadback(device) {}
+
+VkDeviceAddress Renderer::uploadTables(ExtractedFrame& frame) {
+    const VkDeviceSize entitiesAt = alignTable(sizeof(shader::FrameConstants));
+    const VkDeviceSize entityBytes = frame.entities.size() * sizeof(shader::EntityRow);
+    const VkDeviceSize lightsAt = entitiesAt + alignTable(entityBytes);
+    const VkDeviceSize total = lightsAt + frame.lights.size() * sizeof(shader::LightRow);
+    if (mTables.bytes() < total)
+        mTables = gpu::Buffer(
+            mDevice,
+            "frame tables",
+            total + total / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Upload
+        );
+    frame.constants.entities = splitAddress(mTables.address() + entitiesAt);
+    frame.constants.lights = splitAddress(mTables.address() + lightsAt);
+    frame.constants.geometries = splitAddress(mScene.geometryTable());
+    frame.constants.materials = splitAddress(mScene.materialTable());
+    mTables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
+    mTables.write(std::span<const shader::EntityRow>(frame.entities), entitiesAt);
+    mTables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    return mTables.address();
+}
+
+void Renderer::declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays) {
+    mScene.buildBottomLevels();
+    const auto instances = makeInstances(frame, mScene);
+    mTopLevel.prepare(mDevice, instances);
+    rays.topLevel = mTopLevel.structure().handle();
+    const auto imported =
+        graph.importBuffer("top-level acceleration structure", mTopLevel.structure().buffer(), 0);
+
+    struct Data {};
+
+    graph.addPass<Data>(
+        "build top level",
+        graph::PassKind::Build,
+        [&](graph::PassBuilder& builder, Data&) {
+            rays.topLevelBuffer = builder.write(imported, graph::Access::AccelerationBuild);
+        },
+        [this](const Data&, graph::PassContext& context) {
+            mTopLevel.record(mDevice, context.commands);
+        }
+    );
+}
+
+void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
+    intermediates.publish("motion", gbuffer.motionDepth);
+    intermediates.publish("depth", gbuffer.motionDepth);
+    intermediates.publish("normal", gbuffer.normal);
+    intermediates.publish("mesh_id", gbuffer.meshId);
+}
+
+core::Result<FrameResult> Renderer::renderFrame(
+    const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+) {
+    const Clock::time_point start = Clock::now();
+    auto extracted = extractFrame(world, mScene.layout(), request.view);
+    if (!extracted)
+        return extracted.error();
+    ExtractedFrame& frame = extracted.value();
+
+    ViewFacts facts;
+    facts.width = request.view.width;
+    facts.height = request.view.height;
+    facts.moves = frame.moves;
+    facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
+    facts.rasterShare = request.view.exposure.rasterShare;
+    facts.deviceHasRays = mDevice.hasRays();
+    facts.displayWanted = request.wantDisplay;
+
+    FrameResult result;
+    std::vector<PostEffect*> running;
+    bool raysWanted = false;
+    for (PostEffect* effect : effects) {
+        const Decision decision = effect->ask(facts);
+        result.statistics.decisions[effect->name()] =
+            (decision.run ? "ran: " : "skipped: ") + decision.reason;
+        if (!decision.run)
+            continue;
+        running.push_back(effect);
+        raysWanted = raysWanted || effect->needsRays();
+    }
+
+    mFrame.begin();
+    mReadback.reset();
+    graph::Graph graph;
+    RayScene rays;
+    rays.frameConstants = uploadTables(frame);
+    rays.textures = mScene.textureSet();
+    if (raysWanted)
+        declareTopLevel(graph, frame, rays);
+    const GBuffer gbuffer = mGBufferPass.declare(graph, frame, mScene, rays.frameConstants);
+    Intermediates intermediates(request.intermediates);
+    publishGBuffer(gbuffer, intermediates);
+    PostContext context{
+        graph, facts, gbuffer, raysWanted ? &rays : nullptr, gbuffer.color, {}, intermediates};
+    for (PostEffect* effect : running)
+        effect->declare(context);
+
+    std::map<std::string, size_t> tickets;
+    for (const auto& [name, image] : intermediates.images())
+        tickets[name] = mReadback.add(graph, name, image);
+    size_t colorTicket = 0;
+    size_t displayTicket = 0;
+    if (request.wantColor)
+        colorTicket = mReadback.add(graph, "color", context.color);
+    const bool hasDisplay = request.wantDisplay && context.display.isValid();
+    if (hasDisplay)
+        displayTicket = mReadback.add(graph, "display", context.display);
+
+    auto plan = graph::execute(graph, mFrame, mPool);
+    if (!plan)
+        return plan.error();
+    mFrame.submit();
+    result.statistics.cpuMilliseconds = millisecondsSince(start);
+    result.statistics.passes = mFrame.waitForTimes();
+    result.statistics.wallMilliseconds = millisecondsSince(start);
+    result.statistics.transientBytes = mPool.heldBytes();
+    for (PostEffect* effect : running)
+        effect->collect(result.statistics.counters);
+    if (request.wantDump)
+        result.dump = graph::dump(graph, plan.value());
+    if (request.wantColor)
+        result.color = mReadback.take(colorTicket);
+    if (hasDisplay)
+        result.display = mReadback.take(displayTicket);
+    for (const auto& [name, ticket] : tickets)
+        result.intermediates[name] = mReadback.take(ticket);
+    return result;
+}
+
+} // namespace shutter::render

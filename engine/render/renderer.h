@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/acceleration_structure.h"
+#include "engine/gpu/frame.h"
+#include "engine/graph/transient_pool.h"
+#include "engine/image/image.h"
+#include "engine/render/extraction.h"
+#include "engine/render/gbuffer.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/render/post_effect.h"
+#include "engine/render/readback.h"
+
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+struct FrameRequest {
+    ViewRequest view;
+    std::set<std::string>
+        intermediates;        ///< names to read back; unknown ones stay out of the result
+    bool wantColor = true;    ///< read the linear picture back
+    bool wantDisplay = false; ///< read the display-encoded picture back
+    bool wantDump = false;    ///< describe the graph in FrameResult::dump
+};
+
+struct FrameStatistics {
+    std::vector<gpu::PassTime> passes; ///< in execution order
+    double cpuMilliseconds = 0.0;      ///< extraction, declaring, compiling, recording
+    double wallMilliseconds = 0.0;     ///< the whole frame with waiting for the GPU
+    Counters counters;
+    std::map<std::string, std::string> decisions; ///< effect -> "ran: ..." or "skipped: ..."
+    uint64_t transientBytes = 0;                  ///< memory of the graph's images
+};
+
+struct FrameResult {
+    image::Image color;   ///< linear, RGBA; empty unless wanted
+    image::Image display; ///< [0, 1], RGBA; empty unless wanted
+    std::map<std::string, image::Image> intermediates;
+    FrameStatistics statistics;
+    std::string dump;
+};
+
+/// Draws frames of one world's assets. Frames are recorded, submitted and waited for one by one
+/// (headless); effects are the caller's.
+class Renderer {
+  public:
+    Renderer(gpu::Device& device, const scene::Assets& assets);
+
+    [[nodiscard]] core::Result<FrameResult> renderFrame(
+        const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+    );
+
+    [[nodiscard]] const GpuScene& scene() const { return mScene; }
+
+  private:
+    VkDeviceAddress uploadTables(ExtractedFrame& frame);
+    void declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays);
+    void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
+
+    gpu::Device& mDevice;
+    GpuScene mScene;
+    GBufferPass mGBufferPass;
+    gpu::Frame mFrame;
+    graph::TransientPool mPool;
+    Readback mReadback;
+    gpu::Buffer mTables; ///< constants, entities and lights of the frame, mapped
+    gpu::TopLevel mTopLevel;
+};
+
+} // namespace shutter::render

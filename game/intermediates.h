@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/image/image.h"
+
+#include <filesystem>
+#include <string>
+
+namespace shutter::game {
+
+/// "folder/name.EXT" -> "folder/name.AOV.exr".
+[[nodiscard]] std::filesystem::path
+intermediateFile(const std::filesystem::path& out, const std::string& aov);
+
+/// Writes an intermediate with the channels that mean something, named.
+[[nodiscard]] core::Status writeIntermediate(
+    const std::filesystem::path& path, const std::string& aov, const image::Image& image
+);
+
+} // namespace shutter::game

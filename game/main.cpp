@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "engine/core/log.h"
+#include "engine/gpu/vulkan.h"
+#include "game/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+using namespace shutter;
+
+int main(int argc, char** argv) {
+    CLI::App app("Shutter: motion blur that is right", "shutter");
+    app.require_subcommand(1);
+    bool verbose = false;
+    app.add_flag("-v,--verbose", verbose, "say what was chosen and found");
+    app.parse_complete_callback([&] {
+        if (verbose)
+            core::setLogLevel(core::LogLevel::Info);
+    });
+    int exitStatus = game::kExitDone;
+    game::addRenderCommand(app, exitStatus);
+    game::addCompareCommand(app, exitStatus);
+    game::addInfoCommand(app, exitStatus);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) { // --help
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "shutter: {}\n", error.what());
+        return game::kExitUsage;
+    } catch (const gpu::DeviceError& error) {
+        fmt::print(stderr, "shutter: {}\n", error.what());
+        return game::kExitFailed;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "shutter: out of main memory\n");
+        return game::kExitFailed;
+    }
+    return exitStatus;
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "game/method_renderer.h"
+
+#include "game/statistics.h"
+
+#include <array>
+
+namespace shutter::game {
+
+core::Result<std::unique_ptr<MethodRenderer>>
+MethodRenderer::create(gpu::Device& device, const Shot& shot, const RenderOptions& options) {
+    if (options.method->needsRays && !device.hasRays())
+        return core::makeError(
+            "--method {} needs ray tracing, which {} lacks (VK_KHR_ray_query); gather does without",
+            options.method->name,
+            device.info().name
+        );
+    return std::unique_ptr<MethodRenderer>(new MethodRenderer(device, shot, options));
+}
+
+MethodRenderer::MethodRenderer(gpu::Device& device, const Shot& shot, const RenderOptions& options)
+    : mShot(shot), mOptions(options), mRenderer(device, shot.world.assets),
+      mTonemap(device, options.tonemap) {
+    if (options.method->id == MethodId::Gather || options.method->id == MethodId::Hybrid)
+        mMotionBlur = std::make_unique<motion_blur::MotionBlurPlugin>(
+            device, mRenderer.scene(), options.motionBlur
+        );
+    if (options.method->id == MethodId::Accumulate)
+        mAccumulate = std::make_unique<accumulate::Accumulate>(device);
+}
+
+uint32_t MethodRenderer::stepsPerPicture() const {
+    return mAccumulate ? mOptions.samples : 1;
+}
+
+core::Result<render::FrameResult>
+MethodRenderer::renderPicture(double seconds, const std::function<void()>& onStep) {
+    render::FrameRequest request;
+    request.view = makeView(mShot, mOptions, seconds);
+    request.intermediates = mOptions.aovs;
+    request.wantColor = !mOptions.displayOut;
+    request.wantDisplay = mOptions.displayOut;
+    request.wantDump = mOptions.dumpGraph;
+    if (mAccumulate)
+        return renderAccumulated(request, onStep);
+    std::vector<render::PostEffect*> effects;
+    if (mMotionBlur)
+        effects.push_back(mMotionBlur.get());
+    effects.push_back(&mTonemap);
+    auto result = mRenderer.renderFrame(mShot.world, request, effects);
+    onStep();
+    return result;
+}
+
+core::Result<render::FrameResult> MethodRenderer::renderAccumulated(
+    const render::FrameRequest& request, const std::function<void()>& onStep
+) {
+    const std::array<render::PostEffect*, 2> effects{mAccumulate.get(), &mTonemap};
+    const uint32_t count = mOptions.samples;
+    render::FrameStatistics total;
+    for (uint32_t i = 0; i < count; ++i) {
+        const bool last = i + 1 == count;
+        render::FrameRequest instant = request;
+        instant.view = accumulate::makeInstant(
+            request.view, request.view.exposure, i, count, mOptions.pixel, mOptions.seed
+        );
+        instant.wantColor = last && request.wantColor;
+        instant.wantDisplay = last && request.wantDisplay;
+        // Intermediates are the raster instant's, not an average: drawn below.
+        instant.intermediates.clear();
+        mAccumulate->setInstant(i, count);
+        auto result = mRenderer.renderFrame(mShot.world, instant, effects);
+        if (!result)
+            return result;
+        addStatistics(total, result.value().statistics);
+        onStep();
+        if (!last)
+            continue;
+        result.value().statistics = std::move(total);
+        if (!request.intermediates.empty()) {
+            render::FrameRequest raster = request;
+            raster.wantColor = raster.wantDisplay = false;
+            auto views = mRenderer.renderFrame(mShot.world, raster, {});
+            if (!views)
+                return views;
+            result.value().intermediates = std::move(views.value().intermediates);
+        }
+        return result;
+    }
+    return core::makeError("--samples 0: accumulate needs at least one instant");
+}
+
+} // namespace shutter::game

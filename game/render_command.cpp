@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "engine/core/log.h"
+#include "engine/core/progress.h"
+#include "engine/gpu/device.h"
+#include "engine/io/image_file.h"
+#include "game/cache_folder.h"
+#include "game/commands.h"
+#include "game/intermediates.h"
+#include "game/method_renderer.h"
+#include "game/render_options.h"
+#include "game/shot.h"
+#include "game/statistics.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace shutter::game {
+
+namespace {
+
+core::Status
+writePicture(const RenderOptions& options, int frameNumber, const render::FrameResult& result) {
+    const std::filesystem::path file = frameFile(options.out, frameNumber);
+    image::Image picture = options.displayOut ? result.display : result.color;
+    if (!options.displayOut)
+        picture.channelNames = {"R", "G", "B", "A"};
+    if (core::Status written = io::writeImage(file, picture); !written)
+        return written;
+    for (const std::string& aov : options.aovs) {
+        const auto found = result.intermediates.find(aov);
+        if (found == result.intermediates.end()) {
+            core::logWarning(
+                "--aov {} is not written: motion blur was {}",
+                aov,
+                result.statistics.decisions.at("motion blur")
+            );
+            continue;
+        }
+        core::Status written = writeIntermediate(intermediateFile(file, aov), aov, found->second);
+        if (!written)
+            return written;
+    }
+    return {};
+}
+
+/// With --repeat, the picture drawn first warms the driver up and is not timed.
+core::Result<render::FrameResult> renderRepeated(
+    MethodRenderer& renderer, const RenderOptions& options, double seconds, core::Progress& progress
+) {
+    const auto onStep = [&] { progress.advance(); };
+    auto result = renderer.renderPicture(seconds, onStep);
+    if (options.repeat <= 1 || !result)
+        return result;
+    std::vector<render::FrameStatistics> frames;
+    for (uint32_t i = 0; i < options.repeat; ++i) {
+        result = renderer.renderPicture(seconds, onStep);
+        if (!result)
+            return result;
+        frames.push_back(result.value().statistics);
+    }
+    result.value().statistics = computeMedian(frames);
+    return result;
+}
+
+core::Status renderAll(const RenderOptions& options, gpu::Device& device) {
+    auto shot = loadShot(options);
+    if (!shot)
+        return shot.error();
+    auto created = MethodRenderer::create(device, shot.value(), options);
+    if (!created)
+        return created.error();
+    MethodRenderer& renderer = *created.value();
+
+    const uint64_t draws = options.repeat > 1 ? options.repeat + 1 : 1;
+    core::Progress progress(
+        "rendering", options.frameTimes.size() * renderer.stepsPerPicture() * draws
+    );
+    std::vector<PictureStatistics> pictures;
+    for (size_t i = 0; i < options.frameTimes.size(); ++i) {
+        auto result = renderRepeated(renderer, options, options.frameTimes[i], progress);
+        if (!result)
+            return result.error();
+        const int number = options.firstFrame + static_cast<int>(i);
+        if (i == 0 && options.dumpGraph)
+            fmt::print("{}", result.value().dump);
+        if (core::Status written = writePicture(options, number, result.value()); !written)
+            return written;
+        pictures.push_back({options.frameTimes[i], result.value().statistics});
+    }
+    if (options.stats.empty())
+        return {};
+    return writeStatistics(options.stats, options, device.info(), pictures);
+}
+
+int fail(int status, const core::Error& error) {
+    fmt::print(stderr, "shutter: {}\n", error.message);
+    return status;
+}
+
+int runRender(const RenderArguments& arguments) {
+    auto options = interpret(arguments);
+    if (!options)
+        return fail(kExitUsage, options.error());
+    gpu::DeviceOptions deviceOptions;
+    deviceOptions.wanted = options.value().device;
+    deviceOptions.validate = options.value().validate;
+    deviceOptions.cacheFolder = findCacheFolder();
+    auto device = gpu::Device::create(deviceOptions);
+    if (!device)
+        return fail(kExitFailed, device.error());
+    if (core::Status done = renderAll(options.value(), *device.value()); !done)
+        return fail(kExitFailed, done.error());
+    if (const uint32_t messages = device.value()->validationMessageCount(); messages > 0)
+        return fail(kExitFailed, core::makeError("{} Vulkan validation messages", messages));
+    return kExitDone;
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& app, int& exitStatus) {
+    CLI::App* command = app.add_subcommand("render", "render frames without a window");
+    auto arguments = std::make_shared<RenderArguments>();
+    defineRenderOptions(*command, *arguments);
+    command->callback([arguments, &exitStatus] { exitStatus = runRender(*arguments); });
+}
+
+} // namespace shutter::game

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "game/render_options.h"
+
+#include "engine/io/image_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
+namespace shutter::game {
+
+namespace {
+
+using core::makeError;
+using core::Result;
+using core::Status;
+
+constexpr uint32_t kMaxSize = 16384;
+constexpr uint32_t kMaxSamples = 65536;
+constexpr int kMaxFrames = 1000000;
+constexpr double kDefaultExposureSeconds = 1.0 / 60.0;
+
+/// A whole string as a finite number.
+std::optional<double> parseNumber(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    size_t start = 0;
+    for (size_t at; (at = text.find(separator, start)) != std::string::npos; start = at + 1)
+        parts.push_back(text.substr(start, at - start));
+    parts.push_back(text.substr(start));
+    return parts;
+}
+
+Result<math::vec3> parseColor(const char* option, const std::string& text) {
+    const auto parts = splitAt(text, ',');
+    math::vec3 color(0.0f);
+    if (parts.size() != 3)
+        return makeError("{} '{}' is not R,G,B", option, text);
+    for (int i = 0; i < 3; ++i) {
+        const auto value = parseNumber(parts[static_cast<size_t>(i)]);
+        if (!value || *value < 0.0)
+            return makeError("{} '{}' is not R,G,B of numbers of 0 or more", option, text);
+        color[i] = static_cast<float>(*value);
+    }
+    return color;
+}
+
+Status parseSize(const std::string& text, RenderOptions& options) {
+    static const std::regex kPattern("([0-9]{1,6})x([0-9]{1,6})");
+    std::smatch match;
+    if (!std::regex_match(text, match, kPattern))
+        return makeError("--size '{}' is not WxH, e.g. 1280x720", text);
+    options.width = static_cast<uint32_t>(std::stoul(match[1]));
+    options.height = static_cast<uint32_t>(std::stoul(match[2]));
+    if (options.width < 1 || options.height < 1 || options.width > kMaxSize ||
+        options.height > kMaxSize)
+        return makeError("--size {} must lie between 1x1 and {}x{}", text, kMaxSize, kMaxSize);
+    return {};
+}
+
+Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
+    if (!std::isfinite(arguments.time))
+        return makeError("--time is not a number");
+    if (!(arguments.fps > 0.0) || !std::isfinite(arguments.fps))
+        return makeError("--fps {} must be above 0", arguments.fps);
+    if (arguments.frames.empty()) {
+        options.frameTimes = {arguments.time};
+        return {};
+    }
+    static const std::regex kPattern("(-?[0-9]{1,7}):(-?[0-9]{1,7})");
+    std::smatch match;
+    if (!std::regex_match(arguments.frames, match, kPattern))
+        return makeError("--frames '{}' is not A:B, e.g. 0:23", arguments.frames);
+    const int first = std::stoi(match[1]);
+    const int last = std::stoi(match[2]);
+    if (last < first)
+        return makeError("--frames {}: the last comes before the first", match.str());
+    if (last - first >= kMaxFrames)
+        return makeError("--frames {} are too many", match.str());
+    options.isSequence = true;
+    options.firstFrame = first;
+    for (int frame = first; frame <= last; ++frame)
+        options.frameTimes.push_back(frame / arguments.fps);
+    return {};
+}
+
+Status parseShutter(const RenderArguments& arguments, RenderOptions& options) {
+    if (arguments.exposureSeconds && arguments.shutterAngle)
+        return makeError("--exposure and --shutter-angle exclude each other");
+    double exposure = arguments.exposureSeconds.value_or(kDefaultExposureSeconds);
+    if (arguments.shutterAngle)
+        exposure = *arguments.shutterAngle / 360.0 / arguments.fps;
+    if (!(exposure >= 0.0) || !std::isfinite(exposure))
+        return makeError(
+            "{} must be 0 or more", arguments.shutterAngle ? "--shutter-angle" : "--exposure"
+        );
+    options.shutter.exposureSeconds = exposure;
+    using scene::ShutterPhase;
+    if (arguments.phase == "start")
+        options.shutter.phase = ShutterPhase::Start;
+    else if (arguments.phase == "centre")
+        options.shutter.phase = ShutterPhase::Centre;
+    else if (arguments.phase == "end")
+        options.shutter.phase = ShutterPhase::End;
+    else
+        return makeError("--phase '{}' is not one of start, centre, end", arguments.phase);
+    return {};
+}
+
+/// --set NAME=VALUE; names are MotionBlurSettings' fields.
+Status applySetting(const std::string& text, motion_blur::MotionBlurSettings& settings) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+        return makeError("--set '{}' is not NAME=VALUE", text);
+    const std::string name = text.substr(0, equals);
+    const std::string value = text.substr(equals + 1);
+    if (name == "objectTest") {
+        if (value == "mesh_id")
+            settings.objectTest = motion_blur::ObjectTest::MeshId;
+        else if (value == "luminance")
+            settings.objectTest = motion_blur::ObjectTest::Luminance;
+        else
+            return makeError("--set objectTest: '{}' is not mesh_id or luminance", value);
+        return {};
+    }
+    const std::vector<std::pair<const char*, uint32_t*>> counts = {
+        {"tileSizePx", &settings.tileSizePx},
+        {"neighbourhoodTiles", &settings.neighbourhoodTiles},
+        {"recursionLimit", &settings.recursionLimit},
+    };
+    const std::vector<std::pair<const char*, float*>> numbers = {
+        {"softDepthExtent", &settings.softDepthExtent},
+        {"edgeThreshold", &settings.edgeThreshold},
+        {"luminanceThreshold", &settings.luminanceThreshold},
+        {"foregroundMagnification", &settings.foregroundMagnification},
+        {"backgroundMagnification", &settings.backgroundMagnification},
+        {"jitter", &settings.jitter},
+    };
+    const auto number = parseNumber(value);
+    if (!number)
+        return makeError("--set {}: '{}' is not a number", name, value);
+    for (const auto& [field, target] : counts)
+        if (name == field) {
+            if (*number < 0.0 || *number > 1e6 || *number != std::floor(*number))
+                return makeError("--set {}: {} is not a whole number", name, value);
+            *target = static_cast<uint32_t>(*number);
+            return {};
+        }
+    for (const auto& [field, target] : numbers)
+        if (name == field) {
+            *target = static_cast<float>(*number);
+            return {};
+        }
+    return makeError("--set: there is no setting '{}'", name);
+}
+
+Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
+    auto method = findMethod(arguments.method);
+    if (!method)
+        return method.error();
+    options.method = method.value();
+    if (arguments.samples > kMaxSamples)
+        return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
+    options.samples = arguments.samples > 0 ? arguments.samples : options.method->defaultSamples;
+    if (options.method->id != MethodId::Accumulate)
+        options.motionBlur.sampleCount = std::max(options.samples, 1u);
+    if (arguments.pixel == "box")
+        options.pixel = accumulate::PixelModel::Box;
+    else if (arguments.pixel != "centre")
+        return makeError("--pixel '{}' is not one of centre, box", arguments.pixel);
+    if (options.pixel == accumulate::PixelModel::Box && options.method->id != MethodId::Accumulate)
+        return makeError("--pixel box needs a method that takes many samples a pixel: accumulate");
+    for (const std::string& setting : arguments.settings)
+        if (Status applied = applySetting(setting, options.motionBlur); !applied)
+            return applied;
+    options.motionBlur.method = options.method->id == MethodId::Hybrid
+                                    ? motion_blur::Method::Hybrid
+                                    : motion_blur::Method::Gather;
+    return motion_blur::validate(options.motionBlur);
+}
+
+Status parseAovs(const RenderArguments& arguments, RenderOptions& options) {
+    if (arguments.aov.empty())
+        return {};
+    std::set<std::string> known = {"motion", "depth", "normal", "mesh_id"};
+    known.insert(options.method->aovs.begin(), options.method->aovs.end());
+    for (const std::string& name : splitAt(arguments.aov, ',')) {
+        if (!known.contains(name))
+            return makeError(
+                "--aov '{}' is not written by method {}, which has {}",
+                name,
+                options.method->name,
+                fmt::join(known, ", ")
+            );
+        options.aovs.insert(name);
+    }
+    return {};
+}
+
+Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
+    options.out = arguments.out;
+    auto display = io::isDisplayFormat(options.out);
+    if (!display)
+        return core::makeError("--out: {}", display.error().message);
+    options.displayOut = display.value();
+    if (options.isSequence && options.frameTimes.size() > 1 &&
+        frameFile(options.out, 0) == frameFile(options.out, 1))
+        return makeError("--out '{}' needs a frame number such as %04d", arguments.out);
+    if (Status writable = io::checkWritable(frameFile(options.out, options.firstFrame)); !writable)
+        return core::makeError("--out: {}", writable.error().message);
+    if (arguments.tonemap == "neutral")
+        options.tonemap.op = tonemap::Operator::Neutral;
+    else if (arguments.tonemap == "none")
+        options.tonemap.op = tonemap::Operator::None;
+    else
+        return makeError("--tonemap '{}' is not one of neutral, none", arguments.tonemap);
+    // Unlit pictures show the materials' own colours.
+    if (arguments.unlit)
+        options.tonemap.op = tonemap::Operator::None;
+    if (!(std::abs(arguments.exposureValue) <= 32.0))
+        return makeError("--ev must lie in [-32, 32]");
+    options.tonemap.exposureValue = arguments.exposureValue;
+    return {};
+}
+
+} // namespace
+
+void defineRenderOptions(CLI::App& command, RenderArguments& a) {
+    command.add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+    command.add_option("--out", a.out, ".exr (linear), .png or .jpg; %04d for sequences")
+        ->required();
+    command.add_option(
+        "--camera", a.camera, "name or index; default: the first, or one made to fit"
+    );
+    auto* time = command.add_option("--time", a.time, "seconds; default 0");
+    command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
+        ->excludes(time);
+    command.add_option("--fps", a.fps, "F, frames a second; default 24");
+    command.add_option("--clip", a.clips, "clip to play (repeatable), or none; default: all");
+    command.add_flag("--loop", a.loop, "clips start again at their ends; default: hold");
+    command.add_option("--exposure", a.exposureSeconds, "seconds; default 1/60");
+    command.add_option("--shutter-angle", a.shutterAngle, "degrees of a frame at F");
+    command.add_option("--phase", a.phase, "raster instant: start, centre or end (default)");
+    command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
+    command.add_option("--samples", a.samples, "taps (gather, hybrid) or instants (accumulate)");
+    command.add_option("--pixel", a.pixel, "centre (default) or box");
+    command.add_option("--seed", a.seed, "of the sample places of --pixel box");
+    command.add_option("--size", a.size, "WxH; default 1280x720");
+    command.add_flag("--unlit", a.unlit, "base colour only");
+    command.add_option("--background", a.background, "R,G,B linear; default 0.18,0.18,0.18");
+    command.add_option("--ambient", a.ambient, "uniform light, R,G,B; default 0.25,0.25,0.25");
+    command.add_option("--ev", a.exposureValue, "stops of exposure before tone mapping; default 0");
+    command.add_option("--tonemap", a.tonemap, "neutral (default) or none");
+    command.add_option(
+        "--set", a.settings, "NAME=VALUE of the motion blur's settings (repeatable)"
+    );
+    command.add_option("--aov", a.aov, "intermediates to write beside --out, comma-separated");
+    command.add_option("--stats", a.stats, "times and counters as JSON");
+    command.add_option("--device", a.device, "name or index, see `shutter info --devices`");
+    command.add_flag("--validate", a.validate, "Vulkan validation; a message is a failure");
+    command.add_flag("--dump-graph", a.dumpGraph, "print the render graph of the first frame");
+    command.add_option("--repeat", a.repeat, "draw each frame N times more, report median times")
+        ->check(CLI::Range(1u, 1000u));
+}
+
+core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
+    RenderOptions options;
+    options.scene = arguments.scene;
+    options.camera = arguments.camera;
+    options.clips = arguments.clips;
+    options.loop = arguments.loop;
+    options.seed = arguments.seed;
+    options.unlit = arguments.unlit;
+    options.device = arguments.device;
+    options.validate = arguments.validate;
+    options.dumpGraph = arguments.dumpGraph;
+    options.repeat = arguments.repeat;
+    options.stats = arguments.stats;
+    using Step = Status (*)(const RenderArguments&, RenderOptions&);
+    const Step parseSizeOption = [](const RenderArguments& a, RenderOptions& o) {
+        return parseSize(a.size, o);
+    };
+    for (const Step step :
+         {parseSizeOption,
+          Step(parseTimes),
+          Step(parseShutter),
+          Step(parseMethod),
+          Step(parseAovs),
+          Step(parseOutput)})
+        if (Status parsed = step(arguments, options); !parsed)
+            return parsed.error();
+    auto background = parseColor("--background", arguments.background);
+    if (!background)
+        return background.error();
+    options.background = background.value();
+    auto ambient = parseColor("--ambient", arguments.ambient);
+    if (!ambient)
+        return ambient.error();
+    options.ambient = ambient.value();
+    return options;
+}
+
+std::filesystem::path frameFile(const std::filesystem::path& pattern, int frameNumber) {
+    static const std::regex kNumber("%0?([0-9]?)d");
+    const std::string text = pattern.string();
+    std::smatch match;
+    if (!std::regex_search(text, match, kNumber))
+        return pattern;
+    const int width = match[1].length() > 0 ? std::stoi(match[1]) : 0;
+    return match.prefix().str() + fmt::format("{:0{}}", frameNumber, width) + match.suffix().str();
+}
+
+} // namespace shutter::game

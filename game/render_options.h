@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// `shutter render`'s options as a person types them, and what they mean.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/math/math.h"
+#include "engine/scene/components.h"
+#include "game/methods.h"
+#include "modules/accumulate/accumulate.h"
+#include "modules/motion_blur/settings.h"
+#include "modules/tonemap/tonemap.h"
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace shutter::game {
+
+/// As typed.
+struct RenderArguments {
+    std::string scene;
+    std::string camera;
+    double time = 0.0;
+    std::string frames;
+    double fps = 24.0;
+    std::vector<std::string> clips;
+    bool loop = false;
+    std::optional<double> exposureSeconds;
+    std::optional<double> shutterAngle;
+    std::string phase = "end";
+    std::string method = "hybrid";
+    uint32_t samples = 0;
+    std::string pixel = "centre";
+    uint32_t seed = 0;
+    std::string size = "1280x720";
+    bool unlit = false;
+    std::string background = "0.18,0.18,0.18";
+    std::string ambient = "0.25,0.25,0.25";
+    double exposureValue = 0.0;
+    std::string tonemap = "neutral";
+    std::vector<std::string> settings;
+    std::string out;
+    std::string aov;
+    std::string stats;
+    std::string device;
+    bool validate = false;
+    bool dumpGraph = false;
+    uint32_t repeat = 1;
+};
+
+/// As meant: checked, in engine terms.
+struct RenderOptions {
+    std::filesystem::path scene;
+    std::string camera;
+    std::vector<double> frameTimes; ///< seconds
+    int firstFrame = 0;             ///< number of the first file of a sequence
+    bool isSequence = false;        ///< --frames was given
+    std::vector<std::string> clips;
+    bool loop = false;
+    scene::CameraShutter shutter;
+    const MethodInfo* method = nullptr;
+    uint32_t samples = 0;
+    accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
+    uint32_t seed = 0;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool unlit = false;
+    math::vec3 background{0.0f};
+    math::vec3 ambient{0.0f};
+    tonemap::TonemapSettings tonemap;
+    motion_blur::MotionBlurSettings motionBlur;
+    std::filesystem::path out;
+    bool displayOut = false; ///< .png or .jpg: tone-mapped; otherwise linear
+    std::set<std::string> aovs;
+    std::filesystem::path stats;
+    std::string device;
+    bool validate = false;
+    bool dumpGraph = false;
+    uint32_t repeat = 1;
+};
+
+void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
+
+/// Checks everything that needs no file but the output's folder. Error: names the option.
+[[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
+
+/// --out's file of one frame: %04d (any width) replaced by the frame's number.
+[[nodiscard]] std::filesystem::path
+frameFile(const std::filesystem::path& pattern, int frameNumber);
+
+} // namespace shutter::game

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// A scene with the camera, clips and shutter a person asked for.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/extraction.h"
+#include "engine/scene/world.h"
+#include "game/render_options.h"
+
+namespace shutter::game {
+
+struct Shot {
+    scene::World world;
+    ecs::Entity camera;
+};
+
+/// Loads the scene (its warnings are logged), picks or makes the camera, puts the shutter on it,
+/// selects clips, and lights a scene that has no light of its own.
+[[nodiscard]] core::Result<Shot> loadShot(const RenderOptions& options);
+
+/// The shot's view of the frame at `seconds`.
+[[nodiscard]] render::ViewRequest
+makeView(const Shot& shot, const RenderOptions& options, double seconds);
+
+} // namespace shutter::game

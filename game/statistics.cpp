@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "game/statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace shutter::game {
+
+namespace {
+
+double medianOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
+}
+
+nlohmann::json describePicture(const PictureStatistics& picture) {
+    const render::FrameStatistics& frame = picture.frame;
+    nlohmann::json passes = nlohmann::json::array();
+    double gpu = 0.0;
+    for (const gpu::PassTime& pass : frame.passes) {
+        passes.push_back(
+            {{"name", pass.name},
+             {"gpu_ms", pass.gpuMilliseconds},
+             {"cpu_ms", pass.cpuMilliseconds}}
+        );
+        gpu += pass.gpuMilliseconds;
+    }
+    nlohmann::json counters = nlohmann::json::object();
+    for (const auto& [name, value] : frame.counters)
+        counters[name] = value;
+    return {
+        {"time_s", picture.seconds},
+        {"gpu_ms", gpu},
+        {"cpu_ms", frame.cpuMilliseconds},
+        {"wall_ms", frame.wallMilliseconds},
+        {"transient_bytes", frame.transientBytes},
+        {"passes", passes},
+        {"counters", counters},
+        {"decisions", frame.decisions}};
+}
+
+} // namespace
+
+void addStatistics(render::FrameStatistics& total, const render::FrameStatistics& frame) {
+    for (const gpu::PassTime& pass : frame.passes) {
+        const auto known = std::find_if(total.passes.begin(), total.passes.end(), [&](auto& p) {
+            return p.name == pass.name;
+        });
+        if (known == total.passes.end()) {
+            total.passes.push_back(pass);
+            continue;
+        }
+        known->gpuMilliseconds += pass.gpuMilliseconds;
+        known->cpuMilliseconds += pass.cpuMilliseconds;
+    }
+    total.cpuMilliseconds += frame.cpuMilliseconds;
+    total.wallMilliseconds += frame.wallMilliseconds;
+    for (const auto& [name, value] : frame.counters)
+        total.counters[name] += value;
+    total.decisions = frame.decisions;
+    total.transientBytes = std::max(total.transientBytes, frame.transientBytes);
+}
+
+render::FrameStatistics computeMedian(const std::vector<render::FrameStatistics>& frames) {
+    render::FrameStatistics median = frames.back();
+    const auto over = [&](auto pick) {
+        std::vector<double> values;
+        for (const auto& frame : frames)
+            values.push_back(pick(frame));
+        return medianOf(std::move(values));
+    };
+    for (size_t i = 0; i < median.passes.size(); ++i) {
+        median.passes[i].gpuMilliseconds =
+            over([&](const auto& frame) { return frame.passes.at(i).gpuMilliseconds; });
+        median.passes[i].cpuMilliseconds =
+            over([&](const auto& frame) { return frame.passes.at(i).cpuMilliseconds; });
+    }
+    median.cpuMilliseconds = over([](const auto& frame) { return frame.cpuMilliseconds; });
+    median.wallMilliseconds = over([](const auto& frame) { return frame.wallMilliseconds; });
+    return median;
+}
+
+core::Status writeStatistics(
+    const std::filesystem::path& path,
+    const RenderOptions& options,
+    const gpu::DeviceInfo& device,
+    const std::vector<PictureStatistics>& pictures
+) {
+    nlohmann::json root = {
+        {"scene", options.scene.string()},
+        {"method", options.method->name},
+        {"samples", options.samples},
+        {"width", options.width},
+        {"height", options.height},
+        {"exposure_s", options.shutter.exposureSeconds},
+        {"device", device.name},
+        {"driver", device.driver},
+        {"repeat", options.repeat},
+        {"pictures", nlohmann::json::array()}};
+    for (const PictureStatistics& picture : pictures)
+        root["pictures"].push_back(describePicture(picture));
+    std::ofstream file(path);
+    // A scene's name need not be UTF-8; what is not is replaced.
+    file << root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    file.close();
+    if (!file)
+        return core::makeError("--stats: cannot write '{}'", path.string());
+    return {};
+}
+
+} // namespace shutter::game

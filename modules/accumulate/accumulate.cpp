@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "modules/accumulate/accumulate.h"
+
+#include "spirv/accumulate/accumulate.comp.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/frame.h"
+#include "engine/graph/execute.h"
+#include "shaders/accumulate/accumulate_shared.h"
+
+#include <cmath>
+
+namespace shutter::accumulate {
+
+namespace {
+
+gpu::ComputePipelineDesc describePipeline() {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "accumulate";
+    desc.spirv = accumulate_accumulate_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
+    return desc;
+}
+
+/// Van der Corput radical inverse of `index` in `base`: [0, 1).
+double radicalInverse(uint32_t index, uint32_t base) {
+    double result = 0.0;
+    double digit = 1.0 / base;
+    for (; index > 0; index /= base, digit /= base)
+        result += digit * (index % base);
+    return result;
+}
+
+/// Cranley-Patterson shift of a seed, [0, 1); 0 for seed 0.
+double seedShift(uint32_t seed, double irrational) {
+    const double shift = seed * irrational;
+    return shift - std::floor(shift);
+}
+
+double wrap(double x) {
+    return x - std::floor(x);
+}
+
+} // namespace
+
+render::ViewRequest makeInstant(
+    const render::ViewRequest& view,
+    const scene::ExposureInterval& exposure,
+    uint32_t index,
+    uint32_t count,
+    PixelModel pixel,
+    uint32_t seed
+) {
+    SHUTTER_CHECK(index < count, "{} of {}", index, count);
+    render::ViewRequest instant = view;
+    const double seconds = exposure.at((index + 0.5) / count);
+    instant.exposure = {seconds, seconds, seconds, exposure.rasterShare};
+    if (pixel == PixelModel::Centre)
+        return instant;
+    instant.jitterPx = {
+        wrap(radicalInverse(index, 2) + 0.5 / count + seedShift(seed, 0.7548776662466927)) - 0.5,
+        wrap(radicalInverse(index, 3) + 0.5 / count + seedShift(seed, 0.5698402909980532)) - 0.5};
+    instant.lodBias = view.lodBias - 0.5f * std::log2(static_cast<float>(count));
+    return instant;
+}
+
+Accumulate::Accumulate(gpu::Device& device)
+    : mDevice(device), mPipeline(device, describePipeline()) {}
+
+void Accumulate::setInstant(uint32_t index, uint32_t count) {
+    SHUTTER_CHECK(index < count, "{} of {}", index, count);
+    mIndex = index;
+    mCount = count;
+}
+
+render::Decision Accumulate::ask(const render::ViewFacts&) const {
+    return {true, "every instant is added"};
+}
+
+void Accumulate::declare(render::PostContext& context) {
+    struct Data {
+        graph::ImageHandle color;
+        graph::ImageHandle sum;
+    };
+
+    const render::ViewFacts& facts = context.facts;
+    if (mIndex == 0 || mSum.desc().width != facts.width || mSum.desc().height != facts.height) {
+        SHUTTER_CHECK(mIndex == 0, "the picture's size changed between instants");
+        gpu::ImageDesc desc;
+        desc.width = facts.width;
+        desc.height = facts.height;
+        desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+        desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+        if (!(mSum.desc() == desc))
+            mSum = gpu::Image(mDevice, "accumulated color", desc);
+    }
+    const bool last = mIndex + 1 == mCount;
+    shader::AccumulateParams params{};
+    params.sizePx = {facts.width, facts.height};
+    params.index = mIndex;
+    params.scale = last ? 1.0f / static_cast<float>(mCount) : 1.0f;
+    const auto imported = context.graph.importImage(
+        "accumulated color",
+        mSum,
+        mIndex == 0 ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL,
+        VK_IMAGE_LAYOUT_GENERAL
+    );
+    const Data& pass = context.graph.addPass<Data>(
+        "accumulate",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.color = builder.read(context.color, graph::Access::SampledCompute);
+            data.sum = builder.write(imported, graph::Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& recording) {
+            gpu::BindingList bindings;
+            bindings.sampled(recording.resources.view(data.color), mDevice.nearestSampler())
+                .storage(recording.resources.view(data.sum));
+            recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
+            vkCmdDispatch(
+                recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
+            );
+        }
+    );
+    if (last)
+        context.color = pass.sum;
+}
+
+} // namespace shutter::accumulate

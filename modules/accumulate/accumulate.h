@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Brute-force truth: M sharp frames at M instants of the exposure, averaged (Korein and Badler
+// 1983; Haeberli and Akeley 1990). Slow and right; what the other methods are held against.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/extraction.h"
+#include "engine/render/post_effect.h"
+#include "engine/scene/motion.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace shutter::accumulate {
+
+/// Where inside the pixel an instant is seen.
+enum class PixelModel : uint8_t {
+    Centre, ///< at the centre: isolates motion from anti-aliasing
+    Box,    ///< anywhere, evenly: a box filter one pixel wide
+};
+
+/// The i-th of `count` sharp views: time stratified over the exposure (the middle of each stratum),
+/// place in the pixel by a (2, 3)-Halton sequence, so that the two together are a Hammersley set.
+/// Box also sharpens textures to what `count` samples can resolve.
+/// \param seed another seed gives another set of places
+[[nodiscard]] render::ViewRequest makeInstant(
+    const render::ViewRequest& view,
+    const scene::ExposureInterval& exposure,
+    uint32_t index,
+    uint32_t count,
+    PixelModel pixel,
+    uint32_t seed
+);
+
+/// Adds each frame's colour to a sum. Call setInstant() before each frame; in the last one the
+/// context's colour becomes the mean.
+class Accumulate : public render::PostEffect {
+  public:
+    explicit Accumulate(gpu::Device& device);
+
+    /// \param index below `count`
+    void setInstant(uint32_t index, uint32_t count);
+
+    [[nodiscard]] std::string name() const override { return "accumulate"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    void declare(render::PostContext& context) override;
+
+  private:
+    gpu::Device& mDevice;
+    gpu::Pipeline mPipeline;
+    gpu::Image mSum; ///< RGBA32F, in GENERAL layout between frames
+    uint32_t mIndex = 0;
+    uint32_t mCount = 1;
+};
+
+} // namespace shutter::accumulate

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Hybrid motion blur as a post effect on a render graph: what an engine gives, what it gets.
+//
+// Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
+// (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the
+// sky too. `depth` is metres along the view direction, kSkyDepth (1e9) where nothing is. The mesh
+// id is the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/gather.h"
+#include "modules/motion_blur/passes/ray_mask.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
+#include "modules/motion_blur/passes/tile_motion.h"
+#include "modules/motion_blur/settings.h"
+
+#include <memory>
+#include <optional>
+
+namespace shutter::motion_blur {
+
+struct MotionBlurInputs {
+    graph::ImageHandle color;            ///< RGBA16F
+    graph::ImageHandle motionDepth;      ///< RGBA32F: motion.xy, depth
+    graph::ImageHandle normal;           ///< RGBA16F: xyz unit; read by the ray mask only
+    graph::ImageHandle meshId;           ///< R32_UINT; read by mask and reveal only
+    double rasterShare = 1.0;            ///< s of the raster instant: 0 start, 0.5 centre, 1 end
+    std::optional<RayInputs> rays;       ///< Method::Hybrid needs them (CHECKed)
+    bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
+};
+
+/// The blurred picture, and every intermediate for debug views; those of a method that did not run
+/// are invalid handles.
+struct MotionBlurOutputs {
+    graph::ImageHandle color;             ///< RGBA16F
+    graph::ImageHandle tiles;             ///< RG32F, one texel a tile: longest motion
+    graph::ImageHandle dominant;          ///< RG32F, one texel a tile: longest of the neighbourhood
+    graph::ImageHandle edge;              ///< RGBA8: candidate, edge measure, edge
+    graph::ImageHandle mask;              ///< R8: 1 inside the ray mask
+    graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
+    graph::ImageHandle revealMotionDepth; ///< RGBA32F
+    graph::ImageHandle revealMeshId;      ///< R32_UINT
+};
+
+/// What the GPU counted in the last frame.
+struct MotionBlurCounters {
+    uint32_t maskedPixels = 0;
+    uint32_t raysTraced = 0;
+};
+
+/// Holds the pipelines; images belong to the graph.
+class MotionBlur {
+  public:
+    /// \param sceneLayout layout of the descriptor set in RayInputs::scene; null: no rays, then
+    /// only Method::Gather can run
+    MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
+
+    /// Declares the passes. Settings must be valid (CHECKed).
+    MotionBlurOutputs
+    add(graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurSettings& settings);
+
+    /// Of the frame declared last, once the GPU is done with it.
+    [[nodiscard]] MotionBlurCounters counters() const;
+
+  private:
+    TileMotion mTileMotion;
+    Gather mGather;
+    std::unique_ptr<RayMask> mRayMask;
+    std::unique_ptr<RayReveal> mRayReveal;
+};
+
+} // namespace shutter::motion_blur

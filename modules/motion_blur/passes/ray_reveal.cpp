@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/ray_reveal.h"
+
+#include "spirv/motion_blur/reveal.comp.h"
+
+#include "modules/motion_blur/passes/dispatch.h"
+
+#include <array>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout) {
+    gpu::ComputePipelineDesc desc = describePass(
+        "ray reveal",
+        motion_blur_reveal_comp,
+        {VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+         kSampled,
+         kSampled,
+         kSampled,
+         kStorage,
+         kStorage,
+         kStorage,
+         kBuffer}
+    );
+    desc.interface.sceneLayout = sceneLayout;
+    return desc;
+}
+
+void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
+    VkImageCopy region{};
+    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.dstSubresource = region.srcSubresource;
+    region.extent = {source.desc().width, source.desc().height, 1};
+    vkCmdCopyImage(
+        commands,
+        source.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        target.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        1,
+        &region
+    );
+}
+
+} // namespace
+
+RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
+    : mSampler(device.nearestSampler()), mReveal(device, describeReveal(sceneLayout)),
+      mHeader(
+          device, "ray mask counters", sizeof(shader::MaskHeader), 0, gpu::MemoryUse::Readback
+      ) {}
+
+RayRevealOutputs RayReveal::copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const {
+    using graph::Access;
+
+    struct Data {
+        std::array<graph::ImageHandle, 3> sources;
+        std::array<graph::ImageHandle, 3> targets;
+    };
+
+    const Data& copied = graph.addPass<Data>(
+        "copy layer",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.sources = {inputs.color, inputs.motionDepth, inputs.meshId};
+            const std::array names{"reveal color", "reveal motion depth", "reveal mesh id"};
+            for (size_t i = 0; i < names.size(); ++i) {
+                builder.read(data.sources[i], Access::TransferRead);
+                const auto image =
+                    graph.createImage(names[i], graph.describeImage(data.sources[i]));
+                data.targets[i] = builder.write(image, Access::TransferWrite);
+            }
+        },
+        [](const Data& data, graph::PassContext& context) {
+            for (size_t i = 0; i < data.sources.size(); ++i)
+                copyWhole(
+                    context.commands,
+                    context.resources.image(data.sources[i]),
+                    context.resources.image(data.targets[i])
+                );
+        }
+    );
+    return {copied.targets[0], copied.targets[1], copied.targets[2]};
+}
+
+RayRevealOutputs RayReveal::add(
+    graph::Graph& graph, const RayRevealInputs& inputs, const shader::MotionBlurParams& params
+) {
+    using graph::Access;
+    RayRevealOutputs outputs = copyLayer(graph, inputs);
+
+    struct RevealData {
+        RayRevealInputs in;
+        RayRevealOutputs out;
+        graph::BufferHandle list;
+    };
+
+    const RevealData& revealed = graph.addPass<RevealData>(
+        "ray reveal",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, RevealData& data) {
+            data.in = inputs;
+            builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
+            builder.read(inputs.color, Access::SampledCompute);
+            builder.read(inputs.motionDepth, Access::SampledCompute);
+            builder.read(inputs.meshId, Access::SampledCompute);
+            data.out.color = builder.write(outputs.color, Access::StorageWrite);
+            data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
+            data.out.meshId = builder.write(outputs.meshId, Access::StorageWrite);
+            data.list = builder.write(inputs.list, Access::StorageWrite);
+            builder.read(inputs.arguments, Access::IndirectRead);
+        },
+        [this, params](const RevealData& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings;
+            bindings.accelerationStructure(data.in.rays.topLevel)
+                .sampled(resources.view(data.in.color), mSampler)
+                .sampled(resources.view(data.in.motionDepth), mSampler)
+                .sampled(resources.view(data.in.meshId), mSampler)
+                .storage(resources.view(data.out.color))
+                .storage(resources.view(data.out.motionDepth))
+                .storage(resources.view(data.out.meshId))
+                .buffer(resources.buffer(data.list));
+            context.frame.bind(mReveal, bindings, &params, sizeof(params), data.in.rays.scene);
+            vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
+        }
+    );
+
+    struct CountData {
+        graph::BufferHandle list;
+        graph::BufferHandle header;
+    };
+
+    const auto header = graph.importBuffer("ray mask counters", mHeader.handle(), mHeader.bytes());
+    graph.addPass<CountData>(
+        "read ray mask counters",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, CountData& data) {
+            data.list = builder.read(revealed.list, Access::TransferRead);
+            data.header = builder.write(header, Access::TransferWrite);
+            graph.markOutput(data.header);
+        },
+        [](const CountData& data, graph::PassContext& context) {
+            const VkBufferCopy region{0, 0, sizeof(shader::MaskHeader)};
+            vkCmdCopyBuffer(
+                context.commands,
+                context.resources.buffer(data.list),
+                context.resources.buffer(data.header),
+                1,
+                &region
+            );
+        }
+    );
+    return revealed.out;
+}
+
+shader::MaskHeader RayReveal::lastHeader() const {
+    return *static_cast<const shader::MaskHeader*>(mHeader.mapped());
+}
+
+} // namespace shutter::motion_blur

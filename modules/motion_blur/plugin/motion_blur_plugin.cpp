@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+
+namespace shutter::motion_blur {
+
+MotionBlurPlugin::MotionBlurPlugin(
+    gpu::Device& device, const render::GpuScene& scene, const MotionBlurSettings& settings
+)
+    : mSettings(settings), mEffect(device, scene.textureLayout()) {}
+
+render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
+    if (!(facts.exposureSeconds > 0.0))
+        return {false, "the exposure is 0"};
+    if (!facts.moves)
+        return {false, "nothing in the picture moves during the exposure"};
+    return {true, "something in the picture moves during the exposure"};
+}
+
+void MotionBlurPlugin::declare(render::PostContext& context) {
+    MotionBlurInputs inputs;
+    inputs.color = context.color;
+    inputs.motionDepth = context.gbuffer.motionDepth;
+    inputs.normal = context.gbuffer.normal;
+    inputs.meshId = context.gbuffer.meshId;
+    inputs.rasterShare = context.facts.rasterShare;
+    inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
+    if (context.rays)
+        inputs.rays = RayInputs{
+            context.rays->topLevelBuffer,
+            context.rays->topLevel,
+            context.rays->textures,
+            render::splitAddress(context.rays->frameConstants)};
+    const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, mSettings);
+    context.color = outputs.color;
+    context.intermediates.publish("tiles", outputs.dominant);
+    if (!outputs.mask.isValid())
+        return;
+    context.intermediates.publish("edge", outputs.edge);
+    context.intermediates.publish("mask", outputs.mask);
+    context.intermediates.publish("reveal", outputs.revealColor);
+}
+
+void MotionBlurPlugin::collect(render::Counters& counters) {
+    if (mSettings.method != Method::Hybrid)
+        return;
+    const MotionBlurCounters counted = mEffect.counters();
+    counters["pixels masked"] = counted.maskedPixels;
+    counters["rays traced"] = counted.raysTraced;
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/settings.h"
+
+#include <algorithm>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+template <class T> core::Status requireRange(const char* field, T value, T lowest, T highest) {
+    // Written so that NaN fails.
+    if (value >= lowest && value <= highest)
+        return {};
+    return core::makeError(
+        "motion blur: {} is {}, it must lie in [{}, {}]", field, value, lowest, highest
+    );
+}
+
+} // namespace
+
+core::Status validate(const MotionBlurSettings& settings) {
+    const core::Status checks[] = {
+        requireRange("tileSizePx", settings.tileSizePx, 1u, 256u),
+        requireRange("neighbourhoodTiles", settings.neighbourhoodTiles, 1u, 15u),
+        requireRange("sampleCount", settings.sampleCount, 1u, 256u),
+        requireRange("softDepthExtent", settings.softDepthExtent, 1e-6f, 1e6f),
+        requireRange("edgeThreshold", settings.edgeThreshold, 0.0f, 1.0f),
+        requireRange("recursionLimit", settings.recursionLimit, 1u, 64u),
+        requireRange("luminanceThreshold", settings.luminanceThreshold, 0.0f, 1e6f),
+        requireRange("foregroundMagnification", settings.foregroundMagnification, 1.0f, 1000.0f),
+        requireRange("backgroundMagnification", settings.backgroundMagnification, 1.0f, 100.0f),
+        requireRange("jitter", settings.jitter, 0.0f, 1.0f),
+    };
+    for (const core::Status& check : checks)
+        if (!check)
+            return check;
+    if (settings.neighbourhoodTiles % 2 == 0)
+        return core::makeError(
+            "motion blur: neighbourhoodTiles is {}, it must be odd", settings.neighbourhoodTiles
+        );
+    return {};
+}
+
+shader::MotionBlurParams
+resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterShare) {
+    shader::MotionBlurParams params{};
+    const uint32_t tile = settings.tileSizePx;
+    params.sizePx = {width, height};
+    params.tileCount = {(width + tile - 1) / tile, (height + tile - 1) / tile};
+    params.tileSizePx = tile;
+    params.neighbourRadius = static_cast<int32_t>(settings.neighbourhoodTiles / 2);
+    params.sampleCount = settings.sampleCount;
+    params.softDepthExtent = settings.softDepthExtent;
+    params.edgeThreshold = settings.edgeThreshold;
+    params.rasterShare = static_cast<float>(std::clamp(rasterShare, 0.0, 1.0));
+    params.foregroundMagnification = settings.foregroundMagnification;
+    params.backgroundMagnification = settings.backgroundMagnification;
+    params.jitter = settings.jitter;
+    params.recursionLimit = settings.recursionLimit;
+    params.objectTest = settings.objectTest == ObjectTest::MeshId ? shader::kObjectTestMeshId
+                                                                  : shader::kObjectTestLuminance;
+    params.luminanceThreshold = settings.luminanceThreshold;
+    return params;
+}
+
+} // namespace shutter::motion_blur

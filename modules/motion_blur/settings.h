@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+#include "shaders/motion_blur/motion_blur_shared.h"
+
+#include <cstdint>
+
+namespace shutter::motion_blur {
+
+enum class Method : uint8_t {
+    Gather, ///< the raster layer alone (Tan et al., "Post-process")
+    Hybrid, ///< with the background that rays reveal inside the ray mask
+};
+
+/// How the reveal knows that it met another object.
+enum class ObjectTest : uint8_t {
+    MeshId,    ///< another row of the entity table (the paper's future work)
+    Luminance, ///< another luminance than the first hit's (the paper's implementation)
+};
+
+/// Defaults are the paper's ("Implementation"). README.md says what each costs.
+struct MotionBlurSettings {
+    Method method = Method::Hybrid;
+    uint32_t tileSizePx = 40;        ///< m, [1, 256]; also the longest blur, pixels
+    uint32_t neighbourhoodTiles = 3; ///< n, odd, [1, 15]; 1 lets blur end at tile borders
+    uint32_t sampleCount = 15;       ///< taps of each gather, [1, 256]
+    float softDepthExtent = 0.03f;   ///< SOFT_Z_EXTENT, metres, above 0; the paper: 5 mm to 3 cm
+    float edgeThreshold = 0.9f;      ///< e, [0, 1); the paper: 0.9 to 0.98; higher: fewer rays
+    uint32_t recursionLimit = 5;     ///< surfaces along a ray, the first included, [1, 64]
+    ObjectTest objectTest = ObjectTest::MeshId;
+    float luminanceThreshold =
+        0.01f; ///< ObjectTest::Luminance: smallest difference, linear, [0, inf)
+    float foregroundMagnification =
+        30.0f; ///< of w_f where the target is deeper, [1, 1000]; 1 turns it off
+    float backgroundMagnification =
+        3.0f;            ///< of the revealed layer in the mask, [1, 100]; 1 turns it off
+    float jitter = 1.0f; ///< of the taps, share of their distance, [0, 1]; 0: banding, no noise
+};
+
+/// One sentence naming the field where a setting is out of its range.
+[[nodiscard]] core::Status validate(const MotionBlurSettings& settings);
+
+/// What the shaders get. Pure.
+/// \param rasterShare s of the raster instant in the exposure, clamped to [0, 1]
+[[nodiscard]] shader::MotionBlurParams
+resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterShare);
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "modules/tonemap/tonemap.h"
+
+#include "spirv/tonemap/tonemap.comp.h"
+
+#include "engine/gpu/frame.h"
+#include "engine/graph/execute.h"
+#include "shaders/tonemap/tonemap_shared.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shutter::tonemap {
+
+namespace {
+
+gpu::ComputePipelineDesc describePipeline() {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "tone map";
+    desc.spirv = tonemap_tonemap_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::TonemapParams);
+    return desc;
+}
+
+} // namespace
+
+Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
+    : mSampler(device.nearestSampler()), mSettings(settings),
+      mPipeline(device, describePipeline()) {}
+
+render::Decision Tonemap::ask(const render::ViewFacts& facts) const {
+    if (!facts.displayWanted)
+        return {false, "only the linear picture is wanted"};
+    return {true, "a picture for a display is wanted"};
+}
+
+void Tonemap::declare(render::PostContext& context) {
+    struct Data {
+        graph::ImageHandle color;
+        graph::ImageHandle display;
+    };
+
+    shader::TonemapParams params{};
+    params.sizePx = {context.facts.width, context.facts.height};
+    params.gain = static_cast<float>(std::exp2(std::clamp(mSettings.exposureValue, -32.0, 32.0)));
+    params.operator_ =
+        mSettings.op == Operator::Neutral ? shader::kTonemapNeutral : shader::kTonemapNone;
+    const Data& pass = context.graph.addPass<Data>(
+        "tone map",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.color = builder.read(context.color, graph::Access::SampledCompute);
+            const auto display = context.graph.createImage(
+                "display", {params.sizePx.x, params.sizePx.y, VK_FORMAT_R8G8B8A8_UNORM}
+            );
+            data.display = builder.write(display, graph::Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& recording) {
+            gpu::BindingList bindings;
+            bindings.sampled(recording.resources.view(data.color), mSampler)
+                .storage(recording.resources.view(data.display));
+            recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
+            vkCmdDispatch(
+                recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
+            );
+        }
+    );
+    context.display = pass.display;
+}
+
+} // namespace shutter::tonemap

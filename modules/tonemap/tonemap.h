@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// From linear HDR to what a display shows: gain, tone mapper, sRGB.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/render/post_effect.h"
+
+#include <cstdint>
+#include <string>
+
+namespace shutter::tonemap {
+
+enum class Operator : uint8_t {
+    None,    ///< values above 1 are cut off
+    Neutral, ///< Khronos PBR Neutral
+};
+
+struct TonemapSettings {
+    Operator op = Operator::Neutral;
+    double exposureValue = 0.0; ///< stops: the picture is multiplied by 2^EV first, [-32, 32]
+};
+
+/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8).
+class Tonemap : public render::PostEffect {
+  public:
+    Tonemap(gpu::Device& device, const TonemapSettings& settings);
+
+    [[nodiscard]] std::string name() const override { return "tone map"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    void declare(render::PostContext& context) override;
+
+  private:
+    VkSampler mSampler;
+    TonemapSettings mSettings;
+    gpu::Pipeline mPipeline;
+};
+
+} // namespace shutter::tonemap

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#ifndef SHUTTER_NUMERIC_GLSL
+#define SHUTTER_NUMERIC_GLSL
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_INLINE float saturate(float x) { return clamp(x, 0.0f, 1.0f); }
+
+/// Relative luminance of linear Rec. 709.
+SHUTTER_INLINE float luminance(vec3 color) {
+    return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+/// False for NaN and infinity. Written as a comparison, which fast-math may not drop.
+SHUTTER_INLINE bool isFinite(float x) { return abs(x) <= 3.402823e38f; }
+
+/// Largest value a colour may have: half floats end at 65504.
+SHUTTER_CONST float kMaxColor = 65000.0f;
+
+/// A colour that a half-float image can hold: NaN becomes 0, infinity and overflow become kMaxColor.
+SHUTTER_INLINE vec3 storableColor(vec3 color) {
+    vec3 result = min(max(color, vec3(0.0f)), vec3(kMaxColor));
+    // GLSL leaves min and max of NaN open, so each channel is asked.
+    if (!(color.x == color.x)) result.x = 0.0f;
+    if (!(color.y == color.y)) result.y = 0.0f;
+    if (!(color.z == color.z)) result.z = 0.0f;
+    return result;
+}
+
+SHUTTER_SHADER_END
+
+#endif

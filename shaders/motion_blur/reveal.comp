@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Recursive ray reveal: from the surface a masked pixel shows, on along the view ray until another
+// object is met. Writes that object's colour, motion, depth and id over the raster layer's copy.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "motion_blur/motion_blur_shared.h"
+#include "render/lighting.glsl"
+#include "render/sky.glsl"
+#include "render/trace.glsl"
+#include "render/view_ray.glsl"
+
+layout(local_size_x = kRevealThreads) in;
+layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(set = 0, binding = 0) uniform accelerationStructureEXT uScene;
+layout(set = 0, binding = 1) uniform sampler2D uColor;
+layout(set = 0, binding = 2) uniform sampler2D uMotionDepth;
+layout(set = 0, binding = 3) uniform usampler2D uMeshId;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D uRevealColor;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D uRevealMotionDepth;
+layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D uRevealMeshId;
+layout(set = 0, binding = 7, scalar) buffer MaskList {
+    MaskHeader header;
+    uint pixels[];
+};
+
+/// The next ray starts past the last hit by this share of its distance: 32 float steps, which is
+/// more than the hit's own error and 4 micrometres at a metre.
+const float kPastHit = 3.8e-6f;
+
+struct Revealed {
+    vec3 color;
+    vec4 motionDepth;
+    uint meshId;
+};
+
+Revealed revealSky(FrameRef frame, vec2 centre, vec3 direction) {
+    return Revealed(
+        frame.value.background.rgb,
+        vec4(skyMotion(frame, centre, direction), kSkyDepth, 0.0f), kNoEntity
+    );
+}
+
+Revealed shadeHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
+    EntityRow row = EntityTable(frame.value.entities).rows[rayHit.id.entity];
+    Hit hit = fetchHit(frame, row, rayHit.id);
+    MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
+    Surface surface = evaluateSurface(frame, material, hit.point, direction);
+    Revealed revealed;
+    revealed.color =
+        shadeSurface(frame, material, surface, hit.point.eyePosition, direction);
+    vec4 position = vec4(hit.objectPosition, 1.0f);
+    vec4 open = row.clipFromObjectOpen * position;
+    vec4 visible = row.clipFromObjectRaster * position;
+    vec4 close = row.clipFromObjectClose * position;
+    vec2 motion = motionFromClip(
+        open.xyw, close.xyw, visible.xyw, frame.value.forward.w, frame.value.sizePx
+    );
+    float depth = dot(hit.point.eyePosition, frame.value.forward.xyz);
+    revealed.motionDepth = vec4(motion, depth, 0.0f);
+    revealed.meshId = rayHit.id.entity;
+    return revealed;
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x >= header.maskedPixels) return;
+    uint packed_ = pixels[gl_GlobalInvocationID.x];
+    ivec2 pixel = ivec2(packed_ & 0xFFFFu, packed_ >> 16);
+    vec2 centre = vec2(pixel) + 0.5f;
+    vec2 uv = centre / vec2(params.sizePx);
+    uint frontId = textureLod(uMeshId, uv, 0.0f).x;
+    if (frontId == kNoEntity) return; // nothing hides the sky
+
+    FrameRef frame = FrameRef(params.frame);
+    ViewRay ray = makeViewRay(frame, centre);
+    // The raster image is the first hit: its depth along the view gives the distance on the ray.
+    float frontDepth = textureLod(uMotionDepth, uv, 0.0f).z;
+    float frontLuminance = luminance(textureLod(uColor, uv, 0.0f).rgb);
+    float along = max(dot(ray.direction, frame.value.forward.xyz), 1.0e-6f);
+    float t = (frontDepth - dot(ray.origin, frame.value.forward.xyz)) / along;
+
+    Revealed revealed;
+    uint rays = 0u;
+    for (uint level = 1u; level < params.recursionLimit; ++level) {
+        RayHit hit = traceRay(uScene, frame, ray.origin, ray.direction, t + t * kPastHit, 1.0e30f);
+        ++rays;
+        if (!hit.found) {
+            revealed = revealSky(frame, centre, ray.direction);
+            break;
+        }
+        t = hit.t;
+        bool last = level + 1u == params.recursionLimit;
+        bool other = hit.id.entity != frontId;
+        if (params.objectTest == kObjectTestMeshId && !other && !last) continue;
+        revealed = shadeHit(frame, hit, centre, ray.direction);
+        if (params.objectTest == kObjectTestLuminance)
+            other = abs(luminance(revealed.color) - frontLuminance) > params.luminanceThreshold;
+        if (other) break;
+    }
+    atomicAdd(header.raysTraced, rays);
+    if (rays == 0u) return; // a limit of one level reveals nothing
+    imageStore(uRevealColor, pixel, vec4(revealed.color, 1.0f));
+    imageStore(uRevealMotionDepth, pixel, revealed.motionDepth);
+    imageStore(uRevealMeshId, pixel, uvec4(revealed.meshId, 0u, 0u, 0u));
+}

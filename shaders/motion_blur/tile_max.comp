@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Longest motion in each tile, clamped to the tile's size. One group a tile, one barrier.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/weights.glsl"
+
+layout(local_size_x = kTileThreads) in;
+layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(binding = 0) uniform sampler2D uMotionDepth;
+layout(binding = 1, rg32f) uniform writeonly image2D uTiles;
+
+shared vec2 sLongest[kTileThreads];
+
+void main() {
+    uvec2 tile = gl_WorkGroupID.xy;
+    uvec2 first = tile * params.tileSizePx;
+    uvec2 end = min(first + params.tileSizePx, params.sizePx); // the last tile may be partial
+    uint width = end.x - first.x;
+    uint count = width * (end.y - first.y);
+    vec2 longest = vec2(0.0f);
+    for (uint i = gl_LocalInvocationIndex; i < count; i += kTileThreads) {
+        uvec2 pixel = first + uvec2(i % width, i / width);
+        vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx);
+        vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
+        longest = longerMotion(longest, clampMotion(motion, float(params.tileSizePx)));
+    }
+    sLongest[gl_LocalInvocationIndex] = longest;
+    barrier();
+    if (gl_LocalInvocationIndex != 0u) return;
+    for (uint i = 1u; i < kTileThreads; ++i) longest = longerMotion(longest, sLongest[i]);
+    imageStore(uTiles, ivec2(tile), vec4(longest, 0.0f, 0.0f));
+}

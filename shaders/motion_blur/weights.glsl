@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The gather's weights: McGuire et al. 2012 as Tan et al. adapt them (appendix of "Hybrid MBlur").
+#ifndef SHUTTER_MOTION_BLUR_WEIGHTS_GLSL
+#define SHUTTER_MOTION_BLUR_WEIGHTS_GLSL
+
+#include "common/numeric.glsl"
+
+SHUTTER_SHADER_BEGIN
+
+/// A dot that is spread over v pixels is there for 1/v of the exposure: how far along the smear it
+/// still counts. 0 at and beyond its end, 0 for a still pixel.
+SHUTTER_INLINE float cone(float distancePx, float speedPx) {
+    return saturate(1.0f - distancePx / max(speedPx, 1.0e-3f));
+}
+
+/// 1 inside the smear, 0 outside, smooth over a tenth of it (cylinder).
+SHUTTER_INLINE float cylinder(float distancePx, float speedPx) {
+    float t = saturate((distancePx - 0.95f * speedPx) / max(0.1f * speedPx, 1.0e-6f));
+    return 1.0f - t * t * (3.0f - 2.0f * t);
+}
+
+/// w = w_f + w_b + w_s of a sample at `distancePx` from the target.
+/// \param z (target depth - sample depth) / SOFT_Z_EXTENT: positive when the target is deeper
+/// \param magnification w_f is multiplied by it where the target is deeper by the whole extent
+SHUTTER_INLINE float sampleWeight(
+    float z, float distancePx, float sampleSpeedPx, float targetSpeedPx, float magnification
+) {
+    float front = saturate(1.0f + z) * cone(distancePx, sampleSpeedPx);
+    if (z >= 1.0f) front *= magnification;
+    float behind = saturate(1.0f - z) * cone(distancePx, targetSpeedPx);
+    float both = 2.0f * cylinder(distancePx, sampleSpeedPx) * cylinder(distancePx, targetSpeedPx);
+    return front + behind + both;
+}
+
+/// Weight of the target itself (McGuire 2012: 1 / |V|), bounded for a still one.
+SHUTTER_INLINE float centreWeight(float targetSpeedPx) { return 1.0f / max(targetSpeedPx, 0.5f); }
+
+/// Interleaved gradient noise, Jimenez 2014: [0, 1).
+SHUTTER_INLINE float interleavedGradientNoise(vec2 pixel) {
+    return fract(52.9829189f * fract(0.06711056f * pixel.x + 0.00583715f * pixel.y));
+}
+
+/// The longer of two motions; ties go to the greater x, then y, so that the order in which tiles
+/// are visited does not matter.
+SHUTTER_INLINE vec2 longerMotion(vec2 a, vec2 b) {
+    float la = dot(a, a);
+    float lb = dot(b, b);
+    if (la != lb) return lb > la ? b : a;
+    if (a.x != b.x) return b.x > a.x ? b : a;
+    return b.y > a.y ? b : a;
+}
+
+/// `motion` no longer than `limitPx`.
+SHUTTER_INLINE vec2 clampMotion(vec2 motion, float limitPx) {
+    float speed = length(motion);
+    return speed > limitPx ? motion * (limitPx / speed) : motion;
+}
+
+SHUTTER_SHADER_END
+
+#endif

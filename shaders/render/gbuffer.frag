@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/lighting.glsl"
+#include "render/motion.glsl"
+
+layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: pixels below the cutoff are dropped
+layout(constant_id = 1) const uint kBlend = 0u;     // 1: alpha is kept for blending
+
+layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+
+layout(location = 0) in vec3 inEyePosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec4 inTangent;
+layout(location = 3) in vec4 inUv;
+layout(location = 4) in vec4 inColor;
+layout(location = 5) in vec3 inClipOpen;
+layout(location = 6) in vec3 inClipClose;
+
+layout(location = 0) out vec4 outColor;
+layout(location = 1) out vec4 outNormal;
+layout(location = 2) out vec4 outMotionDepth;
+layout(location = 3) out uint outMeshId;
+
+/// The triangle's normal, on the front side as the winding defines it, from derivatives.
+vec3 geometricNormal() {
+    vec3 normal = cross(dFdx(inEyePosition), dFdy(inEyePosition));
+    // Only the side matters to shading: towards the viewer for front faces.
+    bool towardsViewer = dot(normal, inEyePosition) < 0.0f;
+    return towardsViewer == gl_FrontFacing ? normal : -normal;
+}
+
+void main() {
+    FrameRef frame = FrameRef(draw.frame);
+    uint materialIndex = GeometryTable(frame.value.geometries).rows[draw.geometry].material;
+    MaterialRow material = MaterialTable(frame.value.materials).rows[materialIndex];
+
+    SurfacePoint point;
+    point.eyePosition = inEyePosition;
+    point.geometricNormal = geometricNormal();
+    point.normal = inNormal;
+    point.tangent = inTangent;
+    point.uv[0] = inUv.xy;
+    point.uv[1] = inUv.zw;
+    vec3 dx = dFdx(inEyePosition);
+    vec3 dy = dFdy(inEyePosition);
+    vec4 uvDx = dFdx(inUv);
+    vec4 uvDy = dFdy(inUv);
+    point.uvDensity[0] = textureDensity(dx, dy, uvDx.xy, uvDy.xy);
+    point.uvDensity[1] = textureDensity(dx, dy, uvDx.zw, uvDy.zw);
+    point.color = inColor;
+
+    vec3 viewDirection = viewDirectionTo(frame, inEyePosition);
+    Surface surface = evaluateSurface(frame, material, point, viewDirection);
+    if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;
+
+    vec3 color = shadeSurface(frame, material, surface, inEyePosition, viewDirection);
+    outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
+    outNormal = vec4(surface.normal, 0.0f);
+    // x, y, w of the raster clip position; 1 / gl_FragCoord.w is w.
+    float w = 1.0f / gl_FragCoord.w;
+    vec3 visible = vec3((gl_FragCoord.xy / frame.value.sizePx * 2.0f - 1.0f) * w, w);
+    vec2 motion =
+        motionFromClip(inClipOpen, inClipClose, visible, frame.value.forward.w, frame.value.sizePx);
+    outMotionDepth = vec4(motion, dot(inEyePosition, frame.value.forward.xyz), 0.0f);
+    outMeshId = draw.entity;
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/hit.glsl"
+
+layout(push_constant, scalar) uniform Push { DrawConstants draw; };
+
+layout(location = 0) out vec3 outEyePosition;
+layout(location = 1) out vec3 outNormal;
+layout(location = 2) out vec4 outTangent;
+layout(location = 3) out vec4 outUv;
+layout(location = 4) out vec4 outColor;
+layout(location = 5) out vec3 outClipOpen;  // x, y, w
+layout(location = 6) out vec3 outClipClose; // x, y, w
+
+void main() {
+    FrameRef frame = FrameRef(draw.frame);
+    EntityRow row = EntityTable(frame.value.entities).rows[draw.entity];
+    Geometry geometry = GeometryTable(frame.value.geometries).rows[draw.geometry];
+    Vertex vertex = VertexArray(geometry.vertices).values[gl_VertexIndex];
+
+    vec4 position = vec4(vertex.positionU0.xyz, 1.0f);
+    gl_Position = row.clipFromObjectRaster * position;
+    vec4 open = row.clipFromObjectOpen * position;
+    vec4 close = row.clipFromObjectClose * position;
+    outClipOpen = open.xyw;
+    outClipClose = close.xyw;
+    outEyePosition = transformPoint(row, position.xyz);
+    outNormal = transformNormal(row, vertex.normalV0.xyz);
+    outTangent =
+        vec4(transformDirection(row, vertex.tangent.xyz), vertex.tangent.w * row.handedness);
+    outUv = vec4(vertex.positionU0.w, vertex.normalV0.w, vertex.uv1);
+    outColor = unpackColor(vertex.color);
+}

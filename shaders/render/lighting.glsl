@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#ifndef SHUTTER_LIGHTING_GLSL
+#define SHUTTER_LIGHTING_GLSL
+
+#include "render/brdf.glsl"
+#include "render/surface.glsl"
+
+/// Direction to the light (unit) and the irradiance it gives a surface facing it.
+void evaluateLight(LightRow light, vec3 position, out vec3 toLight, out vec3 irradiance) {
+    if (light.kind == kLightDirectional) {
+        toLight = -light.direction.xyz;
+        irradiance = light.radiance.rgb;
+        return;
+    }
+    vec3 offset = light.positionRange.xyz - position;
+    float distance2 = max(dot(offset, offset), 1.0e-6f);
+    float distance_ = sqrt(distance2);
+    toLight = offset / distance_;
+    float attenuation = 1.0f / distance2;
+    if (light.positionRange.w > 0.0f) {
+        // KHR_lights_punctual, "Range Property".
+        float x = distance_ / light.positionRange.w;
+        float x2 = x * x;
+        attenuation *= saturate(1.0f - x2 * x2);
+    }
+    if (light.kind == kLightSpot) {
+        float angular =
+            saturate(dot(light.direction.xyz, -toLight) * light.spotScale + light.spotOffset);
+        attenuation *= angular * angular;
+    }
+    irradiance = light.radiance.rgb * attenuation;
+}
+
+/// Radiance from the surface towards the camera; always storable in a half-float image.
+/// \param viewDirection unit, from the camera to the surface
+vec3 shadeSurface(
+    FrameRef frame, MaterialRow material, Surface surface, vec3 position, vec3 viewDirection
+) {
+    if ((frame.value.flags & kFrameUnlit) != 0u || (material.flags & kMaterialUnlit) != 0u)
+        return storableColor(surface.baseColor);
+    vec3 v = -viewDirection;
+    float roughness = max(surface.roughness, kMinRoughness);
+    vec3 f0 = mix(vec3(0.04f), surface.baseColor, surface.metallic);
+    vec3 mirrored = environmentBrdf(f0, roughness, saturate(abs(dot(surface.normal, v))));
+    vec3 diffuse = surface.baseColor * (1.0f - surface.metallic) * (vec3(1.0f) - mirrored);
+    vec3 color = frame.value.ambient.rgb * (diffuse + mirrored) * surface.occlusion;
+    LightTable lights = LightTable(frame.value.lights);
+    for (uint i = 0u; i < frame.value.lightCount; ++i) {
+        vec3 toLight;
+        vec3 irradiance;
+        evaluateLight(lights.rows[i], position, toLight, irradiance);
+        color += irradiance * reflectLight(
+                                  surface.baseColor, surface.metallic, roughness, surface.normal, v,
+                                  toLight
+                              );
+    }
+    return storableColor(color + surface.emissive);
+}
+
+#endif

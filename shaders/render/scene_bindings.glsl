@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The scene as shaders reach it: tables by address, textures as set 1.
+#ifndef SHUTTER_SCENE_BINDINGS_GLSL
+#define SHUTTER_SCENE_BINDINGS_GLSL
+
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_nonuniform_qualifier : require
+
+#include "render/scene_shared.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FrameRef {
+    FrameConstants value;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer EntityTable {
+    EntityRow rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GeometryTable {
+    Geometry rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer MaterialTable {
+    MaterialRow rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LightTable {
+    LightRow rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VertexArray {
+    Vertex values[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer IndexArray {
+    uint values[];
+};
+
+layout(set = 1, binding = 0) uniform sampler2D uTextures[];
+
+vec4 sampleSceneTexture(uint texture_, vec2 uv, float level) {
+    return textureLod(uTextures[nonuniformEXT(texture_)], uv, level);
+}
+
+float sceneTextureTexels(uint texture_) {
+    ivec2 size = textureSize(uTextures[nonuniformEXT(texture_)], 0);
+    return float(size.x) * float(size.y);
+}
+
+vec4 unpackColor(uvec2 packed_) {
+    return vec4(unpackHalf2x16(packed_.x), unpackHalf2x16(packed_.y));
+}
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// What the renderer and its shaders agree on. "Eye space" here has the world's axes and its origin
+// at the camera's position at the raster instant: small numbers wherever the camera is.
+#ifndef SHUTTER_SCENE_SHARED_H
+#define SHUTTER_SCENE_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// Mesh id of a pixel that no entity covers.
+SHUTTER_CONST uint kNoEntity = 0xFFFFFFFFu;
+/// Depth of such a pixel, metres: beyond everything, and its square is still finite.
+SHUTTER_CONST float kSkyDepth = 1.0e9f;
+SHUTTER_CONST uint kNoTexture = 0xFFFFFFFFu;
+
+struct Vertex {
+    vec4 positionU0; // xyz object space, metres; w = uv0.x
+    vec4 normalV0;   // xyz unit; w = uv0.y
+    vec4 tangent;    // xyz unit, w handedness; all 0: no tangent
+    vec2 uv1;
+    uvec2 color;     // four half floats, linear RGBA
+};
+
+/// One drawn entity; its index in the table is the mesh id.
+struct EntityRow {
+    mat4 clipFromObjectOpen;   // with the camera at shutter open
+    mat4 clipFromObjectRaster; // with the camera at the raster instant (jittered where asked for)
+    mat4 clipFromObjectClose;  // with the camera at shutter close
+    vec4 eyeFromObject[3];     // rows of the 3x4 matrix, raster instant
+    uint firstGeometry;        // index into the geometry table
+    float handedness;          // -1 where eyeFromObject mirrors, else 1
+    uint padding1;
+    uint padding2;
+};
+
+/// Triangles with one material.
+struct Geometry {
+    uvec2 vertices; // address of Vertex[]
+    uvec2 indices;  // address of uint[]
+    uint material;
+    uint firstIndex; // in the scene's index buffer
+    uint indexCount;
+    uint padding0;
+};
+
+/// A texture with its coordinates' affine map: uv' = axes * uv + offset.
+struct TextureRef {
+    vec4 axes; // columns: xy = image of u, zw = image of v
+    vec2 offset;
+    uint texture; // index of the bindless array, or kNoTexture
+    uint uvSet;   // 0 or 1
+};
+
+SHUTTER_CONST uint kMaterialUnlit = 1u;
+SHUTTER_CONST uint kMaterialDoubleSided = 2u;
+SHUTTER_CONST uint kMaterialMask = 4u;
+
+struct MaterialRow {
+    vec4 baseColor;
+    vec4 emissiveCutoff;  // rgb emissive, a alpha cutoff
+    vec4 surface;         // metallic, roughness, normal scale, occlusion strength
+    uint flags;           // kMaterial...
+    uint padding0;
+    uint padding1;
+    uint padding2;
+    TextureRef baseColorTexture;
+    TextureRef metallicRoughnessTexture;
+    TextureRef normalTexture;
+    TextureRef occlusionTexture;
+    TextureRef emissiveTexture;
+};
+
+SHUTTER_CONST uint kLightDirectional = 0u;
+SHUTTER_CONST uint kLightPoint = 1u;
+SHUTTER_CONST uint kLightSpot = 2u;
+
+struct LightRow {
+    vec4 positionRange; // xyz eye space, metres; w range in metres, 0: unlimited
+    vec4 direction;     // xyz unit, the way the light travels
+    vec4 radiance;      // rgb colour times intensity (lux or candela)
+    uint kind;          // kLight...
+    float spotScale;    // angular attenuation of KHR_lights_punctual
+    float spotOffset;
+    uint padding0;
+};
+
+SHUTTER_CONST uint kFrameUnlit = 1u; // base colour only
+
+struct FrameConstants {
+    mat4 clipFromEye;
+    mat4 eyeFromClip;
+    mat4 clipFromDirectionOpen;  // where a direction of the world is seen at shutter open
+    mat4 clipFromDirectionClose; // ... and at shutter close
+    vec4 forward;                // xyz unit view direction; w: the smallest clip w in front of the camera
+    vec4 background;             // linear RGB
+    vec4 ambient;                // uniform radiance from everywhere, linear RGB
+    vec2 sizePx;                 // picture's width and height
+    vec2 pixelFootprint;         // x: width of a pixel at distance 1 (perspective), y: at any (orthographic)
+    float lodBias;               // added to every texture level of detail
+    uint flags;                  // kFrame...
+    uint lightCount;
+    uint padding0;
+    uvec2 entities;              // addresses of the tables
+    uvec2 geometries;
+    uvec2 materials;
+    uvec2 lights;
+};
+
+/// Push constants of the G-buffer's draws.
+struct DrawConstants {
+    uvec2 frame; // address of FrameConstants
+    uint entity;
+    uint geometry;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::Vertex) == 64);
+static_assert(sizeof(shutter::shader::EntityRow) == 256);
+static_assert(sizeof(shutter::shader::Geometry) == 32);
+static_assert(sizeof(shutter::shader::TextureRef) == 32);
+static_assert(sizeof(shutter::shader::MaterialRow) == 224);
+static_assert(sizeof(shutter::shader::LightRow) == 64);
+static_assert(sizeof(shutter::shader::FrameConstants) == 368);
+static_assert(sizeof(shutter::shader::DrawConstants) == 16);
+#endif
+
+#endif

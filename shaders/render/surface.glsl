@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// From a point on a triangle to what light meets there. Raster and rays both come through here.
+#ifndef SHUTTER_SURFACE_GLSL
+#define SHUTTER_SURFACE_GLSL
+
+#include "render/scene_bindings.glsl"
+#include "render/texture_lod.glsl"
+
+/// A point on a triangle as raster interpolates it or a ray finds it. Directions need not be unit.
+struct SurfacePoint {
+    vec3 eyePosition;     // eye space, metres
+    vec3 geometricNormal; // eye space
+    vec3 normal;          // eye space
+    vec4 tangent;         // eye space, w handedness
+    vec2 uv[2];
+    float uvDensity[2];   // area in texture coordinates per square metre
+    vec4 color;
+};
+
+struct Surface {
+    vec3 baseColor;
+    float alpha;
+    vec3 normal; // eye space, unit, on the viewer's side
+    float metallic;
+    float roughness;
+    float occlusion;
+    vec3 emissive;
+};
+
+vec4 sampleRef(FrameRef frame, TextureRef ref, SurfacePoint point, float footprint, float cosine) {
+    vec2 uv = ref.axes.xy * point.uv[ref.uvSet].x + ref.axes.zw * point.uv[ref.uvSet].y + ref.offset;
+    float stretch = abs(ref.axes.x * ref.axes.w - ref.axes.y * ref.axes.z);
+    float level = textureLevel(
+        point.uvDensity[ref.uvSet] * stretch, sceneTextureTexels(ref.texture), footprint, cosine,
+        frame.value.lodBias
+    );
+    return sampleSceneTexture(ref.texture, uv, level);
+}
+
+/// Width of a pixel at the point, metres.
+float pixelFootprint(FrameRef frame, vec3 eyePosition) {
+    vec2 footprint = frame.value.pixelFootprint;
+    return footprint.x * length(eyePosition) + footprint.y;
+}
+
+/// Unit direction in which the camera sees the point.
+vec3 viewDirectionTo(FrameRef frame, vec3 eyePosition) {
+    bool orthographic = frame.value.pixelFootprint.y > 0.0f;
+    return orthographic ? frame.value.forward.xyz : normalize(eyePosition);
+}
+
+vec4 evaluateBaseColor(
+    FrameRef frame, MaterialRow material, SurfacePoint point, float footprint, float cosine
+) {
+    vec4 color = material.baseColor * point.color;
+    if (material.baseColorTexture.texture != kNoTexture)
+        color *= sampleRef(frame, material.baseColorTexture, point, footprint, cosine);
+    return color;
+}
+
+float viewCosine(SurfacePoint point, vec3 viewDirection) {
+    float size = length(point.geometricNormal);
+    return size > 0.0f ? abs(dot(point.geometricNormal, viewDirection)) / size : 1.0f;
+}
+
+/// Alpha test of raster and rays.
+bool isCovered(FrameRef frame, MaterialRow material, SurfacePoint point, vec3 viewDirection) {
+    float footprint = pixelFootprint(frame, point.eyePosition);
+    vec4 color =
+        evaluateBaseColor(frame, material, point, footprint, viewCosine(point, viewDirection));
+    return color.a >= material.emissiveCutoff.a;
+}
+
+vec3 safeNormalize(vec3 v, vec3 fallback) {
+    float size = length(v);
+    return size > 1.0e-20f ? v / size : fallback;
+}
+
+/// \param viewDirection unit, from the camera to the point
+Surface evaluateSurface(
+    FrameRef frame, MaterialRow material, SurfacePoint point, vec3 viewDirection
+) {
+    float footprint = pixelFootprint(frame, point.eyePosition);
+    float cosine = viewCosine(point, viewDirection);
+    vec4 color = evaluateBaseColor(frame, material, point, footprint, cosine);
+
+    Surface surface;
+    surface.baseColor = color.rgb;
+    surface.alpha = color.a;
+    surface.metallic = material.surface.x;
+    surface.roughness = material.surface.y;
+    surface.occlusion = 1.0f;
+    surface.emissive = material.emissiveCutoff.rgb;
+
+    vec3 geometricNormal = safeNormalize(point.geometricNormal, -viewDirection);
+    vec3 normal = safeNormalize(point.normal, geometricNormal);
+    bool lit = (material.flags & kMaterialUnlit) == 0u && (frame.value.flags & kFrameUnlit) == 0u;
+    if (lit) {
+        if (material.metallicRoughnessTexture.texture != kNoTexture) {
+            vec4 texel =
+                sampleRef(frame, material.metallicRoughnessTexture, point, footprint, cosine);
+            surface.roughness *= texel.g;
+            surface.metallic *= texel.b;
+        }
+        if (material.occlusionTexture.texture != kNoTexture) {
+            vec4 texel = sampleRef(frame, material.occlusionTexture, point, footprint, cosine);
+            surface.occlusion = 1.0f + material.surface.w * (texel.r - 1.0f);
+        }
+        if (material.emissiveTexture.texture != kNoTexture)
+            surface.emissive *=
+                sampleRef(frame, material.emissiveTexture, point, footprint, cosine).rgb;
+        if (material.normalTexture.texture != kNoTexture && dot(point.tangent, point.tangent) > 0.5f) {
+            vec3 texel = sampleRef(frame, material.normalTexture, point, footprint, cosine).xyz;
+            vec3 local = (texel * 2.0f - 1.0f) * vec3(material.surface.z, material.surface.z, 1.0f);
+            vec3 tangent = safeNormalize(
+                point.tangent.xyz - normal * dot(normal, point.tangent.xyz), vec3(0.0f)
+            );
+            vec3 bitangent = cross(normal, tangent) * point.tangent.w;
+            normal = safeNormalize(
+                tangent * local.x + bitangent * local.y + normal * local.z, normal
+            );
+        }
+    }
+    // Back faces are lit as if turned round.
+    if (dot(geometricNormal, viewDirection) > 0.0f) normal = -normal;
+    surface.normal = normal;
+    surface.roughness = clamp(surface.roughness, 0.0f, 1.0f);
+    return surface;
+}
+
+#endif

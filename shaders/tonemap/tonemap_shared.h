@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#ifndef SHUTTER_TONEMAP_SHARED_H
+#define SHUTTER_TONEMAP_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_CONST uint kTonemapNone = 0u;    // clamp to [0, 1]
+SHUTTER_CONST uint kTonemapNeutral = 1u; // Khronos PBR Neutral
+
+struct TonemapParams {
+    uvec2 sizePx;
+    float gain; // linear multiplier before the operator: 2^EV
+    uint operator_;
+};
+
+SHUTTER_SHADER_END
+
+#endif
