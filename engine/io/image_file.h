@@ -30,7 +30,9 @@ enum class SampleType : uint8_t { Half, Float, Uint };
 /// beside and renamed, so that an interrupted write never leaves a half picture under this name.
 /// PNG and JPEG take the first three channels (or one) and clamp to [0, 1].
 [[nodiscard]] core::Status writeImage(
-    const std::filesystem::path& path, const image::Image& image, SampleType type = SampleType::Float
+    const std::filesystem::path& path,
+    const image::Image& image,
+    SampleType type = SampleType::Float
 );
 
 /// Decodes an encoded PNG or JPEG held in memory to 8-bit RGBA.

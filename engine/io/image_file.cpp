@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/image_file.h"
+
+#include "engine/io/oiio_codec.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+#include <unistd.h>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Larger textures are refused: no device of ours takes them, and a 100-byte file may claim them.
+constexpr uint32_t kMaxTextureSide = 16384;
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+        return char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return extension;
+}
+
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// In the same folder, so that the rename is atomic; short, so that it fits where the name does.
+fs::path makeTemporaryPath(const fs::path& path) {
+    static std::atomic<uint32_t> sCounter{0};
+    const std::string name = fmt::format(".shutter-{}-{}.tmp", ::getpid(), sCounter.fetch_add(1));
+    return folderOf(path) / name;
+}
+
+uint8_t toByte(float value) {
+    if (!(value > 0.0f))
+        return 0; // NaN too
+    return uint8_t(std::lround(std::min(value, 1.0f) * 255.0f));
+}
+
+uint32_t toUint(float value) {
+    if (!(value > 0.0f))
+        return 0; // NaN too
+    constexpr double kMax = 4294967295.0;
+    return uint32_t(std::min(std::round(double(value)), kMax));
+}
+
+/// Display formats hold one or three channels.
+std::vector<uint8_t> packBytes(const image::Image& image, uint32_t channels) {
+    const size_t count = size_t(image.width) * image.height;
+    std::vector<uint8_t> bytes(count * channels);
+    for (size_t i = 0; i < count; ++i) {
+        for (uint32_t c = 0; c < channels; ++c) {
+            bytes[i * channels + c] = toByte(image.pixels[i * image.channels + c]);
+        }
+    }
+    return bytes;
+}
+
+std::string encode(
+    const fs::path& path, const image::Image& image, SampleType type, std::vector<uint8_t>& out
+) {
+    oiio::EncodeRequest request;
+    request.extension = lowerExtension(path);
+    request.width = image.width;
+    request.height = image.height;
+    if (isDisplayFormat(path).value()) {
+        request.channels = image.channels >= 3 ? 3 : 1;
+        request.storage = oiio::Storage::Byte;
+        const std::vector<uint8_t> bytes = packBytes(image, request.channels);
+        request.pixels = bytes.data();
+        return oiio::encode(request, out);
+    }
+    request.channels = image.channels;
+    request.channelNames = image.channelNames;
+    if (type == SampleType::Uint) {
+        request.storage = oiio::Storage::Uint;
+        std::vector<uint32_t> integers(image.pixels.size());
+        std::transform(image.pixels.begin(), image.pixels.end(), integers.begin(), toUint);
+        request.pixels = integers.data();
+        return oiio::encode(request, out);
+    }
+    request.storage = type == SampleType::Half ? oiio::Storage::Half : oiio::Storage::Float;
+    request.pixels = image.pixels.data();
+    return oiio::encode(request, out);
+}
+
+/// Returns an empty string, or why it failed.
+std::string writeBytes(const fs::path& path, const std::vector<uint8_t>& bytes) {
+    errno = 0;
+    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    stream.close(); // a full disk may only show here
+    if (stream)
+        return {};
+    return errno != 0 ? std::generic_category().message(errno) : "writing failed";
+}
+
+void checkImage(const image::Image& image) {
+    SHUTTER_CHECK(
+        image.pixels.size() == size_t(image.width) * image.height * image.channels,
+        "{}x{}x{} with {} values",
+        image.width,
+        image.height,
+        image.channels,
+        image.pixels.size()
+    );
+    SHUTTER_CHECK(
+        image.channelNames.empty() || image.channelNames.size() == image.channels,
+        "{} names for {} channels",
+        image.channelNames.size(),
+        image.channels
+    );
+}
+
+} // namespace
+
+core::Result<image::Image> readImage(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) {
+        return core::makeError("cannot read '{}': no such file", path.string());
+    }
+    if (!fs::is_regular_file(path, ignored)) {
+        return core::makeError("cannot read '{}': it is not a file", path.string());
+    }
+    if (::access(path.c_str(), R_OK) != 0) {
+        return core::makeError("cannot read '{}': permission denied", path.string());
+    }
+    oiio::FloatPixels pixels;
+    const std::string why = oiio::readFloats(path.string(), pixels);
+    if (!why.empty())
+        return core::makeError("cannot read '{}': {}", path.string(), why);
+    image::Image image;
+    image.width = pixels.width;
+    image.height = pixels.height;
+    image.channels = pixels.channels;
+    image.pixels = std::move(pixels.values);
+    image.channelNames = std::move(pixels.channelNames);
+    return image;
+}
+
+core::Result<bool> isDisplayFormat(const fs::path& path) {
+    const std::string extension = lowerExtension(path);
+    if (extension == ".exr")
+        return false;
+    if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
+        return true;
+    return core::makeError(
+        "'{}' has the unknown extension '{}': use .exr, .png or .jpg", path.string(), extension
+    );
+}
+
+core::Status checkWritable(const fs::path& path) {
+    const core::Result<bool> known = isDisplayFormat(path);
+    if (!known)
+        return known.error();
+    std::error_code ignored;
+    const fs::path folder = folderOf(path);
+    if (!fs::is_directory(folder, ignored)) {
+        return core::makeError(
+            "cannot write '{}': the folder '{}' does not exist", path.string(), folder.string()
+        );
+    }
+    if (fs::is_directory(path, ignored)) {
+        return core::makeError("cannot write '{}': it is a folder", path.string());
+    }
+    // The picture is renamed into place, so it is the folder that has to allow it.
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+        return core::makeError(
+            "cannot write '{}': no permission to write in '{}'", path.string(), folder.string()
+        );
+    }
+    return {};
+}
+
+core::Status writeImage(const fs::path& path, const image::Image& image, SampleType type) {
+    checkImage(image);
+    if (const core::Status writable = checkWritable(path); !writable)
+        return writable;
+    if (image.width == 0 || image.height == 0 || image.channels == 0) {
+        return core::makeError("cannot write '{}': the picture has no pixels", path.string());
+    }
+    std::vector<uint8_t> bytes;
+    std::string why = encode(path, image, type, bytes);
+    if (!why.empty())
+        return core::makeError("cannot write '{}': {}", path.string(), why);
+    const fs::path temporary = makeTemporaryPath(path);
+    why = writeBytes(temporary, bytes);
+    std::error_code failure;
+    if (why.empty())
+        fs::rename(temporary, path, failure);
+    if (why.empty() && !failure)
+        return {};
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    return core::makeError(
+        "cannot write '{}': {}", path.string(), why.empty() ? failure.message() : why
+    );
+}
+
+core::Result<scene::TextureImage>
+decodeTexture(std::span<const uint8_t> encoded, const std::string& label) {
+    if (encoded.empty())
+        return core::makeError("cannot decode {}: it is empty", label);
+    oiio::Rgba8Pixels pixels;
+    const std::string why = oiio::decodeRgba8(encoded, kMaxTextureSide, pixels);
+    if (!why.empty())
+        return core::makeError("cannot decode {}: {}", label, why);
+    scene::TextureImage texture;
+    texture.name = label;
+    texture.width = pixels.width;
+    texture.height = pixels.height;
+    texture.rgba = std::move(pixels.values);
+    return texture;
+}
+
+} // namespace shutter::io

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/oiio_codec.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <memory>
+
+namespace shutter::io::oiio {
+
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+/// Largest side of a picture that readFloats takes; bounds the memory a damaged header can ask for.
+constexpr int kMaxFloatSide = 65536;
+constexpr uint64_t kMaxFloatValues = uint64_t(1) << 31; // 8 GiB
+
+/// libjpeg's JPEG_MAX_DIMENSION; above it, libjpeg ends the process.
+constexpr uint32_t kMaxJpegSide = 65500;
+
+/// OpenImageIO's messages may span lines; the person at the terminal gets one sentence.
+std::string oneLine(std::string text, const char* fallback) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '.' || text.back() == ' ')) {
+        text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.empty() ? std::string(fallback) : text;
+}
+
+/// Values as stored: no multiplication by alpha.
+ImageSpec makeReadConfig() {
+    ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    return config;
+}
+
+bool hasUintChannel(const ImageSpec& spec) {
+    if (spec.format == TypeDesc::UINT32)
+        return true;
+    return std::any_of(spec.channelformats.begin(), spec.channelformats.end(), [](TypeDesc t) {
+        return t == TypeDesc::UINT32;
+    });
+}
+
+/// OpenImageIO would divide unsigned integers by their largest value; an id must stay an id.
+bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, std::vector<float>& values) {
+    const size_t count = size_t(spec.width) * size_t(spec.height);
+    const size_t channels = size_t(spec.nchannels);
+    std::vector<float> floats(count);
+    std::vector<uint32_t> integers(count);
+    for (size_t c = 0; c < channels; ++c) {
+        const int channel = int(c);
+        const bool isUint = spec.channelformat(channel) == TypeDesc::UINT32;
+        void* data = isUint ? static_cast<void*>(integers.data()) : floats.data();
+        const TypeDesc type = isUint ? TypeDesc::UINT32 : TypeDesc::FLOAT;
+        if (!input.read_image(0, 0, channel, channel + 1, type, data))
+            return false;
+        for (size_t i = 0; i < count; ++i) {
+            values[i * channels + c] = isUint ? float(integers[i]) : floats[i];
+        }
+    }
+    return true;
+}
+
+std::string readOpened(ImageInput& input, FloatPixels& out) {
+    const ImageSpec spec = input.spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
+        return "it is not a flat picture";
+    }
+    const uint64_t count = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels);
+    if (spec.width > kMaxFloatSide || spec.height > kMaxFloatSide || count > kMaxFloatValues) {
+        return "it is too large (" + std::to_string(spec.width) + "x" +
+               std::to_string(spec.height) + ")";
+    }
+    out.width = uint32_t(spec.width);
+    out.height = uint32_t(spec.height);
+    out.channels = uint32_t(spec.nchannels);
+    out.channelNames.assign(spec.channelnames.begin(), spec.channelnames.end());
+    out.values.resize(count);
+    const bool done =
+        hasUintChannel(spec)
+            ? readChannelByChannel(input, spec, out.values)
+            : input.read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, out.values.data());
+    return done ? std::string() : oneLine(input.geterror(), "its pixels cannot be decoded");
+}
+
+const char* detectExtension(std::span<const uint8_t> encoded) {
+    constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
+    constexpr uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
+    if (encoded.size() >= sizeof(kPng) && std::memcmp(encoded.data(), kPng, sizeof(kPng)) == 0) {
+        return "png";
+    }
+    if (encoded.size() >= sizeof(kJpeg) && std::memcmp(encoded.data(), kJpeg, sizeof(kJpeg)) == 0) {
+        return "jpg";
+    }
+    return nullptr;
+}
+
+/// 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
+void expandToRgba(const std::vector<uint8_t>& source, size_t channels, std::vector<uint8_t>& rgba) {
+    const size_t count = source.size() / channels;
+    rgba.resize(count * 4);
+    const bool isGrey = channels <= 2;
+    const bool hasAlpha = channels == 2 || channels == 4;
+    for (size_t i = 0; i < count; ++i) {
+        const uint8_t* in = source.data() + i * channels;
+        uint8_t* out = rgba.data() + i * 4;
+        out[0] = in[0];
+        out[1] = isGrey ? in[0] : in[1];
+        out[2] = isGrey ? in[0] : in[2];
+        out[3] = hasAlpha ? in[channels - 1] : uint8_t(255);
+    }
+}
+
+std::string decodeOpened(ImageInput& input, uint32_t maxSide, Rgba8Pixels& out) {
+    const ImageSpec spec = input.spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4) {
+        return "it has no pixels or an unknown channel layout";
+    }
+    if (uint32_t(spec.width) > maxSide || uint32_t(spec.height) > maxSide) {
+        return "it is " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+               " pixels, above the limit of " + std::to_string(maxSide) + "x" +
+               std::to_string(maxSide);
+    }
+    const size_t channels = size_t(spec.nchannels);
+    std::vector<uint8_t> stored(size_t(spec.width) * size_t(spec.height) * channels);
+    if (!input.read_image(0, 0, 0, spec.nchannels, TypeDesc::UINT8, stored.data())) {
+        return oneLine(input.geterror(), "its pixels cannot be decoded");
+    }
+    out.width = uint32_t(spec.width);
+    out.height = uint32_t(spec.height);
+    if (channels == 4) {
+        out.values = std::move(stored);
+    } else {
+        expandToRgba(stored, channels, out.values);
+    }
+    return {};
+}
+
+ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
+    const TypeDesc stored =
+        request.storage == Storage::Half ? TypeDesc(TypeDesc::HALF) : memoryType;
+    ImageSpec spec(int(request.width), int(request.height), int(request.channels), stored);
+    if (!request.channelNames.empty()) {
+        spec.channelnames.assign(request.channelNames.begin(), request.channelNames.end());
+    }
+    const auto alpha = std::find(request.channelNames.begin(), request.channelNames.end(), "A");
+    spec.alpha_channel =
+        alpha == request.channelNames.end() ? -1 : int(alpha - request.channelNames.begin());
+    spec.z_channel = -1;
+    if (request.storage == Storage::Byte) {
+        spec.attribute("oiio:ColorSpace", "sRGB");
+        spec.attribute("Compression", "jpeg:95");
+        spec.attribute("CompressionQuality", 95);
+    } else {
+        spec.attribute("oiio:ColorSpace", "Linear");
+        spec.attribute("compression", "zip");
+    }
+    return spec;
+}
+
+TypeDesc memoryTypeOf(Storage storage) {
+    switch (storage) {
+    case Storage::Byte:
+        return TypeDesc::UINT8;
+    case Storage::Uint:
+        return TypeDesc::UINT32;
+    case Storage::Half:
+    case Storage::Float:
+        break;
+    }
+    return TypeDesc::FLOAT;
+}
+
+} // namespace
+
+std::string readFloats(const std::string& path, FloatPixels& out) try {
+    const ImageSpec config = makeReadConfig();
+    const auto input = ImageInput::open(path, &config);
+    if (!input)
+        return oneLine(OIIO::geterror(), "no reader knows this format");
+    const std::string why = readOpened(*input, out);
+    input->close();
+    return why;
+
+} catch (const std::exception& e) {
+
+    return oneLine(e.what(), "the decoder failed");
+}
+
+std::string decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba8Pixels& out) try {
+    const char* extension = detectExtension(encoded);
+    if (!extension)
+        return "it is neither PNG nor JPEG";
+    OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
+    ImageSpec config = makeReadConfig();
+    OIIO::Filesystem::IOProxy* proxy = &memory;
+    config.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
+    const auto input = ImageInput::open(std::string("memory.") + extension, &config, &memory);
+    if (!input)
+        return oneLine(OIIO::geterror(), "its header cannot be decoded");
+    const std::string why = decodeOpened(*input, maxSide, out);
+    input->close();
+    return why;
+
+} catch (const std::exception& e) {
+
+    return oneLine(e.what(), "the decoder failed");
+}
+
+std::string encode(const EncodeRequest& request, std::vector<uint8_t>& out) try {
+    const bool isJpeg = request.extension == ".jpg" || request.extension == ".jpeg";
+    if (isJpeg && std::max(request.width, request.height) > kMaxJpegSide) {
+        return "JPEG ends at " + std::to_string(kMaxJpegSide) + " pixels a side";
+    }
+    const std::string name = "memory" + request.extension;
+    const auto output = ImageOutput::create(name);
+    if (!output)
+        return oneLine(OIIO::geterror(), "no writer knows this format");
+    if (!output->supports("ioproxy"))
+        return "this OpenImageIO cannot encode it in memory";
+    const TypeDesc memoryType = memoryTypeOf(request.storage);
+    OIIO::Filesystem::IOVecOutput memory(out);
+    output->set_ioproxy(&memory);
+    if (!output->open(name, makeWriteSpec(request, memoryType)))
+        return oneLine(output->geterror(), "the encoder cannot be opened");
+    if (!output->write_image(memoryType, request.pixels))
+        return oneLine(output->geterror(), "encoding failed");
+    if (!output->close())
+        return oneLine(output->geterror(), "encoding failed at the end");
+    return {};
+
+} catch (const std::exception& e) {
+
+    return oneLine(e.what(), "the encoder failed");
+}
+
+} // namespace shutter::io::oiio

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The only door to OpenImageIO. Kept apart from core/result.h because OpenImageIO's headers bring a
+// copy of fmt of their own, which must not meet ours in one source file.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::io::oiio {
+
+/// Pixels as floats, row 0 at the top, interleaved.
+struct FloatPixels {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t channels = 0;
+    std::vector<float> values;
+    std::vector<std::string> channelNames;
+};
+
+struct Rgba8Pixels {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint8_t> values; ///< width * height * 4
+};
+
+enum class Storage : uint8_t { Byte, Half, Float, Uint };
+
+/// What to encode: `pixels` holds width * height * channels values of the C type of `storage`
+/// (uint8_t; float for Half and Float; uint32_t).
+struct EncodeRequest {
+    std::string extension; ///< ".exr", ".png", ".jpg" or ".jpeg"
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t channels = 0;
+    std::vector<std::string> channelNames; ///< empty, or one a channel
+    Storage storage = Storage::Float;
+    const void* pixels = nullptr;
+};
+
+/// Unsigned 32-bit channels keep their value (exact to 2^24), 8 and 16-bit ones are scaled to
+/// [0, 1]. Alpha is not multiplied in. Returns an empty string, or why it failed.
+[[nodiscard]] std::string readFloats(const std::string& path, FloatPixels& out);
+
+/// Decodes PNG or JPEG bytes; refuses pictures wider or higher than `maxSide` before decoding.
+/// Returns an empty string, or why it failed.
+[[nodiscard]] std::string
+decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba8Pixels& out);
+
+/// The bytes of the picture's file. In memory, because libjpeg ends the process when it cannot
+/// write to a file. Returns an empty string, or why it failed.
+[[nodiscard]] std::string encode(const EncodeRequest& request, std::vector<uint8_t>& out);
+
+} // namespace shutter::io::oiio

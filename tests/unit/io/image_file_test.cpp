@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/image_file.h"
+#include "tests/unit/io/gltf_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sys/resource.h>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+image::Image makeRamp(uint32_t width, uint32_t height, uint32_t channels) {
+    image::Image image(width, height, channels);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        image.pixels[i] = float(i) / float(image.pixels.size());
+    }
+    return image;
+}
+
+/// Does not compress below a thousand bytes.
+image::Image makeNoise(uint32_t width, uint32_t height, uint32_t channels) {
+    image::Image image(width, height, channels);
+    uint32_t state = 1;
+    for (float& value : image.pixels) {
+        state = state * 1664525u + 1013904223u;
+        value = float(state >> 8);
+    }
+    return image;
+}
+
+std::vector<uint8_t> readAll(const fs::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+size_t countFiles(const fs::path& folder) {
+    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(ImageFile, AFloatExrComesBackExactlyWithItsChannelNames) {
+    const TempFolder folder;
+    image::Image image = makeRamp(5, 3, 2);
+    image.channelNames = {"motion.x", "motion.y"};
+    image.pixels[0] = -1234.5678f;
+    image.pixels[1] = 1e30f;
+    const fs::path path = folder.path() / "motion.exr";
+    const core::Status written = writeImage(path, image);
+    ASSERT_TRUE(written) << written.error().message;
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().width, 5u);
+    EXPECT_EQ(read.value().height, 3u);
+    EXPECT_EQ(read.value().pixels, image.pixels);
+    EXPECT_EQ(read.value().channelNames, image.channelNames);
+}
+
+TEST(ImageFile, AnExrKeepsInfinityAndNaN) {
+    const TempFolder folder;
+    image::Image image(2, 1, 1);
+    image.pixels = {std::numeric_limits<float>::infinity(), std::nanf("")};
+    const fs::path path = folder.path() / "odd.exr";
+    ASSERT_TRUE(writeImage(path, image));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_TRUE(std::isinf(read.value().pixels[0]));
+    EXPECT_TRUE(std::isnan(read.value().pixels[1]));
+}
+
+TEST(ImageFile, AHalfExrKeepsElevenBits) {
+    const TempFolder folder;
+    image::Image image(2, 1, 1);
+    image.pixels = {1.0f + 1.0f / 1024.0f, 1.0f + 1.0f / 4096.0f};
+    const fs::path path = folder.path() / "half.exr";
+    ASSERT_TRUE(writeImage(path, image, SampleType::Half));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().pixels[0], image.pixels[0]);
+    EXPECT_EQ(read.value().pixels[1], 1.0f) << "a float channel would have kept it";
+}
+
+TEST(ImageFile, AnUnsignedExrKeepsIdsAsTheyAre) {
+    const TempFolder folder;
+    image::Image image(5, 1, 1);
+    image.channelNames = {"mesh_id"};
+    image.pixels = {0.0f, 1.0f, 70000.0f, 16777215.0f, -3.0f};
+    const fs::path path = folder.path() / "id.exr";
+    ASSERT_TRUE(writeImage(path, image, SampleType::Uint));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().pixels, (std::vector<float>{0.0f, 1.0f, 70000.0f, 16777215.0f, 0.0f}));
+    EXPECT_EQ(read.value().channelNames, image.channelNames);
+}
+
+TEST(ImageFile, APngRoundsToTheNearestOf256StepsAndClamps) {
+    const TempFolder folder;
+    image::Image image(6, 1, 1);
+    image.pixels = {-1.0f, 0.0f, 0.5f, 100.4f / 255.0f, 7.0f, std::nanf("")};
+    const fs::path path = folder.path() / "grey.PNG";
+    ASSERT_TRUE(writeImage(path, image));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_EQ(read.value().channels, 1u);
+    const float expected[] = {0.0f, 0.0f, 128.0f, 100.0f, 255.0f, 0.0f};
+    for (uint32_t x = 0; x < 6; ++x) {
+        EXPECT_NEAR(read.value().at(x, 0, 0) * 255.0f, expected[x], 1e-3f) << x;
+    }
+}
+
+TEST(ImageFile, APngOfFourChannelsStoresTheFirstThreeUnchanged) {
+    const TempFolder folder;
+    image::Image image(1, 1, 4);
+    image.pixels = {1.0f, 0.2f, 0.4f, 0.0f}; // alpha 0 must not blacken the colour
+    const fs::path path = folder.path() / "rgba.png";
+    ASSERT_TRUE(writeImage(path, image));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().channels, 3u);
+    EXPECT_NEAR(read.value().at(0, 0, 0), 1.0f, 1e-4f);
+    EXPECT_NEAR(read.value().at(0, 0, 1), 0.2f, 1e-4f);
+}
+
+TEST(ImageFile, AJpegComesBackNearly) {
+    const TempFolder folder;
+    image::Image image(16, 16, 3);
+    for (float& value : image.pixels)
+        value = 0.5f;
+    const fs::path path = folder.path() / "grey.jpeg";
+    ASSERT_TRUE(writeImage(path, image));
+    const core::Result<image::Image> read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_NEAR(read.value().at(8, 8, 1), 0.5f, 0.01f);
+}
+
+TEST(ImageFile, WritingLeavesNothingButThePicture) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
+    EXPECT_EQ(countFiles(folder.path()), 1u);
+}
+
+TEST(ImageFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
+    const TempFolder folder;
+    const fs::path path = folder.write("a.jpg", "old");
+    const core::Status written = writeImage(path, image::Image(70000, 1, 3)); // JPEG ends at 65500
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("cannot write '" + path.string()), std::string::npos);
+    EXPECT_EQ(readAll(path).size(), 3u);
+    EXPECT_EQ(countFiles(folder.path()), 1u);
+}
+
+TEST(ImageFile, AWriteThatFailsOnTheDiskLeavesNoTemporary) {
+    const TempFolder folder;
+    const fs::path path = folder.write("a.exr", "old");
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit full{1000, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+    const core::Status written = writeImage(path, makeNoise(64, 64, 3));
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, handler);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(readAll(path).size(), 3u);
+    EXPECT_EQ(countFiles(folder.path()), 1u);
+}
+
+TEST(ImageFile, AFolderInThePlaceOfThePictureIsNamed) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "a.png";
+    fs::create_directory(path);
+    const core::Status written = writeImage(path, makeRamp(2, 2, 3));
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("is a folder"), std::string::npos);
+}
+
+TEST(ImageFile, AnEmptyPictureIsRefused) {
+    const TempFolder folder;
+    const core::Status written = writeImage(folder.path() / "a.exr", image::Image());
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("no pixels"), std::string::npos);
+}
+
+TEST(ImageFile, UnknownExtensionsAreNamed) {
+    EXPECT_FALSE(isDisplayFormat("a.exr").value());
+    EXPECT_TRUE(isDisplayFormat("a.JPG").value());
+    const core::Result<bool> unknown = isDisplayFormat("a.tga");
+    ASSERT_FALSE(unknown);
+    EXPECT_NE(unknown.error().message.find(".tga"), std::string::npos);
+    EXPECT_FALSE(isDisplayFormat("noextension"));
+}
+
+TEST(ImageFile, CheckWritableTellsAMissingFolderFromAGoodOne) {
+    const TempFolder folder;
+    EXPECT_TRUE(checkWritable(folder.path() / "a.exr"));
+    const core::Status missing = checkWritable(folder.path() / "nowhere" / "a.exr");
+    ASSERT_FALSE(missing);
+    EXPECT_NE(missing.error().message.find("nowhere"), std::string::npos);
+    EXPECT_FALSE(checkWritable(""));
+}
+
+TEST(ImageFile, ReadingNamesTheFileAndTheCause) {
+    const TempFolder folder;
+    EXPECT_NE(
+        readImage(folder.path() / "none.png").error().message.find("no such file"),
+        std::string::npos
+    );
+    EXPECT_FALSE(readImage(folder.path()));
+    const core::Result<image::Image> text = readImage(folder.write("text.png", "not a picture"));
+    ASSERT_FALSE(text);
+    EXPECT_NE(text.error().message.find("text.png"), std::string::npos);
+    EXPECT_FALSE(readImage(folder.write("empty.exr", "")));
+}
+
+TEST(DecodeTexture, APngDecodesToItsBytesWithOpaqueAlpha) {
+    const TempFolder folder;
+    image::Image image(2, 1, 3);
+    image.pixels = {1.0f, 0.0f, 0.2f, 0.0f, 1.0f, 0.4f};
+    const fs::path path = folder.path() / "a.png";
+    ASSERT_TRUE(writeImage(path, image));
+    const auto texture = decodeTexture(readAll(path), "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_EQ(texture.value().width, 2u);
+    EXPECT_EQ(texture.value().height, 1u);
+    EXPECT_EQ(texture.value().rgba, (std::vector<uint8_t>{255, 0, 51, 255, 0, 255, 102, 255}));
+}
+
+TEST(DecodeTexture, AGreyPngFillsAllThreeColours) {
+    const TempFolder folder;
+    image::Image image(1, 1, 1);
+    image.pixels = {0.4f};
+    const fs::path path = folder.path() / "a.png";
+    ASSERT_TRUE(writeImage(path, image));
+    const auto texture = decodeTexture(readAll(path), "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_EQ(texture.value().rgba, (std::vector<uint8_t>{102, 102, 102, 255}));
+}
+
+// A 1x1 RGBA PNG of (200, 100, 50, 128).
+const std::vector<uint8_t> kTranslucentPng = {
+    137, 80, 78,  71,  13, 10,  26,  10, 0,  0,   0,  13,  73,  72,  68,  82, 0, 0,
+    0,   1,  0,   0,   0,  1,   8,   6,  0,  0,   0,  31,  21,  196, 137, 0,  0, 0,
+    13,  73, 68,  65,  84, 120, 156, 99, 56, 145, 98, 212, 0,   0,   5,   53, 1, 223,
+    115, 98, 227, 219, 0,  0,   0,   0,  73, 69,  78, 68,  174, 66,  96,  130};
+
+// A 1x1 16-bit grey and alpha PNG of (0x8000, 0x4000).
+const std::vector<uint8_t> kDeepPng = {
+    137, 80,  78, 71, 13, 10,  26,  10, 0,   0,  0,   13,  73,  72,  68, 82,  0, 0,
+    0,   1,   0,  0,  0,  1,   16,  4,  0,   0,  0,   229, 140, 208, 65, 0,   0, 0,
+    13,  73,  68, 65, 84, 120, 156, 99, 104, 96, 112, 96,  0,   0,   2,  133, 0, 193,
+    26,  194, 37, 36, 0,  0,   0,   0,  73,  69, 78,  68,  174, 66,  96, 130};
+
+// A 2x1 PNG with a palette of (10, 20, 30) and (200, 150, 100), the second half transparent.
+const std::vector<uint8_t> kPalettePng = {
+    137, 80, 78, 71,  13,  10,  26,  10,  0,  0,   0,   13,  73,  72,  68,  82,  0,   0,  0,  2,
+    0,   0,  0,  1,   8,   3,   0,   0,   0,  195, 252, 143, 184, 0,   0,   0,   6,   80, 76, 84,
+    69,  10, 20, 30,  200, 150, 100, 211, 34, 196, 98,  0,   0,   0,   2,   116, 82,  78, 83, 255,
+    128, 8,  15, 179, 106, 0,   0,   0,   11, 73,  68,  65,  84,  120, 156, 99,  96,  96, 4,  0,
+    0,   4,  0,  2,   191, 122, 63,  74,  0,  0,   0,   0,   73,  69,  78,  68,  174, 66, 96, 130};
+
+TEST(DecodeTexture, AlphaIsNotMultipliedIn) {
+    const auto texture = decodeTexture(kTranslucentPng, "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_EQ(texture.value().rgba, (std::vector<uint8_t>{200, 100, 50, 128}));
+}
+
+TEST(DecodeTexture, SixteenBitGreyWithAlphaBecomesEightBitRgba) {
+    const auto texture = decodeTexture(kDeepPng, "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_EQ(texture.value().rgba, (std::vector<uint8_t>{128, 128, 128, 64}));
+}
+
+TEST(DecodeTexture, APaletteIsLookedUp) {
+    const auto texture = decodeTexture(kPalettePng, "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_EQ(texture.value().rgba, (std::vector<uint8_t>{10, 20, 30, 255, 200, 150, 100, 128}));
+}
+
+TEST(DecodeTexture, AJpegDecodes) {
+    const TempFolder folder;
+    image::Image image(8, 8, 3);
+    for (float& value : image.pixels)
+        value = 1.0f;
+    const fs::path path = folder.path() / "a.jpg";
+    ASSERT_TRUE(writeImage(path, image));
+    const auto texture = decodeTexture(readAll(path), "a");
+    ASSERT_TRUE(texture) << texture.error().message;
+    EXPECT_GE(texture.value().rgba[0], 253);
+    EXPECT_EQ(texture.value().rgba[3], 255);
+}
+
+TEST(DecodeTexture, DamagedBytesAreAnErrorThatNamesThePicture) {
+    EXPECT_FALSE(decodeTexture({}, "a"));
+    const std::vector<uint8_t> noise(100, 7);
+    const auto unknown = decodeTexture(noise, "images[3] (wood.png)");
+    ASSERT_FALSE(unknown);
+    EXPECT_NE(unknown.error().message.find("images[3] (wood.png)"), std::string::npos);
+    for (const size_t size : {1, 8, 20, 33, 45}) {
+        EXPECT_FALSE(decodeTexture(std::span(kTranslucentPng).first(size), "a")) << size;
+    }
+}
+
+// A correct grey PNG of 20000x1 pixels.
+const std::vector<uint8_t> kWidePng = {
+    137, 80,  78,  71,  13,  10,  26,  10, 0, 0,  0,   13,  73,  72, 68,  82,  0,  0,   78, 32,
+    0,   0,   0,   1,   8,   0,   0,   0,  0, 30, 223, 193, 82,  0,  0,   0,   42, 73,  68, 65,
+    84,  120, 156, 237, 193, 49,  1,   0,  0, 0,  194, 160, 245, 79, 109, 13,  15, 160, 0,  0,
+    0,   0,   0,   0,   0,   0,   0,   0,  0, 0,  0,   0,   0,   0,  0,   0,   0,  184, 48, 78,
+    33,  0,   1,   62,  181, 213, 181, 0,  0, 0,  0,   73,  69,  78, 68,  174, 66, 96,  130};
+
+TEST(DecodeTexture, APictureAboveTheSizeLimitIsRefusedNamingBoth) {
+    const auto texture = decodeTexture(kWidePng, "a");
+    ASSERT_FALSE(texture);
+    EXPECT_NE(texture.error().message.find("20000x1"), std::string::npos);
+    EXPECT_NE(texture.error().message.find("16384x16384"), std::string::npos);
+}
+
+} // namespace
+
+} // namespace shutter::io
