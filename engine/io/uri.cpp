@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/uri.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <system_error>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMaxUriBytes = 4096;
+
+int hexDigit(char c) {
+    if (c >= '0' && c <= '9')
+        return c - '0';
+    if (c >= 'a' && c <= 'f')
+        return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F')
+        return c - 'A' + 10;
+    return -1;
+}
+
+std::optional<std::string> percentDecode(std::string_view text) {
+    std::string decoded;
+    decoded.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            decoded.push_back(text[i]);
+            continue;
+        }
+        if (i + 2 >= text.size())
+            return std::nullopt;
+        const int high = hexDigit(text[i + 1]);
+        const int low = hexDigit(text[i + 2]);
+        if (high < 0 || low < 0)
+            return std::nullopt;
+        decoded.push_back(char(high * 16 + low));
+        i += 2;
+    }
+    return decoded;
+}
+
+int base64Digit(char c) {
+    if (c >= 'A' && c <= 'Z')
+        return c - 'A';
+    if (c >= 'a' && c <= 'z')
+        return c - 'a' + 26;
+    if (c >= '0' && c <= '9')
+        return c - '0' + 52;
+    if (c == '+' || c == '-')
+        return 62; // '-' and '_': the URL-safe alphabet
+    if (c == '/' || c == '_')
+        return 63;
+    return -1;
+}
+
+std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
+    while (!text.empty() && text.back() == '=')
+        text.remove_suffix(1);
+    if (text.size() % 4 == 1)
+        return std::nullopt;
+    std::vector<uint8_t> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    uint32_t bits = 0;
+    int bitCount = 0;
+    for (const char c : text) {
+        const int digit = base64Digit(c);
+        if (digit < 0)
+            return std::nullopt;
+        bits = (bits << 6 | uint32_t(digit)) & 0xFFFFFFu;
+        bitCount += 6;
+        if (bitCount < 8)
+            continue;
+        bitCount -= 8;
+        bytes.push_back(uint8_t(bits >> bitCount & 0xFFu));
+    }
+    return bytes;
+}
+
+/// RFC 3986: a letter, then letters, digits, '+', '-', '.', then ':' before any '/'.
+bool hasScheme(std::string_view uri) {
+    const size_t colon = uri.find(':');
+    if (colon == std::string_view::npos || colon == 0)
+        return false;
+    return std::all_of(uri.begin(), uri.begin() + std::ptrdiff_t(colon), [](unsigned char c) {
+        return std::isalnum(c) || c == '+' || c == '-' || c == '.';
+    });
+}
+
+bool startsWithNoCase(std::string_view text, std::string_view prefix) {
+    return text.size() >= prefix.size() &&
+           std::equal(prefix.begin(), prefix.end(), text.begin(), [](char a, char b) {
+               return a == char(std::tolower(static_cast<unsigned char>(b)));
+           });
+}
+
+/// A link inside the folder may still point out of it.
+bool staysInside(const fs::path& folder, const fs::path& file) {
+    std::error_code failure;
+    const fs::path root = fs::weakly_canonical(folder, failure);
+    if (failure)
+        return false;
+    const fs::path target = fs::weakly_canonical(file, failure);
+    if (failure)
+        return false;
+    const auto [rootEnd, ignored] =
+        std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+    return rootEnd == root.end();
+}
+
+} // namespace
+
+bool isDataUri(std::string_view uri) {
+    return startsWithNoCase(uri, "data:");
+}
+
+core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri) {
+    const size_t comma = uri.find(',');
+    if (!isDataUri(uri) || comma == std::string_view::npos) {
+        return core::makeError("the data URI has no ','");
+    }
+    const std::string_view header = uri.substr(0, comma);
+    const std::string_view payload = uri.substr(comma + 1);
+    constexpr std::string_view kBase64 = ";base64";
+    const bool isBase64 = header.size() >= kBase64.size() &&
+                          startsWithNoCase(header.substr(header.size() - kBase64.size()), kBase64);
+    if (isBase64) {
+        std::optional<std::vector<uint8_t>> bytes = base64Decode(payload);
+        if (!bytes)
+            return core::makeError("the data URI is not valid base64");
+        return std::move(*bytes);
+    }
+    const std::optional<std::string> text = percentDecode(payload);
+    if (!text)
+        return core::makeError("the data URI has a broken percent-encoding");
+    return std::vector<uint8_t>(text->begin(), text->end());
+}
+
+core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) {
+    if (uri.empty())
+        return core::makeError("the URI is empty");
+    if (uri.size() > kMaxUriBytes) {
+        return core::makeError("the URI has {} bytes, above the limit of 4096", uri.size());
+    }
+    if (hasScheme(uri)) {
+        return core::makeError("the URI '{}' is no relative path", abbreviateUri(uri));
+    }
+    const std::optional<std::string> decoded = percentDecode(uri);
+    if (!decoded) {
+        return core::makeError("the URI '{}' has a broken percent-encoding", abbreviateUri(uri));
+    }
+    if (decoded->find('\0') != std::string::npos) {
+        return core::makeError("the URI '{}' holds a NUL", abbreviateUri(uri));
+    }
+    const fs::path relative(*decoded);
+    const bool climbs = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) {
+        return part == "..";
+    });
+    // Windows separators mean nothing here, but such a path must not come to mean something later.
+    const bool climbsOnWindows = decoded->find("..\\") != std::string::npos;
+    if (relative.is_absolute() || climbs || climbsOnWindows) {
+        return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
+    }
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
+    const fs::path file = base / relative;
+    if (!staysInside(base, file)) {
+        return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
+    }
+    return file;
+}
+
+std::string abbreviateUri(std::string_view uri) {
+    constexpr size_t kShown = 80;
+    if (uri.size() <= kShown)
+        return std::string(uri);
+    return std::string(uri.substr(0, kShown)) + "...";
+}
+
+} // namespace shutter::io

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// URIs of glTF buffers and images: data URIs, and relative paths that stay inside one folder.
+#pragma once
+
+#include "engine/core/result.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace shutter::io {
+
+[[nodiscard]] bool isDataUri(std::string_view uri);
+
+/// Bytes of a data URI, base64 or percent-encoded. An Error names what is malformed.
+[[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
+
+/// The file that a relative URI names below `folder`. Refuses, without touching the disk first:
+/// schemes (http:, file:, C:), absolute paths, any `..`, NUL, broken percent-encoding, over 4096
+/// bytes; then links that lead out of the folder. The file itself need not exist.
+[[nodiscard]] core::Result<std::filesystem::path>
+resolveUri(const std::filesystem::path& folder, std::string_view uri);
+
+/// A URI as it may stand in a message: shortened where it is long.
+[[nodiscard]] std::string abbreviateUri(std::string_view uri);
+
+} // namespace shutter::io

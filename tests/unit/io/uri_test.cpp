@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/uri.h"
+#include "tests/unit/io/gltf_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string decodeText(std::string_view uri) {
+    const auto bytes = decodeDataUri(uri);
+    return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : "refused";
+}
+
+TEST(DataUri, Base64OfEveryPaddingDecodes) {
+    EXPECT_EQ(decodeText("data:application/octet-stream;base64,"), "");
+    EXPECT_EQ(decodeText("data:;base64,Zg=="), "f");
+    EXPECT_EQ(decodeText("data:;base64,Zm8="), "fo");
+    EXPECT_EQ(decodeText("data:;base64,Zm9v"), "foo");
+    EXPECT_EQ(decodeText("data:;base64,Zm9vYg"), "foob") << "without padding";
+}
+
+TEST(DataUri, PercentEncodedTextDecodes) {
+    EXPECT_EQ(decodeText("data:,a%20b%2C"), "a b,");
+}
+
+TEST(DataUri, MalformedOnesAreRefused) {
+    EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
+    EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
+    EXPECT_EQ(decodeText("data:;base64,Zm9vY"), "refused") << "one digit too many";
+    EXPECT_EQ(decodeText("data:,%4"), "refused");
+    EXPECT_EQ(decodeText("http://x,y"), "refused");
+}
+
+TEST(ResolveUri, PlainNamesSpacesAndUnicodeStayInTheFolder) {
+    const TempFolder folder;
+    EXPECT_EQ(resolveUri(folder.path(), "a.bin").value(), folder.path() / "a.bin");
+    EXPECT_EQ(resolveUri(folder.path(), "sub/a%20b.png").value(), folder.path() / "sub/a b.png");
+    EXPECT_EQ(resolveUri(folder.path(), "a b.png").value(), folder.path() / "a b.png");
+    EXPECT_EQ(resolveUri(folder.path(), "%E2%9D%A4.png").value(), folder.path() / "\u2764.png");
+    EXPECT_EQ(resolveUri(folder.path(), "..a/b..").value(), folder.path() / "..a/b..");
+}
+
+class RefusedUri : public testing::TestWithParam<const char*> {};
+
+TEST_P(RefusedUri, IsAnError) {
+    const TempFolder folder;
+    EXPECT_FALSE(resolveUri(folder.path(), GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Uris,
+    RefusedUri,
+    testing::Values(
+        "",
+        "../a.bin",
+        "sub/../../a.bin",
+        "%2e%2e/a.bin",
+        "..%2fa.bin",
+        "..\\a.bin",
+        "/etc/hostname",
+        "%2Fetc/hostname",
+        "file:///etc/hostname",
+        "FILE:a.bin",
+        "http://127.0.0.1/a.bin",
+        "C:/a.bin",
+        "a%zz.bin",
+        "a%2",
+        "a%00.bin"
+    )
+);
+
+TEST(ResolveUri, AnEndlessUriIsRefusedAndShortenedInTheMessage) {
+    const TempFolder folder;
+    const auto file = resolveUri(folder.path(), std::string(100000, 'a'));
+    ASSERT_FALSE(file);
+    EXPECT_LT(file.error().message.size(), 200u);
+}
+
+TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
+    const TempFolder outside;
+    outside.write("secret.bin", "x");
+    const TempFolder folder;
+    folder.write("real.bin", "x");
+    fs::create_symlink(outside.path() / "secret.bin", folder.path() / "out.bin");
+    fs::create_symlink("real.bin", folder.path() / "in.bin");
+    EXPECT_FALSE(resolveUri(folder.path(), "out.bin"));
+    EXPECT_TRUE(resolveUri(folder.path(), "in.bin"));
+}
+
+} // namespace
+
+} // namespace shutter::io
