@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Private to engine/io.
+#pragma once
+
+#include "engine/io/gltf_context.h"
+#include "engine/scene/world.h"
+
+#include <vector>
+
+namespace shutter::io {
+
+/// Fills Assets::clips with the translation, rotation and scale channels, puts Animated on the
+/// entities they drive and makes every clip active. `entities` is what loadNodes returned. Throws
+/// GltfError.
+void loadAnimations(
+    GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
+);
+
+} // namespace shutter::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Private to engine/io: the node hierarchy as entities.
+#pragma once
+
+#include "engine/io/gltf_context.h"
+#include "engine/math/transform.h"
+#include "engine/scene/world.h"
+
+#include <optional>
+#include <vector>
+
+namespace shutter::io {
+
+/// Translation, rotation and scale whose product is `matrix` (to 1e-5 of its size), or nothing
+/// where it shears or flattens an axis. A mirror becomes a negative x scale. Needs finite elements
+/// and 0 0 0 1 in the last row.
+[[nodiscard]] std::optional<math::Transform> decomposeMatrix(const math::dmat4& matrix);
+
+/// Makes an entity, in the order of the file, of every node of the default scene and fills
+/// World::cameras. Returns the entity of every node of the file: the null entity outside the scene.
+/// Throws GltfError for graphs that are no forest and values nothing can be drawn with.
+[[nodiscard]] std::vector<ecs::Entity> loadNodes(GltfContext& context, scene::World& world);
+
+} // namespace shutter::io
