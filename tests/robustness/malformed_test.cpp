@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Every input of shared/gltf-malformed through the loader; see the README there for the classes.
+#include "engine/io/gltf_loader.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <sys/resource.h>
+#include <vector>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = fs::path(SHUTTER_SHARED_DIR) / "gltf-malformed";
+
+struct Entry {
+    std::string file;
+    std::string expect;
+    std::string why;
+};
+
+std::vector<Entry> readManifest() {
+    std::ifstream stream(kFolder / "manifest.json");
+    std::vector<Entry> entries;
+    for (const nlohmann::json& item : nlohmann::json::parse(stream)) {
+        entries.push_back({item.at("file"), item.at("expect"), item.at("why")});
+    }
+    return entries;
+}
+
+/// One line, not cut off, and it names the file.
+void expectClearMessage(const std::string& message, const Entry& entry) {
+    EXPECT_NE(message.find(fs::path(entry.file).filename().string()), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_LT(message.size(), 1000u) << message;
+}
+
+std::string requiredExtension(const Entry& entry) {
+    std::ifstream stream(kFolder / entry.file);
+    const nlohmann::json root = nlohmann::json::parse(stream);
+    return root.at("extensionsRequired").at(0);
+}
+
+bool isFinite(const math::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void expectSoundPrimitive(const scene::Primitive& primitive, const scene::Assets& assets) {
+    const size_t count = primitive.positions.size();
+    EXPECT_EQ(primitive.normals.size(), count);
+    for (const size_t size :
+         {primitive.tangents.size(),
+          primitive.uv0.size(),
+          primitive.uv1.size(),
+          primitive.colors.size()}) {
+        EXPECT_TRUE(size == 0 || size == count);
+    }
+    EXPECT_EQ(primitive.indices.size() % 3, 0u);
+    EXPECT_FALSE(primitive.indices.empty());
+    for (const uint32_t index : primitive.indices)
+        ASSERT_LT(index, count);
+    for (const math::vec3& position : primitive.positions)
+        ASSERT_TRUE(isFinite(position));
+    for (const math::vec3& normal : primitive.normals) {
+        ASSERT_NEAR(glm::length(normal), 1.0f, 1e-4f);
+    }
+    for (const math::vec4& tangent : primitive.tangents) {
+        ASSERT_NEAR(glm::length(math::vec3(tangent)), 1.0f, 1e-4f);
+        ASSERT_EQ(std::abs(tangent.w), 1.0f);
+    }
+    if (primitive.material != scene::kNone) {
+        EXPECT_LT(primitive.material, assets.materials.size());
+    }
+}
+
+void expectSoundMaterial(const scene::Material& material, const scene::Assets& assets) {
+    for (const scene::TextureSlot* slot :
+         {&material.baseColor,
+          &material.metallicRoughness,
+          &material.normal,
+          &material.occlusion,
+          &material.emissiveTexture}) {
+        EXPECT_LE(slot->uvSet, 1u);
+        if (slot->texture == scene::kNone)
+            continue;
+        ASSERT_LT(slot->texture, assets.textures.size());
+        const scene::AssetIndex image = assets.textures[slot->texture].image;
+        ASSERT_LT(image, assets.images.size());
+        const scene::TextureImage& pixels = assets.images[image];
+        EXPECT_EQ(pixels.rgba.size(), size_t(pixels.width) * pixels.height * 4);
+        EXPECT_GT(pixels.rgba.size(), 0u);
+    }
+}
+
+/// The promises of scene/assets.h, which everything after the loader relies on.
+void expectSound(const scene::World& world) {
+    for (const scene::Mesh& mesh : world.assets.meshes) {
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            expectSoundPrimitive(primitive, world.assets);
+        }
+    }
+    for (const scene::Material& material : world.assets.materials) {
+        expectSoundMaterial(material, world.assets);
+    }
+    for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>()) {
+        EXPECT_LT(instance.mesh, world.assets.meshes.size());
+    }
+    EXPECT_EQ(world.playback.activeClips.size(), world.assets.clips.size());
+}
+
+void checkEntry(const Entry& entry) {
+    SCOPED_TRACE(entry.file + " (" + entry.expect + "): " + entry.why);
+    const auto start = std::chrono::steady_clock::now();
+    const core::Result<LoadedScene> loaded = loadGltf(kFolder / entry.file);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(seconds.count(), 5.0);
+    if (loaded) {
+        EXPECT_NE(entry.expect, "reject") << "it loaded";
+        expectSound(loaded.value().world);
+        return;
+    }
+    const std::string& message = loaded.error().message;
+    EXPECT_NE(entry.expect, "load") << message;
+    expectClearMessage(message, entry);
+    if (entry.expect == "reject-unless-supported") {
+        EXPECT_NE(message.find(requiredExtension(entry)), std::string::npos) << message;
+    }
+}
+
+TEST(MalformedGltf, EveryInputMeetsTheExpectationOfItsManifest) {
+    if (!fs::exists(kFolder / "manifest.json"))
+        GTEST_SKIP() << kFolder << " is missing";
+    const std::vector<Entry> entries = readManifest();
+    ASSERT_GT(entries.size(), 100u) << "the manifest lists hardly anything";
+    for (const Entry& entry : entries)
+        checkEntry(entry);
+}
+
+TEST(MalformedGltf, TheWholeSetStaysBelow512MiBOfMemory) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the address sanitizer keeps freed memory";
+#endif
+    if (!fs::exists(kFolder / "manifest.json"))
+        GTEST_SKIP() << kFolder << " is missing";
+    for (const Entry& entry : readManifest())
+        (void)loadGltf(kFolder / entry.file);
+    rusage usage{};
+    ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
+    EXPECT_LT(usage.ru_maxrss, 512 * 1024) << "KiB";
+}
+
+} // namespace
+
+} // namespace shutter::io

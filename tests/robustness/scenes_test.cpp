@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Every correct scene of shared/scenes loads, and a few hold what their README says they hold.
+#include "engine/io/gltf_loader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shutter::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = fs::path(SHUTTER_SHARED_DIR) / "scenes";
+
+std::vector<fs::path> findScenes() {
+    std::vector<fs::path> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kFolder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension == ".gltf" || extension == ".glb")
+            found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+size_t countTriangles(const scene::World& world) {
+    size_t triangles = 0;
+    for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>()) {
+        for (const scene::Primitive& primitive : world.assets.meshes[instance.mesh].primitives) {
+            triangles += primitive.indices.size() / 3;
+        }
+    }
+    return triangles;
+}
+
+struct Expectation {
+    const char* file;
+    size_t triangles;
+    size_t clips;
+    size_t images;
+};
+
+// The numbers of the table in shared/scenes/README.md.
+class ListedScene : public testing::TestWithParam<Expectation> {};
+
+TEST_P(ListedScene, HoldsTheTrianglesClipsAndPicturesOfTheReadme) {
+    const Expectation& expected = GetParam();
+    const fs::path path = kFolder / expected.file;
+    if (!fs::exists(path))
+        GTEST_SKIP() << path << " is missing";
+    const core::Result<LoadedScene> loaded = loadGltf(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    const scene::World& world = loaded.value().world;
+    EXPECT_EQ(countTriangles(world), expected.triangles);
+    EXPECT_EQ(world.assets.clips.size(), expected.clips);
+    EXPECT_EQ(world.assets.images.size(), expected.images);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes,
+    ListedScene,
+    testing::Values(
+        Expectation{"pink-room/pink_room_lite_animated.glb", 56186, 9, 3},
+        Expectation{"grey-white-room/grey_white_room.glb", 143163, 4, 4},
+        Expectation{"gltf-samples/BoxAnimated/BoxAnimated.glb", 254, 1, 0},
+        Expectation{"gltf-samples/MeshPrimitiveModes/MeshPrimitiveModes.gltf", 16, 0, 0},
+        Expectation{"gltf-samples/CesiumMilkTruck/CesiumMilkTruck.glb", 3624, 1, 1},
+        Expectation{"gltf-samples/MultipleScenes/MultipleScenes.gltf", 2, 0, 0},
+        Expectation{"gltf-samples/TextureTransformTest/TextureTransformTest.gltf", 24, 0, 5}
+    )
+);
+
+TEST(Scenes, EveryCorrectSceneLoads) {
+    if (!fs::exists(kFolder))
+        GTEST_SKIP() << kFolder << " is missing";
+    const std::vector<fs::path> scenes = findScenes();
+    ASSERT_GT(scenes.size(), 50u);
+    for (const fs::path& path : scenes) {
+        const core::Result<LoadedScene> loaded = loadGltf(path);
+        EXPECT_TRUE(loaded) << loaded.error().message;
+    }
+}
+
+TEST(Scenes, ASkinnedModelLoadsWithOneWarningThatNamesSkins) {
+    const fs::path path = kFolder / "gltf-samples/CesiumMan/CesiumMan.glb";
+    if (!fs::exists(path))
+        GTEST_SKIP() << path << " is missing";
+    const core::Result<LoadedScene> loaded = loadGltf(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded.value().warnings.size(), 1u);
+    EXPECT_NE(loaded.value().warnings[0].find("skins"), std::string::npos);
+}
+
+} // namespace
+
+} // namespace shutter::io
