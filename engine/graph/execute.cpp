@@ -45,7 +45,8 @@ VkDeviceAddress PassResources::address(BufferHandle handle) const {
 namespace {
 
 VkImageMemoryBarrier2 fill(const ImageBarrier& barrier, const gpu::Image& image) {
-    VkImageMemoryBarrier2 out{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    VkImageMemoryBarrier2 out{};
+    out.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
     out.srcStageMask = barrier.srcStages;
     out.srcAccessMask = barrier.srcAccess;
     out.dstStageMask = barrier.dstStages;
@@ -65,7 +66,8 @@ VkImageMemoryBarrier2 fill(const ImageBarrier& barrier, const gpu::Image& image)
 }
 
 VkBufferMemoryBarrier2 fill(const BufferBarrier& barrier, VkBuffer buffer) {
-    VkBufferMemoryBarrier2 out{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+    VkBufferMemoryBarrier2 out{};
+    out.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
     out.srcStageMask = barrier.srcStages;
     out.srcAccessMask = barrier.srcAccess;
     out.dstStageMask = barrier.dstStages;
@@ -92,7 +94,8 @@ void recordBarriers(
     std::vector<VkBufferMemoryBarrier2> bufferBarriers;
     for (const BufferBarrier& barrier : buffers)
         bufferBarriers.push_back(fill(barrier, resources.buffer({barrier.resource})));
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    VkDependencyInfo dependency{};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
     dependency.imageMemoryBarrierCount = static_cast<uint32_t>(imageBarriers.size());
     dependency.pImageMemoryBarriers = imageBarriers.data();
     dependency.bufferMemoryBarrierCount = static_cast<uint32_t>(bufferBarriers.size());
@@ -114,7 +117,8 @@ VkAttachmentLoadOp findLoadOp(const PassRecord& pass, uint32_t resource, bool cl
 
 VkRenderingAttachmentInfo
 fillAttachment(const gpu::Image& image, VkImageLayout layout, VkAttachmentLoadOp loadOp) {
-    VkRenderingAttachmentInfo out{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    VkRenderingAttachmentInfo out{};
+    out.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     out.imageView = image.view();
     out.imageLayout = layout;
     out.loadOp = loadOp;
@@ -148,7 +152,8 @@ void beginRendering(
         for (int i = 0; target.clear && i < 4; ++i)
             color.clearValue.color.uint32[i] = target.clear->u[i];
     }
-    VkRenderingAttachmentInfo depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    VkRenderingAttachmentInfo depth{};
+    depth.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     if (pass.depthTarget) {
         const DepthTarget& target = *pass.depthTarget;
         const gpu::Image& image = resources.image({target.resource});
@@ -160,7 +165,8 @@ void beginRendering(
         );
         depth.clearValue.depthStencil = {target.clear.value_or(0.0f), 0};
     }
-    VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    VkRenderingInfo rendering{};
+    rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
     rendering.renderArea.extent = size;
     rendering.layerCount = 1;
     rendering.colorAttachmentCount = static_cast<uint32_t>(colors.size());

@@ -105,7 +105,7 @@ struct Event {
     VkAccessFlags2 access = 0;
     VkPipelineStageFlags2 after = 0; ///< stages that now wait for it
     bool available = false;
-    std::map<VkPipelineStageFlags2, VkAccessFlags2> visible; ///< by single stage
+    std::map<VkPipelineStageFlags2, VkAccessFlags2> visible{}; ///< by single stage
 };
 
 struct Barrier {
