@@ -8,6 +8,8 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 namespace shutter::io::oiio {
 
@@ -101,6 +103,25 @@ const char* detectExtension(std::span<const uint8_t> encoded) {
         return "jpg";
     }
     return nullptr;
+}
+
+/// True when every chunk up to IEND is there. OpenImageIO leaks memory when libpng runs into the
+/// end of the bytes, and its message for that names no cause.
+bool isPngComplete(std::span<const uint8_t> encoded) {
+    constexpr size_t kSignatureBytes = 8;
+    constexpr size_t kChunkOverhead = 12; // length, type, checksum
+    size_t offset = kSignatureBytes;
+    while (encoded.size() - offset >= kChunkOverhead) {
+        const uint8_t* chunk = encoded.data() + offset;
+        const size_t length = size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 |
+                              size_t(chunk[2]) << 8 | size_t(chunk[3]);
+        if (length > encoded.size() - offset - kChunkOverhead)
+            return false;
+        if (std::memcmp(chunk + 4, "IEND", 4) == 0)
+            return true;
+        offset += kChunkOverhead + length;
+    }
+    return false;
 }
 
 /// 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
@@ -199,6 +220,8 @@ std::string decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba
     const char* extension = detectExtension(encoded);
     if (!extension)
         return "it is neither PNG nor JPEG";
+    if (std::string_view(extension) == "png" && !isPngComplete(encoded))
+        return "the PNG is cut off";
     OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
     ImageSpec config = makeReadConfig();
     OIIO::Filesystem::IOProxy* proxy = &memory;
