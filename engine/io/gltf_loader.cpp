@@ -9,6 +9,7 @@
 #include "engine/io/gltf_mesh.h"
 #include "engine/io/gltf_node.h"
 #include "engine/io/gltf_schema.h"
+#include "engine/io/gltf_skin.h"
 
 #include <new>
 #include <utility>
