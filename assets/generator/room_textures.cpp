@@ -72,9 +72,9 @@ Picture pinkLattice() {
     return paint(512, 512, [](vec2 uv) {
         const vec2 cell = glm::fract(uv * 8.0f) - 0.5f;
         const float diamond = std::abs(cell.x) + std::abs(cell.y);
-        vec3 color(0.94f, 0.50f, 0.63f);
-        color = mix(color, vec3(0.99f, 0.84f, 0.86f), band(diamond, 0.5f, 0.085f));
-        color = mix(color, vec3(0.74f, 0.16f, 0.36f), diamond < 0.22f ? 1.0f : 0.0f);
+        vec3 color(0.92f, 0.42f, 0.56f);
+        color = mix(color, vec3(0.97f, 0.66f, 0.74f), band(diamond, 0.5f, 0.085f));
+        color = mix(color, vec3(0.80f, 0.26f, 0.42f), diamond < 0.22f ? 1.0f : 0.0f);
         const vec2 edge = glm::min(uv, 1.0f - uv);
         if (std::min(edge.x, edge.y) < 0.035f) {
             color = vec3(0.80f, 0.24f, 0.42f); // the piping

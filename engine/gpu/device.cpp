@@ -220,6 +220,7 @@ core::Status Device::createLogicalDevice() {
         v13.pNext = &structure;
     v13.dynamicRendering = VK_TRUE;
     v13.synchronization2 = VK_TRUE;
+    v13.maintenance4 = VK_TRUE; // glslang gives workgroup sizes as LocalSizeId
     VkPhysicalDeviceVulkan12Features v12{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
     v12.timelineSemaphore = VK_TRUE;

@@ -79,6 +79,8 @@ std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
         return "dynamic rendering";
     if (!v13.synchronization2)
         return "synchronization2";
+    if (!v13.maintenance4)
+        return "maintenance4";
     if (!v12.timelineSemaphore)
         return "timeline semaphores";
     if (!v12.bufferDeviceAddress)

@@ -7,8 +7,7 @@
 
 SHUTTER_SHADER_BEGIN
 
-SHUTTER_CONST uint kGroupSize = 8u;      // pixel passes: 8 x 8
-SHUTTER_CONST uint kTileThreads = 64u;   // tile max: threads a tile
+SHUTTER_CONST uint kGroupSize = 8u;      // pixel passes and tile max: 8 x 8 threads
 SHUTTER_CONST uint kRevealThreads = 64u; // reveal: masked pixels a group
 
 /// Motion shorter than this blurs less than a pixel shows: such pixels are still.

@@ -58,7 +58,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     vec2 centre = vec2(pixel) + 0.5f;
-    ivec2 tile = pixel / int(params.tileSizePx);
+    ivec2 tile = tileAt(centre, params.tileSizePx);
     vec2 dominant = texelFetch(uDominant, tile, 0).xy;
     // Nothing moves within reach: the sharp colour, bit for bit.
     if (length(dominant) < kStillPx) {

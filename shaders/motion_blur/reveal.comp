@@ -81,13 +81,17 @@ void main() {
     Revealed revealed;
     uint rays = 0u;
     for (uint level = 1u; level < params.recursionLimit; ++level) {
-        RayHit hit = traceRay(uScene, frame, ray.origin, ray.direction, t + t * kPastHit, 1.0e30f);
+        // A new origin rather than a longer tMin: builders' boxes in front of it are then skipped.
+        float start = t + t * kPastHit;
+        RayHit hit = traceRay(
+            uScene, frame, ray.origin + start * ray.direction, ray.direction, 0.0f, 1.0e30f
+        );
         ++rays;
         if (!hit.found) {
             revealed = revealSky(frame, centre, ray.direction);
             break;
         }
-        t = hit.t;
+        t = start + hit.t;
         bool last = level + 1u == params.recursionLimit;
         bool other = hit.id.entity != frontId;
         if (params.objectTest == kObjectTestMeshId && !other && !last) continue;

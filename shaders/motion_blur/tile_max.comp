@@ -6,26 +6,26 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
 
-layout(local_size_x = kTileThreads) in;
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1, rg32f) uniform writeonly image2D uTiles;
 
+const uint kTileThreads = kGroupSize * kGroupSize;
 shared vec2 sLongest[kTileThreads];
 
 void main() {
     uvec2 tile = gl_WorkGroupID.xy;
     uvec2 first = tile * params.tileSizePx;
     uvec2 end = min(first + params.tileSizePx, params.sizePx); // the last tile may be partial
-    uint width = end.x - first.x;
-    uint count = width * (end.y - first.y);
     vec2 longest = vec2(0.0f);
-    for (uint i = gl_LocalInvocationIndex; i < count; i += kTileThreads) {
-        uvec2 pixel = first + uvec2(i % width, i / width);
-        vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx);
-        vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
-        longest = longerMotion(longest, clampMotion(motion, float(params.tileSizePx)));
-    }
+    // Threads walk the tile as an 8 x 8 block: no division by the tile's width.
+    for (uint y = first.y + gl_LocalInvocationID.y; y < end.y; y += kGroupSize)
+        for (uint x = first.x + gl_LocalInvocationID.x; x < end.x; x += kGroupSize) {
+            vec2 uv = (vec2(x, y) + 0.5f) / vec2(params.sizePx);
+            vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
+            longest = longerMotion(longest, clampMotion(motion, float(params.tileSizePx)));
+        }
     sLongest[gl_LocalInvocationIndex] = longest;
     barrier();
     if (gl_LocalInvocationIndex != 0u) return;

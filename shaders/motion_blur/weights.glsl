@@ -50,6 +50,12 @@ SHUTTER_INLINE vec2 longerMotion(vec2 a, vec2 b) {
     return b.y > a.y ? b : a;
 }
 
+/// The tile a pixel's centre lies in. In floats: integer division is slow on software devices, and
+/// half a pixel of slack makes the quotient's floor exact.
+SHUTTER_INLINE ivec2 tileAt(vec2 centre, uint tileSizePx) {
+    return ivec2(floor(centre / float(tileSizePx)));
+}
+
 /// `motion` no longer than `limitPx`.
 SHUTTER_INLINE vec2 clampMotion(vec2 motion, float limitPx) {
     float speed = length(motion);
