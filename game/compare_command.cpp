@@ -2,6 +2,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/commands.h"
+#include "game/intermediates.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ struct CompareArguments {
 /// Absolute difference as black, red, yellow, white; full scale at a difference of 0.5.
 image::Image makeHeatMap(const image::Image& a, const image::Image& b) {
     image::Image heat(a.width, a.height, 3);
-    const uint32_t channels = std::min(a.channels, 3u);
+    const uint32_t channels = a.channels;
     for (uint32_t y = 0; y < a.height; ++y)
         for (uint32_t x = 0; x < a.width; ++x) {
             float error = 0.0f;
@@ -41,6 +42,14 @@ image::Image makeHeatMap(const image::Image& a, const image::Image& b) {
     return heat;
 }
 
+/// Colour alone: alpha says nothing of how a picture looks.
+core::Result<image::Image> readColor(const std::string& path) {
+    auto picture = io::readImage(path);
+    if (!picture || picture.value().channels <= 3)
+        return picture;
+    return selectChannels(picture.value(), {{0, "R"}, {1, "G"}, {2, "B"}});
+}
+
 core::Status
 checkComparable(const CompareArguments& arguments, const image::Image& a, const image::Image& b) {
     if (a.width != b.width || a.height != b.height)
@@ -53,7 +62,7 @@ checkComparable(const CompareArguments& arguments, const image::Image& a, const 
             b.width,
             b.height
         );
-    if (std::min(a.channels, 3u) != std::min(b.channels, 3u))
+    if (a.channels != b.channels)
         return core::makeError(
             "'{}' has {} channels and '{}' has {}", arguments.a, a.channels, arguments.b, b.channels
         );
@@ -61,10 +70,10 @@ checkComparable(const CompareArguments& arguments, const image::Image& a, const 
 }
 
 core::Status runCompare(const CompareArguments& arguments) {
-    auto a = io::readImage(arguments.a);
+    auto a = readColor(arguments.a);
     if (!a)
         return a.error();
-    auto b = io::readImage(arguments.b);
+    auto b = readColor(arguments.b);
     if (!b)
         return b.error();
     if (core::Status comparable = checkComparable(arguments, a.value(), b.value()); !comparable)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/intermediates.h"
 
-#include "engine/core/check.h"
 #include "engine/io/image_file.h"
 
 #include <map>
@@ -10,11 +9,6 @@
 namespace shutter::game {
 
 namespace {
-
-struct Channel {
-    uint32_t source; ///< of the image read back
-    const char* name;
-};
 
 const std::map<std::string, std::vector<Channel>>& channelTable() {
     static const std::map<std::string, std::vector<Channel>> kTable = {
@@ -32,6 +26,17 @@ const std::map<std::string, std::vector<Channel>>& channelTable() {
 
 } // namespace
 
+image::Image selectChannels(const image::Image& image, const std::vector<Channel>& channels) {
+    image::Image chosen(image.width, image.height, static_cast<uint32_t>(channels.size()));
+    for (const Channel& channel : channels)
+        chosen.channelNames.push_back(channel.name);
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x)
+            for (uint32_t c = 0; c < chosen.channels; ++c)
+                chosen.at(x, y, c) = image.at(x, y, channels[c].source);
+    return chosen;
+}
+
 std::filesystem::path intermediateFile(const std::filesystem::path& out, const std::string& aov) {
     std::filesystem::path file = out;
     return file.replace_extension(aov + ".exr");
@@ -40,15 +45,7 @@ std::filesystem::path intermediateFile(const std::filesystem::path& out, const s
 core::Status writeIntermediate(
     const std::filesystem::path& path, const std::string& aov, const image::Image& image
 ) {
-    const std::vector<Channel>& channels = channelTable().at(aov);
-    image::Image chosen(image.width, image.height, static_cast<uint32_t>(channels.size()));
-    for (const Channel& channel : channels)
-        chosen.channelNames.push_back(channel.name);
-    for (uint32_t y = 0; y < image.height; ++y)
-        for (uint32_t x = 0; x < image.width; ++x)
-            for (uint32_t c = 0; c < chosen.channels; ++c)
-                chosen.at(x, y, c) = image.at(x, y, channels[c].source);
-    return io::writeImage(path, chosen);
+    return io::writeImage(path, selectChannels(image, channelTable().at(aov)));
 }
 
 } // namespace shutter::game

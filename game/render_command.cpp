@@ -24,9 +24,8 @@ namespace {
 core::Status
 writePicture(const RenderOptions& options, int frameNumber, const render::FrameResult& result) {
     const std::filesystem::path file = frameFile(options.out, frameNumber);
-    image::Image picture = options.displayOut ? result.display : result.color;
-    if (!options.displayOut)
-        picture.channelNames = {"R", "G", "B", "A"};
+    const image::Image& drawn = options.displayOut ? result.display : result.color;
+    const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
     if (core::Status written = io::writeImage(file, picture); !written)
         return written;
     for (const std::string& aov : options.aovs) {

@@ -283,7 +283,11 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.seed = arguments.seed;
     options.unlit = arguments.unlit;
     options.device = arguments.device;
+#ifdef NDEBUG
     options.validate = arguments.validate;
+#else
+    options.validate = true; // every debug run is a validated run
+#endif
     options.dumpGraph = arguments.dumpGraph;
     options.repeat = arguments.repeat;
     options.stats = arguments.stats;

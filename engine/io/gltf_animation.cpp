@@ -37,7 +37,7 @@ std::vector<float> readTimes(GltfContext& context, int accessor, const std::stri
     std::vector<float> times =
         readFloats(context, size_t(accessor), {path + ".input", {TINYGLTF_TYPE_SCALAR}, {kFloat}});
     for (size_t i = 0; i < times.size(); ++i) {
-        if (!std::isfinite(times[i]) || times[i] < 0.0f) {
+        if (!std::isfinite(times[i])) {
             failGltf("{}.input: key {} is at {} s", path, i, times[i]);
         }
         if (i > 0 && times[i] < times[i - 1]) {
