@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define SHUTTER_UNIFORM_MATERIAL
 #include "render/lighting.glsl"
 #include "render/motion.glsl"
 

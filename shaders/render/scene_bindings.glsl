@@ -34,12 +34,20 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ind
 
 layout(set = 1, binding = 0) uniform sampler2D uTextures[];
 
+// A draw has one material, rays of a group meet many: the draw's shaders define
+// SHUTTER_UNIFORM_MATERIAL before including this, and the index needs no per-lane loop.
+#ifdef SHUTTER_UNIFORM_MATERIAL
+#define SHUTTER_TEXTURE(index) uTextures[index]
+#else
+#define SHUTTER_TEXTURE(index) uTextures[nonuniformEXT(index)]
+#endif
+
 vec4 sampleSceneTexture(uint texture_, vec2 uv, float level) {
-    return textureLod(uTextures[nonuniformEXT(texture_)], uv, level);
+    return textureLod(SHUTTER_TEXTURE(texture_), uv, level);
 }
 
 float sceneTextureTexels(uint texture_) {
-    ivec2 size = textureSize(uTextures[nonuniformEXT(texture_)], 0);
+    ivec2 size = textureSize(SHUTTER_TEXTURE(texture_), 0);
     return float(size.x) * float(size.y);
 }
 
