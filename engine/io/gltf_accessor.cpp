@@ -178,7 +178,7 @@ float loadFloat(const uint8_t* bytes, int componentType, bool normalized) {
 }
 
 void checkUse(size_t index, const tinygltf::Accessor& accessor, const AccessorUse& use) {
-    const auto accepts = [](std::initializer_list<int> list, int value) {
+    const auto accepts = [](const std::vector<int>& list, int value) {
         return std::find(list.begin(), list.end(), value) != list.end();
     };
     if (!accepts(use.types, accessor.type)) {

@@ -4,8 +4,8 @@
 
 #include "engine/io/gltf_context.h"
 
-#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 namespace shutter::io {
 
@@ -17,8 +17,8 @@ void checkAccessors(const GltfContext& context);
 /// POSITION".
 struct AccessorUse {
     std::string_view use;
-    std::initializer_list<int> types;          ///< TINYGLTF_TYPE_...
-    std::initializer_list<int> componentTypes; ///< TINYGLTF_COMPONENT_TYPE_...
+    std::vector<int> types;          ///< TINYGLTF_TYPE_...
+    std::vector<int> componentTypes; ///< TINYGLTF_COMPONENT_TYPE_...
     /// Integer components have to be marked normalized (float components never need it).
     bool integersMustBeNormalized = false;
 };
