@@ -219,6 +219,17 @@ TEST(GltfMesh, QuantizedPositionsAndNormalsNeedTheExtension) {
     EXPECT_EQ(quantized.normals[2], vec3(0, 0, -1)) << "-128 / 127 clamps to -1";
 }
 
+TEST(GltfMesh, TheLowestSignedNormalizedValueIsMinusOne) {
+    GltfFile file;
+    file.add(std::vector<int8_t>{0, 0, 0, -128, 0, 0, 0, 127, 0}, kByte, "VEC3", true);
+    const LoadedScene scene =
+        expectLoads(file.load(R"("extensionsUsed":["KHR_mesh_quantization"],)" + mesh(kPosition)));
+    ASSERT_EQ(countPrimitives(scene), 1u);
+    const scene::Primitive& primitive = scene.world.assets.meshes[0].primitives[0];
+    EXPECT_EQ(primitive.positions[1], vec3(-1, 0, 0)) << "-128 / 127 clamps";
+    EXPECT_EQ(primitive.positions[2], vec3(0, 1, 0));
+}
+
 TEST(GltfMesh, InterleavedAttributesShareAView) {
     GltfFile file;
     const std::vector<float> vertices = {0, 0, 0, 0.1f, 0.2f, 1, 0, 0, 0.3f, 0.4f, 0, 1, 0, 5, 6};
