@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+using Field = std::function<void(MotionBlurSettings&)>;
+
+core::Status validateWith(const Field& set) {
+    MotionBlurSettings settings;
+    set(settings);
+    return validate(settings);
+}
+
+struct NumberField {
+    const char* name;
+    float MotionBlurSettings::*field;
+    float lowest;
+    float highest;
+};
+
+const std::vector<NumberField> kNumbers = {
+    {"softDepthExtent", &MotionBlurSettings::softDepthExtent, 1e-6f, 1e6f},
+    {"edgeThreshold", &MotionBlurSettings::edgeThreshold, 0.0f, 0.99f},
+    {"luminanceThreshold", &MotionBlurSettings::luminanceThreshold, 0.0f, 1e6f},
+    {"foregroundMagnification", &MotionBlurSettings::foregroundMagnification, 1.0f, 1000.0f},
+    {"backgroundMagnification", &MotionBlurSettings::backgroundMagnification, 1.0f, 100.0f},
+    {"jitter", &MotionBlurSettings::jitter, 0.0f, 1.0f},
+};
+
+struct CountField {
+    const char* name;
+    uint32_t MotionBlurSettings::*field;
+    uint32_t lowest;
+    uint32_t highest;
+};
+
+const std::vector<CountField> kCounts = {
+    {"tileSizePx", &MotionBlurSettings::tileSizePx, 1, 256},
+    {"neighbourhoodTiles", &MotionBlurSettings::neighbourhoodTiles, 1, 15},
+    {"sampleCount", &MotionBlurSettings::sampleCount, 1, 256},
+    {"recursionLimit", &MotionBlurSettings::recursionLimit, 1, 64},
+};
+
+} // namespace
+
+TEST(MotionBlurSettings, TheDefaultsAreThePapersAndValid) {
+    const MotionBlurSettings settings;
+    EXPECT_TRUE(validate(settings).ok());
+    EXPECT_EQ(settings.tileSizePx, 40u);
+    EXPECT_EQ(settings.neighbourhoodTiles, 3u);
+    EXPECT_EQ(settings.sampleCount, 15u);
+    EXPECT_EQ(settings.recursionLimit, 5u);
+}
+
+TEST(MotionBlurSettings, BothEndsOfEveryRangeAreValid) {
+    for (const NumberField& number : kNumbers)
+        for (const float value : {number.lowest, number.highest})
+            EXPECT_TRUE(validateWith([&](auto& s) { s.*number.field = value; }).ok())
+                << number.name << " " << value;
+    for (const CountField& count : kCounts)
+        for (const uint32_t value : {count.lowest, count.highest})
+            EXPECT_TRUE(validateWith([&](auto& s) { s.*count.field = value; }).ok())
+                << count.name << " " << value;
+}
+
+TEST(MotionBlurSettings, ANumberOutsideItsRangeIsRefusedByName) {
+    for (const NumberField& number : kNumbers)
+        for (const float value :
+             {kNan, kInfinity, -kInfinity, -0.001f + number.lowest * 0.5f, 1e7f}) {
+            const core::Status valid = validateWith([&](auto& s) { s.*number.field = value; });
+            ASSERT_FALSE(valid.ok()) << number.name << " " << value;
+            EXPECT_NE(valid.error().message.find(number.name), std::string::npos)
+                << valid.error().message;
+        }
+}
+
+TEST(MotionBlurSettings, ACountOutsideItsRangeIsRefusedByName) {
+    for (const CountField& count : kCounts)
+        for (const uint32_t value : {0u, count.highest + 2, 0xFFFFFFFFu}) {
+            const core::Status valid = validateWith([&](auto& s) { s.*count.field = value; });
+            ASSERT_FALSE(valid.ok()) << count.name << " " << value;
+            EXPECT_NE(valid.error().message.find(count.name), std::string::npos)
+                << valid.error().message;
+        }
+}
+
+TEST(MotionBlurSettings, ANeighbourhoodWithoutAMiddleTileIsRefused) {
+    for (uint32_t tiles = 1; tiles <= 15; ++tiles)
+        EXPECT_EQ(
+            validateWith([&](auto& s) { s.neighbourhoodTiles = tiles; }).ok(), tiles % 2 == 1
+        );
+}
+
+TEST(MotionBlurSettings, TilesCoverThePictureAndNoMore) {
+    const auto tiles = [](uint32_t width, uint32_t height) {
+        return resolve({}, width, height, 1.0).tileCount;
+    };
+    EXPECT_EQ(tiles(1, 1), glm::uvec2(1, 1));
+    EXPECT_EQ(tiles(40, 41), glm::uvec2(1, 2));
+    EXPECT_EQ(tiles(1280, 720), glm::uvec2(32, 18));
+}
+
+TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
+    MotionBlurSettings settings;
+    settings.tileSizePx = 20;
+    settings.neighbourhoodTiles = 7;
+    settings.sampleCount = 31;
+    settings.softDepthExtent = 0.5f;
+    settings.edgeThreshold = 0.25f;
+    settings.recursionLimit = 9;
+    settings.objectTest = ObjectTest::Luminance;
+    settings.luminanceThreshold = 0.125f;
+    settings.foregroundMagnification = 12.0f;
+    settings.backgroundMagnification = 6.0f;
+    settings.jitter = 0.75f;
+    const shader::MotionBlurParams params = resolve(settings, 100, 50, 0.5);
+    EXPECT_EQ(params.sizePx, glm::uvec2(100, 50));
+    EXPECT_EQ(params.tileCount, glm::uvec2(5, 3));
+    EXPECT_EQ(params.tileSizePx, 20u);
+    EXPECT_EQ(params.neighbourRadius, 3);
+    EXPECT_EQ(params.sampleCount, 31u);
+    EXPECT_EQ(params.softDepthExtent, 0.5f);
+    EXPECT_EQ(params.edgeThreshold, 0.25f);
+    EXPECT_EQ(params.rasterShare, 0.5f);
+    EXPECT_EQ(params.foregroundMagnification, 12.0f);
+    EXPECT_EQ(params.backgroundMagnification, 6.0f);
+    EXPECT_EQ(params.jitter, 0.75f);
+    EXPECT_EQ(params.recursionLimit, 9u);
+    EXPECT_EQ(params.objectTest, shader::kObjectTestLuminance);
+    EXPECT_EQ(params.luminanceThreshold, 0.125f);
+    EXPECT_EQ(resolve({}, 8, 8, 1.0).objectTest, shader::kObjectTestMeshId);
+}
+
+TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {
+    EXPECT_EQ(resolve({}, 8, 8, -1.0).rasterShare, 0.0f);
+    EXPECT_EQ(resolve({}, 8, 8, 2.0).rasterShare, 1.0f);
+}
+
+} // namespace shutter::motion_blur
