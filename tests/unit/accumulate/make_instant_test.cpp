@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "modules/accumulate/accumulate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace shutter::accumulate {
+
+namespace {
+
+using math::dvec2;
+
+const scene::ExposureInterval kExposure{2.0, 4.0, 4.0, 1.0};
+
+std::vector<render::ViewRequest> makeAll(uint32_t count, PixelModel pixel, uint32_t seed) {
+    std::vector<render::ViewRequest> instants;
+    for (uint32_t i = 0; i < count; ++i)
+        instants.push_back(makeInstant({}, kExposure, i, count, pixel, seed));
+    return instants;
+}
+
+} // namespace
+
+TEST(MakeInstant, EveryStratumOfTheExposureIsSeenInItsMiddle) {
+    for (const uint32_t count : {1u, 2u, 7u, 64u}) {
+        const auto instants = makeAll(count, PixelModel::Centre, 0);
+        for (uint32_t i = 0; i < count; ++i)
+            EXPECT_NEAR(instants[i].exposure.raster, 2.0 + 2.0 * (i + 0.5) / count, 1e-12);
+    }
+}
+
+TEST(MakeInstant, AnInstantHasNoExposureOfItsOwn) {
+    for (const render::ViewRequest& instant : makeAll(5, PixelModel::Box, 1)) {
+        EXPECT_EQ(instant.exposure.open, instant.exposure.raster);
+        EXPECT_EQ(instant.exposure.close, instant.exposure.raster);
+    }
+}
+
+TEST(MakeInstant, NoExposureIsTheSameInstantEachTime) {
+    const scene::ExposureInterval sharp{3.0, 3.0, 3.0, 1.0};
+    for (uint32_t i = 0; i < 4; ++i)
+        EXPECT_EQ(makeInstant({}, sharp, i, 4, PixelModel::Centre, 0).exposure.raster, 3.0);
+}
+
+TEST(MakeInstant, TheCentreIsNotJitteredAndKeepsTheTexturesLevel) {
+    render::ViewRequest view;
+    view.lodBias = 0.5f;
+    for (uint32_t i = 0; i < 16; ++i) {
+        const auto instant = makeInstant(view, kExposure, i, 16, PixelModel::Centre, 9);
+        EXPECT_EQ(instant.jitterPx, dvec2(0.0));
+        EXPECT_EQ(instant.lodBias, 0.5f);
+    }
+}
+
+TEST(MakeInstant, TheBoxCoversThePixelEvenly) {
+    for (const uint32_t seed : {0u, 1u, 4294967295u}) {
+        constexpr uint32_t kCount = 256;
+        std::vector<int> cells(16, 0);
+        dvec2 sum(0.0);
+        for (const auto& instant : makeAll(kCount, PixelModel::Box, seed)) {
+            const dvec2 place = instant.jitterPx + 0.5;
+            ASSERT_TRUE(place.x >= 0.0 && place.x < 1.0 && place.y >= 0.0 && place.y < 1.0);
+            ++cells[size_t(place.x * 4.0) + 4 * size_t(place.y * 4.0)];
+            sum += instant.jitterPx;
+        }
+        for (const int count : cells)
+            EXPECT_NEAR(count, 16, 4) << seed;
+        EXPECT_NEAR(sum.x / kCount, 0.0, 0.01);
+        EXPECT_NEAR(sum.y / kCount, 0.0, 0.01);
+    }
+}
+
+TEST(MakeInstant, EachHalfOfTheExposureCoversThePixelToo) {
+    // Place and time are independent: no part of the pixel is seen in one half only.
+    const auto instants = makeAll(128, PixelModel::Box, 0);
+    for (const uint32_t begin : {0u, 64u}) {
+        std::vector<int> cells(4, 0);
+        for (uint32_t i = begin; i < begin + 64; ++i)
+            ++cells
+                [size_t(instants[i].jitterPx.x >= 0.0) + 2 * size_t(instants[i].jitterPx.y >= 0.0)];
+        for (const int count : cells)
+            EXPECT_NEAR(count, 16, 4);
+    }
+}
+
+TEST(MakeInstant, OneBoxSampleLiesInTheMiddle) {
+    const auto instant = makeInstant({}, kExposure, 0, 1, PixelModel::Box, 0);
+    EXPECT_EQ(instant.jitterPx, dvec2(0.0));
+    EXPECT_EQ(instant.lodBias, 0.0f);
+}
+
+TEST(MakeInstant, ManyBoxSamplesResolveFinerTextures) {
+    EXPECT_FLOAT_EQ(makeInstant({}, kExposure, 0, 16, PixelModel::Box, 0).lodBias, -2.0f);
+}
+
+TEST(MakeInstant, AnotherSeedGivesOtherPlacesAndTheSameSeedTheSame) {
+    std::set<std::pair<double, double>> firsts;
+    for (uint32_t seed = 0; seed < 50; ++seed) {
+        const dvec2 place = makeInstant({}, kExposure, 3, 16, PixelModel::Box, seed).jitterPx;
+        firsts.insert({place.x, place.y});
+        EXPECT_EQ(place, makeInstant({}, kExposure, 3, 16, PixelModel::Box, seed).jitterPx);
+    }
+    EXPECT_EQ(firsts.size(), 50u);
+}
+
+TEST(MakeInstant, TheRestOfTheViewStaysAsAskedFor) {
+    render::ViewRequest view;
+    view.width = 7;
+    view.height = 5;
+    view.background = {1.0f, 2.0f, 3.0f};
+    view.unlit = true;
+    const auto instant = makeInstant(view, kExposure, 1, 2, PixelModel::Box, 0);
+    EXPECT_EQ(instant.width, 7u);
+    EXPECT_EQ(instant.height, 5u);
+    EXPECT_EQ(instant.background, view.background);
+    EXPECT_TRUE(instant.unlit);
+}
+
+} // namespace shutter::accumulate
