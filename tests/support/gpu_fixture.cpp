@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/gpu_fixture.h"
+
+#include "engine/core/check.h"
+
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace shutter::test {
+
+namespace {
+
+struct SharedDevice {
+    std::unique_ptr<gpu::Device> device;
+    std::string problem; ///< why there is none
+};
+
+SharedDevice openDevice() {
+    gpu::DeviceOptions options;
+    options.validate = true;
+    auto opened = gpu::Device::create(options);
+    if (!opened)
+        return {nullptr, opened.error().message};
+    return {std::move(opened).value(), ""};
+}
+
+/// Opened by the first test that asks; closed after the last test, before statics die.
+std::optional<SharedDevice>& sharedDevice() {
+    static std::optional<SharedDevice> shared;
+    return shared;
+}
+
+class CloseDevice : public ::testing::Environment {
+  public:
+    void TearDown() override { sharedDevice().reset(); }
+};
+
+const auto* const kCloseDevice = ::testing::AddGlobalTestEnvironment(new CloseDevice);
+
+} // namespace
+
+void GpuTest::SetUp() {
+    if (!sharedDevice())
+        sharedDevice() = openDevice();
+    if (!sharedDevice()->device) {
+        const std::string& problem = sharedDevice()->problem;
+        if (std::getenv("SHUTTER_REQUIRE_DEVICE"))
+            FAIL() << "SHUTTER_REQUIRE_DEVICE is set and no validated device opens: " << problem;
+        GTEST_SKIP() << "no validated Vulkan device: " << problem;
+    }
+    mMessagesBefore = device().validationMessageCount();
+}
+
+void GpuTest::TearDown() {
+    if (!sharedDevice() || !sharedDevice()->device)
+        return;
+    device().waitIdle();
+    EXPECT_EQ(device().validationMessageCount(), mMessagesBefore)
+        << "Vulkan validation had something to say (see above)";
+}
+
+gpu::Device& GpuTest::device() {
+    SHUTTER_CHECK(
+        sharedDevice() && sharedDevice()->device, "a test without a device must not get this far"
+    );
+    return *sharedDevice()->device;
+}
+
+} // namespace shutter::test

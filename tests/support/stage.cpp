@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/stage.h"
+
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "modules/tonemap/tonemap.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace shutter::test {
+
+namespace {
+
+render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
+    render::FrameRequest request;
+    request.view.camera = scene.camera;
+    request.view.exposure =
+        scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds);
+    request.view.width = shot.width;
+    request.view.height = shot.height;
+    request.view.background = shot.background;
+    request.view.ambient = shot.ambient;
+    request.intermediates = shot.aovs;
+    request.wantDisplay = shot.wantDisplay;
+    return request;
+}
+
+render::FrameResult unwrap(core::Result<render::FrameResult> result) {
+    if (result)
+        return std::move(result).value();
+    ADD_FAILURE() << result.error().message;
+    return {};
+}
+
+} // namespace
+
+const char* describe(Method method) {
+    switch (method) {
+    case Method::Sharp:
+        return "sharp";
+    case Method::Gather:
+        return "gather";
+    case Method::Hybrid:
+        return "hybrid";
+    case Method::Accumulate:
+        return "accumulate";
+    }
+    return "?";
+}
+
+Stage::Stage(gpu::Device& device, const SceneBuilder& scene)
+    : mDevice(device), mScene(scene), mRenderer(device, scene.world.assets) {}
+
+render::FrameResult Stage::render(const Shot& shot) {
+    const render::FrameRequest request = makeRequest(mScene, shot);
+    if (shot.method == Method::Accumulate)
+        return renderAccumulated(shot, request);
+    motion_blur::MotionBlurSettings settings = shot.settings;
+    settings.method =
+        shot.method == Method::Gather ? motion_blur::Method::Gather : motion_blur::Method::Hybrid;
+    const core::Status valid = motion_blur::validate(settings);
+    if (!valid) {
+        ADD_FAILURE() << valid.error().message;
+        return {};
+    }
+    motion_blur::MotionBlurPlugin blur(mDevice, mRenderer.scene(), settings);
+    tonemap::Tonemap tonemap(mDevice, {});
+    std::vector<render::PostEffect*> effects;
+    if (shot.method != Method::Sharp)
+        effects.push_back(&blur);
+    effects.push_back(&tonemap);
+    if (shot.last)
+        effects.push_back(shot.last);
+    return unwrap(mRenderer.renderFrame(mScene.world, request, effects));
+}
+
+render::FrameResult
+Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) {
+    accumulate::Accumulate sum(mDevice);
+    tonemap::Tonemap tonemap(mDevice, {});
+    const std::vector<render::PostEffect*> effects{&sum, &tonemap};
+    render::FrameResult result;
+    for (uint32_t i = 0; i < shot.instants; ++i) {
+        const bool last = i + 1 == shot.instants;
+        render::FrameRequest instant = request;
+        instant.view = accumulate::makeInstant(
+            request.view, request.view.exposure, i, shot.instants, shot.pixel, 0
+        );
+        instant.wantColor = last;
+        instant.wantDisplay = last && shot.wantDisplay;
+        sum.setInstant(i, shot.instants);
+        result = unwrap(mRenderer.renderFrame(mScene.world, instant, effects));
+    }
+    return result;
+}
+
+render::FrameResult renderOnce(gpu::Device& device, const SceneBuilder& scene, const Shot& shot) {
+    return Stage(device, scene).render(shot);
+}
+
+} // namespace shutter::test

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// One call from a world to a picture, by any method.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/motion.h"
+#include "modules/accumulate/accumulate.h"
+#include "modules/motion_blur/settings.h"
+#include "tests/support/scene_builder.h"
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+
+namespace shutter::test {
+
+enum class Method { Sharp, Gather, Hybrid, Accumulate };
+
+inline constexpr Method kAllMethods[] = {
+    Method::Sharp, Method::Gather, Method::Hybrid, Method::Accumulate};
+
+[[nodiscard]] const char* describe(Method method);
+
+struct Shot {
+    Method method = Method::Sharp;
+    uint32_t width = 96;
+    uint32_t height = 64;
+    double seconds = 0.0;
+    double exposureSeconds = 1.0;
+    scene::ShutterPhase phase = scene::ShutterPhase::Centre;
+    math::vec3 background{0.0f};
+    math::vec3 ambient{0.0f};
+    uint32_t instants = 16; ///< Accumulate only
+    accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
+    motion_blur::MotionBlurSettings settings{}; ///< Gather and Hybrid; their method is set here
+    std::set<std::string> aovs{};
+    bool wantDisplay = false;
+    /// Declared after the method's own effects; null: none.
+    render::PostEffect* last = nullptr;
+};
+
+/// A world that was uploaded once, and is drawn as often as one likes. Entities may move between
+/// shots; assets may not change.
+class Stage {
+  public:
+    Stage(gpu::Device& device, const SceneBuilder& scene);
+
+    /// Fails the test (and returns an empty result) where the engine reports an error.
+    [[nodiscard]] render::FrameResult render(const Shot& shot);
+
+  private:
+    [[nodiscard]] render::FrameResult
+    renderAccumulated(const Shot& shot, const render::FrameRequest& request);
+
+    gpu::Device& mDevice;
+    const SceneBuilder& mScene;
+    render::Renderer mRenderer;
+};
+
+/// For tests that need one picture of a scene.
+[[nodiscard]] render::FrameResult
+renderOnce(gpu::Device& device, const SceneBuilder& scene, const Shot& shot);
+
+} // namespace shutter::test
