@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// The brute-force truth against closed forms, and its convergence.
+#include "engine/image/metrics.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <algorithm>
+
+namespace shutter {
+namespace {
+
+using accumulate::PixelModel;
+using test::Method;
+using test::SceneBuilder;
+using test::Shot;
+using test::Stage;
+
+class AccumulateLaw : public test::GpuTest {};
+
+TEST_F(AccumulateLaw, AQuadAtConstantSpeedIsTheExactTrapezoid) {
+    // A white quad w pixels wide, seen over [a, a + w] at open and moved by m to the right: pixel
+    // centre x is covered for the share of s in [0, 1] with a + m s <= x <= a + m s + w.
+    constexpr double kWidth = 20.3;
+    constexpr double kMotion = 31.7;
+    SceneBuilder scene;
+    scene.setPixelView(8);
+    scene.add(
+        test::makeQuad(kWidth, 20, scene.addColor({1, 1, 1})),
+        {.position = {0.4, 0, -10}, .velocity = {kMotion, 0, 0}}
+    );
+    Stage stage(device(), scene);
+    for (auto phase :
+         {scene::ShutterPhase::Start, scene::ShutterPhase::Centre, scene::ShutterPhase::End}) {
+        const auto interval = scene::computeExposure({1.0, phase}, 0.0);
+        const double left = 48.0 + 0.4 + kMotion * interval.open - kWidth / 2.0;
+        // An end of the interval of s is met to half a stratum: two ends, 1/512 < 1/255.
+        const auto result = stage.render(
+            {.method = Method::Accumulate, .height = 8, .phase = phase, .instants = 512}
+        );
+        double highest = 0.0;
+        for (uint32_t x = 0; x < 96; ++x) {
+            const double enters = (x + 0.5 - left - kWidth) / kMotion;
+            const double leaves = (x + 0.5 - left) / kMotion;
+            const double covered = std::clamp(leaves, 0.0, 1.0) - std::clamp(enters, 0.0, 1.0);
+            ASSERT_NEAR(result.color.at(x, 4, 1), covered, 1.0 / 255.0)
+                << x << " phase " << int(phase);
+            highest = std::max(highest, covered);
+        }
+        EXPECT_NEAR(highest, kWidth / kMotion, 1e-9) << "the trapezoid's top is in the picture";
+    }
+}
+
+TEST_F(AccumulateLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
+    // Silhouettes at 38.3 and 57.6: the pixels they cross are covered by 0.7 and 0.6.
+    SceneBuilder scene;
+    scene.setPixelView(8);
+    scene.add(test::makeQuad(19.3, 20, scene.addColor({1, 1, 1})), {.position = {-0.05, 0, -10}});
+    const auto result = test::renderOnce(
+        device(),
+        scene,
+        {.method = Method::Accumulate, .height = 8, .instants = 256, .pixel = PixelModel::Box}
+    );
+    // Hammersley's first 256 radical inverses of base 2 are the multiples of 1/256: the count to
+    // one side of an edge is right to one.
+    EXPECT_NEAR(result.color.at(37, 4, 0), 0.0, 1.0 / 256.0);
+    EXPECT_NEAR(result.color.at(38, 4, 0), 0.7, 1.0 / 256.0);
+    EXPECT_NEAR(result.color.at(39, 4, 0), 1.0, 1.0 / 256.0);
+    EXPECT_NEAR(result.color.at(57, 4, 0), 0.6, 1.0 / 256.0);
+    EXPECT_NEAR(result.color.at(58, 4, 0), 0.0, 1.0 / 256.0);
+}
+
+SceneBuilder makeScene() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(6, 5, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeBox({0.8, 0.8, 0.8}, scene.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {0.1, 0, -2.5},
+         .velocity = {0.6, 0.2, 0.3},
+         .angularVelocity = {0.3, 2.0, 1.0}}
+    );
+    return scene;
+}
+
+TEST_F(AccumulateLaw, MoreInstantsComeNearerToTheMean) {
+    const SceneBuilder scene = makeScene();
+    Stage stage(device(), scene);
+    const auto accumulated = [&](uint32_t instants) {
+        return stage
+            .render({.method = Method::Accumulate, .width = 64, .height = 48, .instants = instants})
+            .color;
+    };
+    const auto truth = accumulated(256);
+    const double with64 = image::computePsnr(accumulated(64), truth);
+    const double with16 = image::computePsnr(accumulated(16), truth);
+    EXPECT_GT(with64, with16);
+    EXPECT_GT(with16, 25.0) << "16 instants are already near";
+}
+
+TEST_F(AccumulateLaw, OneInstantIsTheSharpPictureOfTheMiddle) {
+    const SceneBuilder scene = makeScene();
+    Stage stage(device(), scene);
+    const auto sharp = stage.render({});
+    const auto one = stage.render({.method = Method::Accumulate, .instants = 1});
+    EXPECT_TRUE(test::sameBits(sharp.color, one.color));
+}
+
+} // namespace
+} // namespace shutter
