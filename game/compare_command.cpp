@@ -3,6 +3,7 @@
 #include "engine/io/image_file.h"
 #include "game/commands.h"
 #include "game/intermediates.h"
+#include "game/report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -70,6 +71,9 @@ checkComparable(const CompareArguments& arguments, const image::Image& a, const 
 }
 
 core::Status runCompare(const CompareArguments& arguments) {
+    if (!arguments.out.empty())
+        if (core::Status writable = io::checkWritable(arguments.out); !writable)
+            return core::makeError("--out: {}", writable.error().message);
     auto a = readColor(arguments.a);
     if (!a)
         return a.error();
@@ -108,7 +112,7 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
     command->callback([arguments, &exitStatus] {
         const core::Status done = runCompare(*arguments);
         if (!done)
-            fmt::print(stderr, "shutter: {}\n", done.error().message);
+            printError(done.error());
         exitStatus = done ? kExitDone : kExitFailed;
     });
 }

@@ -88,8 +88,9 @@ core::Status printScene(const std::string& path) {
             bounds.max.z
         );
     for (size_t i = 0; i < world.cameras.size(); ++i) {
+        const auto& camera = world.registry.get<scene::Camera>(world.cameras[i]);
         const auto* name = world.registry.find<scene::Name>(world.cameras[i]);
-        fmt::print("camera {}: {}\n", i, name ? name->value : "");
+        fmt::print("camera {}: '{}' at node '{}'\n", i, camera.name, name ? name->value : "");
     }
     for (const auto& clip : world.assets.clips)
         fmt::print(

@@ -2,12 +2,11 @@
 #include "engine/core/log.h"
 #include "engine/gpu/vulkan.h"
 #include "game/commands.h"
+#include "game/report.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
-#include <cstdio>
-#include <exception>
+#include <new>
 
 using namespace shutter;
 
@@ -29,13 +28,13 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& success) { // --help
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "shutter: {}\n", error.what());
+        game::printError({error.what()});
         return game::kExitUsage;
     } catch (const gpu::DeviceError& error) {
-        fmt::print(stderr, "shutter: {}\n", error.what());
+        game::printError({error.what()});
         return game::kExitFailed;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "shutter: out of main memory\n");
+        game::printError({"out of main memory"});
         return game::kExitFailed;
     }
     return exitStatus;

@@ -7,6 +7,35 @@
 
 namespace shutter::game {
 
+namespace {
+
+core::Status checkSize(const gpu::Device& device, const RenderOptions& options) {
+    const uint32_t longest = device.limits().maxImageDimension2D;
+    if (options.width > longest || options.height > longest)
+        return core::makeError(
+            "--size {}x{}: {} draws at most {} pixels a side",
+            options.width,
+            options.height,
+            device.info().name,
+            longest
+        );
+    // The ray mask lists its pixels in one storage buffer.
+    const uint64_t listBytes = uint64_t(options.width) * options.height * 4 + 16;
+    if (options.method->needsRays && listBytes > device.limits().maxStorageBufferRange)
+        return core::makeError(
+            "--size {}x{}: method {} needs a buffer of {} MiB, {} has at most {}",
+            options.width,
+            options.height,
+            options.method->name,
+            listBytes >> 20,
+            device.info().name,
+            device.limits().maxStorageBufferRange >> 20
+        );
+    return {};
+}
+
+} // namespace
+
 core::Result<std::unique_ptr<MethodRenderer>>
 MethodRenderer::create(gpu::Device& device, const Shot& shot, const RenderOptions& options) {
     if (options.method->needsRays && !device.hasRays())
@@ -15,6 +44,8 @@ MethodRenderer::create(gpu::Device& device, const Shot& shot, const RenderOption
             options.method->name,
             device.info().name
         );
+    if (core::Status fits = checkSize(device, options); !fits)
+        return fits.error();
     return std::unique_ptr<MethodRenderer>(new MethodRenderer(device, shot, options));
 }
 

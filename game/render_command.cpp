@@ -8,6 +8,7 @@
 #include "game/intermediates.h"
 #include "game/method_renderer.h"
 #include "game/render_options.h"
+#include "game/report.h"
 #include "game/shot.h"
 #include "game/statistics.h"
 
@@ -95,7 +96,7 @@ core::Status renderAll(const RenderOptions& options, gpu::Device& device) {
 }
 
 int fail(int status, const core::Error& error) {
-    fmt::print(stderr, "shutter: {}\n", error.message);
+    printError(error);
     return status;
 }
 

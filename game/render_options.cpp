@@ -2,6 +2,7 @@
 #include "game/render_options.h"
 
 #include "engine/io/image_file.h"
+#include "shaders/common/numeric.glsl"
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <regex>
+#include <system_error>
+#include <unistd.h>
 
 namespace shutter::game {
 
@@ -23,6 +26,8 @@ constexpr uint32_t kMaxSize = 16384;
 constexpr uint32_t kMaxSamples = 65536;
 constexpr int kMaxFrames = 1000000;
 constexpr double kDefaultExposureSeconds = 1.0 / 60.0;
+/// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
+constexpr double kMaxSeconds = 1.0e9;
 
 /// A whole string as a finite number.
 std::optional<double> parseNumber(const std::string& text) {
@@ -49,8 +54,10 @@ Result<math::vec3> parseColor(const char* option, const std::string& text) {
         return makeError("{} '{}' is not R,G,B", option, text);
     for (int i = 0; i < 3; ++i) {
         const auto value = parseNumber(parts[static_cast<size_t>(i)]);
-        if (!value || *value < 0.0)
-            return makeError("{} '{}' is not R,G,B of numbers of 0 or more", option, text);
+        if (!value || *value < 0.0 || *value > double(shader::kMaxColor))
+            return makeError(
+                "{} '{}' is not R,G,B of numbers in [0, {}]", option, text, shader::kMaxColor
+            );
         color[i] = static_cast<float>(*value);
     }
     return color;
@@ -70,8 +77,11 @@ Status parseSize(const std::string& text, RenderOptions& options) {
 }
 
 Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
-    if (!std::isfinite(arguments.time))
-        return makeError("--time is not a number");
+    // Written so that NaN fails.
+    if (!(std::abs(arguments.time) <= kMaxSeconds))
+        return makeError(
+            "--time {} must lie in [-{}, {}]", arguments.time, kMaxSeconds, kMaxSeconds
+        );
     if (!(arguments.fps > 0.0) || !std::isfinite(arguments.fps))
         return makeError("--fps {} must be above 0", arguments.fps);
     if (arguments.frames.empty()) {
@@ -88,6 +98,10 @@ Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
         return makeError("--frames {}: the last comes before the first", match.str());
     if (last - first >= kMaxFrames)
         return makeError("--frames {} are too many", match.str());
+    if (!(std::max(std::abs(first), std::abs(last)) / arguments.fps <= kMaxSeconds))
+        return makeError(
+            "--frames {} at --fps {} lie beyond {} seconds", match.str(), arguments.fps, kMaxSeconds
+        );
     options.isSequence = true;
     options.firstFrame = first;
     for (int frame = first; frame <= last; ++frame)
@@ -101,9 +115,11 @@ Status parseShutter(const RenderArguments& arguments, RenderOptions& options) {
     double exposure = arguments.exposureSeconds.value_or(kDefaultExposureSeconds);
     if (arguments.shutterAngle)
         exposure = *arguments.shutterAngle / 360.0 / arguments.fps;
-    if (!(exposure >= 0.0) || !std::isfinite(exposure))
+    if (!(exposure >= 0.0 && exposure <= kMaxSeconds))
         return makeError(
-            "{} must be 0 or more", arguments.shutterAngle ? "--shutter-angle" : "--exposure"
+            "{} must be 0 or more and at most {} seconds",
+            arguments.shutterAngle ? "--shutter-angle" : "--exposure",
+            kMaxSeconds
         );
     options.shutter.exposureSeconds = exposure;
     using scene::ShutterPhase;
@@ -173,8 +189,11 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
     if (arguments.samples > kMaxSamples)
         return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
     options.samples = arguments.samples > 0 ? arguments.samples : options.method->defaultSamples;
-    if (options.method->id != MethodId::Accumulate)
-        options.motionBlur.sampleCount = std::max(options.samples, 1u);
+    if (options.method->id == MethodId::Gather || options.method->id == MethodId::Hybrid) {
+        options.motionBlur.sampleCount = options.samples;
+        if (Status valid = motion_blur::validate(options.motionBlur); !valid)
+            return makeError("--samples: {}", valid.error().message);
+    }
     if (arguments.pixel == "box")
         options.pixel = accumulate::PixelModel::Box;
     else if (arguments.pixel != "centre")
@@ -187,7 +206,9 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
     options.motionBlur.method = options.method->id == MethodId::Hybrid
                                     ? motion_blur::Method::Hybrid
                                     : motion_blur::Method::Gather;
-    return motion_blur::validate(options.motionBlur);
+    if (Status valid = motion_blur::validate(options.motionBlur); !valid)
+        return makeError("--set: {}", valid.error().message);
+    return {};
 }
 
 Status parseAovs(const RenderArguments& arguments, RenderOptions& options) {
@@ -195,6 +216,10 @@ Status parseAovs(const RenderArguments& arguments, RenderOptions& options) {
         return {};
     std::set<std::string> known = {"motion", "depth", "normal", "mesh_id"};
     known.insert(options.method->aovs.begin(), options.method->aovs.end());
+    if (arguments.aov == "all") {
+        options.aovs = known;
+        return {};
+    }
     for (const std::string& name : splitAt(arguments.aov, ',')) {
         if (!known.contains(name))
             return makeError(
@@ -234,6 +259,27 @@ Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
     return {};
 }
 
+/// Before hours of rendering, as for --out.
+Status parseStats(const RenderArguments& arguments, RenderOptions& options) {
+    options.stats = arguments.stats;
+    if (options.stats.empty())
+        return {};
+    std::error_code ignored;
+    const auto folder = options.stats.has_parent_path() ? options.stats.parent_path() : ".";
+    if (std::filesystem::is_directory(options.stats, ignored))
+        return makeError("--stats: cannot write '{}': it is a folder", arguments.stats);
+    if (!std::filesystem::is_directory(folder, ignored))
+        return makeError(
+            "--stats: cannot write '{}': the folder '{}' does not exist",
+            arguments.stats,
+            folder.string()
+        );
+    const bool exists = std::filesystem::exists(options.stats, ignored);
+    if (::access(exists ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
+        return makeError("--stats: cannot write '{}': permission denied", arguments.stats);
+    return {};
+}
+
 } // namespace
 
 void defineRenderOptions(CLI::App& command, RenderArguments& a) {
@@ -265,7 +311,9 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option(
         "--set", a.settings, "NAME=VALUE of the motion blur's settings (repeatable)"
     );
-    command.add_option("--aov", a.aov, "intermediates to write beside --out, comma-separated");
+    command.add_option(
+        "--aov", a.aov, "intermediates to write beside --out, comma-separated, or all"
+    );
     command.add_option("--stats", a.stats, "times and counters as JSON");
     command.add_option("--device", a.device, "name or index, see `shutter info --devices`");
     command.add_flag("--validate", a.validate, "Vulkan validation; a message is a failure");
@@ -290,7 +338,6 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
 #endif
     options.dumpGraph = arguments.dumpGraph;
     options.repeat = arguments.repeat;
-    options.stats = arguments.stats;
     using Step = Status (*)(const RenderArguments&, RenderOptions&);
     const Step parseSizeOption = [](const RenderArguments& a, RenderOptions& o) {
         return parseSize(a.size, o);
@@ -301,7 +348,8 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
           Step(parseShutter),
           Step(parseMethod),
           Step(parseAovs),
-          Step(parseOutput)})
+          Step(parseOutput),
+          Step(parseStats)})
         if (Status parsed = step(arguments, options); !parsed)
             return parsed.error();
     auto background = parseColor("--background", arguments.background);

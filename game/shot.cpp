@@ -29,10 +29,11 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& o
     }
     std::string names;
     for (size_t i = 0; i < world.cameras.size(); ++i) {
-        const std::string name = nameOf(world, world.cameras[i]);
-        if (name == wanted)
+        const std::string& name = world.registry.get<scene::Camera>(world.cameras[i]).name;
+        const std::string entityName = nameOf(world, world.cameras[i]);
+        if (name == wanted || entityName == wanted)
             return world.cameras[i];
-        names += fmt::format("{}{}: {}", i ? ", " : "", i, name);
+        names += fmt::format("{}{}: {}", i ? ", " : "", i, name.empty() ? entityName : name);
     }
     size_t index = 0;
     const auto [end, problem] =

@@ -37,11 +37,12 @@ bool hasLayer(const char* wanted) {
     return false;
 }
 
-bool hasInstanceExtension(const char* wanted) {
+/// \param layer whose extensions are asked for; null: the loader's and drivers' own
+bool hasInstanceExtension(const char* wanted, const char* layer = nullptr) {
     uint32_t count = 0;
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
     for (const auto& extension : extensions)
         if (std::strcmp(extension.extensionName, wanted) == 0)
             return true;
@@ -152,6 +153,9 @@ core::Status Device::createInstance(const DeviceOptions& options) {
                 kValidationLayer
             );
         layers.push_back(kValidationLayer);
+        if (!hasInstanceExtension(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME, kValidationLayer))
+            return core::makeError("--validate: {} cannot check synchronization", kValidationLayer);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
         mHasDebugUtils = true;
     }
     if (mHasDebugUtils)

@@ -77,11 +77,15 @@ void readCone(const tinygltf::SpotLight& spot, const std::string& path, scene::L
 scene::Camera readCamera(const GltfContext& context, size_t index) {
     const tinygltf::Camera& source = context.model.cameras[index];
     const std::string path = fmt::format("cameras[{}]", index);
+    scene::Camera camera;
     if (source.type == "perspective")
-        return readPerspective(source.perspective, path);
-    if (source.type == "orthographic")
-        return readOrthographic(source.orthographic, path);
-    failGltf("{}.type '{}' is unknown", path, source.type);
+        camera = readPerspective(source.perspective, path);
+    else if (source.type == "orthographic")
+        camera = readOrthographic(source.orthographic, path);
+    else
+        failGltf("{}.type '{}' is unknown", path, source.type);
+    camera.name = source.name;
+    return camera;
 }
 
 scene::Light readLight(const GltfContext& context, size_t index) {

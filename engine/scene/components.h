@@ -61,6 +61,7 @@ enum class CameraKind : uint8_t { Perspective, Orthographic };
 
 /// Looks down its entity's -Z with +Y up.
 struct Camera {
+    std::string name; ///< of the camera itself; its entity has a Name of its own; may be empty
     CameraKind kind = CameraKind::Perspective;
     double yFov = 0.8;    ///< perspective: vertical field of view, radians, (0, pi)
     double xMag = 1.0;    ///< orthographic: half width, metres
