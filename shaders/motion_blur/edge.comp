@@ -52,7 +52,8 @@ void main() {
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     vec2 centre = vec2(pixel) + 0.5f;
     vec4 result = vec4(0.0f);
-    vec2 dominant = texelFetch(uDominant, tileAt(centre, params.tileSizePx), 0).xy;
+    vec2 dominant =
+        textureLod(uDominant, tileUv(centre, params.tileSizePx, params.tileCount), 0.0f).xy;
     if (length(dominant) >= kStillPx) {
         vec4 target = textureLod(uMotionDepth, uvAt(centre), 0.0f);
         vec2 motion = clampMotion(target.xy, float(params.tileSizePx));

@@ -38,7 +38,9 @@ void main() {
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     vec2 centre = vec2(pixel) + 0.5f;
     bool masked = false;
-    if (length(texelFetch(uDominant, tileAt(centre, params.tileSizePx), 0).xy) >= kStillPx) {
+    vec2 dominant =
+        textureLod(uDominant, tileUv(centre, params.tileSizePx, params.tileCount), 0.0f).xy;
+    if (length(dominant) >= kStillPx) {
         vec2 motion = textureLod(uMotionDepth, centre / vec2(params.sizePx), 0.0f).xy;
         motion = clampMotion(motion, float(params.tileSizePx));
         masked = length(motion) >= kStillPx &&

@@ -58,18 +58,19 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     vec2 centre = vec2(pixel) + 0.5f;
-    ivec2 tile = tileAt(centre, params.tileSizePx);
-    vec2 dominant = texelFetch(uDominant, tile, 0).xy;
+    vec2 tile = tileUv(centre, params.tileSizePx, params.tileCount);
+    vec2 dominant = textureLod(uDominant, tile, 0.0f).xy;
+    vec2 uv = centre / vec2(params.sizePx);
     // Nothing moves within reach: the sharp colour, bit for bit.
     if (length(dominant) < kStillPx) {
-        imageStore(uBlurred, pixel, texelFetch(uColor, pixel, 0));
+        imageStore(uBlurred, pixel, textureLod(uColor, uv, 0.0f));
         return;
     }
     Gathered front = gather(uColor, uMotionDepth, dominant, centre);
     vec3 sum = front.sum;
     float weight = front.weight;
-    if (kHybrid != 0u && texelFetch(uMask, pixel, 0).x > 0.5f) {
-        vec2 revealDominant = texelFetch(uRevealDominant, tile, 0).xy;
+    if (kHybrid != 0u && textureLod(uMask, uv, 0.0f).x > 0.5f) {
+        vec2 revealDominant = textureLod(uRevealDominant, tile, 0.0f).xy;
         Gathered back = gather(uRevealColor, uRevealMotionDepth, revealDominant, centre);
         float magnify = params.backgroundMagnification;
         sum = front.sum / magnify + back.sum * magnify;

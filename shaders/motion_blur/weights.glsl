@@ -45,15 +45,16 @@ SHUTTER_INLINE float interleavedGradientNoise(vec2 pixel) {
 SHUTTER_INLINE vec2 longerMotion(vec2 a, vec2 b) {
     float la = dot(a, a);
     float lb = dot(b, b);
-    if (la != lb) return lb > la ? b : a;
-    if (a.x != b.x) return b.x > a.x ? b : a;
-    return b.y > a.y ? b : a;
+    // One condition and a select: branches per pixel would cost more than the comparison.
+    bool later = b.x > a.x || (b.x == a.x && b.y > a.y);
+    return lb > la || (lb == la && later) ? b : a;
 }
 
-/// The tile a pixel's centre lies in. In floats: integer division is slow on software devices, and
-/// half a pixel of slack makes the quotient's floor exact.
-SHUTTER_INLINE ivec2 tileAt(vec2 centre, uint tileSizePx) {
-    return ivec2(floor(centre / float(tileSizePx)));
+/// Where the tile of a pixel's centre is in a texture of one texel a tile. In floats and for a
+/// sampler: integer division and texelFetch are slow on software devices; half a pixel of slack
+/// makes the quotient's floor exact.
+SHUTTER_INLINE vec2 tileUv(vec2 centre, uint tileSizePx, uvec2 tileCount) {
+    return (floor(centre / float(tileSizePx)) + 0.5f) / vec2(tileCount);
 }
 
 /// `motion` no longer than `limitPx`.

@@ -121,11 +121,15 @@ TEST(Weights, AmongEquallyLongMotionsTheOrderDoesNotMatter) {
 }
 
 TEST(Weights, TheTileOfAPixelIsExactUpToTheLargestPicture) {
-    for (uint tile = 1; tile <= 256; ++tile)
-        for (int pixel = 0; pixel < 16384; ++pixel) {
-            const ivec2 found = tileAt(vec2(float(pixel) + 0.5f), tile);
-            ASSERT_EQ(found.x, pixel / int(tile)) << pixel << " " << tile;
+    constexpr uint kLongest = 16384;
+    for (uint tile = 1; tile <= 256; ++tile) {
+        const uvec2 count((kLongest + tile - 1) / tile);
+        for (uint pixel = 0; pixel < kLongest; ++pixel) {
+            // A nearest sampler finds the texel whose span holds the coordinate.
+            const float texel = tileUv(vec2(float(pixel) + 0.5f), tile, count).x * float(count.x);
+            ASSERT_EQ(uint(texel), pixel / tile) << pixel << " " << tile;
         }
+    }
 }
 
 TEST(Weights, AMotionIsCutToTheLimitAndKeepsItsDirection) {
