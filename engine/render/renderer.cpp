@@ -5,6 +5,7 @@
 #include "engine/graph/execute.h"
 #include "engine/render/spatial_order.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 
@@ -54,6 +55,36 @@ std::vector<gpu::Instance> makeInstances(const ExtractedFrame& frame, const GpuS
     for (uint32_t index : computeSpatialOrder(boxes))
         ordered.push_back(instances[index]);
     return ordered;
+}
+
+ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays) {
+    ViewFacts facts;
+    facts.width = request.view.width;
+    facts.height = request.view.height;
+    facts.moves = moves;
+    facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
+    facts.rasterShare = request.view.exposure.rasterShare;
+    facts.deviceHasRays = deviceHasRays;
+    facts.displayWanted = request.wantDisplay;
+    return facts;
+}
+
+/// The effects that run, and every effect's reason.
+std::vector<PostEffect*> askEffects(
+    std::span<PostEffect* const> effects,
+    const ViewFacts& facts,
+    std::map<std::string, std::string>& reasons
+) {
+    std::vector<PostEffect*> running;
+    for (PostEffect* effect : effects) {
+        Decision decision = effect->ask(facts);
+        if (decision.run && effect->needsRays() && !facts.deviceHasRays)
+            decision = {false, "it needs rays, which the device cannot trace"};
+        reasons[effect->name()] = (decision.run ? "ran: " : "skipped: ") + decision.reason;
+        if (decision.run)
+            running.push_back(effect);
+    }
+    return running;
 }
 
 } // namespace
@@ -122,56 +153,15 @@ core::Result<FrameResult> Renderer::renderFrame(
     if (!extracted)
         return extracted.error();
     ExtractedFrame& frame = extracted.value();
-
-    ViewFacts facts;
-    facts.width = request.view.width;
-    facts.height = request.view.height;
-    facts.moves = frame.moves;
-    facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
-    facts.rasterShare = request.view.exposure.rasterShare;
-    facts.deviceHasRays = mDevice.hasRays();
-    facts.displayWanted = request.wantDisplay;
-
+    const ViewFacts facts = stateFacts(request, frame.moves, mDevice.hasRays());
     FrameResult result;
-    std::vector<PostEffect*> running;
-    bool raysWanted = false;
-    for (PostEffect* effect : effects) {
-        const Decision decision = effect->ask(facts);
-        result.statistics.decisions[effect->name()] =
-            (decision.run ? "ran: " : "skipped: ") + decision.reason;
-        if (!decision.run)
-            continue;
-        running.push_back(effect);
-        raysWanted = raysWanted || effect->needsRays();
-    }
+    const std::vector<PostEffect*> running =
+        askEffects(effects, facts, result.statistics.decisions);
 
     mFrame.begin();
     mReadback.reset();
     graph::Graph graph;
-    RayScene rays;
-    rays.frameConstants = uploadTables(frame);
-    rays.textures = mScene.textureSet();
-    if (raysWanted)
-        declareTopLevel(graph, frame, rays);
-    const GBuffer gbuffer = mGBufferPass.declare(graph, frame, mScene, rays.frameConstants);
-    Intermediates intermediates(request.intermediates);
-    publishGBuffer(gbuffer, intermediates);
-    PostContext context{
-        graph, facts, gbuffer, raysWanted ? &rays : nullptr, gbuffer.color, {}, intermediates};
-    for (PostEffect* effect : running)
-        effect->declare(context);
-
-    std::map<std::string, size_t> tickets;
-    for (const auto& [name, image] : intermediates.images())
-        tickets[name] = mReadback.add(graph, name, image);
-    size_t colorTicket = 0;
-    size_t displayTicket = 0;
-    if (request.wantColor)
-        colorTicket = mReadback.add(graph, "color", context.color);
-    const bool hasDisplay = request.wantDisplay && context.display.isValid();
-    if (hasDisplay)
-        displayTicket = mReadback.add(graph, "display", context.display);
-
+    const Tickets tickets = declareFrame(graph, request, facts, frame, running);
     auto plan = graph::execute(graph, mFrame, mPool);
     if (!plan)
         return plan.error();
@@ -184,13 +174,46 @@ core::Result<FrameResult> Renderer::renderFrame(
         effect->collect(result.statistics.counters);
     if (request.wantDump)
         result.dump = graph::dump(graph, plan.value());
-    if (request.wantColor)
-        result.color = mReadback.take(colorTicket);
-    if (hasDisplay)
-        result.display = mReadback.take(displayTicket);
-    for (const auto& [name, ticket] : tickets)
+    if (tickets.color)
+        result.color = mReadback.take(*tickets.color);
+    if (tickets.display)
+        result.display = mReadback.take(*tickets.display);
+    for (const auto& [name, ticket] : tickets.intermediates)
         result.intermediates[name] = mReadback.take(ticket);
     return result;
+}
+
+Renderer::Tickets Renderer::declareFrame(
+    graph::Graph& graph,
+    const FrameRequest& request,
+    const ViewFacts& facts,
+    ExtractedFrame& frame,
+    std::span<PostEffect* const> running
+) {
+    RayScene rays;
+    rays.frameConstants = uploadTables(frame);
+    rays.textures = mScene.textureSet();
+    const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
+        return effect->needsRays();
+    });
+    if (raysWanted)
+        declareTopLevel(graph, frame, rays);
+    const GBuffer gbuffer = mGBufferPass.declare(graph, frame, mScene, rays.frameConstants);
+    Intermediates intermediates(request.intermediates);
+    publishGBuffer(gbuffer, intermediates);
+    PostContext context{
+        graph, facts, gbuffer, raysWanted ? &rays : nullptr, gbuffer.color, {}, intermediates};
+    for (PostEffect* effect : running)
+        effect->declare(context);
+
+    Tickets tickets;
+    for (const auto& [name, image] : intermediates.images())
+        tickets.intermediates[name] = mReadback.add(graph, name, image);
+    if (request.wantColor)
+        tickets.color = mReadback.add(graph, "color", context.color);
+    if (request.wantDisplay && context.display.isValid())
+        tickets.display = mReadback.add(graph, "display", context.display);
+    return tickets;
 }
 
 } // namespace shutter::render

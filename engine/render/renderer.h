@@ -14,6 +14,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -60,6 +61,20 @@ class Renderer {
     [[nodiscard]] const GpuScene& scene() const { return mScene; }
 
   private:
+    /// What of a frame is read back: Readback's tickets.
+    struct Tickets {
+        std::optional<size_t> color;
+        std::optional<size_t> display;
+        std::map<std::string, size_t> intermediates;
+    };
+
+    Tickets declareFrame(
+        graph::Graph& graph,
+        const FrameRequest& request,
+        const ViewFacts& facts,
+        ExtractedFrame& frame,
+        std::span<PostEffect* const> running
+    );
     VkDeviceAddress uploadTables(ExtractedFrame& frame);
     void declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays);
     void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
