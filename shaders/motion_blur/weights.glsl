@@ -41,13 +41,14 @@ SHUTTER_INLINE float interleavedGradientNoise(vec2 pixel) {
 }
 
 /// The longer of two motions; ties go to the greater x, then y, so that the order in which tiles
-/// are visited does not matter.
+/// are visited does not matter. `b` is passed over where its length is not finite, so that a search
+/// that starts from 0 ends with a motion that is.
 SHUTTER_INLINE vec2 longerMotion(vec2 a, vec2 b) {
     float la = dot(a, a);
     float lb = dot(b, b);
     // One condition and a select: branches per pixel would cost more than the comparison.
     bool later = b.x > a.x || (b.x == a.x && b.y > a.y);
-    return lb > la || (lb == la && later) ? b : a;
+    return isFinite(lb) && (lb > la || (lb == la && later)) ? b : a;
 }
 
 /// Where the tile of a pixel's centre is in a texture of one texel a tile. In floats and for a
@@ -57,9 +58,11 @@ SHUTTER_INLINE vec2 tileUv(vec2 centre, uint tileSizePx, uvec2 tileCount) {
     return (floor(centre / float(tileSizePx)) + 0.5f) / vec2(tileCount);
 }
 
-/// `motion` no longer than `limitPx`.
+/// `motion` no longer than `limitPx`. One without a finite length (NaN, infinity, overflow) counts as
+/// none: scaling it would make NaN.
 SHUTTER_INLINE vec2 clampMotion(vec2 motion, float limitPx) {
     float speed = length(motion);
+    if (!isFinite(speed)) return vec2(0.0f);
     return speed > limitPx ? motion * (limitPx / speed) : motion;
 }
 
