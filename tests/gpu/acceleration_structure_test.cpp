@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Builds of bottom and top levels from nothing, one triangle, and triangles without area. That rays
+// meet what was built is for the reveal's laws (tests/image) to show.
+#include "engine/gpu/acceleration_structure.h"
+#include "engine/gpu/memory.h"
+#include "engine/gpu/upload.h"
+#include "engine/math/math.h"
+#include "tests/support/gpu_fixture.h"
+
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using math::vec3;
+
+class AccelerationStructure : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+            GTEST_SKIP() << device().info().name << " has no ray queries";
+    }
+};
+
+/// Positions on the device, three a triangle.
+struct Triangles {
+    gpu::Buffer vertices;
+    gpu::Buffer indices;
+    gpu::TriangleGeometry geometry;
+};
+
+Triangles makeTriangles(gpu::Device& device, const std::vector<vec3>& positions) {
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    std::vector<uint32_t> indices(positions.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    Triangles made;
+    made.vertices = gpu::Buffer(
+        device, "vertices", positions.size() * sizeof(vec3), kUsage, gpu::MemoryUse::Device
+    );
+    made.indices = gpu::Buffer(
+        device, "indices", indices.size() * sizeof(uint32_t), kUsage, gpu::MemoryUse::Device
+    );
+    gpu::uploadBuffer(device, made.vertices, std::as_bytes(std::span(positions)));
+    gpu::uploadBuffer(device, made.indices, std::as_bytes(std::span(indices)));
+    made.geometry.vertices = made.vertices.address();
+    made.geometry.vertexStride = sizeof(vec3);
+    made.geometry.vertexCount = static_cast<uint32_t>(positions.size());
+    made.geometry.indices = made.indices.address();
+    made.geometry.triangleCount = static_cast<uint32_t>(positions.size() / 3);
+    return made;
+}
+
+gpu::Instance makeInstance(const gpu::AccelerationStructure& bottomLevel) {
+    gpu::Instance instance{};
+    for (int i = 0; i < 3; ++i)
+        instance.worldFromObject[i][i] = 1.0f;
+    instance.bottomLevel = bottomLevel.address();
+    return instance;
+}
+
+void build(gpu::Device& device, gpu::TopLevel& top, std::span<const gpu::Instance> instances) {
+    top.prepare(device, instances);
+    gpu::runOnce(device, [&](VkCommandBuffer commands) { top.record(device, commands); });
+}
+
+TEST_F(AccelerationStructure, NoMeshesGiveNoStructures) {
+    EXPECT_TRUE(gpu::buildBottomLevel(device(), {}).empty());
+}
+
+TEST_F(AccelerationStructure, AMeshWithoutTrianglesGivesAnEmptyOne) {
+    Triangles none = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    none.geometry.triangleCount = 0;
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{}, {none.geometry}};
+    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    ASSERT_EQ(structures.size(), 2u);
+    EXPECT_FALSE(structures[0]);
+    EXPECT_FALSE(structures[1]);
+}
+
+TEST_F(AccelerationStructure, OneTriangleBuildsAndHasAnAddress) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
+    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    ASSERT_EQ(structures.size(), 1u);
+    ASSERT_TRUE(structures[0]);
+    EXPECT_NE(structures[0].address(), 0u);
+    gpu::TopLevel top;
+    build(device(), top, std::vector{makeInstance(structures[0])});
+    EXPECT_TRUE(top.structure());
+}
+
+TEST_F(AccelerationStructure, TrianglesWithoutAreaBuild) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Triangles flat = makeTriangles(
+        device(),
+        {vec3(1),
+         vec3(1),
+         vec3(1), // a point
+         vec3(0),
+         vec3(1, 0, 0),
+         vec3(2, 0, 0), // a line
+         vec3(nan),
+         vec3(0),
+         vec3(1)} // inactive, as Vulkan calls it
+    );
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{flat.geometry}};
+    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    ASSERT_TRUE(structures.at(0));
+    gpu::TopLevel top;
+    build(device(), top, std::vector{makeInstance(structures[0])});
+    EXPECT_TRUE(top.structure());
+}
+
+TEST_F(AccelerationStructure, ATopLevelOfNothingBuilds) {
+    gpu::TopLevel top;
+    build(device(), top, {});
+    EXPECT_TRUE(top.structure());
+}
+
+TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
+    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    gpu::TopLevel top;
+    build(device(), top, std::vector{makeInstance(structures.at(0))});
+    const VkAccelerationStructureKHR small = top.structure().handle();
+    build(device(), top, std::vector(100, makeInstance(structures[0])));
+    const VkAccelerationStructureKHR large = top.structure().handle();
+    EXPECT_NE(small, large);
+    build(device(), top, std::vector(3, makeInstance(structures[0])));
+    EXPECT_EQ(top.structure().handle(), large);
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Which device is taken, what is said when there is none, and what a device without rays refuses.
+#include "engine/gpu/device.h"
+#include "game/method_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <string>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+gpu::DeviceInfo makeInfo(const std::string& name, const std::string& kind, gpu::RayTier tier) {
+    gpu::DeviceInfo info;
+    info.name = name;
+    info.kind = kind;
+    info.rayTier = tier;
+    return info;
+}
+
+std::vector<gpu::DeviceInfo> threeDevices() {
+    return {
+        makeInfo("llvmpipe (LLVM 15)", "software", gpu::RayTier::RayQuery),
+        makeInfo("Old Card", "discrete", gpu::RayTier::None),
+        makeInfo("New Card", "discrete", gpu::RayTier::RayQuery)};
+}
+
+void expectMessage(const core::Result<gpu::DeviceInfo>& result, const std::string& part) {
+    ASSERT_FALSE(result.ok());
+    EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+}
+
+TEST(DeviceChoice, WithoutAWishRaysCountBeforeTheKindOfDevice) {
+    auto devices = threeDevices();
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "New Card");
+    devices.pop_back();
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
+}
+
+TEST(DeviceChoice, ADeviceThatLacksSomethingIsPassedOver) {
+    auto devices = threeDevices();
+    devices[2].missing = "timeline semaphores";
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
+}
+
+TEST(DeviceChoice, AWishIsAnIndexOrAPartOfAName) {
+    const auto devices = threeDevices();
+    EXPECT_EQ(gpu::chooseDevice(devices, "1").value().name, "Old Card");
+    EXPECT_EQ(gpu::chooseDevice(devices, "LLVMPIPE").value().name, "llvmpipe (LLVM 15)");
+}
+
+TEST(DeviceChoice, AWishThatNamesNothingListsWhatThereIs) {
+    const auto devices = threeDevices();
+    expectMessage(gpu::chooseDevice(devices, "voodoo"), "'voodoo'");
+    expectMessage(gpu::chooseDevice(devices, "voodoo"), "2: New Card");
+    expectMessage(gpu::chooseDevice(devices, "3"), "'3'");
+}
+
+TEST(DeviceChoice, AWishedDeviceThatLacksSomethingSaysWhat) {
+    auto devices = threeDevices();
+    devices[1].missing = "dynamic rendering";
+    expectMessage(gpu::chooseDevice(devices, "old"), "lacks dynamic rendering");
+}
+
+TEST(DeviceChoice, NoDeviceAtAllSaysWhatHelps) {
+    expectMessage(gpu::chooseDevice({}, ""), "no Vulkan device");
+    expectMessage(gpu::chooseDevice({}, "0"), "no Vulkan device");
+}
+
+TEST(DeviceChoice, WhereNoneCanRunTheEngineTheFirstIsNamed) {
+    auto devices = threeDevices();
+    for (auto& device : devices)
+        device.missing = "Vulkan 1.3";
+    expectMessage(gpu::chooseDevice(devices, ""), "llvmpipe (LLVM 15) lacks Vulkan 1.3");
+}
+
+class DeviceWithoutRays : public test::GpuTest {
+  protected:
+    static std::unique_ptr<gpu::Device> openWithoutRays() {
+        gpu::DeviceOptions options;
+        options.validate = true;
+        options.allowRays = false;
+        auto opened = gpu::Device::create(options);
+        EXPECT_TRUE(opened.ok());
+        return opened ? std::move(opened).value() : nullptr;
+    }
+};
+
+test::SceneBuilder makeScene() {
+    test::SceneBuilder scene;
+    scene.setPixelView(48);
+    scene.add(test::makeQuad(80, 60, scene.addColor({0, 1, 0})), {.position = {0, 0, -20}});
+    scene.add(
+        test::makeQuad(16, 16, scene.addColor({1, 0, 0})),
+        {.position = {0, 0, -10}, .velocity = {9, 0, 0}}
+    );
+    return scene;
+}
+
+TEST_F(DeviceWithoutRays, AWishForADeviceThatIsNotThereIsAnError) {
+    gpu::DeviceOptions options;
+    options.wanted = "no such device";
+    const auto opened = gpu::Device::create(options);
+    ASSERT_FALSE(opened.ok());
+    EXPECT_NE(opened.error().message.find("'no such device'"), std::string::npos);
+    EXPECT_NE(opened.error().message.find(device().info().name), std::string::npos);
+}
+
+TEST_F(DeviceWithoutRays, TheHybridMethodIsRefusedAndGatherIsNot) {
+    const auto lower = openWithoutRays();
+    ASSERT_TRUE(lower);
+    EXPECT_FALSE(lower->hasRays());
+    test::SceneBuilder scene = makeScene();
+    const game::Shot shot{std::move(scene.world), scene.camera};
+    game::RenderOptions options;
+    options.width = 64;
+    options.height = 48;
+    options.method = game::findMethod("hybrid").value();
+    const auto refused = game::MethodRenderer::create(*lower, shot, options);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("hybrid"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("ray"), std::string::npos);
+    options.method = game::findMethod("gather").value();
+    EXPECT_TRUE(game::MethodRenderer::create(*lower, shot, options).ok());
+}
+
+TEST_F(DeviceWithoutRays, GatherIsTheSameWithAndWithoutRays) {
+    const auto lower = openWithoutRays();
+    ASSERT_TRUE(lower);
+    const test::SceneBuilder scene = makeScene();
+    const test::Shot shot{.method = test::Method::Gather, .width = 64, .height = 48};
+    const auto with = test::renderOnce(device(), scene, shot);
+    const auto without = test::renderOnce(*lower, scene, shot);
+    EXPECT_TRUE(test::sameBits(with.color, without.color));
+    EXPECT_EQ(lower->validationMessageCount(), 0u);
+}
+
+} // namespace
+} // namespace shutter

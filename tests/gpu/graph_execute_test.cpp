@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// The render graph on a device: what passes write is what later ones read, and images that share
+// memory do not disturb one another.
+#include "engine/graph/execute.h"
+#include "shaders/accumulate/accumulate_shared.h"
+#include "tests/gpu/graph_rig.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+namespace shutter {
+namespace {
+
+using graph::Access;
+using graph::ImageHandle;
+using graph::PassKind;
+
+class GraphExecute : public test::GpuTest {};
+
+constexpr uint32_t kWidth = 41;
+constexpr uint32_t kHeight = 39;
+
+struct Data {
+    ImageHandle source;
+    ImageHandle target;
+};
+
+ImageHandle addClear(graph::Graph& graph, VkFormat format, const VkClearColorValue& color) {
+    return graph
+        .addPass<Data>(
+            "clear",
+            PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                const auto image = graph.createImage("cleared", {kWidth, kHeight, format});
+                data.target = builder.write(image, Access::TransferWrite);
+            },
+            [color](const Data& data, graph::PassContext& context) {
+                const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+                vkCmdClearColorImage(
+                    context.commands,
+                    context.resources.image(data.target).handle(),
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                    &color,
+                    1,
+                    &range
+                );
+            }
+        )
+        .target;
+}
+
+/// rgb = source's rgb times `scale`, in a new image.
+ImageHandle addScale(
+    graph::Graph& graph,
+    gpu::Device& device,
+    const gpu::Pipeline& pipeline,
+    ImageHandle source,
+    float scale
+) {
+    const shader::AccumulateParams params{{kWidth, kHeight}, 0, scale};
+    return graph
+        .addPass<Data>(
+            "scale",
+            PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                const auto image =
+                    graph.createImage("scaled", {kWidth, kHeight, VK_FORMAT_R32G32B32A32_SFLOAT});
+                data.source = builder.read(source, Access::SampledCompute);
+                data.target = builder.write(image, Access::StorageWrite);
+            },
+            [&device, &pipeline, params](const Data& data, graph::PassContext& context) {
+                gpu::BindingList bindings;
+                bindings.sampled(context.resources.view(data.source), device.nearestSampler())
+                    .storage(context.resources.view(data.target));
+                context.frame.bind(pipeline, bindings, &params, sizeof(params));
+                vkCmdDispatch(context.commands, (kWidth + 7) / 8, (kHeight + 7) / 8, 1);
+            }
+        )
+        .target;
+}
+
+void expectConstant(const image::Image& picture, const math::vec3& color) {
+    ASSERT_EQ(picture.width, kWidth);
+    ASSERT_EQ(picture.height, kHeight);
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                ASSERT_EQ(picture.at(x, y, c), color[int(c)]) << x << ", " << y;
+}
+
+TEST_F(GraphExecute, AClearedImageIsCopiedByComputeAndReadBack) {
+    const gpu::Pipeline scale = test::makeScalePipeline(device());
+    test::GraphRig rig(device());
+    // Powers of two: exact in half floats and when doubled.
+    const auto cleared =
+        addClear(rig.graph, VK_FORMAT_R16G16B16A16_SFLOAT, {{0.5f, 2.0f, 0.25f, 1.0f}});
+    const auto copied = addScale(rig.graph, device(), scale, cleared, 2.0f);
+    const size_t before = rig.want(cleared);
+    const size_t after = rig.want(copied);
+    rig.run();
+    expectConstant(rig.take(before), {0.5f, 2.0f, 0.25f});
+    expectConstant(rig.take(after), {1.0f, 4.0f, 0.5f});
+}
+
+TEST_F(GraphExecute, APassThatNobodyNeedsDoesNotRun) {
+    const gpu::Pipeline scale = test::makeScalePipeline(device());
+    test::GraphRig rig(device());
+    const auto cleared =
+        addClear(rig.graph, VK_FORMAT_R32G32B32A32_SFLOAT, {{1.0f, 1.0f, 1.0f, 1.0f}});
+    (void)addScale(rig.graph, device(), scale, cleared, 2.0f);
+    (void)rig.want(cleared);
+    const graph::Plan plan = rig.run();
+    EXPECT_EQ(plan.passes.size(), 2u);
+    ASSERT_EQ(plan.culled.size(), 1u);
+    EXPECT_EQ(plan.culled[0].name, "scale");
+}
+
+TEST_F(GraphExecute, AChainWhoseImagesShareMemoryKeepsItsValues) {
+    const gpu::Pipeline scale = test::makeScalePipeline(device());
+    test::GraphRig rig(device());
+    const auto first =
+        addClear(rig.graph, VK_FORMAT_R32G32B32A32_SFLOAT, {{1.0f, 3.0f, 5.0f, 1.0f}});
+    ImageHandle last = first;
+    for (int i = 0; i < 8; ++i)
+        last = addScale(rig.graph, device(), scale, last, 2.0f);
+    const size_t ticket = rig.want(last);
+    const graph::Plan plan = rig.run();
+    expectConstant(rig.take(ticket), {256.0f, 768.0f, 1280.0f});
+    // Two at a time are alive.
+    EXPECT_LE(plan.blockBytes, plan.unaliasedBytes / 3);
+}
+
+/// Wants every transient image of the frame after the frame: none may share memory with one that
+/// is made later.
+class KeepEverything : public render::PostEffect {
+  public:
+    [[nodiscard]] std::string name() const override { return "keep everything"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+        return {true, "always"};
+    }
+
+    void declare(render::PostContext& context) override {
+        const auto& resources = context.graph.resources();
+        for (uint32_t i = 0; i < resources.size(); ++i) {
+            const graph::ResourceRecord& resource = resources[i];
+            if (resource.imported || !resource.isImage || resource.versionCount < 2)
+                continue;
+            context.graph.markOutput(ImageHandle{i, resource.versionCount - 1, context.color.graph}
+            );
+            ++kept;
+        }
+    }
+
+    size_t kept = 0;
+};
+
+TEST_F(GraphExecute, ARealFrameIsTheSameWithAndWithoutSharedMemory) {
+    test::SceneBuilder scene;
+    scene.setPerspective(0.9);
+    const auto waves = scene.addTextured(scene.addWaves());
+    scene.add(test::makeQuad(6, 5, waves), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeBox({0.8, 0.8, 0.8}, scene.addColor({1, 0.5f, 0})),
+        {.position = {0, 0, -2.5}, .velocity = {0.5, 0.1, 0}, .angularVelocity = {0, 1, 0}}
+    );
+    for (test::Method method : {test::Method::Gather, test::Method::Hybrid}) {
+        test::Shot shot{.method = method, .wantDisplay = true};
+        const auto shared = test::renderOnce(device(), scene, shot);
+        KeepEverything keep;
+        shot.last = &keep;
+        const auto apart = test::renderOnce(device(), scene, shot);
+        EXPECT_GT(keep.kept, 6u);
+        EXPECT_TRUE(test::sameBits(shared.color, apart.color)) << describe(method);
+        EXPECT_TRUE(test::sameBits(shared.display, apart.display)) << describe(method);
+        EXPECT_LT(shared.statistics.transientBytes, apart.statistics.transientBytes)
+            << "nothing was shared: the test shows nothing";
+    }
+}
+
+} // namespace
+} // namespace shutter
