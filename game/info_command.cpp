@@ -4,6 +4,7 @@
 #include "engine/scene/framing.h"
 #include "game/commands.h"
 #include "game/methods.h"
+#include "game/report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ int runInfo(const InfoArguments& arguments) {
     if (done && !arguments.scene.empty())
         done = printScene(arguments.scene);
     if (!done)
-        fmt::print(stderr, "shutter: {}\n", done.error().message);
+        printError(done.error());
     return done ? kExitDone : kExitFailed;
 }
 
