@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Wrong usage: exit status 2 and a sentence that names the option. No device is opened for it.
+#include "tests/cli/cli_fixture.h"
+
+#include <fmt/format.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace shutter::cli {
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+} // namespace
+
+TEST_F(Cli, WithoutASubcommandItIsWrongUsage) {
+    expectRefusal({}, kUsage, {"subcommand"});
+    expectRefusal({"nosuch"}, kUsage, {"subcommand"});
+}
+
+TEST_F(Cli, RenderNeedsASceneAndAnOutput) {
+    expectRefusal({"render"}, kUsage, {"scene"});
+    expectRefusal({"render", "scene.glb"}, kUsage, {"--out"});
+}
+
+TEST_F(Cli, AnUnknownOptionIsNamed) {
+    expectRefusal(renderVase({"--out", "a.png", "--nosuch"}), kUsage, {"--nosuch"});
+    expectRefusal({"info", "--nosuch"}, kUsage, {"--nosuch"});
+    expectRefusal({"compare", "a", "b", "--nosuch"}, kUsage, {"--nosuch"});
+}
+
+TEST_F(Cli, ABadSizeIsRefused) {
+    for (const char* size : {"0x0", "12", "99999x1", "-1x5", "4000000000x4000000000"})
+        expectRefusal(
+            {"render", SHUTTER_ASSETS "/vase.glb", "--out", "a.png", "--size", size},
+            kUsage,
+            {"--size", size}
+        );
+    expectRefusal(renderVase({"--out", "a.png", "--size", "5x5"}), kUsage, {"--size"}); // twice
+}
+
+TEST_F(Cli, ANameThatIsNoneOfAListIsRefused) {
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"--method", "nosuch"},
+        {"--phase", "nosuch"},
+        {"--pixel", "nosuch"},
+        {"--tonemap", "nosuch"},
+        {"--aov", "nosuch"},
+        {"--aov", "motion,nosuch"},
+        {"--set", "nosuch=1"},
+        {"--set", "objectTest=nosuch"},
+        {"--background", "nosuch"},
+        {"--ambient", "nosuch"},
+        {"--frames", "nosuch"}};
+    for (const auto& [option, value] : bad)
+        expectRefusal(renderVase({"--out", "a.png", option, value}), kUsage, {option, "nosuch"});
+}
+
+TEST_F(Cli, WhatIsNoNumberIsRefused) {
+    for (const char* option :
+         {"--time",
+          "--fps",
+          "--exposure",
+          "--shutter-angle",
+          "--samples",
+          "--seed",
+          "--ev",
+          "--repeat"})
+        for (const char* value : {"", "1x"})
+            expectRefusal(
+                renderVase({"--out", "a.png", fmt::format("{}={}", option, value)}),
+                kUsage,
+                {option}
+            );
+}
+
+TEST_F(Cli, ANumberOutOfItsRangeIsRefused) {
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"--exposure", "-1"},
+        {"--exposure", "nan"},
+        {"--shutter-angle", "inf"},
+        {"--time", "nan"},
+        {"--ev", "nan"},
+        {"--exposure", "1e300"},
+        {"--shutter-angle", "-90"},
+        {"--fps", "0"},
+        {"--fps", "-24"},
+        {"--time", "1e300"},
+        {"--samples", "-1"},
+        {"--samples", "257"},
+        {"--samples", "99999999999"},
+        {"--ev", "33"},
+        {"--repeat", "0"},
+        {"--set", "jitter=2"},
+        {"--background", "-1,0,0"}};
+    for (const auto& [option, value] : bad)
+        expectRefusal(
+            renderVase({"--out", "a.png", fmt::format("{}={}", option, value)}), kUsage, {option}
+        );
+}
+
+TEST_F(Cli, OptionsThatExcludeEachOtherAreRefused) {
+    expectRefusal(
+        renderVase({"--out", "a.png", "--exposure", "0.1", "--shutter-angle", "180"}),
+        kUsage,
+        {"--exposure", "--shutter-angle"}
+    );
+    expectRefusal(
+        renderVase({"--out", "a_%04d.png", "--time", "1", "--frames", "0:1"}),
+        kUsage,
+        {"--time", "--frames"}
+    );
+}
+
+TEST_F(Cli, FramesThatRunBackwardsOrHaveOneFileAreRefused) {
+    expectRefusal(renderVase({"--out", "a_%04d.png", "--frames", "5:1"}), kUsage, {"--frames"});
+    expectRefusal(
+        renderVase({"--out", "a.png", "--frames", "0:1"}), kUsage, {"--out", "a.png", "%04d"}
+    );
+}
+
+TEST_F(Cli, AnOutputThatCannotBeWrittenIsRefusedBeforeDrawing) {
+    writeFile("file", "");
+    fs::create_directory(path("folder.png"));
+    for (const char* out : {"a.bmp", "a", "nosuch/a.png", "file/a.png", "folder.png"})
+        expectRefusal(renderVase({"--out", out}), kUsage, {"--out", out});
+    expectRefusal(
+        renderVase({"--out", "a.png", "--stats", "nosuch/s.json"}), kUsage, {"--stats", "nosuch"}
+    );
+}
+
+TEST_F(Cli, AFolderWithoutPermissionIsRefused) {
+    if (geteuid() == 0)
+        GTEST_SKIP() << "root may write everywhere";
+    fs::create_directory(path("locked"));
+    chmod(path("locked").c_str(), 0500);
+    expectRefusal(renderVase({"--out", "locked/a.png"}), kUsage, {"--out", "locked"});
+    chmod(path("locked").c_str(), 0700);
+}
+
+TEST_F(Cli, AnUnknownDeviceIsAnsweredWithThoseThereAre) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    for (const char* device : {"nosuch", "99", "-1"})
+        expectRefusal(
+            {"render",
+             SHUTTER_ASSETS "/vase.glb",
+             "--out",
+             "a.png",
+             fmt::format("--device={}", device)},
+            kFailed,
+            {"--device", device, "llvmpipe"}
+        );
+}
+
+TEST_F(Cli, AnUnknownCameraOrClipIsAnsweredWithThoseThereAre) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    const std::string scene = SHUTTER_ASSETS "/courtyard.glb";
+    const auto arguments = [&](const std::string& option, const std::string& value) {
+        return Arguments{
+            "render",
+            scene,
+            "--size",
+            "64x36",
+            "--out",
+            "a.png",
+            "--device",
+            "llvmpipe",
+            fmt::format("{}={}", option, value)};
+    };
+    for (const char* camera : {"nosuch", "99", "-1"})
+        expectRefusal(
+            arguments("--camera", camera), kFailed, {"--camera", "courtyard.glb", camera, "pan"}
+        );
+    expectRefusal(
+        arguments("--clip", "nosuch"), kFailed, {"--clip", "nosuch", "camera_pan_linear"}
+    );
+}
+
+TEST_F(Cli, ASentenceStaysOneLineWhateverTheArgumentHolds) {
+    expectRefusal(renderVase({"--out", "a.png", "--phase", "a\nb\x1b[31m"}), kUsage, {"--phase"});
+    expectRefusal({"info", "no\nsuch.glb"}, kFailed, {"such.glb"});
+}
+
+} // namespace shutter::cli

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "tests/cli/cli_fixture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace shutter::cli {
+
+namespace {
+
+std::string readAll(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+void redirect(const fs::path& path, int descriptor) {
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(file, descriptor);
+    close(file);
+}
+
+} // namespace
+
+Cli::Cli() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const fs::path base =
+        fs::temp_directory_path() / fmt::format("shutter_cli_{}_{}", getpid(), info->name());
+    mFolder = base / "files";
+    mLogs = base / "logs";
+    fs::create_directories(mFolder);
+    fs::create_directories(mLogs);
+}
+
+Cli::~Cli() {
+    std::error_code ignored;
+    fs::remove_all(mFolder.parent_path(), ignored);
+}
+
+pid_t Cli::start(const Arguments& arguments) const {
+    std::vector<std::string> words = {SHUTTER_EXECUTABLE};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    redirect(mLogs / "out", STDOUT_FILENO);
+    redirect(mLogs / "err", STDERR_FILENO);
+    setenv("XDG_CACHE_HOME", mLogs.c_str(), 1);
+    if (chdir(mFolder.c_str()) == 0)
+        execv(argv[0], argv.data());
+    _exit(127);
+}
+
+Outcome Cli::run(const Arguments& arguments) const {
+    int status = 0;
+    waitpid(start(arguments), &status, 0);
+    Outcome outcome;
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    outcome.out = readAll(mLogs / "out");
+    outcome.err = readAll(mLogs / "err");
+    return outcome;
+}
+
+Arguments Cli::renderVase(const Arguments& more) const {
+    Arguments arguments = {"render", SHUTTER_ASSETS "/vase.glb", "--size", "64x36"};
+    arguments.insert(arguments.end(), kOnSoftware.begin(), kOnSoftware.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+void Cli::expectRefusal(const Arguments& arguments, int status, const Arguments& mentions) const {
+    const std::set<std::string> before = listFiles();
+    const Outcome outcome = run(arguments);
+    const std::string shown = fmt::format("{}\n{}", fmt::join(arguments, " "), outcome.err);
+    EXPECT_EQ(outcome.status, status) << shown;
+    EXPECT_EQ(outcome.out, "") << shown;
+    EXPECT_TRUE(outcome.err.starts_with("shutter: ")) << shown;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << shown;
+    EXPECT_TRUE(outcome.err.ends_with("\n")) << shown;
+    for (const std::string& mention : mentions)
+        EXPECT_NE(outcome.err.find(mention), std::string::npos) << mention << "\n" << shown;
+    EXPECT_EQ(listFiles(), before) << shown;
+}
+
+Outcome Cli::expectSuccess(const Arguments& arguments) const {
+    const Outcome outcome = run(arguments);
+    const std::string shown = fmt::format("{}", fmt::join(arguments, " "));
+    EXPECT_EQ(outcome.status, 0) << shown << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err, "") << shown;
+    return outcome;
+}
+
+void Cli::writeFile(const std::string& name, const std::string& content) const {
+    std::ofstream(mFolder / name, std::ios::binary) << content;
+}
+
+std::string Cli::readFile(const std::string& name) const {
+    return readAll(mFolder / name);
+}
+
+std::set<std::string> Cli::listFiles() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(mFolder))
+        names.insert(fs::relative(entry.path(), mFolder).string());
+    return names;
+}
+
+void Cli::requireDevice() const {
+    if (run({"info", "--devices"}).out.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "lavapipe is not installed";
+}
+
+} // namespace shutter::cli

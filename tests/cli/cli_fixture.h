@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace shutter::cli {
+
+namespace fs = std::filesystem;
+
+using Arguments = std::vector<std::string>;
+
+struct Outcome {
+    int status = -1; ///< exit status, or 128 + signal
+    std::string out;
+    std::string err;
+};
+
+/// Each test has a folder of its own, in which the program runs and whose every file is known.
+class Cli : public testing::Test {
+  protected:
+    Cli();
+    ~Cli() override;
+
+    [[nodiscard]] Outcome run(const Arguments& arguments) const;
+
+    /// Starts the program and returns at once; whoever starts it waits for it.
+    [[nodiscard]] pid_t start(const Arguments& arguments) const;
+
+    /// `render` of the vase at 64x36 on lavapipe, then `more`.
+    [[nodiscard]] Arguments renderVase(const Arguments& more) const;
+
+    /// Runs and expects `status`, one line "shutter: ..." on stderr with all of `mentions`, nothing
+    /// on stdout, and no file that was not there before.
+    void expectRefusal(const Arguments& arguments, int status, const Arguments& mentions) const;
+
+    /// Runs and expects exit status 0 and nothing on stderr.
+    Outcome expectSuccess(const Arguments& arguments) const;
+
+    [[nodiscard]] std::string path(const std::string& name) const { return mFolder / name; }
+
+    void writeFile(const std::string& name, const std::string& content) const;
+    [[nodiscard]] std::string readFile(const std::string& name) const;
+    [[nodiscard]] std::set<std::string> listFiles() const;
+
+    /// Skips the test where there is no lavapipe to draw on.
+    void requireDevice() const;
+
+  private:
+    fs::path mFolder;
+    fs::path mLogs; ///< what the program prints, and its caches
+};
+
+/// Names lavapipe.
+inline const Arguments kOnSoftware = {"--device", "llvmpipe"};
+
+} // namespace shutter::cli
