@@ -27,7 +27,9 @@ void expectThePapersOrder(
         std::vector<std::string> all = arguments;
         all.insert(all.end(), {"--size", "640x360", "--method", method});
         all.insert(all.end(), more.begin(), more.end());
-        return test::renderWithShutter("paper_" + name + "_" + method, ".png", scene, all);
+        return test::renderWithShutter(
+            fmt::format("paper_{}_{}", name, method), ".png", scene, all
+        );
     };
     const image::Image truth = draw("accumulate", {"--samples", "256"});
     ASSERT_EQ(truth.width, 640u);

@@ -47,7 +47,7 @@ void expectReference(const std::string& name, const std::string& suffix) {
     const double exposure = still ? 0.0 : settings.at("exposure").get<double>();
     const auto world = settings.at("world").get<std::vector<double>>();
     const auto rendered = test::renderWithShutter(
-        "reference_" + name + suffix,
+        fmt::format("reference_{}{}", name, suffix),
         ".exr",
         folder / settings.at("scene").get<std::string>(),
         {"--method",
