@@ -104,6 +104,8 @@ int runRender(const RenderArguments& arguments) {
     auto options = interpret(arguments);
     if (!options)
         return fail(kExitUsage, options.error());
+    if (core::Status writable = checkOutputs(options.value()); !writable)
+        return fail(kExitFailed, writable.error());
     gpu::DeviceOptions deviceOptions;
     deviceOptions.wanted = options.value().device;
     deviceOptions.validate = options.value().validate;

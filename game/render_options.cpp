@@ -242,8 +242,6 @@ Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
     if (options.isSequence && options.frameTimes.size() > 1 &&
         frameFile(options.out, 0) == frameFile(options.out, 1))
         return makeError("--out '{}' needs a frame number such as %04d", arguments.out);
-    if (Status writable = io::checkWritable(frameFile(options.out, options.firstFrame)); !writable)
-        return core::makeError("--out: {}", writable.error().message);
     if (arguments.tonemap == "neutral")
         options.tonemap.op = tonemap::Operator::Neutral;
     else if (arguments.tonemap == "none")
@@ -259,24 +257,22 @@ Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
     return {};
 }
 
-/// Before hours of rendering, as for --out.
-Status parseStats(const RenderArguments& arguments, RenderOptions& options) {
-    options.stats = arguments.stats;
+Status checkStatsWritable(const RenderOptions& options) {
     if (options.stats.empty())
         return {};
     std::error_code ignored;
     const auto folder = options.stats.has_parent_path() ? options.stats.parent_path() : ".";
     if (std::filesystem::is_directory(options.stats, ignored))
-        return makeError("--stats: cannot write '{}': it is a folder", arguments.stats);
+        return makeError("--stats: cannot write '{}': it is a folder", options.stats.string());
     if (!std::filesystem::is_directory(folder, ignored))
         return makeError(
             "--stats: cannot write '{}': the folder '{}' does not exist",
-            arguments.stats,
+            options.stats.string(),
             folder.string()
         );
     const bool exists = std::filesystem::exists(options.stats, ignored);
     if (::access(exists ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
-        return makeError("--stats: cannot write '{}': permission denied", arguments.stats);
+        return makeError("--stats: cannot write '{}': permission denied", options.stats.string());
     return {};
 }
 
@@ -338,6 +334,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
 #endif
     options.dumpGraph = arguments.dumpGraph;
     options.repeat = arguments.repeat;
+    options.stats = arguments.stats;
     using Step = Status (*)(const RenderArguments&, RenderOptions&);
     const Step parseSizeOption = [](const RenderArguments& a, RenderOptions& o) {
         return parseSize(a.size, o);
@@ -348,8 +345,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
           Step(parseShutter),
           Step(parseMethod),
           Step(parseAovs),
-          Step(parseOutput),
-          Step(parseStats)})
+          Step(parseOutput)})
         if (Status parsed = step(arguments, options); !parsed)
             return parsed.error();
     auto background = parseColor("--background", arguments.background);
@@ -361,6 +357,12 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
         return ambient.error();
     options.ambient = ambient.value();
     return options;
+}
+
+core::Status checkOutputs(const RenderOptions& options) {
+    if (Status writable = io::checkWritable(frameFile(options.out, options.firstFrame)); !writable)
+        return core::makeError("--out: {}", writable.error().message);
+    return checkStatsWritable(options);
 }
 
 std::filesystem::path frameFile(const std::filesystem::path& pattern, int frameNumber) {

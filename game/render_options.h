@@ -87,8 +87,11 @@ struct RenderOptions {
 
 void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
 
-/// Checks everything that needs no file but the output's folder. Error: names the option.
+/// Checks everything that needs no file. Error: names the option that was used wrongly.
 [[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
+
+/// Before hours of rendering: whether --out and --stats can be written where they are to go.
+[[nodiscard]] core::Status checkOutputs(const RenderOptions& options);
 
 /// --out's file of one frame: %04d (any width) replaced by the frame's number.
 [[nodiscard]] std::filesystem::path

@@ -15,7 +15,7 @@ source "$root/scripts/lib/packages.sh"
 usage() {
     cat <<'TEXT'
 usage: scripts/setup.sh [--with-tests] [--no-packages] [--no-build]
-  --with-tests    also install what only the tests use
+  --with-tests    also install and build what only the tests use
   --no-packages   install nothing
   --no-build      neither configure nor build
 TEXT
@@ -51,7 +51,11 @@ main() {
     [[ $packages == no ]] || ensure_packages "$tests"
     if [[ $build == yes ]]; then
         configure
-        cmake --build --preset release
+        if [[ -n $tests ]]; then
+            cmake --build --preset release
+        else
+            cmake --build --preset release --target shutter shutter_assets
+        fi
     fi
 }
 

@@ -125,11 +125,16 @@ TEST_F(Cli, FramesThatRunBackwardsOrHaveOneFileAreRefused) {
 TEST_F(Cli, AnOutputThatCannotBeWrittenIsRefusedBeforeDrawing) {
     writeFile("file", "");
     fs::create_directory(path("folder.png"));
-    for (const char* out : {"a.bmp", "a", "nosuch/a.png", "file/a.png", "folder.png"})
-        expectRefusal(renderVase({"--out", out}), kUsage, {"--out", out});
+    for (const char* out : {"nosuch/a.png", "file/a.png", "folder.png"})
+        expectRefusal(renderVase({"--out", out}), kFailed, {"--out", out});
     expectRefusal(
-        renderVase({"--out", "a.png", "--stats", "nosuch/s.json"}), kUsage, {"--stats", "nosuch"}
+        renderVase({"--out", "a.png", "--stats", "nosuch/s.json"}), kFailed, {"--stats", "nosuch"}
     );
+}
+
+TEST_F(Cli, AnUnknownPictureFormatIsRefused) {
+    for (const char* out : {"a.bmp", "a"})
+        expectRefusal(renderVase({"--out", out}), kUsage, {"--out", out});
 }
 
 TEST_F(Cli, AFolderWithoutPermissionIsRefused) {
@@ -137,7 +142,7 @@ TEST_F(Cli, AFolderWithoutPermissionIsRefused) {
         GTEST_SKIP() << "root may write everywhere";
     fs::create_directory(path("locked"));
     chmod(path("locked").c_str(), 0500);
-    expectRefusal(renderVase({"--out", "locked/a.png"}), kUsage, {"--out", "locked"});
+    expectRefusal(renderVase({"--out", "locked/a.png"}), kFailed, {"--out", "locked"});
     chmod(path("locked").c_str(), 0700);
 }
 

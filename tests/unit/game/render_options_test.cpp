@@ -297,16 +297,25 @@ TEST_F(RenderOptionsTest, TheExtensionDecidesWhetherAPictureIsForDisplays) {
     EXPECT_FALSE(isDisplay("a.exr"));
     EXPECT_TRUE(isDisplay("a.png"));
     EXPECT_TRUE(isDisplay("a.JPG"));
-    for (const char* name : {"a.bmp", "a", "png", "a.png/b.png", "nosuch/a.png"})
+    for (const char* name : {"a.bmp", "a", "png"})
         refuse("--out", [&](auto& a) { a.out = (mFolder / name).string(); });
-    fs::create_directory(mFolder / "folder.png");
-    refuse("--out", [&](auto& a) { a.out = (mFolder / "folder.png").string(); });
 }
 
-TEST_F(RenderOptionsTest, StatisticsNeedAFolderToo) {
-    accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); });
-    refuse("--stats", [&](auto& a) { a.stats = (mFolder / "nosuch" / "s.json").string(); });
-    refuse("--stats", [&](auto& a) { a.stats = mFolder.string(); });
+TEST_F(RenderOptionsTest, OutputsNeedAFolderThatIsThere) {
+    fs::create_directory(mFolder / "folder.png");
+    for (const char* name : {"a.png/b.png", "nosuch/a.png", "folder.png"}) {
+        const core::Status checked =
+            checkOutputs(accept([&](auto& a) { a.out = (mFolder / name).string(); }));
+        ASSERT_FALSE(checked.ok()) << name;
+        EXPECT_NE(checked.error().message.find("--out"), std::string::npos);
+    }
+    for (const auto& stats : {mFolder / "nosuch" / "s.json", mFolder}) {
+        const core::Status checked =
+            checkOutputs(accept([&](auto& a) { a.stats = stats.string(); }));
+        ASSERT_FALSE(checked.ok()) << stats;
+        EXPECT_NE(checked.error().message.find("--stats"), std::string::npos);
+    }
+    EXPECT_TRUE(checkOutputs(accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); })));
 }
 
 TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
