@@ -97,7 +97,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->loadFunctions();
         device->createSamplers();
         if (!options.cacheFolder.empty())
-            device->mCacheFile = options.cacheFolder / "pipelines.bin";
+            device->mCacheFile = options.cacheFolder / device->cacheFileName();
         device->loadPipelineCache();
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
@@ -165,8 +165,8 @@ core::Status Device::createInstance(const DeviceOptions& options) {
         VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                                 VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                            VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT;
+    // Not the loader's general ones: a broken driver of another device is no fault of this program.
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     messenger.pfnUserCallback = onMessage;
     messenger.pUserData = &mValidationMessages;
 
@@ -309,6 +309,12 @@ void Device::createSamplers() {
     require(vkCreateSampler(mDevice, &info, nullptr, &mLinearSampler), "creating a sampler");
 }
 
+std::string Device::cacheFileName() const {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(mInfo.handle, &properties);
+    return fmt::format("pipelines-{:x}-{:x}.bin", properties.vendorID, properties.deviceID);
+}
+
 void Device::loadPipelineCache() {
     std::vector<char> data;
     if (std::ifstream file(mCacheFile, std::ios::binary); !mCacheFile.empty() && file)
@@ -333,9 +339,13 @@ void Device::savePipelineCache() const {
     std::error_code ignored;
     std::filesystem::create_directories(mCacheFile.parent_path(), ignored);
     const std::filesystem::path temporary = mCacheFile.string() + fmt::format(".{}", getpid());
-    if (std::ofstream file(temporary, std::ios::binary); file)
-        file.write(data.data(), static_cast<std::streamsize>(bytes));
-    std::filesystem::rename(temporary, mCacheFile, ignored);
+    std::ofstream file(temporary, std::ios::binary);
+    file.write(data.data(), static_cast<std::streamsize>(bytes));
+    file.close();
+    if (file)
+        std::filesystem::rename(temporary, mCacheFile, ignored);
+    else
+        std::filesystem::remove(temporary, ignored);
 }
 
 uint64_t Device::submit(VkCommandBuffer commands) {

@@ -96,6 +96,8 @@ class Device {
     core::Status createLogicalDevice();
     void loadFunctions();
     void createSamplers();
+    /// A cache a kind of device: one would drop the other's.
+    [[nodiscard]] std::string cacheFileName() const;
     void loadPipelineCache();
     void savePipelineCache() const;
 

@@ -85,7 +85,7 @@ std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
         return "timeline semaphores";
     if (!v12.bufferDeviceAddress)
         return "buffer device addresses";
-    if (!v12.runtimeDescriptorArray || !v12.shaderSampledImageArrayNonUniformIndexing ||
+    if (!v12.descriptorIndexing || !v12.runtimeDescriptorArray || !v12.shaderSampledImageArrayNonUniformIndexing ||
         !v12.descriptorBindingPartiallyBound)
         return "descriptor indexing";
     if (!v12.scalarBlockLayout)

@@ -10,10 +10,12 @@ namespace shutter::gpu {
 
 namespace {
 
+constexpr MemoryWish kDeviceWish{0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+
 VkDeviceMemory allocate(
     Device& device,
     const VkMemoryRequirements& needs,
-    VkMemoryPropertyFlags properties,
+    const MemoryWish& wish,
     bool addressable,
     const std::string& name
 ) {
@@ -23,7 +25,7 @@ VkDeviceMemory allocate(
     if (addressable)
         info.pNext = &flags;
     info.allocationSize = needs.size;
-    info.memoryTypeIndex = findMemoryType(device, needs.memoryTypeBits, properties);
+    info.memoryTypeIndex = findMemoryType(device, needs.memoryTypeBits, wish);
     VkDeviceMemory memory = VK_NULL_HANDLE;
     require(
         vkAllocateMemory(device.handle(), &info, nullptr, &memory),
@@ -34,20 +36,15 @@ VkDeviceMemory allocate(
 
 } // namespace
 
-uint32_t findMemoryType(const Device& device, uint32_t typeBits, VkMemoryPropertyFlags properties) {
+uint32_t findMemoryType(const Device& device, uint32_t typeBits, const MemoryWish& wish) {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
-    uint32_t fallback = UINT32_MAX;
-    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-        if (!(typeBits & (1u << i)))
-            continue;
-        if ((memory.memoryTypes[i].propertyFlags & properties) == properties)
-            return i;
-        if (fallback == UINT32_MAX)
-            fallback = i;
-    }
-    SHUTTER_CHECK(fallback != UINT32_MAX, "no memory type fits");
-    return fallback;
+    for (const VkMemoryPropertyFlags properties : {wish.required | wish.preferred, wish.required})
+        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            if ((typeBits & (1u << i)) != 0 &&
+                (memory.memoryTypes[i].propertyFlags & properties) == properties)
+                return i;
+    throw DeviceError("the device has no memory of a kind that is needed");
 }
 
 Buffer::Buffer(
@@ -65,12 +62,12 @@ Buffer::Buffer(
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), mBuffer, &needs);
-    VkMemoryPropertyFlags properties = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    MemoryWish wish = kDeviceWish;
     if (use != MemoryUse::Device)
-        properties = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        wish = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0};
     if (use == MemoryUse::Readback)
-        properties |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    mMemory = allocate(device, needs, properties, true, name);
+        wish.preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    mMemory = allocate(device, needs, wish, true, name);
     require(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0), "binding memory");
     if (use != MemoryUse::Device)
         require(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped), "mapping");
@@ -148,7 +145,7 @@ VkImageAspectFlags aspectOf(VkFormat format) {
 Image::Image(Device& device, std::string name, const ImageDesc& desc)
     : Image(createUnbound(device, std::move(name), desc)) {
     const VkMemoryRequirements needs = requirements();
-    mMemory = allocate(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, mName);
+    mMemory = allocate(device, needs, kDeviceWish, false, mName);
     bind(mMemory, 0);
 }
 
@@ -235,8 +232,7 @@ MemoryBlock::MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits) 
     VkMemoryRequirements needs{};
     needs.size = bytes;
     needs.memoryTypeBits = typeBits;
-    mMemory =
-        allocate(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, "transient images");
+    mMemory = allocate(device, needs, kDeviceWish, false, "transient images");
 }
 
 MemoryBlock::~MemoryBlock() {

@@ -32,8 +32,16 @@ dmat4 makeProjection(const scene::Camera& camera, double aspect) {
     );
 }
 
-/// Scale in a camera's node has no meaning for the view: only where it stands and looks counts.
+bool isDrawable(const dmat4& matrix) {
+    const double determinant = glm::determinant(math::dmat3(matrix));
+    return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
+}
+
+/// Scale in a camera's node has no meaning for the view: only where it stands and looks counts. One
+/// that is scaled to nothing looks along the world's axes.
 dmat4 removeScale(const dmat4& world) {
+    if (!isDrawable(world))
+        return glm::translate(dmat4(1.0), dvec3(world[3]));
     dmat4 rigid = world;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = glm::length(dvec3(world[axis]));
@@ -58,11 +66,6 @@ CameraPose poseCamera(
 struct Poses {
     CameraPose open, raster, close;
 };
-
-bool isDrawable(const dmat4& matrix) {
-    const double determinant = glm::determinant(math::dmat3(matrix));
-    return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
-}
 
 /// True when the box lies wholly beyond one of the side planes or behind the near plane.
 bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
@@ -123,7 +126,7 @@ class Extractor {
             addEntity(entity, instance.mesh);
         }
         for (auto [entity, light] : mWorld.registry.view<scene::Light>())
-            mFrame.lights.push_back(makeLight(light, worldAt(entity), mPoses.raster.position));
+            addLight(light, worldAt(entity));
         mFrame.constants.lightCount = static_cast<uint32_t>(mFrame.lights.size());
         std::stable_sort(
             mFrame.opaque.begin(),
@@ -177,6 +180,12 @@ class Extractor {
 
     dmat4 directionMatrix(const CameraPose& pose) const {
         return mClipFromView * dmat4(math::dmat3(pose.viewFromWorld));
+    }
+
+    /// A light that is nowhere lights nothing; its NaN would blacken the picture.
+    void addLight(const scene::Light& light, const dmat4& world) {
+        if (math::isFinite(world))
+            mFrame.lights.push_back(makeLight(light, world, mPoses.raster.position));
     }
 
     void addEntity(ecs::Entity entity, uint32_t mesh) {

@@ -36,8 +36,11 @@ class Sorter {
     // Recursion depth is log2 of the count.
     void split(size_t begin, size_t end) {
         const size_t count = end - begin;
-        if (count <= 2)
+        if (count <= 2) {
+            // nth_element leaves a pair in either order.
+            std::sort(mOrder.begin() + ptrdiff_t(begin), mOrder.begin() + ptrdiff_t(end));
             return;
+        }
         const size_t middle = begin + (count - 1) / 2 + 1;
         const int best = count <= kSmallRange ? findLongestAxis(begin, end)
                                               : findCheapestAxis(begin, middle, end);

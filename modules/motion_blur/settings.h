@@ -26,11 +26,11 @@ struct MotionBlurSettings {
     uint32_t neighbourhoodTiles = 3; ///< n, odd, [1, 15]; 1 lets blur end at tile borders
     uint32_t sampleCount = 15;       ///< taps of each gather, [1, 256]
     float softDepthExtent = 0.03f;   ///< SOFT_Z_EXTENT, metres, above 0; the paper: 5 mm to 3 cm
-    float edgeThreshold = 0.9f;      ///< e, [0, 1); the paper: 0.9 to 0.98; higher: fewer rays
+    float edgeThreshold = 0.9f;      ///< e, [0, 1]; the paper: 0.9 to 0.98; higher: fewer rays
     uint32_t recursionLimit = 5;     ///< surfaces along a ray, the first included, [1, 64]
     ObjectTest objectTest = ObjectTest::MeshId;
     float luminanceThreshold =
-        0.01f; ///< ObjectTest::Luminance: smallest difference, linear, [0, inf)
+        0.01f; ///< ObjectTest::Luminance: smallest difference, linear, [0, 1e6]
     float foregroundMagnification =
         30.0f; ///< of w_f where the target is deeper, [1, 1000]; 1 turns it off
     float backgroundMagnification =

@@ -7,7 +7,8 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Keeps colours up to 0.8 as they are, rolls brighter ones off towards white. Result in [0, 1].
+/// Keeps colours up to 0.8 but for a small offset (Fresnel's 0.04), rolls brighter ones off towards
+/// white. Result in [0, 1].
 SHUTTER_INLINE vec3 toneMapNeutral(vec3 color) {
     const float startCompression = 0.8f - 0.04f;
     const float desaturation = 0.15f;
