@@ -119,15 +119,19 @@ TEST_F(MaskLaw, TheEdgeMeasureFollowsTheDepthStep) {
     EXPECT_EQ(edge.at(62, 32, 2), 0.0f) << "the wall does not move";
 }
 
-/// Masked pixels in the row through the mover's middle, as first and one past the last.
+/// Masked pixels in the row through the mover's middle, as first and one past the last; they must
+/// be without a gap.
 std::pair<uint32_t, uint32_t> maskedSpan(const image::Image& mask, uint32_t firstX, uint32_t endX) {
     uint32_t first = endX;
     uint32_t end = firstX;
+    uint32_t count = 0;
     for (uint32_t x = firstX; x < endX; ++x)
         if (mask.at(x, 32, 0) > 0.5f) {
             first = std::min(first, x);
             end = x + 1;
+            ++count;
         }
+    EXPECT_EQ(count, end - std::min(first, end)) << "the range check stepped over the edge";
     return {first, end};
 }
 
