@@ -22,7 +22,7 @@ namespace shutter::motion_blur {
 
 struct MotionBlurInputs {
     graph::ImageHandle color;            ///< RGBA16F
-    graph::ImageHandle motionDepth;      ///< RGBA32F: motion.xy, depth
+    graph::ImageHandle motionDepth;      ///< RGBA32F: motion.xy, depth; every value finite
     graph::ImageHandle normal;           ///< RGBA16F: xyz unit; read by the ray mask only
     graph::ImageHandle meshId;           ///< R32_UINT; read by mask and reveal only
     double rasterShare = 1.0;            ///< s of the raster instant: 0 start, 0.5 centre, 1 end
