@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,11 @@ struct Expectation {
     size_t clips;
     size_t images;
 };
+
+/// Without it the test's name would hold the bytes of a pointer.
+void PrintTo(const Expectation& expectation, std::ostream* stream) {
+    *stream << expectation.file;
+}
 
 // The numbers of the table in shared/scenes/README.md.
 class ListedScene : public testing::TestWithParam<Expectation> {};
