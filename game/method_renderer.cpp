@@ -36,8 +36,9 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
 
 } // namespace
 
-core::Result<std::unique_ptr<MethodRenderer>>
-MethodRenderer::create(gpu::Device& device, const Shot& shot, const RenderOptions& options) {
+core::Result<std::unique_ptr<MethodRenderer>> MethodRenderer::create(
+    gpu::Device& device, render::Renderer& renderer, const Shot& shot, const RenderOptions& options
+) {
     if (options.method->needsRays && !device.hasRays())
         return core::makeError(
             "--method {} needs ray tracing, which {} lacks (VK_KHR_ray_query); gather does without",
@@ -46,17 +47,18 @@ MethodRenderer::create(gpu::Device& device, const Shot& shot, const RenderOption
         );
     if (core::Status fits = checkSize(device, options); !fits)
         return fits.error();
-    return std::unique_ptr<MethodRenderer>(new MethodRenderer(device, shot, options));
+    return std::unique_ptr<MethodRenderer>(new MethodRenderer(device, renderer, shot, options));
 }
 
-MethodRenderer::MethodRenderer(gpu::Device& device, const Shot& shot, const RenderOptions& options)
-    : mShot(shot), mOptions(options), mRenderer(device, shot.world.assets),
-      mTonemap(device, options.tonemap) {
-    if (options.method->id == MethodId::Gather || options.method->id == MethodId::Hybrid)
+MethodRenderer::MethodRenderer(
+    gpu::Device& device, render::Renderer& renderer, const Shot& shot, const RenderOptions& options
+)
+    : mShot(shot), mOptions(options), mRenderer(renderer), mTonemap(device, options.tonemap) {
+    if (options.method->family == MethodFamily::MotionBlur)
         mMotionBlur = std::make_unique<motion_blur::MotionBlurPlugin>(
             device, mRenderer.scene(), options.motionBlur
         );
-    if (options.method->id == MethodId::Accumulate)
+    if (options.method->family == MethodFamily::Accumulate)
         mAccumulate = std::make_unique<accumulate::Accumulate>(device);
 }
 

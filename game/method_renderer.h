@@ -18,8 +18,13 @@ namespace shutter::game {
 class MethodRenderer {
   public:
     /// Error: the method needs rays and the device has none.
-    [[nodiscard]] static core::Result<std::unique_ptr<MethodRenderer>>
-    create(gpu::Device& device, const Shot& shot, const RenderOptions& options);
+    /// \param renderer of the shot's assets; outlives this, and several may share it
+    [[nodiscard]] static core::Result<std::unique_ptr<MethodRenderer>> create(
+        gpu::Device& device,
+        render::Renderer& renderer,
+        const Shot& shot,
+        const RenderOptions& options
+    );
 
     /// One finished picture at `seconds`. Times of a method that draws many frames are summed.
     /// \param onStep called after each frame drawn (progress)
@@ -30,13 +35,18 @@ class MethodRenderer {
     [[nodiscard]] uint32_t stepsPerPicture() const;
 
   private:
-    MethodRenderer(gpu::Device& device, const Shot& shot, const RenderOptions& options);
+    MethodRenderer(
+        gpu::Device& device,
+        render::Renderer& renderer,
+        const Shot& shot,
+        const RenderOptions& options
+    );
     core::Result<render::FrameResult>
     renderAccumulated(const render::FrameRequest& request, const std::function<void()>& onStep);
 
     const Shot& mShot;
     const RenderOptions& mOptions;
-    render::Renderer mRenderer;
+    render::Renderer& mRenderer;
     std::unique_ptr<motion_blur::MotionBlurPlugin> mMotionBlur;
     std::unique_ptr<accumulate::Accumulate> mAccumulate;
     tonemap::Tonemap mTonemap;

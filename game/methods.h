@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "modules/motion_blur/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -12,14 +13,25 @@
 
 namespace shutter::game {
 
-enum class MethodId : uint8_t { Sharp, Gather, Hybrid, Accumulate };
+/// The effect that a method is made of.
+enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate };
+
+/// What `--samples` counts; the number that trades time for error.
+enum class Dial : uint8_t {
+    None,
+    Samples,  ///< taps of each gather
+    Instants, ///< sharp frames
+};
 
 struct MethodInfo {
-    MethodId id;
     const char* name;
     const char* description;
+    const char* publication; ///< authors and year; empty where it is nobody's in particular
+    MethodFamily family;
+    motion_blur::Method blur; ///< of MethodFamily::MotionBlur; else unused
     bool needsRays;
-    uint32_t defaultSamples;       ///< 0: the method has no samples
+    Dial dial;
+    uint32_t defaultSamples;       ///< 0 with Dial::None
     std::vector<std::string> aovs; ///< intermediates it writes beyond the G-buffer's
 };
 

@@ -69,7 +69,8 @@ core::Status renderAll(const RenderOptions& options, gpu::Device& device) {
     auto shot = loadShot(options);
     if (!shot)
         return shot.error();
-    auto created = MethodRenderer::create(device, shot.value(), options);
+    render::Renderer drawing(device, shot.value().world.assets);
+    auto created = MethodRenderer::create(device, drawing, shot.value(), options);
     if (!created)
         return created.error();
     MethodRenderer& renderer = *created.value();

@@ -189,7 +189,7 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
     if (arguments.samples > kMaxSamples)
         return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
     options.samples = arguments.samples > 0 ? arguments.samples : options.method->defaultSamples;
-    if (options.method->id == MethodId::Gather || options.method->id == MethodId::Hybrid) {
+    if (options.method->family == MethodFamily::MotionBlur) {
         options.motionBlur.sampleCount = options.samples;
         if (Status valid = motion_blur::validate(options.motionBlur); !valid)
             return makeError("--samples: {}", valid.error().message);
@@ -198,14 +198,13 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
         options.pixel = accumulate::PixelModel::Box;
     else if (arguments.pixel != "centre")
         return makeError("--pixel '{}' is not one of centre, box", arguments.pixel);
-    if (options.pixel == accumulate::PixelModel::Box && options.method->id != MethodId::Accumulate)
+    if (options.pixel == accumulate::PixelModel::Box &&
+        options.method->family != MethodFamily::Accumulate)
         return makeError("--pixel box needs a method that takes many samples a pixel: accumulate");
     for (const std::string& setting : arguments.settings)
         if (Status applied = applySetting(setting, options.motionBlur); !applied)
             return applied;
-    options.motionBlur.method = options.method->id == MethodId::Hybrid
-                                    ? motion_blur::Method::Hybrid
-                                    : motion_blur::Method::Gather;
+    options.motionBlur.method = options.method->blur;
     if (Status valid = motion_blur::validate(options.motionBlur); !valid)
         return makeError("--set: {}", valid.error().message);
     return {};

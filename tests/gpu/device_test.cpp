@@ -114,16 +114,17 @@ TEST_F(DeviceWithoutRays, TheHybridMethodIsRefusedAndGatherIsNot) {
     EXPECT_FALSE(lower->hasRays());
     test::SceneBuilder scene = makeScene();
     const game::Shot shot{std::move(scene.world), scene.camera};
+    render::Renderer renderer(*lower, shot.world.assets);
     game::RenderOptions options;
     options.width = 64;
     options.height = 48;
     options.method = game::findMethod("hybrid").value();
-    const auto refused = game::MethodRenderer::create(*lower, shot, options);
+    const auto refused = game::MethodRenderer::create(*lower, renderer, shot, options);
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().message.find("hybrid"), std::string::npos);
     EXPECT_NE(refused.error().message.find("ray"), std::string::npos);
     options.method = game::findMethod("gather").value();
-    EXPECT_TRUE(game::MethodRenderer::create(*lower, shot, options).ok());
+    EXPECT_TRUE(game::MethodRenderer::create(*lower, renderer, shot, options).ok());
 }
 
 TEST_F(DeviceWithoutRays, GatherIsTheSameWithAndWithoutRays) {

@@ -68,7 +68,7 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_FALSE(options.isSequence);
     EXPECT_DOUBLE_EQ(options.shutter.exposureSeconds, 1.0 / 60.0);
     EXPECT_EQ(options.shutter.phase, scene::ShutterPhase::End);
-    EXPECT_EQ(options.method->id, MethodId::Hybrid);
+    EXPECT_STREQ(options.method->name, "hybrid");
     EXPECT_EQ(options.samples, 15u);
     EXPECT_EQ(options.pixel, accumulate::PixelModel::Centre);
     EXPECT_EQ(options.background, math::vec3(0.18f));
