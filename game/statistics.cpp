@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "game/statistics.h"
 
+#include "engine/io/file_bytes.h"
+#include "game/quartiles.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 namespace shutter::game {
 
 namespace {
-
-double medianOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2.0;
-}
 
 nlohmann::json describePicture(const PictureStatistics& picture) {
     const render::FrameStatistics& frame = picture.frame;
@@ -70,7 +66,7 @@ render::FrameStatistics computeMedian(const std::vector<render::FrameStatistics>
         std::vector<double> values;
         for (const auto& frame : frames)
             values.push_back(pick(frame));
-        return medianOf(std::move(values));
+        return computeQuartiles(std::move(values)).median;
     };
     for (size_t i = 0; i < median.passes.size(); ++i) {
         median.passes[i].gpuMilliseconds =
@@ -102,12 +98,10 @@ core::Status writeStatistics(
         {"pictures", nlohmann::json::array()}};
     for (const PictureStatistics& picture : pictures)
         root["pictures"].push_back(describePicture(picture));
-    std::ofstream file(path);
     // A scene's name need not be UTF-8; what is not is replaced.
-    file << root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-    file.close();
-    if (!file)
-        return core::makeError("--stats: cannot write '{}'", path.string());
+    const std::string text = root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (core::Status written = io::writeFileText(path, text + "\n"); !written)
+        return core::makeError("--stats: {}", written.error().message);
     return {};
 }
 

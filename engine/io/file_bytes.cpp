@@ -2,12 +2,37 @@
 #include "engine/io/file_bytes.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <fstream>
 #include <system_error>
+#include <unistd.h>
 
 namespace shutter::io {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// In the same folder, so that the rename is atomic; short, so that it fits where the name does.
+fs::path makeTemporaryPath(const fs::path& path) {
+    static std::atomic<uint32_t> sCounter{0};
+    const std::string name = fmt::format(".shutter-{}-{}.tmp", ::getpid(), sCounter.fetch_add(1));
+    return (path.has_parent_path() ? path.parent_path() : fs::path(".")) / name;
+}
+
+/// Returns an empty string, or why it failed.
+std::string writeBytes(const fs::path& path, std::span<const uint8_t> bytes) {
+    errno = 0;
+    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    stream.close(); // a full disk may only show here
+    if (stream)
+        return {};
+    return errno != 0 ? std::generic_category().message(errno) : "writing failed";
+}
+
+} // namespace
 
 core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t maxBytes) {
     std::error_code failure;
@@ -36,6 +61,25 @@ core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t 
         return core::makeError("cannot read '{}': it ended early", path.string());
     }
     return bytes;
+}
+
+core::Status writeFileBytes(const fs::path& path, std::span<const uint8_t> bytes) {
+    const fs::path temporary = makeTemporaryPath(path);
+    const std::string why = writeBytes(temporary, bytes);
+    std::error_code failure;
+    if (why.empty())
+        fs::rename(temporary, path, failure);
+    if (why.empty() && !failure)
+        return {};
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    return core::makeError(
+        "cannot write '{}': {}", path.string(), why.empty() ? failure.message() : why
+    );
+}
+
+core::Status writeFileText(const fs::path& path, std::string_view text) {
+    return writeFileBytes(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 } // namespace shutter::io

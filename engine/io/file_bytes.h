@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace shutter::io {
@@ -13,5 +15,13 @@ namespace shutter::io {
 /// one sentence that the path is missing, a folder, no regular file or not readable.
 [[nodiscard]] core::Result<std::vector<uint8_t>>
 readFileBytes(const std::filesystem::path& path, uint64_t maxBytes);
+
+/// Writes a temporary file beside `path` and renames it, so that an interrupted write never leaves
+/// half a file under this name. An Error names the file and why; then nothing is left behind.
+[[nodiscard]] core::Status
+writeFileBytes(const std::filesystem::path& path, std::span<const uint8_t> bytes);
+
+/// The same for text.
+[[nodiscard]] core::Status writeFileText(const std::filesystem::path& path, std::string_view text);
 
 } // namespace shutter::io

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/image_file.h"
 
+#include "engine/io/file_bytes.h"
 #include "engine/io/oiio_codec.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 #include <unistd.h>
 
@@ -30,13 +28,6 @@ std::string lowerExtension(const fs::path& path) {
 
 fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-/// In the same folder, so that the rename is atomic; short, so that it fits where the name does.
-fs::path makeTemporaryPath(const fs::path& path) {
-    static std::atomic<uint32_t> sCounter{0};
-    const std::string name = fmt::format(".shutter-{}-{}.tmp", ::getpid(), sCounter.fetch_add(1));
-    return folderOf(path) / name;
 }
 
 uint8_t toByte(float value) {
@@ -90,17 +81,6 @@ std::string encode(
     request.storage = type == SampleType::Half ? oiio::Storage::Half : oiio::Storage::Float;
     request.pixels = image.pixels.data();
     return oiio::encode(request, out);
-}
-
-/// Returns an empty string, or why it failed.
-std::string writeBytes(const fs::path& path, const std::vector<uint8_t>& bytes) {
-    errno = 0;
-    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    stream.close(); // a full disk may only show here
-    if (stream)
-        return {};
-    return errno != 0 ? std::generic_category().message(errno) : "writing failed";
 }
 
 void checkImage(const image::Image& image) {
@@ -188,21 +168,10 @@ core::Status writeImage(const fs::path& path, const image::Image& image, SampleT
         return core::makeError("cannot write '{}': the picture has no pixels", path.string());
     }
     std::vector<uint8_t> bytes;
-    std::string why = encode(path, image, type, bytes);
+    const std::string why = encode(path, image, type, bytes);
     if (!why.empty())
         return core::makeError("cannot write '{}': {}", path.string(), why);
-    const fs::path temporary = makeTemporaryPath(path);
-    why = writeBytes(temporary, bytes);
-    std::error_code failure;
-    if (why.empty())
-        fs::rename(temporary, path, failure);
-    if (why.empty() && !failure)
-        return {};
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    return core::makeError(
-        "cannot write '{}': {}", path.string(), why.empty() ? failure.message() : why
-    );
+    return writeFileBytes(path, bytes);
 }
 
 core::Result<scene::TextureImage>
