@@ -55,8 +55,8 @@ Progress::~Progress() {
     std::fflush(mOutput);
 }
 
-void Progress::advance() {
-    mDone = std::min(mDone + 1, mTotal);
+void Progress::advance(uint64_t steps) {
+    mDone = std::min(mDone + steps, mTotal);
     if (!mEnabled)
         return;
     const TimePoint now = mClock();

@@ -31,8 +31,8 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// One more step is done.
-    void advance();
+    /// More steps are done.
+    void advance(uint64_t steps = 1);
 
   private:
     std::string mLabel;
