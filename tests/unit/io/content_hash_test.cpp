@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/content_hash.h"
+
+#include "engine/io/file_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace shutter::io {
+
+TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {
+    std::set<std::string> seen;
+    const std::string base(200, 'a');
+    for (size_t i = 0; i <= base.size(); ++i) {
+        std::string changed = base;
+        if (i < base.size())
+            changed[i] = 'b';
+        const std::string hash = computeContentHash(changed);
+        EXPECT_EQ(hash.size(), 32u);
+        EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos);
+        seen.insert(hash);
+    }
+    EXPECT_EQ(seen.size(), base.size() + 1);
+    EXPECT_NE(computeContentHash(""), computeContentHash(std::string(1, '\0')));
+}
+
+TEST(ContentHash, OfAFileIsThatOfItsBytes) {
+    const std::filesystem::path file =
+        std::filesystem::path(testing::TempDir()) / "content_hash_test.bin";
+    const std::string bytes("x\0y", 3);
+    ASSERT_TRUE(writeFileText(file, bytes).ok());
+    const auto hash = computeFileHash(file);
+    std::filesystem::remove(file);
+    ASSERT_TRUE(hash.ok());
+    EXPECT_EQ(hash.value(), computeContentHash(bytes));
+}
+
+TEST(ContentHash, AMissingFileIsNamed) {
+    const auto hash = computeFileHash("no/such/file");
+    ASSERT_FALSE(hash.ok());
+    EXPECT_NE(hash.error().message.find("no/such/file"), std::string::npos);
+}
+
+} // namespace shutter::io
