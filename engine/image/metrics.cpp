@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/image/metrics.h"
 
-#include "engine/core/check.h"
+#include "engine/image/comparison.h"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +20,6 @@ constexpr double kWindowSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01;
 constexpr double kC2 = 0.03 * 0.03;
 
-void checkComparable(const Image& a, const Image& b) {
-    SHUTTER_CHECK_EQ(a.width, b.width);
-    SHUTTER_CHECK_EQ(a.height, b.height);
-    SHUTTER_CHECK_EQ(a.channels, b.channels);
-    SHUTTER_CHECK_EQ(a.pixels.size(), size_t(a.width) * a.height * a.channels);
-    SHUTTER_CHECK_EQ(b.pixels.size(), a.pixels.size());
-}
-
 /// Calls visit(valueOfA, valueOfB) for every compared channel of every pixel.
 template <typename Visit> void forEachValue(const Image& a, const Image& b, Visit visit) {
     const uint32_t compared = std::min(a.channels, 3u);
@@ -37,11 +29,6 @@ template <typename Visit> void forEachValue(const Image& a, const Image& b, Visi
             visit(double(a.pixels[index]), double(b.pixels[index]));
         }
     }
-}
-
-/// Clamped to [0, 1]; NaN passes through (each comparison with it is false).
-double clampToUnit(double value) {
-    return value < 0.0 ? 0.0 : (value > 1.0 ? 1.0 : value);
 }
 
 /// Luminance of a pixel from its clamped channels; NaN where one of them is.

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "engine/image/flip.h"
+#include "tests/unit/image/flip_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace shutter::image;
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// What FLIP's authors' own tool says: github.com/NVlabs/flip, commit 1eb247c (after version 1.6),
+/// FLIP::evaluate of src/cpp/FLIP.h on the CPU, built with g++ 12.2 -O2, LDR, default parameters,
+/// given makePicturePair(name) decoded by its own sRGBToLinearRGB.
+struct Published {
+    const char* name;
+    double mean;
+    double largest;
+};
+
+constexpr Published kByAuthorsTool[] = {
+    {"black, white", 0.9673883, 0.9673883},
+    {"green, blue", 1.0000000, 1.0000000},
+    {"grey, a little brighter", 0.0643691, 0.0643691},
+    {"ramp, noisy ramp", 0.1581098, 0.3408792},
+    {"noise, other noise", 0.4527765, 0.9829267},
+    {"edge, edge moved", 0.0956269, 0.9341021},
+    {"thin lines, moved", 0.6524265, 0.9934419},
+    {"one firefly", 0.0097740, 0.7157240},
+    {"noise, 17x13", 0.4370696, 0.8663967},
+    {"1x1", 0.9556308, 0.9556308},
+    {"equal noise", 0.0000000, 0.0000000},
+    {"stripes, red and cyan", 0.6375987, 0.9704982},
+};
+
+Image toImage(const BytePicture& picture) {
+    Image image(picture.width, picture.height, 3);
+    std::transform(
+        picture.bytes.begin(),
+        picture.bytes.end(),
+        image.pixels.begin(),
+        [](uint8_t byte) { return float(byte) / 255.0f; }
+    );
+    return image;
+}
+
+Image makeConstant(uint32_t width, uint32_t height, uint32_t channels, float value) {
+    Image image(width, height, channels);
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return image;
+}
+
+Image makeNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
+    Image image(width, height, channels);
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x)
+            for (uint32_t c = 0; c < channels; ++c)
+                image.at(x, y, c) = float(hashByte(x, y, c, seed)) / 255.0f;
+    return image;
+}
+
+/// White to the left of the middle, black to the right, with a linear slope `widthPx` wide between.
+Image makeBlurredEdge(float widthPx) {
+    Image image(96, 32, 3);
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                image.at(x, y, c) =
+                    std::clamp(0.5f - (float(x) + 0.5f - 48.0f) / widthPx, 0.0f, 1.0f);
+    return image;
+}
+
+float largestOf(const Image& map) {
+    return *std::max_element(map.pixels.begin(), map.pixels.end());
+}
+
+} // namespace
+
+TEST(Flip, AgreesWithItsAuthorsTool) {
+    for (const Published& expected : kByAuthorsTool) {
+        const PicturePair pair = makePicturePair(expected.name);
+        ASSERT_FALSE(pair.reference.bytes.empty()) << expected.name;
+        const FlipResult flip = computeFlip(toImage(pair.reference), toImage(pair.test));
+        EXPECT_NEAR(flip.mean, expected.mean, 1e-5) << expected.name;
+        EXPECT_NEAR(double(largestOf(flip.errorMap)), expected.largest, 1e-5) << expected.name;
+    }
+}
+
+TEST(Flip, TheDefaultDisplayHas67PixelsPerDegree) {
+    EXPECT_NEAR(kFlipPixelsPerDegree, 67.02, 0.01);
+}
+
+TEST(Flip, EqualPicturesDifferNowhere) {
+    const Image image = makeNoise(50, 40, 3, 1);
+    const FlipResult flip = computeFlip(image, image);
+    EXPECT_EQ(flip.mean, 0.0);
+    EXPECT_EQ(largestOf(flip.errorMap), 0.0f);
+}
+
+TEST(Flip, IsSymmetric) {
+    const Image a = makeNoise(37, 29, 3, 1);
+    const Image b = makeNoise(37, 29, 3, 2);
+    EXPECT_EQ(computeFlip(a, b).mean, computeFlip(b, a).mean);
+    EXPECT_EQ(computeFlip(a, b).errorMap.pixels, computeFlip(b, a).errorMap.pixels);
+}
+
+TEST(Flip, TheMapHasOneErrorAPixelInTheUnitRangeAndTheMeanIsItsMean) {
+    const FlipResult flip = computeFlip(makeNoise(37, 29, 3, 1), makeNoise(37, 29, 3, 2));
+    ASSERT_EQ(flip.errorMap.width, 37u);
+    ASSERT_EQ(flip.errorMap.height, 29u);
+    ASSERT_EQ(flip.errorMap.channels, 1u);
+    double sum = 0.0;
+    for (const float error : flip.errorMap.pixels) {
+        EXPECT_TRUE(error >= 0.0f && error <= 1.0f) << error;
+        sum += double(error);
+    }
+    EXPECT_NEAR(flip.mean, sum / (37.0 * 29.0), 1e-12);
+}
+
+TEST(Flip, BlackAgainstWhiteIsNearlyTheLargestError) {
+    EXPECT_GT(computeFlip(makeConstant(20, 20, 3, 0.0f), makeConstant(20, 20, 3, 1.0f)).mean, 0.95);
+}
+
+TEST(Flip, TheFurtherAnEdgeIsBlurredTheLargerTheError) {
+    const Image sharp = makeBlurredEdge(1.0f);
+    double last = 0.0;
+    for (const float widthPx : {2.0f, 4.0f, 8.0f, 16.0f, 32.0f}) {
+        const double mean = computeFlip(sharp, makeBlurredEdge(widthPx)).mean;
+        EXPECT_GT(mean, last) << widthPx;
+        last = mean;
+    }
+}
+
+TEST(Flip, MirroringBothMirrorsTheMap) {
+    const auto mirror = [](const Image& image) {
+        Image result = image;
+        for (uint32_t y = 0; y < image.height; ++y)
+            for (uint32_t x = 0; x < image.width; ++x)
+                for (uint32_t c = 0; c < image.channels; ++c)
+                    result.at(image.width - 1 - x, image.height - 1 - y, c) = image.at(x, y, c);
+        return result;
+    };
+    const Image a = makeNoise(31, 23, 3, 7);
+    const Image b = makeNoise(31, 23, 3, 8);
+    const Image mirrored = mirror(computeFlip(mirror(a), mirror(b)).errorMap);
+    const Image straight = computeFlip(a, b).errorMap;
+    // Differences of features are roots of differences, so rounding shows in the fourth digit.
+    for (size_t i = 0; i < straight.pixels.size(); ++i)
+        EXPECT_NEAR(mirrored.pixels[i], straight.pixels[i], 2e-3f) << i;
+}
+
+TEST(Flip, OneChannelIsGreyAndAlphaIsNotCompared) {
+    const Image greyA = makeNoise(24, 20, 1, 3);
+    const Image greyB = makeNoise(24, 20, 1, 4);
+    const auto widen = [](const Image& grey, float alpha) {
+        Image image(grey.width, grey.height, 4);
+        for (size_t i = 0; i < grey.pixels.size(); ++i) {
+            std::fill_n(image.pixels.begin() + ptrdiff_t(4 * i), 3, grey.pixels[i]);
+            image.pixels[4 * i + 3] = alpha;
+        }
+        return image;
+    };
+    EXPECT_EQ(
+        computeFlip(greyA, greyB).errorMap.pixels,
+        computeFlip(widen(greyA, 0.0f), widen(greyB, 1.0f)).errorMap.pixels
+    );
+}
+
+TEST(Flip, ValuesOutsideTheUnitRangeAreClamped) {
+    EXPECT_EQ(computeFlip(makeConstant(9, 9, 3, kInfinity), makeConstant(9, 9, 3, 1.0f)).mean, 0.0);
+    EXPECT_EQ(
+        computeFlip(makeConstant(9, 9, 3, -kInfinity), makeConstant(9, 9, 3, 0.0f)).mean, 0.0
+    );
+}
+
+TEST(Flip, ANanIsTheLargestErrorWhereverAFilterReachesItAndNowhereElse) {
+    const Image good = makeConstant(64, 64, 3, 0.5f);
+    Image bad = good;
+    bad.at(32, 32, 1) = kNan;
+    for (const FlipResult& flip :
+         {computeFlip(good, bad), computeFlip(bad, good), computeFlip(bad, bad)}) {
+        for (uint32_t y = 0; y < 64; ++y)
+            for (uint32_t x = 0; x < 64; ++x) {
+                const bool reached = x >= 22 && x <= 42 && y >= 22 && y <= 42;
+                ASSERT_EQ(flip.errorMap.at(x, y, 0), reached ? 1.0f : 0.0f) << x << " " << y;
+            }
+        EXPECT_NEAR(flip.mean, 21.0 * 21.0 / (64.0 * 64.0), 1e-12);
+    }
+}
+
+TEST(Flip, PicturesWithoutPixelsAreEqual) {
+    EXPECT_EQ(computeFlip(Image(), Image()).mean, 0.0);
+    EXPECT_EQ(computeFlip(Image(0, 5, 3), Image(0, 5, 3)).mean, 0.0);
+}
+
+TEST(FlipDeathTest, PicturesOfDifferentShapesAreRefused) {
+    EXPECT_DEATH((void)computeFlip(Image(2, 3, 1), Image(3, 2, 1)), "width");
+    EXPECT_DEATH((void)computeFlip(Image(2, 3, 1), Image(2, 2, 1)), "height");
+    EXPECT_DEATH((void)computeFlip(Image(2, 3, 1), Image(2, 3, 3)), "channels");
+}
