@@ -12,8 +12,8 @@ build_packages=(
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
     vulkan-validationlayers
 )
-# Only the tests compare with it.
-test_packages=(ffmpeg)
+# Only the tests compare with them.
+test_packages=(ffmpeg python3-skimage)
 # lavapipe traces rays from this version of Mesa on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1

@@ -6,15 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <optional>
 #include <random>
-#include <string>
-#include <unistd.h>
 #include <vector>
 
 using namespace shutter::image;
@@ -94,72 +87,6 @@ double ssimOfConstants(double a, double b) {
     return (2.0 * a * b + 1e-4) / (a * a + b * b + 1e-4);
 }
 
-/// An empty folder that goes with the object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string pattern =
-            (std::filesystem::temp_directory_path() / "shutter-metrics-XXXXXX").string();
-        const char* made = mkdtemp(pattern.data());
-        mPath = made == nullptr ? "" : made;
-    }
-
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(mPath, ignored);
-    }
-
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return mPath; }
-
-  private:
-    std::filesystem::path mPath;
-};
-
-/// Binary PGM (one channel) or PPM (three), eight bits.
-void writePnm(const Image& image, const std::filesystem::path& path) {
-    std::ofstream file(path, std::ios::binary);
-    file << (image.channels == 1 ? "P5" : "P6") << "\n"
-         << image.width << " " << image.height << "\n255\n";
-    for (float value : image.pixels)
-        file.put(static_cast<char>(std::lround(value * 255.0f)));
-    ASSERT_TRUE(file.good()) << path;
-}
-
-/// What ffmpeg's psnr filter says of the two pictures; the plane format keeps RGB as it is.
-std::optional<double> measureWithFfmpeg(const Image& a, const Image& b) {
-    const TemporaryFolder folder;
-    const std::string extension = a.channels == 1 ? ".pgm" : ".ppm";
-    const std::string format = a.channels == 1 ? "gray" : "gbrp";
-    const std::string pathA = (folder.path() / ("a" + extension)).string();
-    const std::string pathB = (folder.path() / ("b" + extension)).string();
-    writePnm(a, pathA);
-    writePnm(b, pathB);
-    const std::string command = "ffmpeg -nostdin -hide_banner -i '" + pathA + "' -i '" + pathB +
-                                "' -lavfi '[0:v]format=" + format + "[a];[1:v]format=" + format +
-                                "[b];[a][b]psnr' -f null - 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr)
-        return std::nullopt;
-    std::string output;
-    std::array<char, 512> chunk{};
-    while (fgets(chunk.data(), int(chunk.size()), pipe) != nullptr)
-        output += chunk.data();
-    const int status = pclose(pipe);
-    const size_t average = output.find("average:");
-    if (status != 0 || average == std::string::npos) {
-        ADD_FAILURE() << "ffmpeg said:\n" << output;
-        return std::nullopt;
-    }
-    return std::strtod(output.c_str() + average + 8, nullptr);
-}
-
-bool isFfmpegInstalled() {
-    return std::system("command -v ffmpeg >/dev/null 2>&1") == 0;
-}
-
 } // namespace
 
 TEST(Psnr, EqualPicturesAreInfinitelyClose) {
@@ -219,28 +146,6 @@ TEST(PsnrDeathTest, PicturesOfDifferentShapesAreRefused) {
     EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(3, 2, 1)), "width");
     EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(2, 2, 1)), "height");
     EXPECT_DEATH((void)computePsnr(Image(2, 3, 1), Image(2, 3, 3)), "channels");
-}
-
-TEST(Psnr, AgreesWithFfmpegOnGreyPictures) {
-    if (!isFfmpegInstalled())
-        GTEST_SKIP() << "ffmpeg is not installed";
-    const Image a = makeNoise(64, 48, 1, 2);
-    Image b = a;
-    for (size_t i = 0; i < b.pixels.size(); i += 3)
-        b.pixels[i] = std::round(b.pixels[i] * 200.0f) / 255.0f;
-    const std::optional<double> expectedDb = measureWithFfmpeg(a, b);
-    ASSERT_TRUE(expectedDb.has_value());
-    EXPECT_NEAR(computePsnr(a, b), *expectedDb, 0.01);
-}
-
-TEST(Psnr, AgreesWithFfmpegOnColourPictures) {
-    if (!isFfmpegInstalled())
-        GTEST_SKIP() << "ffmpeg is not installed";
-    const Image a = makeNoise(64, 48, 3, 3);
-    const Image b = makeNoise(64, 48, 3, 4);
-    const std::optional<double> expectedDb = measureWithFfmpeg(a, b);
-    ASSERT_TRUE(expectedDb.has_value());
-    EXPECT_NEAR(computePsnr(a, b), *expectedDb, 0.01);
 }
 
 TEST(Ssim, EqualPicturesScoreOne) {
