@@ -53,7 +53,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         if (core::Status made = device->createLogicalDevice(); !made)
             return made.error();
         device->loadFunctions();
-        device->createSamplers();
+        device->createSampler();
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
         device->loadPipelineCache();
@@ -80,7 +80,6 @@ Device::~Device() {
         savePipelineCache();
         vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
-        vkDestroySampler(mDevice, mLinearSampler, nullptr);
         vkDestroySemaphore(mDevice, mTimeline, nullptr);
         vkDestroyDevice(mDevice, nullptr);
     }
@@ -198,15 +197,12 @@ void Device::loadFunctions() {
         mMinScratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
 }
 
-void Device::createSamplers() {
+void Device::createSampler() {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     require(vkCreateSampler(mDevice, &info, nullptr, &mNearestSampler), "creating a sampler");
-    info.magFilter = VK_FILTER_LINEAR;
-    info.minFilter = VK_FILTER_LINEAR;
-    require(vkCreateSampler(mDevice, &info, nullptr, &mLinearSampler), "creating a sampler");
 }
 
 std::string Device::cacheFileName() const {

@@ -68,8 +68,6 @@ class Device {
 
     [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
 
-    [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
-
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
 
@@ -78,8 +76,6 @@ class Device {
     void wait(uint64_t timelineValue);
     void waitIdle();
     [[nodiscard]] uint64_t completedValue() const;
-
-    [[nodiscard]] uint64_t lastSubmittedValue() const { return mLastSubmitted; }
 
     /// Runs `destroy` once everything submitted so far (and the submission being recorded now) is
     /// done. Destructors of gpu objects use it, so they may die at any time.
@@ -95,7 +91,7 @@ class Device {
     core::Status createInstance(const DeviceOptions& options);
     core::Status createLogicalDevice();
     void loadFunctions();
-    void createSamplers();
+    void createSampler();
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
     void loadPipelineCache();
@@ -115,7 +111,6 @@ class Device {
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
     std::filesystem::path mCacheFile;
     VkSampler mNearestSampler = VK_NULL_HANDLE;
-    VkSampler mLinearSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
     bool mHasDebugUtils = false;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread

@@ -7,7 +7,6 @@
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
