@@ -21,6 +21,19 @@ struct CourtyardSurfaces {
     Index rim;
 };
 
+[[nodiscard]] CourtyardSurfaces addCourtyardSurfaces(GltfWriter& writer);
+
+/// `sun` and `lantern`.
+void addCourtyardLights(GltfWriter& writer);
+
+/// Ground, walls, windows, columns and crates.
+void addStillYard(GltfWriter& writer, const CourtyardSurfaces& surfaces);
+
+/// A mesh of rim, spokes and hub.
+Index addWheelMesh(
+    GltfWriter& writer, const char* name, const WheelSize& size, const CourtyardSurfaces& surfaces
+);
+
 /// Every object in the yard that moves, and the post in front of them that does not.
 void addMovers(GltfWriter& writer, const CourtyardSurfaces& surfaces);
 

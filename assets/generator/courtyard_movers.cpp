@@ -18,18 +18,6 @@ constexpr vec3 kX{1.0f, 0.0f, 0.0f};
 constexpr vec3 kY{0.0f, 1.0f, 0.0f};
 constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
 
-Index addWheelMesh(
-    GltfWriter& writer, const char* name, const WheelSize& size, const CourtyardSurfaces& surfaces
-) {
-    Wheel parts = wheel(size);
-    const std::array mesh = {
-        MeshPart{.shape = std::move(parts.rim), .material = surfaces.rim},
-        MeshPart{.shape = std::move(parts.spokes), .material = surfaces.wood},
-        MeshPart{.shape = std::move(parts.hub), .material = surfaces.iron},
-    };
-    return writer.addMesh(name, mesh);
-}
-
 /// Spins by 25 degrees in an exposure: further than the gap between its spokes.
 void addSpinningWheel(GltfWriter& writer, const CourtyardSurfaces& surfaces) {
     constexpr float kHubHeight = 1.02f;
@@ -172,6 +160,18 @@ void addPost(GltfWriter& writer) {
 }
 
 } // namespace
+
+Index addWheelMesh(
+    GltfWriter& writer, const char* name, const WheelSize& size, const CourtyardSurfaces& surfaces
+) {
+    Wheel parts = wheel(size);
+    const std::array mesh = {
+        MeshPart{.shape = std::move(parts.rim), .material = surfaces.rim},
+        MeshPart{.shape = std::move(parts.spokes), .material = surfaces.wood},
+        MeshPart{.shape = std::move(parts.hub), .material = surfaces.iron},
+    };
+    return writer.addMesh(name, mesh);
+}
 
 void addMovers(GltfWriter& writer, const CourtyardSurfaces& surfaces) {
     addSpinningWheel(writer, surfaces);

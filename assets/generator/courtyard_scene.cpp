@@ -24,24 +24,6 @@ constexpr vec3 kY{0.0f, 1.0f, 0.0f};
 constexpr float kYardHalfWidth = 6.0f;
 constexpr float kBackWallZ = -3.6f; ///< its face
 
-CourtyardSurfaces addSurfaces(GltfWriter& writer) {
-    return {
-        .bricks = addTextured(writer, "bricks", bricks(), 0.95f),
-        .stone = addTextured(writer, "stone", stone({0.80f, 0.76f, 0.68f}), 0.9f),
-        .crate = addTextured(writer, "crate_boards", crateBoards(), 0.85f),
-        .iron = writer.addMaterial(
-            {.name = "iron",
-             .color = vec3(0.10f, 0.11f, 0.13f),
-             .metallic = 0.3f,
-             .roughness = 0.5f}
-        ),
-        .wood = addTextured(
-            writer, "painted_wood", wood({0.50f, 0.16f, 0.10f}, {0.80f, 0.36f, 0.20f}), 0.7f
-        ),
-        .rim = addTextured(writer, "rim_paint", rimPaint(), 0.6f),
-    };
-}
-
 void addWindow(GltfWriter& writer, int number, vec3 at, Index panes, Index stoneTrim) {
     const std::string name = "window_" + std::to_string(number);
     Shape frame;
@@ -190,9 +172,25 @@ void addCameras(GltfWriter& writer) {
 
 } // namespace
 
-GltfWriter buildCourtyardScene() {
-    GltfWriter writer("courtyard");
-    addCameras(writer);
+CourtyardSurfaces addCourtyardSurfaces(GltfWriter& writer) {
+    return {
+        .bricks = addTextured(writer, "bricks", bricks(), 0.95f),
+        .stone = addTextured(writer, "stone", stone({0.80f, 0.76f, 0.68f}), 0.9f),
+        .crate = addTextured(writer, "crate_boards", crateBoards(), 0.85f),
+        .iron = writer.addMaterial(
+            {.name = "iron",
+             .color = vec3(0.10f, 0.11f, 0.13f),
+             .metallic = 0.3f,
+             .roughness = 0.5f}
+        ),
+        .wood = addTextured(
+            writer, "painted_wood", wood({0.50f, 0.16f, 0.10f}, {0.80f, 0.36f, 0.20f}), 0.7f
+        ),
+        .rim = addTextured(writer, "rim_paint", rimPaint(), 0.6f),
+    };
+}
+
+void addCourtyardLights(GltfWriter& writer) {
     writer.addNode(
         {.name = "sun",
          .translation = {-4.0f, 6.0f, 4.0f},
@@ -206,9 +204,19 @@ GltfWriter buildCourtyardScene() {
          .translation = {2.2f, 2.4f, 2.0f},
          .light = writer.addLight("lantern", {.color = {0.85f, 0.92f, 1.0f}, .intensity = 5.5f})}
     );
-    const CourtyardSurfaces surfaces = addSurfaces(writer);
+}
+
+void addStillYard(GltfWriter& writer, const CourtyardSurfaces& surfaces) {
     addWalls(writer, surfaces);
     addColumnsAndCrates(writer, surfaces);
+}
+
+GltfWriter buildCourtyardScene() {
+    GltfWriter writer("courtyard");
+    addCameras(writer);
+    addCourtyardLights(writer);
+    const CourtyardSurfaces surfaces = addCourtyardSurfaces(writer);
+    addStillYard(writer, surfaces);
     addMovers(writer, surfaces);
     return writer;
 }

@@ -9,4 +9,7 @@ namespace shutter::generator {
 /// table, picture. The sofa faces +Z; nothing of it reaches further than z = -0.5 m.
 void addRoom(GltfWriter& writer);
 
+/// `sun` and `fill_lamp`.
+void addRoomLights(GltfWriter& writer);
+
 } // namespace shutter::generator

@@ -10,11 +10,11 @@ glm::quat Shot::rotation() const {
 }
 
 float Shot::focalLengthPx() const {
-    return kPictureSizePx.y / 2.0f / std::tan(yFov / 2.0f);
+    return pictureSizePx.y / 2.0f / std::tan(yFov / 2.0f);
 }
 
 glm::vec3 Shot::pointAt(glm::vec2 pixel, float depth) const {
-    const glm::vec2 offset = (pixel - kPictureSizePx / 2.0f) / focalLengthPx() * depth;
+    const glm::vec2 offset = (pixel - pictureSizePx / 2.0f) / focalLengthPx() * depth;
     return position + rotation() * glm::vec3(offset.x, -offset.y, -depth);
 }
 

@@ -90,19 +90,7 @@ GltfWriter buildVaseScene() {
          .rotation = kShot.rotation(),
          .camera = writer.addCamera("main", kShot.yFov, 0.05f)}
     );
-    writer.addNode(
-        {.name = "sun",
-         .translation = {-2.0f, 3.0f, 2.0f},
-         .rotation = rotationTowards({0.55f, -0.62f, -0.75f}),
-         .light = writer.addLight(
-             "sun", {.directional = true, .color = {1.0f, 0.96f, 0.88f}, .intensity = 2.9f}
-         )}
-    );
-    writer.addNode(
-        {.name = "fill_lamp",
-         .translation = {1.3f, 1.7f, 1.1f},
-         .light = writer.addLight("fill_lamp", {.color = {0.90f, 0.95f, 1.0f}, .intensity = 6.0f})}
-    );
+    addRoomLights(writer);
     addRoom(writer);
     addVase(writer);
     return writer;

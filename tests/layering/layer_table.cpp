@@ -192,6 +192,8 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
         return maySeeModule(from, to);
     case Kind::Shaders:
         return cppMaySeeShaders(from, to, path);
+    case Kind::Generator:
+        return from.kind == Kind::Game; // `bench` makes its scenes at run time
     default:
         return false;
     }

@@ -213,16 +213,18 @@ TEST(LayerTable, ShadersSeeCommonThenRenderThenTheirOwn) {
     });
 }
 
-TEST(LayerTable, TheAssetGeneratorSeesItselfAlone) {
+TEST(LayerTable, TheAssetGeneratorSeesItselfAloneAndIsSeenByTheGameAlone) {
     expectAllowed({
         {"assets/generator/main.cpp", "\"assets/generator/textures.h\""},
         {"assets/generator/main.cpp", "\"textures.h\""},
         {"assets/generator/main.cpp", "<nlohmann/json.hpp>"},
     });
+    expectAllowed({{"game/main.cpp", "\"assets/generator/textures.h\""}});
     expectRefused({
         {"assets/generator/main.cpp", "\"engine/core/log.h\""},
         {"assets/generator/main.cpp", "\"shaders/common/shim.h\""},
         {"assets/generator/main.cpp", "\"modules/tonemap/tonemap.h\""},
-        {"game/main.cpp", "\"assets/generator/textures.h\""},
+        {"assets/generator/main.cpp", "\"game/commands.h\""},
+        {"modules/tonemap/tonemap.cpp", "\"assets/generator/textures.h\""},
     });
 }
