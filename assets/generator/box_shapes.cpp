@@ -13,25 +13,6 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
-/// Area-weighted averages over the triangles that share a vertex.
-void computeNormals(Shape& shape) {
-    shape.normals.assign(shape.positions.size(), glm::vec3(0.0f));
-    for (size_t i = 0; i < shape.indices.size(); i += 3) {
-        const uint32_t a = shape.indices[i];
-        const uint32_t b = shape.indices[i + 1];
-        const uint32_t c = shape.indices[i + 2];
-        const glm::vec3 normal = glm::cross(
-            shape.positions[b] - shape.positions[a], shape.positions[c] - shape.positions[a]
-        );
-        for (const uint32_t index : {a, b, c}) {
-            shape.normals[index] += normal;
-        }
-    }
-    for (glm::vec3& normal : shape.normals) {
-        normal = glm::normalize(normal);
-    }
-}
-
 /// The six faces of a box: outward axis and the axes of u (right) and v (up) seen from outside.
 struct Face {
     glm::vec3 out;
@@ -157,7 +138,7 @@ Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize) {
             }
         }
     }
-    computeNormals(sheet);
+    smoothNormals(sheet);
     Shape shape = sheet;
     append(shape, sheet, glm::rotate(glm::mat4(1.0f), kPi, glm::vec3(0.0f, 1.0f, 0.0f)));
     return shape;

@@ -43,6 +43,27 @@ void append(Shape& shape, const Shape& added, const glm::mat4& transform) {
     }
 }
 
+void smoothNormals(Shape& shape) {
+    std::vector<glm::vec3> sums(shape.positions.size(), glm::vec3(0.0f));
+    for (size_t i = 0; i < shape.indices.size(); i += 3) {
+        const uint32_t a = shape.indices[i];
+        const uint32_t b = shape.indices[i + 1];
+        const uint32_t c = shape.indices[i + 2];
+        const glm::vec3 normal = glm::cross(
+            shape.positions[b] - shape.positions[a], shape.positions[c] - shape.positions[a]
+        );
+        for (const uint32_t index : {a, b, c}) {
+            sums[index] += normal;
+        }
+    }
+    for (size_t i = 0; i < sums.size(); ++i) {
+        // A pole of a lathe has one vertex that no triangle takes.
+        if (sums[i] != glm::vec3(0.0f)) {
+            shape.normals[i] = glm::normalize(sums[i]);
+        }
+    }
+}
+
 Shape withUvScale(Shape shape, glm::vec2 scale) {
     for (glm::vec2& uv : shape.uvs) {
         uv *= scale;

@@ -27,6 +27,10 @@ void addTriangle(Shape& shape, size_t a, size_t b, size_t c);
 /// Adds `added`, moved by `transform` (no mirroring: it would turn the winding round).
 void append(Shape& shape, const Shape& added, const glm::mat4& transform = glm::mat4(1.0f));
 
+/// Replaces the normals by area-weighted averages over the triangles that share a vertex; a vertex
+/// without a triangle keeps its own.
+void smoothNormals(Shape& shape);
+
 /// Multiplies the texture coordinates by `scale`.
 [[nodiscard]] Shape withUvScale(Shape shape, glm::vec2 scale);
 
@@ -59,6 +63,21 @@ roundedBox(glm::vec3 halfExtents, float radius, int cornerSteps, float tileMetre
 
 /// A stuffed cushion in the XY plane, bulging along Z; each side takes the whole texture.
 [[nodiscard]] Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize);
+
+/// A round rod along `path` (at least two points, no two neighbours alike), both ends closed.
+/// \param radii metres, one a point; 0 at an end makes it a tip
+[[nodiscard]] Shape
+tube(std::span<const glm::vec3> path, std::span<const float> radii, int segmentCount);
+
+/// Of one radius throughout.
+[[nodiscard]] Shape tube(std::span<const glm::vec3> path, float radius, int segmentCount);
+
+/// Points of a helix about Y, centred. \param height metres from end to end
+[[nodiscard]] std::vector<glm::vec3>
+helix(float radius, float height, float turnCount, int spanCount);
+
+/// A rectangle in the XY plane that faces +Z, centred; not a solid. uv in tiles of `tileMetres`.
+[[nodiscard]] Shape sheet(glm::vec2 halfExtents, float tileMetres);
 
 /// A spoked wheel about Z: rim, `spokeCount` thin spokes and a hub.
 struct WheelSize {
