@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// shutter_generate_assets OUT_DIR: writes OUT_DIR/vase.glb and OUT_DIR/courtyard.glb.
+// shutter_generate_assets [--all] OUT_DIR: writes OUT_DIR/vase.glb and OUT_DIR/courtyard.glb; with
+// --all also OUT_DIR/NAME.glb for each of the hard cases.
 // Exit status 0 done, 1 failed, 2 wrong usage.
+#include "assets/generator/hard_cases.h"
 #include "assets/generator/scenes.h"
 
 #include <fmt/format.h>
@@ -8,27 +10,47 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
-#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace shutter::generator;
+
+struct Output {
+    std::string name;
+    GltfWriter (*build)();
+};
+
+std::vector<Output> listOutputs(bool all) {
+    std::vector<Output> outputs = {{"vase", &buildVaseScene}, {"courtyard", &buildCourtyardScene}};
+    if (all) {
+        for (const BenchCase& hardCase : listHardCases()) {
+            outputs.push_back({hardCase.name, hardCase.build});
+        }
+    }
+    return outputs;
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
-    using namespace shutter::generator;
-    if (argc != 2) {
-        fmt::print(stderr, "Usage: shutter_generate_assets OUT_DIR\n");
+    const bool all = argc == 3 && std::string_view(argv[1]) == "--all";
+    const std::string_view last = argc > 1 ? argv[argc - 1] : "";
+    if (argc != (all ? 3 : 2) || last.empty() || last.starts_with("-")) {
+        fmt::print(stderr, "Usage: shutter_generate_assets [--all] OUT_DIR\n");
         return 2;
     }
-    const std::filesystem::path folder = argv[1];
+    const std::filesystem::path folder = last;
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     if (failure) {
         fmt::print(stderr, "OUT_DIR {} cannot be made: {}.\n", folder.string(), failure.message());
         return 1;
     }
-    for (const auto& [file, build] : {
-             std::pair{"vase.glb", &buildVaseScene},
-             std::pair{"courtyard.glb", &buildCourtyardScene},
-         }) {
-        const std::string error = build().write(folder / file);
+    for (const Output& output : listOutputs(all)) {
+        const std::string error = output.build().write(folder / (output.name + ".glb"));
         if (!error.empty()) {
             fmt::print(stderr, "{}\n", error);
             return 1;

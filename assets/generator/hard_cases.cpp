@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "assets/generator/hard_cases.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace shutter::generator {
+
+namespace {
+
+constexpr glm::vec3 kRoomBackground{0.18f, 0.18f, 0.18f}; // the room fills the picture
+constexpr glm::vec3 kYardSky{0.42f, 0.58f, 0.80f};
+constexpr glm::vec3 kOpenSky{0.30f, 0.52f, 0.90f};
+
+BenchCase makeCase(
+    const char* name,
+    const char* title,
+    const char* hard,
+    GltfWriter (*build)(),
+    glm::vec3 background,
+    glm::vec2 peakMotionPx
+) {
+    return {
+        .name = name,
+        .title = title,
+        .description = fmt::format(
+            "{}; the longest motion is {} to {} px at {}x{}.",
+            hard,
+            peakMotionPx.x,
+            peakMotionPx.y,
+            kCaseSizePx.x,
+            kCaseSizePx.y
+        ),
+        .build = build,
+        .background = background,
+        .peakMotionPx = peakMotionPx};
+}
+
+std::vector<BenchCase> makeCases() {
+    return {
+        makeCase(
+            "translation",
+            "Translation",
+            "A toy glider crosses a papered wall, a cushion and a sofa at once, so that each side "
+            "of its silhouette hides another pattern",
+            &buildTranslationCase,
+            kRoomBackground,
+            {23.0f, 30.0f}
+        ),
+        makeCase(
+            "spin",
+            "Spin",
+            "A pinwheel turns by 22 degrees before bricks, so that motion changes its direction "
+            "and length within a tile and paths are arcs",
+            &buildSpinCase,
+            kYardSky,
+            {33.0f, 40.0f}
+        ),
+        makeCase(
+            "wheel_spokes",
+            "Wheel with spokes, rolling",
+            "An old bicycle rolls past: spokes turn further than the gap between them, the rim "
+            "stands still at the ground and moves at twice the speed at its top",
+            &buildWheelSpokesCase,
+            kYardSky,
+            {32.0f, 38.0f}
+        ),
+        makeCase(
+            "camera_pan",
+            "Camera pan",
+            "The camera turns in a still yard: every pixel moves, none is revealed by another, and "
+            "the picture's border brings in what no layer holds",
+            &buildCameraPanCase,
+            kYardSky,
+            {28.0f, 34.0f}
+        ),
+        makeCase(
+            "camera_dolly",
+            "Camera dolly",
+            "The camera runs forward: motion points away from one place, is zero there and grows "
+            "towards the border, further for what is near",
+            &buildCameraDollyCase,
+            kYardSky,
+            {29.0f, 37.0f}
+        ),
+        makeCase(
+            "camera_orbit",
+            "Camera orbit",
+            "The camera circles a statue that stays nearly still while what is before and behind "
+            "it moves in opposite directions",
+            &buildCameraOrbitCase,
+            kYardSky,
+            {30.0f, 38.0f}
+        ),
+        makeCase(
+            "crossing_same_colour",
+            "Crossing, same colour",
+            "Two jugs of one colour cross in opposite directions, one before the other, so that "
+            "colour cannot tell them apart and one tile holds both motions",
+            &buildCrossingCase,
+            kRoomBackground,
+            {25.0f, 31.0f}
+        ),
+        makeCase(
+            "static_post",
+            "Static post before a mover",
+            "A loaded sledge runs behind thin posts that stand still and must stay sharp, though "
+            "what moves behind them is uncovered all the time",
+            &buildStaticPostCase,
+            kYardSky,
+            {31.0f, 38.0f}
+        ),
+        makeCase(
+            "self_overlap",
+            "Self-overlap",
+            "A coil with a ring flies and turns before the room: through its gaps it hides and "
+            "reveals parts of itself, which no object identity tells apart",
+            &buildSelfOverlapCase,
+            kRoomBackground,
+            {30.0f, 39.0f}
+        ),
+        makeCase(
+            "long_motion",
+            "Motion longer than a tile",
+            "A glider flies by at three tiles of 40 px in an exposure, beyond the reach of a "
+            "filter "
+            "that clamps motion to one tile",
+            &buildLongMotionCase,
+            kYardSky,
+            {115.0f, 145.0f}
+        ),
+        makeCase(
+            "thin_geometry",
+            "Thin geometry",
+            "A wire gate slides, blades of grass sway and a ball flies behind still wires: much of "
+            "it is about a pixel wide or less, so that depth and motion alias",
+            &buildThinGeometryCase,
+            kYardSky,
+            {16.0f, 26.0f}
+        ),
+        makeCase(
+            "sky_horizon",
+            "Sky and horizon",
+            "A balloon and a glider move before open sky, which has no depth, and before the "
+            "horizon, while the camera turns a little",
+            &buildSkyHorizonCase,
+            kOpenSky,
+            {22.0f, 34.0f}
+        ),
+    };
+}
+
+} // namespace
+
+std::span<const BenchCase> listHardCases() {
+    static const std::vector<BenchCase> kCases = makeCases();
+    return kCases;
+}
+
+} // namespace shutter::generator
