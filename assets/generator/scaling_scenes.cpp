@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "assets/generator/scaling_scenes.h"
+
+#include "assets/generator/room.h"
+#include "assets/generator/scenes.h"
+#include "assets/generator/textures.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace shutter::generator {
+
+namespace {
+
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+
+// Shot computes speeds from the one exposure.
+static_assert(static_cast<float>(kScalingExposureSeconds) == kExposureSeconds);
+
+const Shot kShot{.position = {0.0f, 0.0f, 0.0f}, .yFov = 0.7f};
+constexpr float kMoverDepth = 4.0f; ///< metres along the view axis
+constexpr float kWallDepth = 6.0f;
+
+/// Half the picture's width and height at a depth, metres.
+vec2 halfView(float depth) {
+    return kPictureSizePx / 2.0f / kShot.focalLengthPx() * depth;
+}
+
+void addStage(GltfWriter& writer) {
+    writer.addNode({.name = "main", .camera = writer.addCamera("main", kShot.yFov, 0.05f)});
+    writer.addNode(
+        {.name = "sun",
+         .rotation = rotationTowards({0.5f, -0.6f, -0.8f}),
+         .light = writer.addLight(
+             "sun", {.directional = true, .color = {1.0f, 0.96f, 0.9f}, .intensity = 3.0f}
+         )}
+    );
+}
+
+/// Fills the picture with margin.
+void addFlatWall(GltfWriter& writer) {
+    addObject(
+        writer,
+        {.name = "wall", .translation = {0.0f, 0.0f, -kWallDepth}},
+        sheet(halfView(kWallDepth) * 1.1f, 1.12f),
+        addTextured(writer, "bricks", bricks(), 0.95f)
+    );
+}
+
+/// The relief's height towards the camera, metres, at a place in metres.
+float reliefHeight(vec2 place) {
+    return 0.16f * std::sin(place.x * 3.1f) * std::cos(place.y * 2.7f) +
+           0.05f * std::sin(place.x * 11.0f + place.y * 7.0f);
+}
+
+Shape relief(vec2 halfExtents, int columnCount, int rowCount) {
+    Shape shape;
+    for (int row = 0; row <= rowCount; ++row) {
+        for (int column = 0; column <= columnCount; ++column) {
+            const vec2 along = vec2(column, row) / vec2(columnCount, rowCount);
+            const vec2 place = halfExtents * (along * 2.0f - 1.0f);
+            addVertex(
+                shape, vec3(place, reliefHeight(place)), {0, 0, 1}, vec2(place.x, -place.y) / 1.12f
+            );
+        }
+    }
+    const auto width = static_cast<size_t>(columnCount) + 1;
+    for (size_t row = 0; row < static_cast<size_t>(rowCount); ++row) {
+        for (size_t column = 0; column + 1 < width; ++column) {
+            const size_t a = row * width + column;
+            addTriangle(shape, a, a + 1, a + width + 1);
+            addTriangle(shape, a, a + width + 1, a + width);
+        }
+    }
+    smoothNormals(shape);
+    return shape;
+}
+
+/// A sphere with ribs and rings. \param ringCount [3, ...); 4 r (r - 1) triangles
+Shape pumpkin(float radius, int ringCount) {
+    Shape shape = sphere(radius, 2 * ringCount, ringCount);
+    for (vec3& position : shape.positions) {
+        const vec3 direction = position / radius;
+        const float around = std::atan2(direction.z, direction.x);
+        const float level = std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y));
+        position *= 1.0f + 0.06f * level * std::cos(10.0f * around) +
+                    0.012f * level * std::cos(40.0f * direction.y);
+    }
+    return shape;
+}
+
+} // namespace
+
+GltfWriter buildEntitiesScene(int count) {
+    constexpr float kBoxShare = 0.68f; // of a cell's width and height
+    count = std::clamp(count, 1, kMaxEntityCount);
+    GltfWriter writer("entities");
+    addStage(writer);
+    addFlatWall(writer);
+    const vec2 half = halfView(kMoverDepth) * 0.92f;
+    // Cells are 16:9 as the picture is, as many in a row as in a column; the last row may be short.
+    const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))));
+    const int rowCount = (count + side - 1) / side;
+    const vec2 cell = 2.0f * half / vec2(side, rowCount);
+    const float size = kBoxShare / 2.0f * std::min(cell.x, cell.y);
+    // Flat, or nearer fronts and visible sides would hide more than the cell's share.
+    const float thickness = 0.1f * size;
+    const MeshPart part{
+        .shape =
+            box({kBoxShare / 2.0f * cell.x, kBoxShare / 2.0f * cell.y, thickness}, 2.0f * size),
+        .material = addTextured(writer, "crate_boards", crateBoards(), 0.8f)};
+    const Index mesh = writer.addMesh("box", {&part, 1});
+    for (int i = 0; i < count; ++i) {
+        const vec2 place = -half + cell * (vec2(i % side, i / side) + 0.5f);
+        const float angle = glm::two_pi<float>() * hash(i, 0, 3);
+        const float pixels = 12.0f + 8.0f * hash(i, 1, 3);
+        const float depth = kMoverDepth + 0.2f * (hash(i, 2, 3) - 0.5f);
+        writer.addNode(
+            {.name = fmt::format("box_{}", i + 1),
+             .translation = {place * (depth / kMoverDepth), -depth},
+             .mesh = mesh,
+             .linearVelocity =
+                 kShot.velocityFor(pixels * vec2(std::cos(angle), std::sin(angle)), depth)}
+        );
+    }
+    return writer;
+}
+
+GltfWriter buildTrianglesScene(int count) {
+    count = std::clamp(count, kMinTriangleCount, kMaxTriangleCount);
+    GltfWriter writer("triangles");
+    addStage(writer);
+    // Half in the mover, 4 r (r - 1); the relief takes what is left, 2 a cell.
+    const int ringCount = static_cast<int>(std::lround(std::sqrt(count / 8.0 + 0.25) + 0.5));
+    const int left = count - 4 * ringCount * (ringCount - 1);
+    const vec2 half = halfView(kWallDepth) * 1.15f;
+    const int rowCount = static_cast<int>(std::lround(std::sqrt(left / 2.0 * half.y / half.x)));
+    const int columnCount = static_cast<int>(std::lround(left / 2.0 / rowCount));
+    addObject(
+        writer,
+        {.name = "wall", .translation = {0.0f, 0.0f, -kWallDepth}},
+        relief(half, columnCount, rowCount),
+        addTextured(writer, "bricks", bricks(), 0.95f)
+    );
+    Shape mover = pumpkin(0.8f, ringCount);
+    smoothNormals(mover);
+    addObject(
+        writer,
+        {.name = "mover",
+         .translation = {0.0f, 0.0f, -kMoverDepth},
+         .linearVelocity = kShot.velocityFor({32.0f, 10.0f}, kMoverDepth)},
+        mover,
+        addTextured(writer, "chevrons", chevrons(), 0.7f)
+    );
+    return writer;
+}
+
+GltfWriter buildMovingShareScene(float share) {
+    constexpr int kColumns = 8;
+    constexpr int kRows = 5;
+    share = share > 0.0f ? std::min(share, 1.0f) : 0.0f; // written so that NaN becomes 0
+    GltfWriter writer("moving_share");
+    addStage(writer);
+    addFlatWall(writer);
+    if (share == 0.0f) {
+        return writer;
+    }
+    const vec2 half = halfView(kMoverDepth);
+    const vec2 cell = 2.0f * half / vec2(kColumns, kRows);
+    const MeshPart part{
+        .shape = sheet(cell / 2.0f * vec2(share, 1.0f), 0.6f),
+        .material = addTextured(writer, "chevrons", chevrons(), 0.7f)};
+    const Index mesh = writer.addMesh("panel", {&part, 1});
+    for (int i = 0; i < kColumns * kRows; ++i) {
+        const int column = i % kColumns;
+        const int row = i / kColumns;
+        // Each stands elsewhere in its cell, so that rounding to pixels evens out.
+        const float slack = (1.0f - share) * (hash(column, row, 11) - 0.5f);
+        const vec2 place = -half + cell * (vec2(column, row) + vec2(0.5f + slack, 0.5f));
+        writer.addNode(
+            {.name = fmt::format("panel_{}", i + 1),
+             .translation = {place, -kMoverDepth},
+             .mesh = mesh,
+             .linearVelocity =
+                 kShot.velocityFor({row % 2 == 0 ? 24.0f : -24.0f, 0.0f}, kMoverDepth)}
+        );
+    }
+    return writer;
+}
+
+} // namespace shutter::generator

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Scenes with one dial each, for curves of cost. In all of them only the dial changes: camera
+// `main` stands still, no clip plays, movers have velocities and stand where they are meant to at
+// time 0; exposure 1/60 s, phase `end`. Resolution and exposure need no scene of their own: the
+// vase scene is the base of those curves.
+#pragma once
+
+#include "assets/generator/gltf_writer.h"
+
+namespace shutter::generator {
+
+inline constexpr double kScalingSeconds = 0.0;
+inline constexpr double kScalingExposureSeconds = 1.0 / 60.0;
+inline constexpr const char* kScalingPhase = "end"; ///< as `shutter render --phase` takes it
+inline constexpr const char* kScalingCamera = "main";
+
+inline constexpr int kMaxEntityCount = 10'000;
+inline constexpr int kMinTriangleCount = 1'000;
+inline constexpr int kMaxTriangleCount = 2'000'000;
+
+/// `count` boxes, all moving, that share one mesh and one material, in a grid before a wall. They
+/// get smaller as they get more: together they always hide the same share of the picture, and move
+/// by the same 12 to 20 px at 1280x720. \param count clamped to [1, kMaxEntityCount]
+[[nodiscard]] GltfWriter buildEntitiesScene(int count);
+
+/// One mover and a relief behind it, each half of `count` triangles, within 2 %. The shapes stay,
+/// their detail changes. \param count clamped to [kMinTriangleCount, kMaxTriangleCount]
+[[nodiscard]] GltfWriter buildTrianglesScene(int count);
+
+/// Panels that move by 24 px at 1280x720 cover `share` of a 16:9 picture before a still wall; the
+/// number of panels stays, their width changes; at 0 there are none.
+/// \param share clamped to [0, 1]; NaN counts as 0
+[[nodiscard]] GltfWriter buildMovingShareScene(float share);
+
+} // namespace shutter::generator
