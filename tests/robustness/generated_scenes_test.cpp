@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// The scenes that the game makes for itself go through the loader as any other file does.
+#include "assets/generator/hard_cases.h"
+#include "assets/generator/scaling_scenes.h"
+#include "engine/io/gltf_loader.h"
+#include "engine/scene/motion.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <ostream>
+#include <string>
+
+namespace shutter::generator {
+
+/// Without it the test's name would hold the bytes of a pointer.
+void PrintTo(const BenchCase& hardCase, std::ostream* stream) {
+    *stream << hardCase.name;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty world, and a failure, where the scene cannot be written or does not load without a
+/// warning.
+scene::World writeAndLoad(const std::string& name, const GltfWriter& writer) {
+    const fs::path folder = fs::path(SHUTTER_BUILD_DIR) / "test_scenes";
+    fs::create_directories(folder);
+    const fs::path path = folder / (name + ".glb");
+    const std::string problem = writer.write(path);
+    EXPECT_EQ(problem, "");
+    auto loaded = io::loadGltf(path);
+    fs::remove(path);
+    if (!loaded) {
+        ADD_FAILURE() << loaded.error().message;
+        return {};
+    }
+    for (const std::string& warning : loaded.value().warnings)
+        ADD_FAILURE() << warning;
+    return std::move(loaded).value().world;
+}
+
+size_t countTriangles(const scene::World& world) {
+    size_t triangles = 0;
+    for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>())
+        for (const scene::Primitive& primitive : world.assets.meshes[instance.mesh].primitives)
+            triangles += primitive.indices.size() / 3;
+    return triangles;
+}
+
+const ecs::Entity* findCamera(const scene::World& world, const std::string& name) {
+    const auto found =
+        std::find_if(world.cameras.begin(), world.cameras.end(), [&](ecs::Entity camera) {
+            return world.registry.get<scene::Camera>(camera).name == name;
+        });
+    return found == world.cameras.end() ? nullptr : &*found;
+}
+
+/// Entities with a mesh whose place in the camera's eyes changes between two times.
+size_t countMovers(const scene::World& world, ecs::Entity camera, double open, double close) {
+    const auto viewFrom = [&](ecs::Entity entity, double seconds) {
+        return glm::inverse(scene::worldFromEntity(world, camera, seconds)) *
+               scene::worldFromEntity(world, entity, seconds);
+    };
+    size_t movers = 0;
+    for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>()) {
+        const math::dmat4 difference = viewFrom(entity, close) - viewFrom(entity, open);
+        double most = 0.0;
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                most = std::max(most, std::abs(difference[column][row]));
+        movers += most > 1e-3;
+    }
+    return movers;
+}
+
+class HardCase : public testing::TestWithParam<BenchCase> {};
+
+TEST_P(HardCase, LoadsWithoutAWarningAndMovesDuringItsExposure) {
+    const BenchCase& hardCase = GetParam();
+    const scene::World world = writeAndLoad(hardCase.name, hardCase.build());
+    const ecs::Entity* camera = findCamera(world, hardCase.camera);
+    ASSERT_NE(camera, nullptr);
+    const double close = hardCase.timeSeconds;
+    EXPECT_GE(countMovers(world, *camera, close - hardCase.exposureSeconds, close), 1u);
+    // Enough for a scene, few enough for a software device.
+    EXPECT_GE(countTriangles(world), 5'000u);
+    EXPECT_LE(countTriangles(world), 25'000u);
+    EXPECT_GE(world.assets.images.size(), 3u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Generated,
+    HardCase,
+    testing::ValuesIn(listHardCases().begin(), listHardCases().end()),
+    [](const auto& test) { return std::string(test.param.name); }
+);
+
+TEST(ScalingScenes, HoldAsManyMovingEntitiesAsAskedFor) {
+    for (const int count : {1, 2, 10, 101, 10'000}) {
+        const scene::World world =
+            writeAndLoad(fmt::format("entities_{}", count), buildEntitiesScene(count));
+        const ecs::Entity* camera = findCamera(world, kScalingCamera);
+        ASSERT_NE(camera, nullptr);
+        const size_t movers =
+            countMovers(world, *camera, kScalingSeconds - kScalingExposureSeconds, kScalingSeconds);
+        EXPECT_EQ(movers, size_t(count));
+        EXPECT_EQ(world.assets.meshes.size(), 2u) << "they share one mesh; the wall has another";
+        EXPECT_LE(countTriangles(world), size_t(count) * 12 + 2);
+    }
+}
+
+TEST(ScalingScenes, EntityCountsOutsideTheRangeAreClamped) {
+    const auto count = [](int asked) {
+        const scene::World world = writeAndLoad("entities_clamped", buildEntitiesScene(asked));
+        return (countTriangles(world) - 2) / 12;
+    };
+    EXPECT_EQ(count(0), 1u);
+    EXPECT_EQ(count(-7), 1u);
+    EXPECT_EQ(count(kMaxEntityCount + 1), size_t(kMaxEntityCount));
+}
+
+TEST(ScalingScenes, HoldAsManyTrianglesAsAskedForWithin2Percent) {
+    for (const int count : {kMinTriangleCount, 10'000, 31'623, 100'000, 1'000'000}) {
+        const scene::World world =
+            writeAndLoad(fmt::format("triangles_{}", count), buildTrianglesScene(count));
+        EXPECT_NEAR(double(countTriangles(world)), count, 0.02 * count);
+        const ecs::Entity* camera = findCamera(world, kScalingCamera);
+        ASSERT_NE(camera, nullptr);
+        EXPECT_EQ(countMovers(world, *camera, -kScalingExposureSeconds, 0.0), 1u);
+    }
+}
+
+TEST(ScalingScenes, TriangleCountsBelowTheRangeAreClamped) {
+    for (const int count : {-1, 0, 3}) {
+        const scene::World world = writeAndLoad("triangles_clamped", buildTrianglesScene(count));
+        EXPECT_NEAR(double(countTriangles(world)), kMinTriangleCount, 0.02 * kMinTriangleCount);
+    }
+}
+
+TEST(ScalingScenes, AShareOfNothingOrNaNHasNoPanels) {
+    for (const float share : {0.0f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+        const scene::World world = writeAndLoad("share_none", buildMovingShareScene(share));
+        EXPECT_EQ(countTriangles(world), 2u) << "the wall alone";
+    }
+}
+
+} // namespace
+} // namespace shutter::generator
