@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The two kinds of target in this tree: a library a folder, and shaders compiled to SPIR-V.
+# The kinds of target in this tree: a library a folder, shaders compiled to SPIR-V, and files that
+# a program carries in itself.
 
 get_filename_component(SHUTTER_ROOT ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 
@@ -61,5 +62,24 @@ function(shutter_shaders target)
         list(APPEND outputs ${output})
     endforeach()
     target_sources(${target} PRIVATE ${outputs})
+    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()
+
+# shutter_embed(<target> <header> <symbol> <file>)
+# Makes a file a header, named from the repository root as if it lay there, that defines
+# `constexpr char <symbol>[]`: the file's bytes and a zero. Rebuilt when the file changes.
+function(shutter_embed target header symbol source)
+    get_filename_component(source ${source} ABSOLUTE)
+    set(output ${CMAKE_BINARY_DIR}/generated/${header})
+    get_filename_component(output_dir ${output} DIRECTORY)
+    file(MAKE_DIRECTORY ${output_dir})
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DOUTPUT=${output} -DSYMBOL=${symbol} -P
+                ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
+        DEPENDS ${source} ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
+        COMMENT "Embedding ${header}"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${output})
     target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()

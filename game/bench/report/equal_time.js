@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What each rival reaches in the time that the reference method takes.
+
+function makeEqualTimeRow(theCase, reference, row, base) {
+    const crop = theCase.crops?.[0];
+    const isReference = row.method === reference.method && row.dial === reference.dial;
+    const cells = results.metrics.flatMap((metric) => {
+        const value = metricOf(row, metric);
+        const cell = {content: formatMetric(metric, value), class: "n"};
+        if (metric !== chosen.metric) return [cell];
+        const decimals = kDecimals[metric.id] ?? 3;
+        const difference = value - metricOf(base, metric);
+        const text = isReference ? "" :
+            Number.isFinite(difference) ? formatSigned(difference, decimals) : "–";
+        const side = difference === 0 ? "" : isBetter(metric, difference, 0) ? "better" : "worse";
+        return [cell, {content: text, class: `n ${isReference ? "" : side}`}];
+    });
+    return [
+        {content: methodLabel(row.method, row.dial), class: isReference ? "reference" : ""},
+        {content: formatMs(row.milliseconds), class: "n"},
+        {content: formatRatio(row.milliseconds / reference.milliseconds), class: "n soft"},
+        ...cells,
+        {content: row.image && crop
+            ? makeViewport(row.image, crop, `${row.method}, ${crop.label}`) : "", class: "thumb"},
+    ];
+}
+
+function drawEqualTime() {
+    const entry = results.equalTime?.find((e) => e.case === chosen.case?.name);
+    byId("equal-time").hidden = !entry;
+    if (!entry) return;
+    const {reference} = entry;
+    const theCase = chosen.case;
+    const base = theCase.measurements.find((m) =>
+        m.method === reference.method && m.dial === reference.dial);
+    if (!base) throw new Error(`equalTime of ${entry.case}: its reference was not measured`);
+    const own = {...reference, metrics: base.metrics, image: base.image};
+    const rows = [own, ...entry.rows.filter((row) =>
+        row.method !== reference.method || row.dial !== reference.dial)];
+    rows.sort((a, b) =>
+        gain(chosen.metric, metricOf(b, chosen.metric), metricOf(a, chosen.metric)) || 0);
+    byId("equal-time-note").textContent = `${theCase.title}: every method's dial is set so that ` +
+        `it takes the frame time of ${nameMeasurement(reference.method, reference.dial)}, ` +
+        `${formatMs(reference.milliseconds)} ms, as nearly as the dial allows; best first. A ` +
+        "method without a dial, or that cannot be so slow or so fast, stands with its nearest.";
+    const columns = ["Method", {content: "ms", class: "n"},
+        {content: "of the time", class: "n"},
+        ...results.metrics.flatMap((metric) => {
+            const cell = {content: withUnit(metric.name, metric.unit), class: "n"};
+            return metric === chosen.metric
+                ? [cell, {content: `against ${reference.method}`, class: "n"}] : [cell];
+        }), theCase.crops?.[0]?.label ?? ""];
+    byId("equal-time-table").replaceChildren(makeTable(columns,
+        rows.map((row) => makeEqualTimeRow(theCase, reference, row, base)),
+        {class: "equal-time"}));
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// The benchmark's report: results (README.md, "results.json") as one HTML file that needs nothing
+// else, neither the network nor the pictures beside it.
+#pragma once
+
+#include "engine/core/result.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+namespace shutter::game {
+
+/// Error: the program was built without Chart.js; names the package.
+[[nodiscard]] core::Status checkReportPageCanBeMade();
+
+/// Writes folder/index.html, atomically, with every picture that `results` names (PNG files,
+/// relative to `folder`) inside it. Error: no Chart.js, `results` is not of this schema and
+/// version, a picture is missing or is no PNG, or the page cannot be written.
+[[nodiscard]] core::Status
+writeReportPage(const nlohmann::json& results, const std::filesystem::path& folder);
+
+/// The same from folder/results.json. Error: also where that file is missing or is not JSON.
+[[nodiscard]] core::Status remakeReportPage(const std::filesystem::path& folder);
+
+} // namespace shutter::game
