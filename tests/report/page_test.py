@@ -1,0 +1,448 @@
+# SPDX-License-Identifier: MIT
+"""The report page in headless Chromium: what it draws is what the results say."""
+
+import contextlib
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import example_results
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select, WebDriverWait
+except ImportError:
+    print("skipped: the package python3-selenium is missing")
+    sys.exit(77)
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+DRIVER = shutil.which("chromedriver")
+if not CHROMIUM or not DRIVER:
+    print("skipped: the packages chromium and chromium-driver are missing")
+    sys.exit(77)
+
+CHART = "return Chart.getChart(document.querySelector(arguments[0])).data.datasets"
+DATASETS = CHART + ".map((set) => ({label: set.label, data: set.data.map(({x, y}) => [x, y])}))"
+
+
+def start_browser(profile):
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    # Containers run the tests as root and have little /dev/shm.
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                     "--window-size=1280,900", f"--user-data-dir={profile}"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+
+
+def find_front(points, higher):
+    """(time, value) pairs that no other beats: quadratic, and so another way than the page's."""
+    def beats(a, b):
+        better = a[1] > b[1] if higher else a[1] < b[1]
+        as_good = better or a[1] == b[1]
+        return (a[0] <= b[0] and better) or (a[0] < b[0] and as_good)
+    return sorted(p for p in points if not any(beats(q, p) for q in points))
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with contextlib.ExitStack() as stack:
+            cls.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
+            cls.results = {}
+            for suite in ("paper", "hard", "scaling"):
+                cls.results[suite] = example_results.write(suite, cls.folder / suite)
+                subprocess.run([os.environ["SHUTTER_MAKE_PAGE"], cls.folder / suite], check=True)
+                # The page has to stand alone.
+                (cls.folder / suite / "results.json").unlink()
+                shutil.rmtree(cls.folder / suite / "images")
+            cls.browser = start_browser(cls.folder / "profile")
+            stack.callback(cls.browser.quit)
+            cls.browser.execute_cdp_cmd("Network.enable", {})
+            cls.browser.execute_cdp_cmd("Network.emulateNetworkConditions", {
+                "offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
+            cls.addClassCleanup(stack.pop_all().close)
+
+    def open(self, suite, width=1280, theme="light"):
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+            "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
+            "features": [{"name": "prefers-color-scheme", "value": theme}]})
+        self.browser.get((self.folder / suite / "index.html").as_uri())
+        WebDriverWait(self.browser, 60).until(lambda browser: browser.execute_script(
+            "return document.documentElement.dataset.ready === 'true' &&"
+            " [...document.images].every((image) => image.complete)"))
+
+    def tearDown(self):
+        self.assertEqual(self.browser.get_log("browser"), [])
+
+    def find(self, selector):
+        return self.browser.find_element(By.CSS_SELECTOR, selector)
+
+    def find_all(self, selector):
+        return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
+    def js(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def datasets(self, canvas="#tradeoff-chart"):
+        return {d["label"]: d["data"] for d in self.js(DATASETS, canvas)}
+
+    def expected_points(self, case, metric, time="frame"):
+        points = {}
+        for m in sorted(case["measurements"], key=lambda m: m["dial"] or 0):
+            points.setdefault(m["method"], []).append(
+                [m["milliseconds"][time]["median"], m["metrics"][metric]])
+        return points
+
+    def choose(self, selector, value):
+        Select(self.find(selector)).select_by_value(value)
+
+    # The whole page
+
+    def test_asks_nothing_of_the_network(self):
+        for suite in self.results:
+            self.open(suite)
+            asked = self.js("return performance.getEntriesByType('resource').map((e) => e.name)")
+            self.assertEqual([name for name in asked if not name.startswith("data:")], [])
+            self.assertTrue(self.js("return [...document.images].every((i) => i.naturalWidth)"))
+
+    def test_keeps_the_licence_of_what_it_includes(self):
+        text = (self.folder / "paper/index.html").read_text(encoding="utf-8")
+        self.assertIn("Released under the MIT License", text)
+
+    def test_shows_sections_that_have_data_and_no_others(self):
+        expected = {
+            "paper": {"ladder", "tradeoff", "pictures", "slider", "tables", "equal-time", "about"},
+            "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "equal-time", "about"},
+            "scaling": {"scaling", "about"},
+        }
+        for suite, sections in expected.items():
+            self.open(suite)
+            shown = {s.get_attribute("id") for s in self.find_all("section") if s.is_displayed()}
+            self.assertEqual(shown, sections)
+            links = {a.get_attribute("href").split("#")[1] for a in self.find_all("#contents a")}
+            self.assertEqual(links, sections)
+
+    def test_fits_1000_pixels_in_either_theme(self):
+        for suite in self.results:
+            for theme in ("light", "dark"):
+                self.open(suite, width=1000, theme=theme)
+                widths = self.js("const e = document.documentElement;"
+                                 "return [e.scrollWidth, e.clientWidth]")
+                self.assertLessEqual(widths[0], widths[1], f"{suite}, {theme}")
+
+    def test_takes_the_theme_that_the_reader_asks_for(self):
+        colors = {}
+        for theme in ("light", "dark"):
+            self.open("paper", theme=theme)
+            colors[theme] = self.js(
+                "return [getComputedStyle(document.body).backgroundColor,"
+                " Chart.getChart('tradeoff-chart').options.scales.x.grid.color]")
+        self.assertNotEqual(colors["light"][0], colors["dark"][0])
+        self.assertNotEqual(colors["light"][1], colors["dark"][1])
+
+    def test_prints_on_white_and_returns(self):
+        self.open("paper", theme="dark")
+        grid = "return Chart.getChart('tradeoff-chart').options.scales.x.grid.color"
+        dark = self.js(grid)
+        self.js("dispatchEvent(new Event('beforeprint'))")
+        self.assertNotEqual(self.js(grid), dark)
+        self.js("dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(self.js(grid), dark)
+
+    # Sentences
+
+    def test_headline_has_the_figures_of_the_results(self):
+        self.open("paper")
+        case = self.results["paper"]["cases"][0]
+        pair = {m["method"]: m for m in case["measurements"] if m["isDefault"]}
+        hybrid, gather = pair["hybrid"], pair["gather"]
+        gain = hybrid["metrics"]["psnr"] - gather["metrics"]["psnr"]
+        ratio = (hybrid["milliseconds"]["frame"]["median"] /
+                 gather["milliseconds"]["frame"]["median"])
+        self.assertEqual(self.find("#headline").text,
+                         f"hybrid gains {gain:.1f} dB over gather for {ratio:.1f}× its time.")
+
+    def test_headline_over_many_cases_is_a_median(self):
+        self.open("hard")
+        gains = []
+        for case in self.results["hard"]["cases"]:
+            pair = {m["method"]: m["metrics"]["psnr"] for m in case["measurements"]
+                    if m["isDefault"]}
+            gains.append(pair["hybrid"] - pair["gather"])
+        wins = sum(g > 0 for g in gains)
+        text = self.find("#headline").text
+        self.assertIn(f"Over 12 cases, hybrid gains a median of {statistics.median(gains):.1f} dB",
+                      text)
+        self.assertIn(f"(better in {wins})", text)
+
+    def test_headline_of_scaling_tells_the_growth(self):
+        self.open("scaling")
+        self.assertIn("From 640x360 to 3840x2160, the time of hybrid grows 30×, as pixels to the "
+                      "power of 0.95", self.find("#headline").text)
+
+    def test_says_when_a_run_was_stopped(self):
+        self.open("hard")
+        self.assertTrue(self.find("#incomplete").is_displayed())
+        self.open("paper")
+        self.assertFalse(self.find("#incomplete").is_displayed())
+
+    def test_text_of_the_results_stays_text(self):
+        self.open("paper")
+        self.assertIn("no driver </script>", self.find("#about-body").text)
+
+    # Error against time
+
+    def test_tradeoff_has_every_point_for_every_metric_and_time(self):
+        self.open("paper")
+        case = self.results["paper"]["cases"][0]
+        for metric in ("psnr", "ssim", "flip"):
+            for time in ("frame", "effect"):
+                self.choose("#metric", metric)
+                self.choose("#time", time)
+                drawn = self.datasets()
+                front = drawn.pop("Pareto front")
+                expected = self.expected_points(case, metric, time)
+                if time == "effect":
+                    self.assertEqual(drawn["sharp"], [], "0 ms has no place on a logarithm")
+                    self.assertIn("sharp", self.find("#tradeoff-omitted").text)
+                    expected["sharp"] = []
+                self.assertEqual(drawn, expected)
+                every = [tuple(p) for points in expected.values() for p in points]
+                self.assertEqual([tuple(p) for p in front], find_front(every, metric != "flip"))
+
+    def test_lists_the_members_of_the_front(self):
+        self.open("paper")
+        front = self.datasets()["Pareto front"]
+        rows = self.find_all("#tradeoff-front tbody tr")
+        self.assertEqual(len(rows), len(front))
+        for row, (_, value) in zip(rows, front):
+            self.assertIn(f"{value:.2f}", row.text)
+
+    def test_legend_hides_and_shows_methods(self):
+        self.open("paper")
+        case = self.results["paper"]["cases"][0]
+        button = '#tradeoff-legend [data-method="accumulate"]'
+        self.find(button).click()
+        self.assertEqual(self.find(button).get_attribute("aria-pressed"), "false")
+        drawn = self.datasets()
+        self.assertNotIn("accumulate", drawn)
+        expected = self.expected_points(case, "psnr")
+        del expected["accumulate"]
+        every = [tuple(p) for points in expected.values() for p in points]
+        self.assertEqual([tuple(p) for p in drawn["Pareto front"]], find_front(every, True))
+        self.find(button).click()
+        self.assertIn("accumulate", self.datasets())
+
+    def test_methods_differ_by_color_and_marker(self):
+        self.open("paper")
+        marks = self.js(CHART + ".map((s) => [s.borderColor, s.pointStyle, s.pointRotation,"
+                        "s.pointBackgroundColor === s.pointBorderColor].join())", "#tradeoff-chart")
+        self.assertEqual(len(set(marks)), len(marks))
+        colors = self.js(CHART + ".map((s) => s.borderColor)", "#tradeoff-chart")
+        self.assertEqual(len(set(colors)), len(colors))
+
+    def test_points_carry_quartiles(self):
+        self.open("paper")
+        drawn = self.js(CHART + ".find((s) => s.label === 'hybrid').data.map((p) => p.quartiles)",
+                        "#tradeoff-chart")
+        expected = [[m["milliseconds"]["frame"][q] for q in ("q1", "q3")]
+                    for m in self.results["paper"]["cases"][0]["measurements"]
+                    if m["method"] == "hybrid"]
+        self.assertEqual(drawn, expected)
+
+    def test_another_case_draws_its_points(self):
+        self.open("hard")
+        cases = self.results["hard"]["cases"]
+        self.choose("#case", "case7")
+        drawn = self.datasets()
+        del drawn["Pareto front"]
+        self.assertEqual(drawn, self.expected_points(cases[7], "psnr"))
+        self.assertIn(cases[7]["title"], self.find("#tradeoff-note").text)
+
+    # Matrix, ladder, tables, equal time
+
+    def test_ladder_has_a_row_a_method_by_rising_time(self):
+        self.open("paper")
+        rows = self.find_all("#ladder-table tbody tr")
+        defaults = [m for m in self.results["paper"]["cases"][0]["measurements"] if m["isDefault"]]
+        defaults.sort(key=lambda m: m["milliseconds"]["frame"]["median"])
+        names = [row.find_element(By.CSS_SELECTOR, "th").text.split()[0] for row in rows]
+        self.assertEqual(names, [m["method"] for m in defaults])
+
+    def test_matrix_has_every_case_and_method_and_frames_the_best(self):
+        self.open("hard")
+        for metric, pick, decimals in (("psnr", max, 2), ("flip", min, 4)):
+            self.choose("#metric", metric)
+            rows = self.find_all("#matrix-table tbody tr")
+            cases = self.results["hard"]["cases"]
+            self.assertEqual(len(rows), len(cases))
+            for row, case in zip(rows, cases):
+                values = [m["metrics"][metric] for m in case["measurements"] if m["isDefault"]]
+                cells = [float(c.text) for c in row.find_elements(By.CSS_SELECTOR, "td")]
+                self.assertEqual(len(cells), len(values))
+                best = float(row.find_element(By.CSS_SELECTOR, ".best").text)
+                for shown, value in zip([*cells, best], [*values, pick(values)]):
+                    self.assertAlmostEqual(shown, value, delta=0.51 * 10 ** -decimals)
+
+    def test_matrix_chooses_a_case(self):
+        self.open("hard")
+        self.find("#matrix-table tbody tr:nth-child(4) button").click()
+        self.assertEqual(self.find("#case").get_attribute("value"), "case3")
+
+    def test_tables_have_printed_figures_and_ours(self):
+        self.open("paper")
+        defaults = {m["method"]: m for m in self.results["paper"]["cases"][0]["measurements"]
+                    if m["isDefault"]}
+        text = self.find("#tables-body").text
+        for printed in ("24.20", "12.32", "25.69", "0.91", "0.68", "0.92", "9.92", "205"):
+            self.assertIn(printed, text)
+        hybrid = self.find("#tables-body tbody tr:nth-child(3)").text
+        self.assertIn(f"{defaults['hybrid']['metrics']['psnr']:.2f}", hybrid)
+        gain = defaults["hybrid"]["metrics"]["psnr"] - defaults["gather"]["metrics"]["psnr"]
+        self.assertIn(f"PSNR printed +1.49 dB, ours +{gain:.2f} dB", text)
+        rows = {row.find_element(By.CSS_SELECTOR, "th").text:
+                row.find_elements(By.CSS_SELECTOR, "td.ours")[0].text
+                for row in self.find_all("#tables-body .printed tbody tr")}
+        passes = {p["name"]: p["median"] for p in defaults["hybrid"]["passes"]}
+        self.assertEqual(rows["Ray Mask"], f"{passes['edge'] + passes['ray mask']:.1f}")
+        self.assertEqual(rows["Others"], f"{passes['read ray mask counters']:.2f}")
+        self.assertEqual(rows["Total Duration"],
+                         f"{defaults['hybrid']['milliseconds']['frame']['median']:.0f}")
+
+    def test_equal_time_has_every_rival_best_first(self):
+        self.open("paper")
+        entry = self.results["paper"]["equalTime"][0]
+        for metric, reverse in (("psnr", True), ("flip", False)):
+            self.choose("#metric", metric)
+            names = [row.find_element(By.CSS_SELECTOR, "th").text.split()[0]
+                     for row in self.find_all("#equal-time-table tbody tr")]
+            expected = sorted(entry["rows"], key=lambda r: r["metrics"][metric], reverse=reverse)
+            self.assertEqual(names, [row["method"] for row in expected])
+
+    # Scaling
+
+    def test_scaling_has_every_point_and_the_fits(self):
+        self.open("scaling")
+        for axis in self.results["scaling"]["scaling"]:
+            drawn = self.datasets(f"#scaling-{axis['axis']}")
+            for series in axis["series"]:
+                points = [[p["value"], p["milliseconds"]["median"]] for p in series["points"]]
+                self.assertEqual(drawn.pop(series["method"]), points)
+                if "fit" not in series:
+                    continue
+                line = drawn.pop(f"{series['method']}, fit")
+                self.assertEqual([line[0][0], line[1][0]],
+                                 [series["fit"]["from"], series["fit"]["to"]])
+                self.assertAlmostEqual(line[1][1] / points[-1][1], 1, delta=0.01)
+            self.assertEqual(drawn, {})
+
+    def test_an_axis_that_holds_0_is_linear(self):
+        self.open("scaling")
+        kinds = {axis: self.js("return Chart.getChart(arguments[0]).options.scales.x.type",
+                               f"scaling-{axis}") for axis in ("resolution", "moving")}
+        self.assertEqual(kinds, {"resolution": "logarithmic", "moving": "linear"})
+
+    # Pictures
+
+    def panels(self):
+        return [f.get_attribute("data-picture") for f in self.find_all("#pictures-panels figure")]
+
+    def sources(self, selector):
+        return [image.get_attribute("src") for image in self.find_all(selector)]
+
+    def test_panels_are_the_papers_figure(self):
+        self.open("paper")
+        self.assertEqual(self.panels(), ["sharp", "gather, 15 samples", "hybrid, 15 samples",
+                                         "truth-reference"])
+        whole = self.sources("#pictures-panels .viewport:not(.crop) img")
+        self.assertEqual(len(set(whole)), 4)
+
+    def test_a_panel_takes_another_picture(self):
+        self.open("paper")
+        Select(self.find("#pictures-panels figure:nth-child(2) select")).select_by_value(
+            "denoised, 1 ray")
+        self.assertEqual(self.panels()[1], "denoised, 1 ray")
+
+    def test_panels_show_error_maps(self):
+        self.open("paper")
+        pictures = self.sources("#pictures-panels .viewport:not(.crop) img")
+        self.find("#pictures-show input[value=errorMap]").click()
+        maps = self.sources("#pictures-panels .viewport:not(.crop) img")
+        self.assertEqual(len(maps), 3)
+        self.assertFalse(set(maps) & set(pictures))
+        self.assertIn("the truth has no error", self.find("#pictures-panels").text)
+
+    def test_a_crop_enlarges_without_smoothing(self):
+        self.open("paper")
+        crop = self.find("#pictures-panels figure:nth-child(1) .crop-button")
+        self.js("arguments[0].scrollIntoView({block: 'center'})", crop)
+        crop.click()
+        images = self.find_all("#zoom[open] img")
+        self.assertEqual(len(images), 4)
+        self.assertEqual(images[0].value_of_css_property("image-rendering"), "pixelated")
+        WebDriverWait(self.browser, 10).until(lambda _: images[0].size["width"] > 1000)
+        # The crop is 32 of 160 pixels wide and begins at 40.
+        ratio, left = self.js(
+            "const image = arguments[0], box = image.parentElement.getBoundingClientRect();"
+            "const own = image.getBoundingClientRect();"
+            "return [own.width / box.width, (box.left - own.left) / own.width]", images[0])
+        self.assertAlmostEqual(ratio, 160 / 32, places=2)
+        self.assertAlmostEqual(left, 40 / 160, places=2)
+        self.find("#zoom button").click()
+        self.assertFalse(self.find_all("#zoom[open]"))
+
+    # Slider
+
+    def slider(self):
+        handle = self.find("#slider-handle")
+        clip = self.js("return document.getElementById('slider-over').style.clipPath")
+        right = float(clip.split()[1].rstrip("%"))
+        self.assertEqual(round(100 - right), int(handle.get_attribute("aria-valuenow")))
+        return 100 - right
+
+    def test_slider_moves_by_drag(self):
+        self.open("paper")
+        frame = self.find("#slider-frame")
+        self.js("arguments[0].scrollIntoView({block: 'center'})", frame)
+        self.assertEqual(self.slider(), 50)
+        width = frame.size["width"]
+        ActionChains(self.browser).move_to_element(self.find("#slider-handle")).click_and_hold() \
+            .move_by_offset(int(width * 0.25), 0).release().perform()
+        self.assertAlmostEqual(self.slider(), 75, delta=1)
+        ActionChains(self.browser).move_by_offset(-int(width * 0.5), 0).perform()
+        self.assertAlmostEqual(self.slider(), 75, delta=1, msg="moves without the button")
+
+    def test_slider_moves_by_key_and_stops_at_its_ends(self):
+        self.open("paper")
+        handle = self.find("#slider-handle")
+        self.assertEqual(handle.get_attribute("role"), "slider")
+        for key, expected in ((Keys.ARROW_RIGHT, 51), (Keys.ARROW_LEFT, 50), (Keys.PAGE_UP, 60),
+                              (Keys.END, 100), (Keys.ARROW_RIGHT, 100), (Keys.HOME, 0),
+                              (Keys.ARROW_LEFT, 0)):
+            handle.send_keys(key)
+            self.assertEqual(self.slider(), expected)
+
+    def test_slider_takes_any_two_pictures_and_a_region(self):
+        self.open("paper")
+        before = self.sources("#slider-frame img")
+        self.choose("#slider-left", "sharp")
+        self.choose("#slider-right", "sharp: error")
+        after = self.sources("#slider-frame img")
+        self.assertEqual(len(set(before + after)), 4)
+        self.choose("#slider-region", "1")
+        self.assertEqual(len(self.find_all("#slider-frame .viewport.crop")), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
