@@ -10,10 +10,12 @@ build_packages=(
     g++ cmake ninja-build pkg-config glslang-tools
     libvulkan-dev libglfw3-dev libglm-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
-    vulkan-validationlayers
+    vulkan-validationlayers libjs-chart.js
 )
-# Only the tests compare with them.
-test_packages=(ffmpeg python3-skimage)
+# Only the tests compare with ffmpeg and scikit-image and look at the report page in a browser.
+test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium)
+# Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
+debian_test_packages=(chromium chromium-driver)
 # lavapipe traces rays from this version of Mesa on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1
@@ -137,6 +139,9 @@ ensure_packages() {
     if [[ -r /etc/os-release ]]; then
         # shellcheck source=/dev/null
         source /etc/os-release
+    fi
+    if [[ ${1:-} == with-tests && $ID == debian ]]; then
+        wanted+=("${debian_test_packages[@]}")
     fi
     case "$ID-$VERSION_ID" in
         debian-12 | debian-13 | ubuntu-24.04) ;;
