@@ -73,6 +73,7 @@ class Page(unittest.TestCase):
             cls.addClassCleanup(stack.pop_all().close)
 
     def open(self, suite, width=1280, theme="light"):
+        """A fresh page; the window is wide or narrow, the reader's theme light or dark."""
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
@@ -93,6 +94,10 @@ class Page(unittest.TestCase):
 
     def js(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)
+
+    def show_all_methods(self):
+        for button in self.find_all('#tradeoff-legend [aria-pressed="false"]'):
+            button.click()
 
     def datasets(self, canvas="#tradeoff-chart"):
         return {d["label"]: d["data"] for d in self.js(DATASETS, canvas)}
@@ -173,6 +178,23 @@ class Page(unittest.TestCase):
         self.assertEqual(self.find("#headline").text,
                          f"hybrid gains {gain:.1f} dB over gather for {ratio:.1f}× its time.")
 
+    def test_lede_names_the_next_step_and_the_rays_that_the_time_buys(self):
+        self.open("paper")
+        case = self.results["paper"]["cases"][0]
+        hybrid = next(m for m in case["measurements"]
+                      if m["method"] == "hybrid" and m["isDefault"])
+        time = lambda m: m["milliseconds"]["frame"]["median"]
+        rivals = [m for m in case["measurements"] if m["method"] not in ("hybrid", "accumulate")
+                  and m["metrics"]["psnr"] > hybrid["metrics"]["psnr"]]
+        best = min(rivals, key=time)
+        truth = next(r for r in self.results["paper"]["equalTime"][0]["rows"]
+                     if r["method"] == "truth")
+        text = self.find("#lede").text
+        self.assertIn(f"{best['method']}, {best['dial']} rays, reaches "
+                      f"{best['metrics']['psnr']:.1f} dB for {time(best) / time(hybrid):.1f}×", text)
+        self.assertIn(f"truth traces 1 ray a pixel and reaches {truth['metrics']['psnr']:.1f} dB",
+                      text)
+
     def test_headline_over_many_cases_is_a_median(self):
         self.open("hard")
         gains = []
@@ -203,8 +225,18 @@ class Page(unittest.TestCase):
 
     # Error against time
 
+    def test_what_made_the_truth_is_hidden_at_first(self):
+        self.open("paper")
+        self.assertNotIn("accumulate", self.datasets())
+        self.assertIn("accumulate made the truth", self.find("#tradeoff-note").text)
+        row = next(row for row in self.find_all("#ladder-table tbody tr")
+                   if row.text.startswith("accumulate"))
+        self.assertIn("judged by itself", row.text)
+        self.assertNotIn("accumulate", self.find("#lede").text)
+
     def test_tradeoff_has_every_point_for_every_metric_and_time(self):
         self.open("paper")
+        self.show_all_methods()
         case = self.results["paper"]["cases"][0]
         for metric in ("psnr", "ssim", "flip"):
             for time in ("frame", "effect"):
@@ -231,6 +263,7 @@ class Page(unittest.TestCase):
 
     def test_legend_hides_and_shows_methods(self):
         self.open("paper")
+        self.show_all_methods()
         case = self.results["paper"]["cases"][0]
         button = '#tradeoff-legend [data-method="accumulate"]'
         self.find(button).click()
@@ -246,6 +279,7 @@ class Page(unittest.TestCase):
 
     def test_methods_differ_by_color_and_marker(self):
         self.open("paper")
+        self.show_all_methods()
         marks = self.js(CHART + ".map((s) => [s.borderColor, s.pointStyle, s.pointRotation,"
                         "s.pointBackgroundColor === s.pointBorderColor].join())", "#tradeoff-chart")
         self.assertEqual(len(set(marks)), len(marks))

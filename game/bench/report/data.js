@@ -7,12 +7,18 @@ const pictureFiles = JSON.parse(document.getElementById("picture-files").textCon
 const methodByName = new Map(results.methods.map((method) => [method.name, method]));
 const metricById = new Map(results.metrics.map((metric) => [metric.id, metric]));
 
+/**
+ * Methods that a truth was made with. Against it they are judged by themselves, which says how fast
+ * they converge and not how right they are: plots hide them at first, rankings leave them out.
+ */
+const truthMethods = new Set(results.cases.map((theCase) => theCase.truth.method));
+
 /** What the reader has chosen; change it with `choose`. `time`: "frame" or "effect". */
 const chosen = {
     case: results.cases[0] ?? null,
     metric: results.metrics[0] ?? null,
     time: "frame",
-    hidden: new Set(),
+    hidden: new Set(truthMethods),
 };
 const choiceListeners = [];
 

@@ -25,6 +25,20 @@ function makeEqualTimeRow(theCase, reference, row, base) {
     ];
 }
 
+/** How near the best rival comes, in a sentence. */
+function describeClosest(reference, rows, base) {
+    const metric = chosen.metric;
+    const [closest] = rows.filter((row) =>
+        row.method !== reference.method && !truthMethods.has(row.method));
+    if (!closest) return "";
+    const value = metricOf(closest, metric);
+    const gained = gain(metric, value, metricOf(base, metric));
+    if (!Number.isFinite(gained)) return "";
+    return ` The best rival is ${nameMeasurement(closest.method, closest.dial)}: ` +
+        `${formatMetric(metric, Math.abs(gained))} ${metric.unit || metric.name} ` +
+        `${gained > 0 ? "better" : "worse"} than ${reference.method}.`;
+}
+
 function drawEqualTime() {
     const entry = results.equalTime?.find((e) => e.case === chosen.case?.name);
     byId("equal-time").hidden = !entry;
@@ -42,7 +56,8 @@ function drawEqualTime() {
     byId("equal-time-note").textContent = `${theCase.title}: every method's dial is set so that ` +
         `it takes the frame time of ${nameMeasurement(reference.method, reference.dial)}, ` +
         `${formatMs(reference.milliseconds)} ms, as nearly as the dial allows; best first. A ` +
-        "method without a dial, or that cannot be so slow or so fast, stands with its nearest.";
+        "method without a dial, or that cannot be so slow or so fast, stands with its nearest." +
+        describeClosest(reference, rows, base);
     const columns = ["Method", {content: "ms", class: "n"},
         {content: "of the time", class: "n"},
         ...results.metrics.flatMap((metric) => {

@@ -22,12 +22,17 @@ function comparePair({method, baseline, cases}, metric) {
     };
 }
 
+/** "31.6 dB", "0.024 FLIP" */
+function formatShort(metric, value) {
+    const decimals = metric.unit === "dB" ? 1 : 3;
+    return withUnit(formatNumber(value, decimals), metric.unit || metric.name);
+}
+
 /** "hybrid gains 1.3 dB over gather for 1.6× its time" */
 function writePairSentence(pair, metric) {
     const {gain: gained, wins, count, ratio} = comparePair(pair, metric);
     if (count === 0) return null;
-    const decimals = metric.unit === "dB" ? 1 : 3;
-    const amount = withUnit(formatNumber(Math.abs(gained), decimals), metric.unit || metric.name);
+    const amount = formatShort(metric, Math.abs(gained));
     const verb = gained >= 0 ? "gains" : "loses";
     const towards = gained >= 0 ? "over" : "to";
     const times = formatRatio(ratio);
@@ -53,22 +58,48 @@ function writeScalingSentence() {
         `${formatRatio(growth)}${fit}.`;
 }
 
-/** What the best picture costs beyond the headline's method. */
-function writeBestSentence(pair, metric) {
-    const rows = summarize(pair.cases);
-    const from = rows.find((row) => row.method.name === pair.method);
-    const better = rows.filter((row) =>
-        from && isBetter(metric, row.metrics[metric.id], from.metrics[metric.id]));
-    better.sort((a, b) => gain(metric, b.metrics[metric.id], a.metrics[metric.id]));
-    const best = better[0];
-    if (!best) return `At its own setting, no other method is closer to the truth than ${pair.method}.`;
-    const value = best.metrics[metric.id];
-    const name = nameMeasurement(best.method.name, best.dial);
-    const result = Number.isFinite(value)
-        ? `reaches ${withUnit(formatNumber(value, metric.unit === "dB" ? 1 : 3), metric.unit)}`
-        : "equals the truth";
-    return `The best picture at the methods' own settings, ${name}, ${result} and takes ` +
-        `${formatRatio(best.time / from.time)} the time of ${pair.method}.`;
+/** {method, dial, time, value} of all that was measured in the pair's one case, or the medians. */
+function listRivals(pair, metric) {
+    if (pair.cases.length > 1) {
+        return summarize(pair.cases).map((row) => ({
+            method: row.method.name, dial: row.dial, time: row.time,
+            value: row.metrics[metric.id],
+        }));
+    }
+    return pair.cases[0].measurements.map((m) => ({
+        method: m.method, dial: m.dial, time: m.milliseconds.frame.median,
+        value: metricOf(m, metric),
+    }));
+}
+
+/** What it costs to come closer than the headline's method. */
+function writeNextSentence(pair, metric) {
+    const {method} = pair;
+    const found = pair.cases.map((c) => defaultOf(c, method));
+    const value = median(found.map((m) => metricOf(m, metric)));
+    const time = median(found.map((m) => m.milliseconds.frame.median));
+    const better = listRivals(pair, metric).filter((rival) => rival.method !== method &&
+        !truthMethods.has(rival.method) && isBetter(metric, rival.value, value));
+    better.sort((a, b) => a.time - b.time);
+    const [next] = better;
+    if (!next) return `No other method measured comes closer to the truth than ${method}.`;
+    const reached = Number.isFinite(next.value)
+        ? `reaches ${formatShort(metric, next.value)}` : "equals the truth";
+    return `The cheapest other method that comes closer, ` +
+        `${nameMeasurement(next.method, next.dial)}, ${reached} for ` +
+        `${formatRatio(next.time / time)} the time of ${method}.`;
+}
+
+/** What distributed rays reach in the time of the equal-time reference. */
+function writeEqualTimeSentence(metric) {
+    const entries = (results.equalTime ?? []).map(({reference, rows}) =>
+        ({reference, row: rows.find((r) => r.method === "truth")})).filter(({row}) => row);
+    if (entries.length === 0 || truthMethods.has("truth")) return "";
+    const [{reference, row}] = entries;
+    const value = median(entries.map((entry) => metricOf(entry.row, metric)));
+    const dial = nameDial(row.method, median(entries.map((entry) => entry.row.dial)));
+    return ` In the time of ${reference.method}, truth traces ${dial} a pixel and reaches ` +
+        `${formatShort(metric, value)}.`;
 }
 
 function drawHeadline() {
@@ -82,7 +113,8 @@ function drawHeadline() {
     ].join(" · ");
     byId("headline").textContent = headline;
     document.title = `Shutter benchmark: ${results.suite}`;
-    const lede = pairSentence ? writeBestSentence(pair, metric) : "";
+    const lede = pairSentence
+        ? writeNextSentence(pair, metric) + writeEqualTimeSentence(metric) : "";
     byId("lede").textContent = lede;
     byId("lede").hidden = lede === "";
     byId("incomplete").hidden = results.complete;
@@ -122,9 +154,10 @@ function drawLadder() {
         `Time on a logarithmic line, ${metric.name} on a linear one; on the Pareto front stand ` +
         "those that no other here beats in both.";
     const points = rows.map((row) => ({...row, value: row.metrics[metric.id]}));
-    const front = new Set(findParetoFront(points, metric).map((p) => p.method));
+    const isRanked = (row) => !truthMethods.has(row.method.name);
+    const front = new Set(findParetoFront(points.filter(isRanked), metric).map((p) => p.method));
     const timeScale = makeScale(rows.map((row) => row.time), true);
-    const metricScale = makeScale(rows.map((row) => row.metrics[metric.id]), false);
+    const metricScale = makeScale(rows.filter(isRanked).map((row) => row.metrics[metric.id]), false);
     const others = results.metrics.filter((m) => m !== metric);
     const fastest = rows.find((row) => row.time > 0)?.time;
     const columns = ["Method", {content: "ms", class: "n"}, {content: "×", class: "n"},
@@ -138,8 +171,9 @@ function drawLadder() {
         {content: row.time > 0 ? formatRatio(row.time / fastest) : "–", class: "n soft"},
         {content: makeStrip(timeScale(row.time), row.method.name), class: "wide"},
         {content: formatMetric(metric, row.metrics[metric.id]), class: "n"},
-        {content: makeStrip(metricScale(row.metrics[metric.id]), row.method.name),
-            class: "wide"},
+        {content: isRanked(row)
+            ? makeStrip(metricScale(row.metrics[metric.id]), row.method.name)
+            : "judged by itself: it made the truth", class: "wide soft"},
         ...others.map((m) => ({content: formatMetric(m, row.metrics[m.id]), class: "n"})),
         {content: front.has(row.method) ? "yes" : "", class: "soft"},
     ]);
