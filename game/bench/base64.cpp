@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/base64.h"
 
-namespace shutter::game {
+namespace shutter::bench {
 
 std::string encodeBase64(std::span<const uint8_t> bytes) {
     constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -22,4 +22,4 @@ std::string encodeBase64(std::span<const uint8_t> bytes) {
     return text;
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 /// RFC 4648, section 4: the standard alphabet, padded, without line breaks.
 [[nodiscard]] std::string encodeBase64(std::span<const uint8_t> bytes);
 
-} // namespace shutter::game
+} // namespace shutter::bench

@@ -3,7 +3,7 @@
 
 #include <set>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 core::Result<std::string>
 fillPage(std::string_view page, const std::map<std::string, std::string_view>& values) {
@@ -52,4 +52,4 @@ std::string escapeForScript(std::string_view json) {
     return escaped;
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

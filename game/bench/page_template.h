@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 /// Replaces each `{{name}}` of `page` by its value. What is put in is not searched again, so a
 /// value may hold braces. Error: a placeholder without a value, a value without a placeholder, or
@@ -20,4 +20,4 @@ fillPage(std::string_view page, const std::map<std::string, std::string_view>& v
 /// can neither end the element nor open a comment, and no line separator (U+2028, U+2029).
 [[nodiscard]] std::string escapeForScript(std::string_view json);
 
-} // namespace shutter::game
+} // namespace shutter::bench

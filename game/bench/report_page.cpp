@@ -13,7 +13,7 @@
 #include <array>
 #include <set>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 namespace {
 
@@ -145,4 +145,4 @@ core::Status remakeReportPage(const fs::path& folder) {
     return {};
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 /// Error: the program was built without Chart.js; names the package.
 [[nodiscard]] core::Status checkReportPageCanBeMade();
@@ -23,4 +23,4 @@ writeReportPage(const nlohmann::json& results, const std::filesystem::path& fold
 /// The same from folder/results.json. Error: also where that file is missing or is not JSON.
 [[nodiscard]] core::Status remakeReportPage(const std::filesystem::path& folder);
 
-} // namespace shutter::game
+} // namespace shutter::bench

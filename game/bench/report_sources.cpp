@@ -20,7 +20,7 @@
 #include "game/bench/report/tradeoff_js.h"
 #include "game/bench/report/viewport_js.h"
 
-namespace shutter::game {
+namespace shutter::bench {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string joinReportScripts() {
     return joined;
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 /// HTML with the placeholders style, chart, results, pictures and scripts.
 [[nodiscard]] std::string_view getReportPage();
@@ -18,4 +18,4 @@ namespace shutter::game {
 /// The page's own scripts, one after another: they run as one ECMAScript module.
 [[nodiscard]] std::string joinReportScripts();
 
-} // namespace shutter::game
+} // namespace shutter::bench

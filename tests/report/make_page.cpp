@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
         std::fputs("usage: test_report_make_page FOLDER\n", stderr);
         return 2;
     }
-    const shutter::core::Status made = shutter::game::remakeReportPage(argv[1]);
+    const shutter::core::Status made = shutter::bench::remakeReportPage(argv[1]);
     if (!made)
         std::fprintf(stderr, "%s\n", made.error().message.c_str());
     return made ? 0 : 1;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 namespace {
 
@@ -37,4 +37,4 @@ TEST(EncodeBase64, ComesBackThroughTheDecoder) {
     EXPECT_EQ(decoded.value(), bytes);
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

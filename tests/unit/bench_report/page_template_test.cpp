@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 TEST(FillPage, PutsEachValueInEachOfItsPlaces) {
     const auto filled = fillPage("<{{a}}>{{b}}{{a}}", {{"a", "one"}, {"b", ""}});
@@ -57,4 +57,4 @@ TEST(EscapeForScript, EndsWithItsText) {
     EXPECT_EQ(escapeForScript("\xE2\x80\xA9"), "\\u2029");
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

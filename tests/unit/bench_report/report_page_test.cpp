@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace shutter::game {
+namespace shutter::bench {
 
 namespace {
 
@@ -149,4 +149,4 @@ TEST_F(ReportPage, SaysThatTheResultsFileIsMissingOrBroken) {
     EXPECT_TRUE(contains(broken.error().message, "results.json' is not valid JSON"));
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench
