@@ -16,5 +16,6 @@ inline constexpr int kExitUsage = 2;
 void addRenderCommand(CLI::App& app, int& exitStatus);
 void addCompareCommand(CLI::App& app, int& exitStatus);
 void addInfoCommand(CLI::App& app, int& exitStatus);
+void addBenchCommand(CLI::App& app, int& exitStatus); ///< game/bench
 
 } // namespace shutter::game

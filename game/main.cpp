@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     game::addRenderCommand(app, exitStatus);
     game::addCompareCommand(app, exitStatus);
     game::addInfoCommand(app, exitStatus);
+    game::addBenchCommand(app, exitStatus);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help

@@ -21,6 +21,7 @@ enum class Dial : uint8_t {
     None,
     Samples,  ///< taps of each gather
     Instants, ///< sharp frames
+    Rays,     ///< rays a pixel
 };
 
 struct MethodInfo {

@@ -25,7 +25,6 @@ using core::Status;
 constexpr uint32_t kMaxSize = 16384;
 constexpr uint32_t kMaxSamples = 65536;
 constexpr int kMaxFrames = 1000000;
-constexpr double kDefaultExposureSeconds = 1.0 / 60.0;
 /// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
 constexpr double kMaxSeconds = 1.0e9;
 
@@ -277,27 +276,19 @@ Status checkStatsWritable(const RenderOptions& options) {
 
 } // namespace
 
-void defineRenderOptions(CLI::App& command, RenderArguments& a) {
-    command.add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
-    command.add_option("--out", a.out, ".exr (linear), .png or .jpg; %04d for sequences")
-        ->required();
+void defineShotOptions(CLI::App& command, RenderArguments& a) {
     command.add_option(
         "--camera", a.camera, "name or index; default: the first, or one made to fit"
     );
-    auto* time = command.add_option("--time", a.time, "seconds; default 0");
-    command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
-        ->excludes(time);
+    command.add_option("--time", a.time, "seconds; default 0");
     command.add_option("--fps", a.fps, "F, frames a second; default 24");
     command.add_option("--clip", a.clips, "clip to play (repeatable), or none; default: all");
     command.add_flag("--loop", a.loop, "clips start again at their ends; default: hold");
     command.add_option("--exposure", a.exposureSeconds, "seconds; default 1/60");
     command.add_option("--shutter-angle", a.shutterAngle, "degrees of a frame at F");
     command.add_option("--phase", a.phase, "raster instant: start, centre or end (default)");
-    command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
-    command.add_option("--samples", a.samples, "taps (gather, hybrid) or instants (accumulate)");
     command.add_option("--pixel", a.pixel, "centre (default) or box");
     command.add_option("--seed", a.seed, "of the sample places of --pixel box");
-    command.add_option("--size", a.size, "WxH; default 1280x720");
     command.add_flag("--unlit", a.unlit, "base colour only");
     command.add_option("--background", a.background, "R,G,B linear; default 0.18,0.18,0.18");
     command.add_option("--ambient", a.ambient, "uniform light, R,G,B; default 0.25,0.25,0.25");
@@ -306,12 +297,28 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option(
         "--set", a.settings, "NAME=VALUE of the motion blur's settings (repeatable)"
     );
+}
+
+void defineDeviceOptions(CLI::App& command, RenderArguments& a) {
+    command.add_option("--device", a.device, "name or index, see `shutter info --devices`");
+    command.add_flag("--validate", a.validate, "Vulkan validation; a message is a failure");
+}
+
+void defineRenderOptions(CLI::App& command, RenderArguments& a) {
+    command.add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+    command.add_option("--out", a.out, ".exr (linear), .png or .jpg; %04d for sequences")
+        ->required();
+    defineShotOptions(command, a);
+    command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
+        ->excludes(command.get_option("--time"));
+    command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
+    command.add_option("--samples", a.samples, "taps (gather, hybrid) or instants (accumulate)");
+    command.add_option("--size", a.size, "WxH; default 1280x720");
     command.add_option(
         "--aov", a.aov, "intermediates to write beside --out, comma-separated, or all"
     );
     command.add_option("--stats", a.stats, "times and counters as JSON");
-    command.add_option("--device", a.device, "name or index, see `shutter info --devices`");
-    command.add_flag("--validate", a.validate, "Vulkan validation; a message is a failure");
+    defineDeviceOptions(command, a);
     command.add_flag("--dump-graph", a.dumpGraph, "print the render graph of the first frame");
     command.add_option("--repeat", a.repeat, "draw each frame N times more, report median times")
         ->check(CLI::Range(1u, 1000u));

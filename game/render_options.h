@@ -22,6 +22,9 @@ class App;
 
 namespace shutter::game {
 
+/// Without --exposure and --shutter-angle.
+inline constexpr double kDefaultExposureSeconds = 1.0 / 60.0;
+
 /// As typed.
 struct RenderArguments {
     std::string scene;
@@ -85,6 +88,10 @@ struct RenderOptions {
     uint32_t repeat = 1;
 };
 
+/// Of a shot: what is drawn when, from where, how it is lit and shown.
+void defineShotOptions(CLI::App& command, RenderArguments& arguments);
+void defineDeviceOptions(CLI::App& command, RenderArguments& arguments);
+/// All of `shutter render`, the ones above included.
 void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
 
 /// Checks everything that needs no file. Error: names the option that was used wrongly.

@@ -13,7 +13,7 @@ function listFacts() {
         .map(([name, value]) => `${name} ${value}`);
     return [
         ["Device", `${device.name}${device.software ? " (software: it runs on the CPU)" : ""}`],
-        ["Driver", [device.driver, device.driverInfo, `Vulkan ${device.api}`].filter(Boolean)
+        ["Driver", [device.driver, `Vulkan ${device.api}`, device.rays].filter(Boolean)
             .join(", ")],
         ["Machine", `${machine.cpu}, ${machine.cores} cores, ${formatNumber(gib, 1)} GiB, ` +
             machine.os],

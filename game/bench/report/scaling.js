@@ -11,18 +11,18 @@ function findFactor(points, fit) {
 function makeScalingSets(axis, logarithmic) {
     return axis.series.flatMap((series) => {
         const points = series.points.map((p, i) => ({
-            x: p.value, y: p.milliseconds.median, label: p.label, method: series.method,
-            quartiles: [p.milliseconds.q1, p.milliseconds.q3],
+            x: p.value, y: timeOf(p).median, label: p.label, method: series.method,
+            quartiles: [timeOf(p).q1, timeOf(p).q3],
             name: i === series.points.length - 1 ? series.method : undefined,
         }));
         const sets = [{label: series.method, data: points, showLine: true,
             ...styleOf(series.method)}];
-        if (series.fit && logarithmic) {
-            const factor = findFactor(points, series.fit);
+        const fit = series.fit?.[chosen.time];
+        if (fit && logarithmic) {
+            const factor = findFactor(points, fit);
             sets.push({
                 label: `${series.method}, fit`,
-                data: [series.fit.from, series.fit.to].map((x) =>
-                    ({x, y: factor * x ** series.fit.exponent})),
+                data: [fit.from, fit.to].map((x) => ({x, y: factor * x ** fit.exponent})),
                 showLine: true, pointRadius: 0, pointHitRadius: 0, borderWidth: 1.5,
                 borderDash: [3, 5], borderColor: cssColor("--ink-soft"),
             });
@@ -37,7 +37,7 @@ function titleOf({title, unit}) {
 
 function drawScalingChart(canvas, axis) {
     const points = axis.series.flatMap((series) => series.points);
-    const times = points.flatMap(({milliseconds: t}) => [t.median, t.q1, t.q3]);
+    const times = points.flatMap((p) => Object.values(timeOf(p)));
     const values = points.map((p) => p.value);
     const logarithmic = [...values, ...times].every((value) => value > 0);
     canvas.setAttribute("aria-label", `Time against ${axis.title}; the figures are in the table`);
@@ -45,7 +45,7 @@ function drawScalingChart(canvas, axis) {
         data: {datasets: makeScalingSets(axis, logarithmic)},
         scales: {
             x: makeAxis(titleOf(axis), logarithmic, values),
-            y: makeAxis("Frame time, milliseconds", logarithmic, times),
+            y: makeAxis(`${chosen.time === "frame" ? "Frame" : "Effect"} time, milliseconds`, logarithmic, times),
         },
         tooltip: {
             title: ([item]) => `${item.raw.method}, ${item.raw.label}`,
@@ -61,18 +61,18 @@ function makeScalingTable(axis) {
         .sort((a, b) => a.value - b.value).map((p) => [p.value, p.label]))];
     const columns = ["Method", ...labels.map(([, label]) => ({content: label, class: "n"})),
         {content: "exponent", class: "n"}, {content: "r²", class: "n"}, "fitted over"];
-    const rows = axis.series.map((series) => [
-        {content: methodLabel(series.method)},
+    const rows = axis.series.map((series) => {
+        const fit = series.fit?.[chosen.time];
+        return [{content: methodLabel(series.method)},
         ...labels.map(([value]) => {
             const found = series.points.find((p) => p.value === value);
-            return {content: found ? formatMs(found.milliseconds.median) : "–", class: "n"};
+            return {content: found ? formatMs(timeOf(found).median) : "–", class: "n"};
         }),
-        {content: series.fit ? formatNumber(series.fit.exponent, 2) : "–", class: "n"},
-        {content: series.fit ? formatNumber(series.fit.r2, 3) : "–", class: "n"},
-        {content: series.fit
-            ? `${formatNumber(series.fit.from, 0)} to ${formatNumber(series.fit.to, 0)}` : "–",
-        class: "soft"},
-    ]);
+        {content: fit ? formatNumber(fit.exponent, 2) : "–", class: "n"},
+        {content: fit ? formatNumber(fit.r2, 3) : "–", class: "n"},
+        {content: fit ? `${formatNumber(fit.from, 0)} to ${formatNumber(fit.to, 0)}` : "–",
+            class: "soft"}];
+    });
     return makeTable(columns, rows);
 }
 

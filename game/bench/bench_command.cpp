@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/device.h"
+#include "game/bench/bench_run.h"
+#include "game/bench/report_page.h"
+#include "game/bench/suite.h"
+#include "game/cache_folder.h"
+#include "game/commands.h"
+#include "game/report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+namespace shutter::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using core::Status;
+using game::MethodInfo;
+
+struct BenchArguments {
+    game::RenderArguments shot;
+    std::string suite;
+    fs::path out;
+    std::vector<std::string> methods;
+    std::vector<std::string> cases;
+    std::optional<uint32_t> repeats;
+    std::optional<double> limitSeconds;
+    uint32_t truthSamples = 256;
+    bool restart = false;
+    bool reportOnly = false;
+};
+
+std::atomic<bool> sStopped = false;
+
+/// The first Ctrl-C ends the run after the picture being drawn; the second at once.
+void stopOnInterrupt(int) {
+    sStopped = true;
+    std::signal(SIGINT, SIG_DFL);
+}
+
+core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
+    if (!arguments.shot.scene.empty())
+        return makeOwnSuite(arguments.shot);
+    auto suite = findSuite(arguments.suite);
+    if (!suite)
+        return suite;
+    const auto applySize = [&](Case& shot) {
+        shot.shot.size = shot.size.empty() ? arguments.shot.size : shot.size;
+    };
+    for (Case& shot : suite.value().cases)
+        applySize(shot);
+    for (ScalingAxis& axis : suite.value().axes)
+        for (ScalingPoint& point : axis.points)
+            applySize(point.shot);
+    if (arguments.cases.empty())
+        return suite;
+    std::string names;
+    std::vector<Case> kept;
+    for (const Case& shot : suite.value().cases) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", shot.name);
+        if (std::count(arguments.cases.begin(), arguments.cases.end(), shot.name) > 0)
+            kept.push_back(shot);
+    }
+    if (kept.size() != arguments.cases.size())
+        return core::makeError(
+            "--case {}: the suite {} has {}",
+            fmt::join(arguments.cases, ", "),
+            suite.value().name,
+            names.empty() ? "no cases" : names
+        );
+    suite.value().cases = std::move(kept);
+    return suite;
+}
+
+/// All but the truth's own method, which is swept as well: at few instants it is a rival.
+core::Result<std::vector<const MethodInfo*>> chooseMethods(const BenchArguments& arguments) {
+    std::vector<const MethodInfo*> methods;
+    if (arguments.methods.empty()) {
+        for (const MethodInfo& method : game::listMethods())
+            methods.push_back(&method);
+        return methods;
+    }
+    for (const std::string& name : arguments.methods) {
+        auto method = game::findMethod(name);
+        if (!method)
+            return core::makeError("--methods: {}", method.error().message);
+        methods.push_back(method.value());
+    }
+    return methods;
+}
+
+Status makeFolders(const BenchArguments& arguments) {
+    std::error_code failure;
+    if (arguments.restart)
+        fs::remove_all(arguments.out / "journal", failure);
+    for (const char* part : {"images", "journal", "scenes"}) {
+        fs::create_directories(arguments.out / part, failure);
+        if (failure)
+            return core::makeError(
+                "--out: cannot make the folder '{}': {}",
+                (arguments.out / part).string(),
+                failure.message()
+            );
+    }
+    return {};
+}
+
+/// Empty where no cache can be kept, which is slower and not wrong.
+fs::path makeTruthCache() {
+    const fs::path cache = game::findCacheFolder();
+    if (cache.empty())
+        return {};
+    std::error_code failure;
+    fs::create_directories(cache / "truth", failure);
+    return failure ? fs::path() : cache / "truth";
+}
+
+Status measureSuite(
+    const BenchArguments& arguments,
+    Suite suite,
+    std::vector<const MethodInfo*> methods,
+    game::RenderOptions shot
+) {
+    if (Status made = makeFolders(arguments); !made)
+        return made;
+    gpu::DeviceOptions deviceOptions;
+    deviceOptions.wanted = arguments.shot.device;
+    deviceOptions.validate = arguments.shot.validate;
+    deviceOptions.cacheFolder = game::findCacheFolder();
+    auto device = gpu::Device::create(deviceOptions);
+    if (!device)
+        return device.error();
+    std::signal(SIGINT, stopOnInterrupt);
+    RunOptions options;
+    options.suite = std::move(suite);
+    options.methods = std::move(methods);
+    options.shot = std::move(shot);
+    options.measure.repeats = arguments.repeats.value_or(options.suite.repeats);
+    options.measure.limitSeconds = arguments.limitSeconds.value_or(options.suite.limitSeconds);
+    options.measure.truthSamples = arguments.truthSamples;
+    options.measure.folder = arguments.out;
+    options.measure.truthCache = makeTruthCache();
+    Status done = runSuite(*device.value(), options, [] { return sStopped.load(); });
+    if (done && device.value()->validationMessageCount() > 0)
+        return core::makeError(
+            "{} Vulkan validation messages", device.value()->validationMessageCount()
+        );
+    return done;
+}
+
+int fail(int status, const core::Error& error) {
+    game::printError(error);
+    return status;
+}
+
+int runBench(const BenchArguments& arguments) {
+    if (arguments.reportOnly) {
+        const Status made = remakeReportPage(arguments.out);
+        return made ? game::kExitDone : fail(game::kExitFailed, made.error());
+    }
+    if (arguments.shot.scene.empty() == arguments.suite.empty())
+        return fail(game::kExitUsage, {"bench needs --suite or a SCENE, and not both"});
+    auto suite = chooseSuite(arguments);
+    if (!suite)
+        return fail(game::kExitUsage, suite.error());
+    auto methods = chooseMethods(arguments);
+    if (!methods)
+        return fail(game::kExitUsage, methods.error());
+    // Wrong options of the shot are told before anything is made.
+    game::RenderArguments probe = arguments.shot;
+    probe.out = "picture.png";
+    auto shot = game::interpret(probe);
+    if (!shot)
+        return fail(game::kExitUsage, shot.error());
+    const Status done = measureSuite(
+        arguments, std::move(suite.value()), std::move(methods.value()), std::move(shot.value())
+    );
+    return done ? game::kExitDone : fail(game::kExitFailed, done.error());
+}
+
+} // namespace
+} // namespace shutter::bench
+
+namespace shutter::game {
+
+void addBenchCommand(CLI::App& app, int& exitStatus) {
+    CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
+    auto arguments = std::make_shared<bench::BenchArguments>();
+    arguments->shot.size = "640x360";
+    command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
+    command->add_option("--suite", arguments->suite, "paper, hard or scaling");
+    command->add_option("--out", arguments->out, "folder of results.json and index.html")
+        ->required();
+    command->add_option("--methods", arguments->methods, "comma-separated; default: all")
+        ->delimiter(',');
+    command->add_option(
+        "--case", arguments->cases, "cases of the suite (repeatable); default: all"
+    );
+    command->add_option("--repeats", arguments->repeats, "timed pictures of each; default: 7")
+        ->check(CLI::Range(1u, 1000u));
+    command->add_option("--limit", arguments->limitSeconds, "seconds of one picture; default: 60")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--truth-samples", arguments->truthSamples, "instants; default 256")
+        ->check(CLI::Range(1u, 65536u));
+    command->add_flag("--restart", arguments->restart, "measure anew what an earlier run left");
+    command->add_flag("--report-only", arguments->reportOnly, "make the page from results.json");
+    command->add_option("--size", arguments->shot.size, "WxH; default 640x360");
+    game::defineDeviceOptions(*command, arguments->shot);
+    std::vector<CLI::Option*> shotOptions;
+    const std::vector<CLI::Option*> before = command->get_options();
+    game::defineShotOptions(*command, arguments->shot);
+    for (CLI::Option* option : command->get_options())
+        if (std::find(before.begin(), before.end(), option) == before.end())
+            shotOptions.push_back(option->group("Shot (with a SCENE)"));
+    command->callback([arguments, shotOptions, &exitStatus] {
+        for (const CLI::Option* option : shotOptions)
+            if (option->count() > 0 && arguments->shot.scene.empty()) {
+                printError({fmt::format(
+                    "{} needs a SCENE: suites have shots of their own", option->get_name()
+                )});
+                exitStatus = kExitUsage;
+                return;
+            }
+        exitStatus = bench::runBench(*arguments);
+    });
+}
+
+} // namespace shutter::game

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/bench_run.h"
+
+#include "engine/core/log.h"
+#include "engine/io/file_bytes.h"
+#include "game/bench/environment.h"
+#include "game/bench/paper_figures.h"
+#include "game/bench/report_page.h"
+#include "game/bench/results.h"
+
+#include <fmt/format.h>
+
+namespace shutter::bench {
+
+namespace {
+
+using core::Status;
+using nlohmann::json;
+
+/// The method at whose time all others are compared.
+constexpr const char* kReference = "hybrid";
+
+/// A run of one suite.
+class BenchRun {
+  public:
+    BenchRun(gpu::Device& device, const RunOptions& options, const StopQuestion& stop)
+        : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
+          mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
+          mDefaults(makeDefaults(mMethods)), mOptions(options.measure), mTimesOnly(mOptions) {
+        mTimesOnly.comparePictures = false;
+    }
+
+    Status run() {
+        describeRun();
+        core::Progress progress("measuring", countAllSteps());
+        for (const Case& shot : mSuite.cases) {
+            auto result = measureCase(mDevice, shot, mSweep, mOptions, progress, mStop);
+            if (!result)
+                return result.error();
+            addCase(shot, result.value());
+            if (mStop())
+                return stopEarly();
+            if (Status written = writeResults(); !written)
+                return written;
+        }
+        for (const ScalingAxis& axis : mSuite.axes)
+            if (Status measured = measureAxis(axis, progress); !measured)
+                return measured;
+        mRoot["complete"] = true;
+        if (Status written = writeResults(); !written)
+            return written;
+        return writeReportPage(mRoot, mOptions.folder);
+    }
+
+  private:
+    uint64_t countAllSteps() const {
+        uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
+        for (const ScalingAxis& axis : mSuite.axes)
+            steps += axis.points.size() * countSteps(mDefaults, mTimesOnly);
+        return steps;
+    }
+
+    void describeRun() {
+        mRoot = {
+            {"schema", "shutter-bench"},
+            {"version", 1},
+            {"suite", mSuite.name},
+            {"created", describeNow()},
+            {"complete", false},
+            {"revision", describeRevision()},
+            {"machine", describeMachine()},
+            {"device", describeDevice(mDevice.info())},
+            {"metrics", describeMetrics()},
+            {"methods", describeMethods(mMethods)},
+            {"cases", json::array()},
+            {"equalTime", json::array()},
+            {"scaling", json::array()}};
+        mRoot["settings"] = {
+            {"width", mShot.width},
+            {"height", mShot.height},
+            {"truthSamples", mOptions.truthSamples},
+            {"repeats", mOptions.repeats},
+            {"limitSeconds", mOptions.limitSeconds},
+            {"pixel", mShot.pixel == accumulate::PixelModel::Box ? "box" : "centre"},
+            {"tonemap",
+             mShot.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
+                                                            : "sRGB"}};
+        if (mSuite.name == "paper")
+            mRoot["paper"] = describePaperFigures();
+    }
+
+    void addCase(const Case& shot, const CaseResult& result) {
+        json described = describeCase(shot, mSweep, result, mOptions);
+        const auto imageOf = [&](const json& row) {
+            return pictureFile(
+                shot.name,
+                row.at("method"),
+                row.at("dial").is_null() ? 0u : row.at("dial").get<uint32_t>()
+            );
+        };
+        if (json row = compareAtEqualTime(described, kReference, imageOf); !row.is_null())
+            mRoot["equalTime"].push_back(std::move(row));
+        mRoot["cases"].push_back(std::move(described));
+    }
+
+    Status measureAxis(const ScalingAxis& axis, core::Progress& progress) {
+        std::vector<MeasuredPoint> measured;
+        for (const ScalingPoint& point : axis.points) {
+            auto result = measureCase(mDevice, point.shot, mDefaults, mTimesOnly, progress, mStop);
+            if (!result)
+                return result.error();
+            if (mStop())
+                return stopEarly();
+            measured.push_back({&point, std::move(result.value())});
+        }
+        mRoot["scaling"].push_back(describeAxis(axis, mDefaults, measured));
+        return writeResults();
+    }
+
+    Status writeResults() const {
+        return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
+    }
+
+    /// What was measured is kept.
+    Status stopEarly() const {
+        return core::makeError("stopped; the same command goes on where it was");
+    }
+
+    gpu::Device& mDevice;
+    const Suite& mSuite;
+    const std::vector<const game::MethodInfo*>& mMethods;
+    const game::RenderOptions& mShot;
+    const StopQuestion& mStop;
+    std::vector<DialPoint> mSweep;
+    std::vector<DialPoint> mDefaults;
+    MeasureOptions mOptions;
+    MeasureOptions mTimesOnly;
+    json mRoot;
+};
+
+} // namespace
+
+Status runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop) {
+    return BenchRun(device, options, stop).run();
+}
+
+} // namespace shutter::bench

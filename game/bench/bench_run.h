@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "game/bench/measure.h"
+#include "game/bench/suite.h"
+#include "game/render_options.h"
+
+#include <vector>
+
+namespace shutter::bench {
+
+struct RunOptions {
+    Suite suite;
+    std::vector<const game::MethodInfo*> methods;
+    game::RenderOptions shot; ///< what the suite's cases leave open: size, tone map
+    MeasureOptions measure;
+};
+
+/// Measures a suite into results.json and index.html of the report's folder, whose parts exist.
+/// Error: a scene or a file; or that `stop` ended it, which leaves what was measured.
+[[nodiscard]] core::Status
+runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
+
+} // namespace shutter::bench

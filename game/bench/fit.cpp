@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shutter::bench {
+
+std::optional<PowerFit> fitPower(std::span<const CurvePoint> points) {
+    const double count = double(points.size());
+    double meanX = 0.0;
+    double meanY = 0.0;
+    for (const CurvePoint& point : points) {
+        if (!(point.x > 0.0) || !(point.y > 0.0))
+            return std::nullopt;
+        meanX += std::log(point.x) / count;
+        meanY += std::log(point.y) / count;
+    }
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (const CurvePoint& point : points) {
+        const double dx = std::log(point.x) - meanX;
+        const double dy = std::log(point.y) - meanY;
+        xx += dx * dx;
+        xy += dx * dy;
+        yy += dy * dy;
+    }
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+            return a.x < b.x;
+        });
+    if (points.empty() || !(least->x < most->x))
+        return std::nullopt;
+    return PowerFit{xy / xx, yy > 0.0 ? xy * xy / (xx * yy) : 1.0, least->x, most->x};
+}
+
+} // namespace shutter::bench

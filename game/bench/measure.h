@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Draws one case's pictures: interleaved rounds over methods and dials, each compared with the
+// truth once and timed several times.
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "game/bench/crops.h"
+#include "game/bench/journal.h"
+#include "game/bench/suite.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace shutter::bench {
+
+struct MeasureOptions {
+    uint32_t repeats = 7;
+    double limitSeconds = 60.0; ///< of one picture; dials beyond it are skipped
+    uint32_t truthSamples = 256;
+    std::filesystem::path folder;     ///< of the report: scenes/, images/ and journal/ go into it
+    std::filesystem::path truthCache; ///< truth pictures by content, kept between runs; empty: none
+    bool comparePictures = true;      ///< false: times only
+};
+
+/// Everything known of a case.
+struct CaseResult {
+    std::string truthImage; ///< relative to the report's folder; empty where nothing was compared
+    std::string truthHash;  ///< of everything the truth depends on
+    std::map<std::string, Record> records; ///< by makeKey()
+    std::vector<Crop> crops;
+};
+
+/// Asked between pictures; true ends the run.
+using StopQuestion = std::function<bool()>;
+
+/// Work of a case for a progress bar, in frames and rays.
+[[nodiscard]] uint64_t
+countSteps(const std::vector<DialPoint>& sweep, const MeasureOptions& options);
+
+/// A measurement's picture, relative to the report's folder.
+[[nodiscard]] std::string
+pictureFile(const std::string& caseName, const std::string& method, uint32_t samples);
+
+/// "method/dial".
+[[nodiscard]] std::string makeKey(const DialPoint& point);
+
+/// Measures what the case's journal lacks. Returns early, without an error, when `stop` says so.
+/// Error: the scene cannot be loaded, a file cannot be written.
+[[nodiscard]] core::Result<CaseResult> measureCase(
+    gpu::Device& device,
+    const Case& shot,
+    const std::vector<DialPoint>& sweep,
+    const MeasureOptions& options,
+    core::Progress& progress,
+    const StopQuestion& stop
+);
+
+} // namespace shutter::bench

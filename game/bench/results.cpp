@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/results.h"
+
+#include "game/bench/cost.h"
+#include "game/bench/fit.h"
+#include "game/quartiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace shutter::bench {
+
+namespace {
+
+using nlohmann::json;
+
+json packQuartiles(
+    const std::vector<Sample>& samples, const std::function<double(const Sample&)>& of
+) {
+    std::vector<double> values;
+    for (const Sample& sample : samples)
+        values.push_back(of(sample));
+    const game::Quartiles quartiles = game::computeQuartiles(std::move(values));
+    return {{"median", quartiles.median}, {"q1", quartiles.q1}, {"q3", quartiles.q3}};
+}
+
+double timeOfPass(const Sample& sample, const std::string& name) {
+    for (const PassSample& pass : sample.passes)
+        if (pass.name == name)
+            return pass.milliseconds;
+    return 0.0;
+}
+
+json describeTimes(const game::MethodInfo& method, const std::vector<Sample>& samples) {
+    return {
+        {"frame", packQuartiles(samples, computeFrameTime)},
+        {"effect",
+         packQuartiles(
+             samples, [&](const Sample& sample) { return computeEffectTime(method, sample); }
+         )},
+        {"wall",
+         packQuartiles(samples, [](const Sample& sample) { return sample.wallMilliseconds; })}};
+}
+
+json describePasses(const game::MethodInfo& method, const std::vector<Sample>& samples) {
+    json passes = json::array();
+    for (const PassSample& pass : samples.front().passes) {
+        json row = packQuartiles(samples, [&](const Sample& sample) {
+            return timeOfPass(sample, pass.name);
+        });
+        row["name"] = pass.name;
+        row["effect"] = isEffect(method, pass.name);
+        passes.push_back(std::move(row));
+    }
+    return passes;
+}
+
+/// A method without a dial has none in the results either.
+json packDial(uint32_t samples) {
+    return samples > 0 ? json(samples) : json();
+}
+
+json describeMeasurement(const DialPoint& point, const Record& record) {
+    json metrics = json::object();
+    for (const auto& [id, value] : record.picture.metrics)
+        metrics[id] = std::isfinite(value) ? json(value) : json(); // null: equal pictures
+    json row = {
+        {"method", point.method->name},
+        {"dial", packDial(point.samples)},
+        {"isDefault", point.isDefault},
+        {"repeats", record.samples.size()},
+        {"metrics", metrics},
+        {"milliseconds", describeTimes(*point.method, record.samples)},
+        {"passes", describePasses(*point.method, record.samples)},
+        {"counters", record.picture.counters}};
+    // Pictures go into the page, so only those of defaults do.
+    if (point.isDefault) {
+        row["image"] = record.picture.image;
+        row["errorMap"] = record.picture.errorMap;
+    }
+    return row;
+}
+
+double frameTimeOf(const json& measurement) {
+    return measurement.at("milliseconds").at("frame").at("median");
+}
+
+/// How far a measurement's time is from another, as a ratio's logarithm.
+double distanceFrom(double milliseconds, const json& measurement) {
+    return std::abs(std::log(frameTimeOf(measurement) / milliseconds));
+}
+
+json describeFit(const std::vector<CurvePoint>& curve) {
+    const auto fit = fitPower(curve);
+    if (!fit)
+        return {};
+    return {{"exponent", fit->exponent}, {"r2", fit->r2}, {"from", fit->from}, {"to", fit->to}};
+}
+
+} // namespace
+
+json describeCase(
+    const Case& shot,
+    const std::vector<DialPoint>& sweep,
+    const CaseResult& result,
+    const MeasureOptions& options
+) {
+    json described = {
+        {"name", shot.name},
+        {"title", shot.title},
+        {"description", shot.description},
+        {"time", shot.shot.time},
+        {"exposure", shot.shot.exposureSeconds.value_or(game::kDefaultExposureSeconds)},
+        {"phase", shot.shot.phase},
+        {"camera", shot.shot.camera},
+        {"measurements", json::array()},
+        {"skipped", json::array()},
+        {"crops", json::array()}};
+    described["truth"] = {
+        {"method", "accumulate"},
+        {"samples", options.truthSamples},
+        {"image", result.truthImage},
+        {"hash", result.truthHash}};
+    for (const Crop& crop : result.crops)
+        described["crops"].push_back(
+            {{"x", crop.x},
+             {"y", crop.y},
+             {"width", crop.width},
+             {"height", crop.height},
+             {"label", crop.label}}
+        );
+    for (const DialPoint& point : sweep) {
+        const auto found = result.records.find(makeKey(point));
+        if (found == result.records.end())
+            continue;
+        if (!found->second.skipped.empty())
+            described["skipped"].push_back(
+                {{"method", point.method->name},
+                 {"dial", packDial(point.samples)},
+                 {"reason", found->second.skipped}}
+            );
+        else if (!found->second.samples.empty() && found->second.hasPicture)
+            described["measurements"].push_back(describeMeasurement(point, found->second));
+    }
+    return described;
+}
+
+json compareAtEqualTime(
+    const json& described, const std::string& reference, const ImageOf& imageOf
+) {
+    const json* own = nullptr;
+    std::map<std::string, const json*> nearest;
+    const json& measurements = described.at("measurements");
+    for (const json& row : measurements)
+        if (row.at("method") == reference && row.at("isDefault"))
+            own = &row;
+    if (own == nullptr)
+        return {};
+    const double time = frameTimeOf(*own);
+    std::vector<std::string> order;
+    for (const json& row : measurements) {
+        const std::string method = row.at("method");
+        const json*& best = nearest[method];
+        if (best == nullptr)
+            order.push_back(method);
+        if (best == nullptr || distanceFrom(time, row) < distanceFrom(time, *best))
+            best = &row;
+    }
+    json rows = json::array();
+    for (const std::string& method : order) {
+        if (method == reference)
+            continue;
+        const json& row = *nearest.at(method);
+        rows.push_back(
+            {{"method", method},
+             {"dial", row.at("dial")},
+             {"milliseconds", frameTimeOf(row)},
+             {"metrics", row.at("metrics")},
+             {"image", imageOf(row)}}
+        );
+    }
+    return {
+        {"case", described.at("name")},
+        {"reference", {{"method", reference}, {"dial", own->at("dial")}, {"milliseconds", time}}},
+        {"rows", rows}};
+}
+
+json describeAxis(
+    const ScalingAxis& axis,
+    const std::vector<DialPoint>& sweep,
+    const std::vector<MeasuredPoint>& points
+) {
+    json series = json::array();
+    for (const DialPoint& dial : sweep) {
+        json rows = json::array();
+        std::vector<CurvePoint> frames;
+        std::vector<CurvePoint> effects;
+        for (const MeasuredPoint& measured : points) {
+            const auto found = measured.result.records.find(makeKey(dial));
+            if (found == measured.result.records.end() || found->second.samples.empty())
+                continue;
+            json times = describeTimes(*dial.method, found->second.samples);
+            frames.push_back({measured.point->value, times.at("frame").at("median")});
+            effects.push_back({measured.point->value, times.at("effect").at("median")});
+            rows.push_back(
+                {{"value", measured.point->value},
+                 {"label", measured.point->label},
+                 {"milliseconds", times}}
+            );
+        }
+        if (rows.empty())
+            continue;
+        series.push_back(
+            {{"method", dial.method->name},
+             {"points", rows},
+             {"fit", {{"frame", describeFit(frames)}, {"effect", describeFit(effects)}}}}
+        );
+    }
+    return {{"axis", axis.name}, {"title", axis.title}, {"unit", axis.unit}, {"series", series}};
+}
+
+json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
+    const auto nameDial = [](game::Dial dial) {
+        switch (dial) {
+        case game::Dial::Samples:
+            return "samples";
+        case game::Dial::Instants:
+            return "instants";
+        case game::Dial::Rays:
+            return "rays";
+        default:
+            return "none";
+        }
+    };
+    json rows = json::array();
+    for (const game::MethodInfo* method : methods)
+        rows.push_back(
+            {{"name", method->name},
+             {"title", method->description},
+             {"publication", method->publication},
+             {"dial", nameDial(method->dial)},
+             {"default", packDial(method->defaultSamples)},
+             {"usesRays", method->needsRays}}
+        );
+    return rows;
+}
+
+json describeMetrics() {
+    return json::array(
+        {{{"id", "psnr"}, {"name", "PSNR"}, {"unit", "dB"}, {"better", "higher"}},
+         {{"id", "ssim"}, {"name", "SSIM"}, {"unit", ""}, {"better", "higher"}},
+         {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}}}
+    );
+}
+
+} // namespace shutter::bench

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Measurements as the JSON that results.schema.json describes.
+#pragma once
+
+#include "game/bench/measure.h"
+#include "game/bench/suite.h"
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shutter::bench {
+
+/// One case with the sweep it was measured with.
+[[nodiscard]] nlohmann::json describeCase(
+    const Case& shot,
+    const std::vector<DialPoint>& sweep,
+    const CaseResult& result,
+    const MeasureOptions& options
+);
+
+/// The picture file of a measurement, relative to the report's folder.
+using ImageOf = std::function<std::string(const nlohmann::json& measurement)>;
+
+/// What each other method reaches with the dial whose frame time is nearest to the reference
+/// method's at its default.
+/// \param described of describeCase()
+/// \return null where the reference was not measured
+[[nodiscard]] nlohmann::json compareAtEqualTime(
+    const nlohmann::json& described, const std::string& reference, const ImageOf& imageOf
+);
+
+struct MeasuredPoint {
+    const ScalingPoint* point = nullptr;
+    CaseResult result;
+};
+
+/// A scaling axis: a series a method, with its fit.
+[[nodiscard]] nlohmann::json describeAxis(
+    const ScalingAxis& axis,
+    const std::vector<DialPoint>& sweep,
+    const std::vector<MeasuredPoint>& points
+);
+
+[[nodiscard]] nlohmann::json describeMethods(const std::vector<const game::MethodInfo*>& methods);
+
+/// How metrics are named and which way is better.
+[[nodiscard]] nlohmann::json describeMetrics();
+
+} // namespace shutter::bench

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/suite.h"
+
+#include "game/bench/suites.h"
+
+#include <algorithm>
+#include <array>
+
+namespace shutter::bench {
+
+namespace {
+
+struct SuiteRow {
+    std::string_view name;
+    Suite (*make)();
+};
+
+constexpr std::array kSuites = {
+    SuiteRow{"paper", makePaperSuite},
+    SuiteRow{"hard", makeHardSuite},
+    SuiteRow{"scaling", makeScalingSuite},
+};
+
+std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
+    std::vector<uint32_t> powers;
+    for (uint32_t power = first; power <= last; power *= 2)
+        powers.push_back(power);
+    return powers;
+}
+
+/// Positions of a dial, rising; the method's default joins them where it lies among them.
+std::vector<uint32_t> listPositions(const game::MethodInfo& method, uint32_t maxRays) {
+    std::vector<uint32_t> positions;
+    switch (method.dial) {
+    case game::Dial::None:
+        return {0};
+    case game::Dial::Samples:
+        positions = listPowersOfTwo(4, 64);
+        break;
+    case game::Dial::Instants:
+        positions = listPowersOfTwo(2, 64); // its default is the truth itself
+        break;
+    case game::Dial::Rays:
+        positions = listPowersOfTwo(1, maxRays);
+        break;
+    }
+    if (method.defaultSamples < positions.back())
+        positions.push_back(method.defaultSamples);
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
+}
+
+} // namespace
+
+std::function<core::Status(const std::filesystem::path&)>
+makeWriter(std::function<generator::GltfWriter()> build) {
+    return [build = std::move(build)](const std::filesystem::path& file) -> core::Status {
+        if (const std::string error = build().write(file); !error.empty())
+            return core::Error{error};
+        return {};
+    };
+}
+
+core::Result<Suite> findSuite(std::string_view name) {
+    std::string names;
+    for (const SuiteRow& row : kSuites) {
+        if (row.name == name)
+            return row.make();
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+    }
+    return core::makeError("--suite '{}' is not one of {}", name, names);
+}
+
+Suite makeOwnSuite(const game::RenderArguments& shot) {
+    Suite suite;
+    suite.name = "own";
+    Case own;
+    own.name = "own";
+    own.title = std::filesystem::path(shot.scene).filename().string();
+    own.description = "A scene given on the command line.";
+    own.shot = shot;
+    suite.cases = {own};
+    return suite;
+}
+
+std::vector<DialPoint>
+makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays) {
+    std::vector<DialPoint> points;
+    for (const game::MethodInfo* method : methods)
+        for (uint32_t position : listPositions(*method, maxRays))
+            points.push_back({method, position, position == method->defaultSamples});
+    return points;
+}
+
+std::vector<DialPoint> makeDefaults(const std::vector<const game::MethodInfo*>& methods) {
+    std::vector<DialPoint> points;
+    for (const game::MethodInfo* method : methods)
+        points.push_back({method, method->defaultSamples, true});
+    return points;
+}
+
+} // namespace shutter::bench

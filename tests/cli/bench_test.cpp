@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "tests/cli/cli_fixture.h"
+#include "tests/cli/folder_watch.h"
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <sys/wait.h>
+
+namespace shutter::cli {
+
+namespace {
+
+using nlohmann::json;
+
+class BenchCommand : public Cli {
+  protected:
+    /// A run that takes seconds: three methods, two timed pictures each.
+    [[nodiscard]] Arguments benchPaper(const Arguments& more) const {
+        Arguments all = {
+            "bench",
+            "--suite",
+            "paper",
+            "--out",
+            path("report"),
+            "--size",
+            "64x36",
+            "--methods",
+            "sharp,gather,hybrid",
+            "--repeats",
+            "2",
+            "--truth-samples",
+            "8"};
+        all.insert(all.end(), kOnSoftware.begin(), kOnSoftware.end());
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    [[nodiscard]] json readResults() const { return json::parse(readFile("report/results.json")); }
+};
+
+} // namespace
+
+TEST_F(BenchCommand, NeedsASuiteOrASceneAndNotBoth) {
+    expectRefusal({"bench", "--out", path("x")}, 2, {"--suite", "SCENE"});
+    expectRefusal(
+        {"bench", "a.glb", "--suite", "paper", "--out", path("x")}, 2, {"--suite", "SCENE"}
+    );
+}
+
+TEST_F(BenchCommand, WrongNamesAreAnsweredWithTheKnownOnes) {
+    const std::string out = path("x");
+    expectRefusal({"bench", "--suite", "no", "--out", out}, 2, {"--suite", "no", "paper", "hard"});
+    expectRefusal(
+        {"bench", "--suite", "paper", "--methods", "no", "--out", out}, 2, {"--methods", "hybrid"}
+    );
+    expectRefusal(
+        {"bench", "--suite", "paper", "--case", "no", "--out", out}, 2, {"--case", "vase"}
+    );
+}
+
+TEST_F(BenchCommand, ASuiteHasShotsOfItsOwn) {
+    expectRefusal(
+        {"bench", "--suite", "paper", "--time", "1", "--out", path("x")}, 2, {"--time", "SCENE"}
+    );
+}
+
+TEST_F(BenchCommand, MeasuresEveryMethodAndDialAndMakesThePage) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    expectSuccess(benchPaper({"--validate"}));
+    const json results = readResults();
+    EXPECT_EQ(results.at("schema"), "shutter-bench");
+    EXPECT_TRUE(results.at("complete"));
+    const json& vase = results.at("cases").at(0);
+    // sharp once, gather and hybrid at 4, 8, 15, 16, 32 and 64 taps.
+    ASSERT_EQ(vase.at("measurements").size(), 13u);
+    for (const json& row : vase.at("measurements")) {
+        EXPECT_EQ(row.at("repeats"), 2);
+        EXPECT_GT(row.at("milliseconds").at("frame").at("median"), 0.0);
+        EXPECT_TRUE(fs::exists(path("report/" + row.at("image").get<std::string>())));
+        EXPECT_TRUE(fs::exists(path("report/" + row.at("errorMap").get<std::string>())));
+        EXPECT_GT(row.at("metrics").at("psnr"), 15.0);
+    }
+    EXPECT_EQ(results.at("equalTime").size(), 1u);
+    const std::string page = readFile("report/index.html");
+    EXPECT_NE(page.find("</html>"), std::string::npos);
+}
+
+TEST_F(BenchCommand, GoesOnWhereItWasStopped) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    fs::create_directories(path("report/journal"));
+    const FolderWatch watch(path("report/journal"));
+    const pid_t process = start(benchPaper({}));
+    watch.waitFor(21, process); // every write is two events; some 40 are to come
+    kill(process, SIGINT);
+    int status = 0;
+    waitpid(process, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    const json before = json::parse(readFile("report/journal/vase.json"));
+    const json kept = before.at("records").at("sharp/0");
+    ASSERT_FALSE(kept.at("picture").empty());
+    expectSuccess(benchPaper({}));
+    const json after = json::parse(readFile("report/journal/vase.json"));
+    EXPECT_EQ(after.at("records").at("sharp/0").at("picture"), kept.at("picture"));
+    EXPECT_TRUE(readResults().at("complete"));
+    // A third run measures nothing: the same times stand in its results.
+    const json twice = readResults().at("cases");
+    expectSuccess(benchPaper({}));
+    EXPECT_EQ(readResults().at("cases"), twice);
+}
+
+TEST_F(BenchCommand, ASceneOfOnesOwnIsMeasuredAsTyped) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    const std::string scene = std::string(SHUTTER_ASSETS) + "/courtyard.glb";
+    Arguments arguments = benchPaper({"--time", "0.05", "--camera", "pan", "--phase", "centre"});
+    arguments.erase(arguments.begin() + 1, arguments.begin() + 3);
+    arguments.insert(arguments.begin() + 1, scene);
+    expectSuccess(arguments);
+    const json shot = readResults().at("cases").at(0);
+    EXPECT_EQ(shot.at("title"), "courtyard.glb");
+    EXPECT_EQ(shot.at("camera"), "pan");
+    EXPECT_EQ(shot.at("phase"), "centre");
+    EXPECT_EQ(shot.at("time"), 0.05);
+}
+
+} // namespace shutter::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace shutter::bench {
+
+TEST(Fit, APowerLawIsFoundExactly) {
+    std::vector<CurvePoint> points;
+    for (double x : {300.0, 1.0, 10.0, 1e6})
+        points.push_back({x, 3.0 * std::pow(x, 0.7)});
+    const auto fit = fitPower(points);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->exponent, 0.7, 1e-12);
+    EXPECT_NEAR(fit->r2, 1.0, 1e-12);
+    EXPECT_EQ(fit->from, 1.0);
+    EXPECT_EQ(fit->to, 1e6);
+}
+
+TEST(Fit, ScatterLowersTheShareExplained) {
+    std::vector<CurvePoint> points;
+    const double logarithms[] = {0.0, 3.0, 1.0, 4.0};
+    for (int i = 0; i < 4; ++i)
+        points.push_back({std::exp(i), std::exp(logarithms[i])});
+    // By hand: xx = 5, xy = 5, yy = 10.
+    const auto fit = fitPower(points);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->exponent, 1.0, 1e-12);
+    EXPECT_NEAR(fit->r2, 0.5, 1e-12);
+}
+
+TEST(Fit, AConstantIsExplained) {
+    const std::vector<CurvePoint> flat{{1.0, 3.0}, {2.0, 3.0}};
+    const auto fit = fitPower(flat);
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->exponent, 0.0);
+    EXPECT_EQ(fit->r2, 1.0);
+}
+
+TEST(Fit, WhatHasNoLogarithmOrNoSpreadHasNoFit) {
+    using Points = std::vector<CurvePoint>;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const Points& points :
+         {Points{},
+          Points{{2.0, 3.0}},
+          Points{{2.0, 3.0}, {2.0, 5.0}},
+          Points{{0.0, 1.0}, {1.0, 2.0}, {2.0, 4.0}},
+          Points{{1.0, 0.0}, {2.0, 4.0}},
+          Points{{1.0, nan}, {2.0, 4.0}}})
+        EXPECT_FALSE(fitPower(points));
+}
+
+} // namespace shutter::bench

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/suite.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace shutter::bench {
+
+TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
+    for (const char* name : {"paper", "hard", "scaling"}) {
+        auto suite = findSuite(name);
+        ASSERT_TRUE(suite.ok()) << name;
+        std::vector<Case> cases = suite.value().cases;
+        for (const ScalingAxis& axis : suite.value().axes)
+            for (const ScalingPoint& point : axis.points)
+                cases.push_back(point.shot);
+        EXPECT_FALSE(cases.empty()) << name;
+        std::set<std::string> names;
+        for (Case& shot : cases) {
+            EXPECT_TRUE(names.insert(shot.name).second) << shot.name;
+            EXPECT_EQ(shot.name.find_first_of("/ "), std::string::npos) << shot.name;
+            shot.shot.scene = "x.glb";
+            shot.shot.out = "x.png";
+            shot.shot.size = shot.size.empty() ? "640x360" : shot.size;
+            const auto options = game::interpret(shot.shot);
+            EXPECT_TRUE(options.ok()) << shot.name << ": " << options.error().message;
+        }
+    }
+}
+
+TEST(Suites, TheHardOneHasTwelveCases) {
+    EXPECT_EQ(findSuite("hard").value().cases.size(), 12u);
+}
+
+TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+    const auto found = findSuite("nosuch");
+    ASSERT_FALSE(found.ok());
+    for (const char* part : {"--suite", "nosuch", "paper", "hard", "scaling"})
+        EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
+}
+
+TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
+    std::vector<const game::MethodInfo*> methods;
+    for (const game::MethodInfo& method : game::listMethods())
+        methods.push_back(&method);
+    const std::vector<DialPoint> sweep = makeSweep(methods, 256);
+    for (size_t i = 1; i < sweep.size(); ++i)
+        if (sweep[i].method == sweep[i - 1].method) {
+            EXPECT_LT(sweep[i - 1].samples, sweep[i].samples) << sweep[i].method->name;
+        }
+    for (const game::MethodInfo* method : methods) {
+        const auto isDefault = [&](const DialPoint& point) {
+            return point.method == method && point.isDefault;
+        };
+        const auto count = std::count_if(sweep.begin(), sweep.end(), isDefault);
+        // The truth's own default is what the others are compared with.
+        EXPECT_EQ(count, method->dial == game::Dial::Instants ? 0 : 1) << method->name;
+    }
+}
+
+} // namespace shutter::bench
