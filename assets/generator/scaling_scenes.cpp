@@ -91,7 +91,7 @@ Shape pumpkin(float radius, int ringCount) {
         const float around = std::atan2(direction.z, direction.x);
         const float level = std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y));
         position *= 1.0f + 0.06f * level * std::cos(10.0f * around) +
-                    0.012f * level * std::cos(40.0f * direction.y);
+                    0.012f * level * std::cos(14.0f * direction.y);
     }
     return shape;
 }
@@ -149,7 +149,7 @@ GltfWriter buildTrianglesScene(int count) {
         relief(half, columnCount, rowCount),
         addTextured(writer, "bricks", bricks(), 0.95f)
     );
-    Shape mover = pumpkin(0.8f, ringCount);
+    Shape mover = withUvScale(pumpkin(0.8f, ringCount), {4.0f, 2.0f});
     smoothNormals(mover);
     addObject(
         writer,

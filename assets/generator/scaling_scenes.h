@@ -16,7 +16,7 @@ inline constexpr const char* kScalingCamera = "main";
 
 inline constexpr int kMaxEntityCount = 10'000;
 inline constexpr int kMinTriangleCount = 1'000;
-inline constexpr int kMaxTriangleCount = 2'000'000;
+inline constexpr int kMaxTriangleCount = 1'000'000;
 
 /// `count` boxes, all moving, that share one mesh and one material, in a grid before a wall. They
 /// get smaller as they get more: together they always hide the same share of the picture, and move

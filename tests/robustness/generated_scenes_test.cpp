@@ -136,11 +136,14 @@ TEST(ScalingScenes, HoldAsManyTrianglesAsAskedForWithin2Percent) {
     }
 }
 
-TEST(ScalingScenes, TriangleCountsBelowTheRangeAreClamped) {
+TEST(ScalingScenes, TriangleCountsOutsideTheRangeAreClamped) {
     for (const int count : {-1, 0, 3}) {
         const scene::World world = writeAndLoad("triangles_clamped", buildTrianglesScene(count));
         EXPECT_NEAR(double(countTriangles(world)), kMinTriangleCount, 0.02 * kMinTriangleCount);
     }
+    const scene::World world =
+        writeAndLoad("triangles_clamped", buildTrianglesScene(kMaxTriangleCount * 3 / 2));
+    EXPECT_NEAR(double(countTriangles(world)), kMaxTriangleCount, 0.02 * kMaxTriangleCount);
 }
 
 TEST(ScalingScenes, AShareOfNothingOrNaNHasNoPanels) {
