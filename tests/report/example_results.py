@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Synthetic results of each suite for the report's tests: no figure here was measured.
 
-Pictures and figures come from formulas, so that a test knows them and nothing has to be kept. Run by
-hand, `example_results.py SUITE FOLDER` writes results.json and its pictures to look at.
+Pictures and figures come from formulas, so that a test knows them and nothing has to be kept. Run
+by hand, `example_results.py SUITE FOLDER` writes results.json and its pictures to look at.
 """
 
 import json
@@ -169,7 +169,8 @@ def measurement(method, dial, case, index, keep_pictures):
 
 
 def make_case(name, title, index, methods, keep_pictures):
-    skipped = [{"method": "truth", "dial": 256, "reason": "predicted 300 s, above the limit of 60 s"}]
+    skipped = [{"method": "truth", "dial": 256,
+                "reason": "predicted 300 s, above the limit of 60 s"}]
     return {
         "name": name, "title": title,
         "description": f"a synthetic disc moves before stripes ({title}).",
@@ -247,8 +248,8 @@ def make(suite):
         "revision": {"git": "abc1234", "dirty": suite == "hard"},
         "machine": {"cpu": "synthetic CPU", "cores": 2, "memoryBytes": 8 << 30,
                     "os": "synthetic OS"},
-        "device": {"name": "synthetic device", "driver": "none", "driverInfo": "no driver </script>",
-                   "api": "1.3.0", "software": True},
+        "device": {"name": "synthetic device", "driver": "none",
+                   "driverInfo": "no driver </script>", "api": "1.3.0", "software": True},
         "settings": {"width": WIDTH, "height": HEIGHT, "repeats": 7, "pixel": "centre",
                      "tonemap": "neutral"},
         "metrics": [

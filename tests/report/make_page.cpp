@@ -6,6 +6,11 @@
 #include <cstdio>
 
 int main(int argc, char** argv) {
+    if (const shutter::core::Status possible = shutter::game::checkReportPageCanBeMade();
+        !possible) {
+        std::fprintf(stderr, "%s\n", possible.error().message.c_str());
+        return 77; // the tests skip
+    }
     if (argc != 2) {
         std::fputs("usage: test_report_make_page FOLDER\n", stderr);
         return 2;

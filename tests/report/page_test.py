@@ -1,47 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The report page in headless Chromium: what it draws is what the results say."""
+"""The report page in headless Chromium: what it draws and says is what the results say."""
 
-import contextlib
-import os
-import pathlib
-import shutil
+import json
 import statistics
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import example_results
-
-try:
-    from selenium import webdriver
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import Select, WebDriverWait
-except ImportError:
-    print("skipped: the package python3-selenium is missing")
-    sys.exit(77)
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-DRIVER = shutil.which("chromedriver")
-if not CHROMIUM or not DRIVER:
-    print("skipped: the packages chromium and chromium-driver are missing")
-    sys.exit(77)
-
-CHART = "return Chart.getChart(document.querySelector(arguments[0])).data.datasets"
-DATASETS = CHART + ".map((set) => ({label: set.label, data: set.data.map(({x, y}) => [x, y])}))"
-
-
-def start_browser(profile):
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    # Containers run the tests as root and have little /dev/shm.
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     "--window-size=1280,900", f"--user-data-dir={profile}"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+from page_case import CHART, MAKE_PAGE, PageCase, By
 
 
 def find_front(points, higher):
@@ -53,55 +19,7 @@ def find_front(points, higher):
     return sorted(p for p in points if not any(beats(q, p) for q in points))
 
 
-class Page(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        with contextlib.ExitStack() as stack:
-            cls.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
-            cls.results = {}
-            for suite in ("paper", "hard", "scaling"):
-                cls.results[suite] = example_results.write(suite, cls.folder / suite)
-                subprocess.run([os.environ["SHUTTER_MAKE_PAGE"], cls.folder / suite], check=True)
-                # The page has to stand alone.
-                (cls.folder / suite / "results.json").unlink()
-                shutil.rmtree(cls.folder / suite / "images")
-            cls.browser = start_browser(cls.folder / "profile")
-            stack.callback(cls.browser.quit)
-            cls.browser.execute_cdp_cmd("Network.enable", {})
-            cls.browser.execute_cdp_cmd("Network.emulateNetworkConditions", {
-                "offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
-            cls.addClassCleanup(stack.pop_all().close)
-
-    def open(self, suite, width=1280, theme="light"):
-        """A fresh page; the window is wide or narrow, the reader's theme light or dark."""
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-            "features": [{"name": "prefers-color-scheme", "value": theme}]})
-        self.browser.get((self.folder / suite / "index.html").as_uri())
-        WebDriverWait(self.browser, 60).until(lambda browser: browser.execute_script(
-            "return document.documentElement.dataset.ready === 'true' &&"
-            " [...document.images].every((image) => image.complete)"))
-
-    def tearDown(self):
-        self.assertEqual(self.browser.get_log("browser"), [])
-
-    def find(self, selector):
-        return self.browser.find_element(By.CSS_SELECTOR, selector)
-
-    def find_all(self, selector):
-        return self.browser.find_elements(By.CSS_SELECTOR, selector)
-
-    def js(self, script, *arguments):
-        return self.browser.execute_script(script, *arguments)
-
-    def show_all_methods(self):
-        for button in self.find_all('#tradeoff-legend [aria-pressed="false"]'):
-            button.click()
-
-    def datasets(self, canvas="#tradeoff-chart"):
-        return {d["label"]: d["data"] for d in self.js(DATASETS, canvas)}
-
+class Page(PageCase):
     def expected_points(self, case, metric, time="frame"):
         points = {}
         for m in sorted(case["measurements"], key=lambda m: m["dial"] or 0):
@@ -109,8 +27,9 @@ class Page(unittest.TestCase):
                 [m["milliseconds"][time]["median"], m["metrics"][metric]])
         return points
 
-    def choose(self, selector, value):
-        Select(self.find(selector)).select_by_value(value)
+    def show_all_methods(self):
+        for button in self.find_all('#tradeoff-legend [aria-pressed="false"]'):
+            button.click()
 
     # The whole page
 
@@ -165,6 +84,64 @@ class Page(unittest.TestCase):
         self.js("dispatchEvent(new Event('afterprint'))")
         self.assertEqual(self.js(grid), dark)
 
+    # Results that hold little, or too little
+
+    def make_page(self, name, change):
+        results = example_results.make("paper")
+        for case in results["cases"]:
+            case["crops"] = []
+            del case["truth"]["image"]
+            for m in case["measurements"]:
+                m.pop("image", None)
+                m.pop("errorMap", None)
+        for row in results["equalTime"][0]["rows"]:
+            row.pop("image", None)
+        change(results)
+        (self.folder / name).mkdir()
+        (self.folder / name / "results.json").write_text(json.dumps(results), encoding="utf-8")
+        subprocess.run([MAKE_PAGE, self.folder / name], check=True)
+        self.open(name, ready=name != "broken")
+
+    def shown(self):
+        return {s.get_attribute("id") for s in self.find_all("section") if s.is_displayed()}
+
+    def test_a_run_without_cases_says_so(self):
+        self.make_page("empty", lambda r: r.update(cases=[], equalTime=[], paper={
+            "source": "nowhere", "case": "vase", "method": "hybrid"}))
+        self.assertEqual(self.find("#headline").text, "No figures were taken.")
+        self.assertEqual(self.shown(), {"about"})
+
+    def test_a_case_without_pictures_has_no_empty_sections(self):
+        self.make_page("plain", lambda r: None)
+        self.assertEqual(self.shown(), {"ladder", "tradeoff", "tables", "equal-time", "about"})
+
+    def test_one_measurement_is_drawn(self):
+        def keep_one(results):
+            case = results["cases"][0]
+            case["measurements"] = [m for m in case["measurements"] if m["method"] == "sharp"]
+            results.update(equalTime=[])
+        self.make_page("single", keep_one)
+        self.assertEqual(self.datasets()["sharp"], [[100, 22]])
+        self.assertEqual(self.find("#headline").text, "1 measurement over 1 case.")
+
+    def test_pictures_equal_to_the_truth_are_listed_and_not_drawn(self):
+        def equalize(results):
+            for m in results["cases"][0]["measurements"]:
+                m["metrics"].update(psnr=None, ssim=1, flip=0)
+        self.make_page("equal", equalize)
+        drawn = self.datasets()
+        self.assertEqual([p for points in drawn.values() for p in points], [])
+        self.assertIn("hybrid, 15 samples (equal to the truth", self.find(
+            "#tradeoff-omitted").text)
+        self.assertIn("∞", self.find("#ladder-table").text)
+        self.choose("#metric", "flip")
+        self.assertEqual(len(self.datasets()["hybrid"]), 5)
+
+    def test_says_what_is_wrong_with_results_it_cannot_draw(self):
+        self.make_page("broken", lambda r: r.pop("device"))
+        self.assertIn("could not be drawn in full", self.find("#failure").text)
+        self.assertEqual(len(self.browser.get_log("browser")), 1)
+
     # Sentences
 
     def test_headline_has_the_figures_of_the_results(self):
@@ -190,8 +167,9 @@ class Page(unittest.TestCase):
         truth = next(r for r in self.results["paper"]["equalTime"][0]["rows"]
                      if r["method"] == "truth")
         text = self.find("#lede").text
+        ratio = time(best) / time(hybrid)
         self.assertIn(f"{best['method']}, {best['dial']} rays, reaches "
-                      f"{best['metrics']['psnr']:.1f} dB for {time(best) / time(hybrid):.1f}×", text)
+                      f"{best['metrics']['psnr']:.1f} dB for {ratio:.1f}×", text)
         self.assertIn(f"truth traces 1 ray a pixel and reaches {truth['metrics']['psnr']:.1f} dB",
                       text)
 
@@ -231,7 +209,7 @@ class Page(unittest.TestCase):
         self.assertIn("accumulate made the truth", self.find("#tradeoff-note").text)
         row = next(row for row in self.find_all("#ladder-table tbody tr")
                    if row.text.startswith("accumulate"))
-        self.assertIn("judged by itself", row.text)
+        self.assertIn("it made the truth", row.text)
         self.assertNotIn("accumulate", self.find("#lede").text)
 
     def test_tradeoff_has_every_point_for_every_metric_and_time(self):
@@ -386,96 +364,6 @@ class Page(unittest.TestCase):
         kinds = {axis: self.js("return Chart.getChart(arguments[0]).options.scales.x.type",
                                f"scaling-{axis}") for axis in ("resolution", "moving")}
         self.assertEqual(kinds, {"resolution": "logarithmic", "moving": "linear"})
-
-    # Pictures
-
-    def panels(self):
-        return [f.get_attribute("data-picture") for f in self.find_all("#pictures-panels figure")]
-
-    def sources(self, selector):
-        return [image.get_attribute("src") for image in self.find_all(selector)]
-
-    def test_panels_are_the_papers_figure(self):
-        self.open("paper")
-        self.assertEqual(self.panels(), ["sharp", "gather, 15 samples", "hybrid, 15 samples",
-                                         "truth-reference"])
-        whole = self.sources("#pictures-panels .viewport:not(.crop) img")
-        self.assertEqual(len(set(whole)), 4)
-
-    def test_a_panel_takes_another_picture(self):
-        self.open("paper")
-        Select(self.find("#pictures-panels figure:nth-child(2) select")).select_by_value(
-            "denoised, 1 ray")
-        self.assertEqual(self.panels()[1], "denoised, 1 ray")
-
-    def test_panels_show_error_maps(self):
-        self.open("paper")
-        pictures = self.sources("#pictures-panels .viewport:not(.crop) img")
-        self.find("#pictures-show input[value=errorMap]").click()
-        maps = self.sources("#pictures-panels .viewport:not(.crop) img")
-        self.assertEqual(len(maps), 3)
-        self.assertFalse(set(maps) & set(pictures))
-        self.assertIn("the truth has no error", self.find("#pictures-panels").text)
-
-    def test_a_crop_enlarges_without_smoothing(self):
-        self.open("paper")
-        crop = self.find("#pictures-panels figure:nth-child(1) .crop-button")
-        self.js("arguments[0].scrollIntoView({block: 'center'})", crop)
-        crop.click()
-        images = self.find_all("#zoom[open] img")
-        self.assertEqual(len(images), 4)
-        self.assertEqual(images[0].value_of_css_property("image-rendering"), "pixelated")
-        WebDriverWait(self.browser, 10).until(lambda _: images[0].size["width"] > 1000)
-        # The crop is 32 of 160 pixels wide and begins at 40.
-        ratio, left = self.js(
-            "const image = arguments[0], box = image.parentElement.getBoundingClientRect();"
-            "const own = image.getBoundingClientRect();"
-            "return [own.width / box.width, (box.left - own.left) / own.width]", images[0])
-        self.assertAlmostEqual(ratio, 160 / 32, places=2)
-        self.assertAlmostEqual(left, 40 / 160, places=2)
-        self.find("#zoom button").click()
-        self.assertFalse(self.find_all("#zoom[open]"))
-
-    # Slider
-
-    def slider(self):
-        handle = self.find("#slider-handle")
-        clip = self.js("return document.getElementById('slider-over').style.clipPath")
-        right = float(clip.split()[1].rstrip("%"))
-        self.assertEqual(round(100 - right), int(handle.get_attribute("aria-valuenow")))
-        return 100 - right
-
-    def test_slider_moves_by_drag(self):
-        self.open("paper")
-        frame = self.find("#slider-frame")
-        self.js("arguments[0].scrollIntoView({block: 'center'})", frame)
-        self.assertEqual(self.slider(), 50)
-        width = frame.size["width"]
-        ActionChains(self.browser).move_to_element(self.find("#slider-handle")).click_and_hold() \
-            .move_by_offset(int(width * 0.25), 0).release().perform()
-        self.assertAlmostEqual(self.slider(), 75, delta=1)
-        ActionChains(self.browser).move_by_offset(-int(width * 0.5), 0).perform()
-        self.assertAlmostEqual(self.slider(), 75, delta=1, msg="moves without the button")
-
-    def test_slider_moves_by_key_and_stops_at_its_ends(self):
-        self.open("paper")
-        handle = self.find("#slider-handle")
-        self.assertEqual(handle.get_attribute("role"), "slider")
-        for key, expected in ((Keys.ARROW_RIGHT, 51), (Keys.ARROW_LEFT, 50), (Keys.PAGE_UP, 60),
-                              (Keys.END, 100), (Keys.ARROW_RIGHT, 100), (Keys.HOME, 0),
-                              (Keys.ARROW_LEFT, 0)):
-            handle.send_keys(key)
-            self.assertEqual(self.slider(), expected)
-
-    def test_slider_takes_any_two_pictures_and_a_region(self):
-        self.open("paper")
-        before = self.sources("#slider-frame img")
-        self.choose("#slider-left", "sharp")
-        self.choose("#slider-right", "sharp: error")
-        after = self.sources("#slider-frame img")
-        self.assertEqual(len(set(before + after)), 4)
-        self.choose("#slider-region", "1")
-        self.assertEqual(len(self.find_all("#slider-frame .viewport.crop")), 2)
 
 
 if __name__ == "__main__":

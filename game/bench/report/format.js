@@ -50,6 +50,11 @@ function nameDial(methodName, dial) {
     return dial === 1 ? `1 ${unit.replace(/s$/, "")}` : `${formatNumber(dial, 0)} ${unit}`;
 }
 
+/** "1 case", "12 cases" */
+function countOf(count, noun) {
+    return `${formatNumber(count, 0)} ${noun}${count === 1 ? "" : "s"}`;
+}
+
 /** "hybrid, 15 samples" */
 function nameMeasurement(methodName, dial) {
     const amount = nameDial(methodName, dial);

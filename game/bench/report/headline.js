@@ -72,6 +72,14 @@ function listRivals(pair, metric) {
     }));
 }
 
+/** Where there is no pair to compare. */
+function writeCountSentence() {
+    const count = results.cases.reduce((sum, c) => sum + c.measurements.length, 0);
+    return count > 0
+        ? `${countOf(count, "measurement")} over ${countOf(results.cases.length, "case")}.`
+        : "No figures were taken.";
+}
+
 /** What it costs to come closer than the headline's method. */
 function writeNextSentence(pair, metric) {
     const {method} = pair;
@@ -106,7 +114,7 @@ function drawHeadline() {
     const metric = results.metrics[0];
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
-    const headline = pairSentence ?? writeScalingSentence() ?? "No figures were taken.";
+    const headline = pairSentence ?? writeScalingSentence() ?? writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
         `Shutter benchmark, suite ${results.suite}`, `${width}×${height}`, results.device.name,
@@ -157,7 +165,8 @@ function drawLadder() {
     const isRanked = (row) => !truthMethods.has(row.method.name);
     const front = new Set(findParetoFront(points.filter(isRanked), metric).map((p) => p.method));
     const timeScale = makeScale(rows.map((row) => row.time), true);
-    const metricScale = makeScale(rows.filter(isRanked).map((row) => row.metrics[metric.id]), false);
+    const ranked = rows.filter(isRanked).map((row) => row.metrics[metric.id]);
+    const metricScale = makeScale(ranked, false);
     const others = results.metrics.filter((m) => m !== metric);
     const fastest = rows.find((row) => row.time > 0)?.time;
     const columns = ["Method", {content: "ms", class: "n"}, {content: "×", class: "n"},
@@ -173,7 +182,7 @@ function drawLadder() {
         {content: formatMetric(metric, row.metrics[metric.id]), class: "n"},
         {content: isRanked(row)
             ? makeStrip(metricScale(row.metrics[metric.id]), row.method.name)
-            : "judged by itself: it made the truth", class: "wide soft"},
+            : "it made the truth", class: "wide soft"},
         ...others.map((m) => ({content: formatMetric(m, row.metrics[m.id]), class: "n"})),
         {content: front.has(row.method) ? "yes" : "", class: "soft"},
     ]);

@@ -89,7 +89,7 @@ function drawPictures() {
         `${formatNumber(time, 3)} s, exposure ${formatNumber(exposure * 1000, 1)} ms, raster ` +
         `instant at its ${phase}. Choose a crop to enlarge it.`;
     byId("pictures-scale").textContent = kind === "errorMap"
-        ? "FLIP: black is no difference that a person would see, bright yellow the greatest." : "";
+        ? "FLIP: black is no difference that a person would see, pale yellow the greatest." : "";
     byId("pictures-panels").replaceChildren(...choosePanels(list).map((picture, place) =>
         makePanel(theCase, list, picture, place, kind)));
 }

@@ -104,9 +104,9 @@ function drawTables() {
     }
     if (paper.table2) {
         const where = `Printed: ${paper.table2.device}. Ours: ${results.device.name}, ` +
-            `${results.settings.width}×${results.settings.height}, ${paper.method}; a pass is the ` +
-            "sum of the medians of what it stands for here (point at its name). Shares of the " +
-            "whole compare devices that milliseconds do not.";
+            `${results.settings.width}×${results.settings.height}, ${paper.method}; a pass is ` +
+            "the sum of the medians of what it stands for here (point at its name). Shares of " +
+            "the whole compare devices that milliseconds do not.";
         parts.push(el("h3", {}, "Table 2: milliseconds a pass"), el("p", {}, where),
             makeTable2(paper.table2, theCase, paper.method));
     }

@@ -145,12 +145,12 @@ function drawTradeoff() {
     reveal("tradeoff");
     const {truth} = theCase;
     byId("tradeoff-note").textContent = `${theCase.title}: ${theCase.description} The truth is ` +
-        `${nameMeasurement(truth.method, truth.samples)}. A line joins a method's measurements by ` +
-        "its dial; the name stands at its default. Filled markers trace rays. Whiskers are " +
+        `${nameMeasurement(truth.method, truth.samples)}. A line joins a method's measurements ` +
+        "by its dial; the name stands at its default. Filled markers trace rays. Whiskers are " +
         "quartiles of time; point at a marker for its figures." + (methodsOf(theCase)
             .some((method) => method.name === truth.method)
-            ? ` ${truth.method} made the truth, so it is judged by itself: it is hidden until its ` +
-                "name in the legend is pressed." : "");
+            ? ` ${truth.method} made the truth, so it is judged by itself: it is hidden until ` +
+                "its name in the legend is pressed." : "");
     drawLegend(theCase);
     const front = drawTradeoffChart(theCase, metric);
     byId("tradeoff-front").replaceChildren(tabulate(front.map((p) => p.measurement)));
