@@ -109,11 +109,14 @@ function placeName({x, y}, width, area, taken) {
         inside[0] ?? places[0];
 }
 
-/** 1, 2 and 5 of each decade. */
-function logTick(value) {
+/** 1, 2 and 5 of each decade, or all nine where the axis spans less than one. */
+function isLogTick(value, isShort) {
     const leading = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-    const shown = [1, 2, 5].some((digit) => Math.abs(leading - digit) < 1e-6);
-    if (!shown) return null;
+    const digits = isShort ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : [1, 2, 5];
+    return digits.some((digit) => Math.abs(leading - digit) < 1e-6);
+}
+
+function nameLogTick(value) {
     if (value >= 1e6) return `${value / 1e6} M`;
     return value.toLocaleString("en", {maximumSignificantDigits: 3});
 }
@@ -130,9 +133,10 @@ function makeAxis(title, logarithmic, values) {
         ticks: {},
     };
     if (logarithmic) {
-        axis.ticks = {callback: logTick, autoSkip: true, maxRotation: 0, autoSkipPadding: 12};
+        const isShort = Math.max(...values) < 10 * Math.min(...values);
+        axis.ticks = {callback: nameLogTick, autoSkip: true, maxRotation: 0, autoSkipPadding: 12};
         axis.afterBuildTicks = (scale) => {
-            scale.ticks = scale.ticks.filter((tick) => logTick(tick.value) !== null);
+            scale.ticks = scale.ticks.filter((tick) => isLogTick(tick.value, isShort));
         };
         if (values.length > 0) {
             axis.min = Math.min(...values) * 0.8;
