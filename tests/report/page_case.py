@@ -68,12 +68,12 @@ class PageCase(unittest.TestCase):
                 "offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
             cls.addClassCleanup(stack.pop_all().close)
 
-    def open(self, suite, width=1280, theme="light", ready=True):
+    def open(self, suite, width=1280, theme="light", media="screen", ready=True):
         """A fresh page in a window so wide and in the reader's theme; not `ready`: it will fail."""
         self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
             "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-            "features": [{"name": "prefers-color-scheme", "value": theme}]})
+            "media": media, "features": [{"name": "prefers-color-scheme", "value": theme}]})
         self.browser.get((self.folder / suite / "index.html").as_uri())
         if not ready:
             return

@@ -11,7 +11,7 @@ function drawMatrix() {
     reveal("matrix");
     byId("matrix-note").textContent = `${describeMetric(metric)}; every method at its default ` +
         "dial. The stronger the colour of a cell, the closer it is to the best of its row, " +
-        "which is framed. " +
+        "which is framed. What made the truth is judged by itself and takes no part. " +
         "Choose a case by its name to see it in the other sections.";
     const methods = results.methods.filter((method) =>
         results.cases.some((c) => defaultOf(c, method.name)));
@@ -21,10 +21,12 @@ function drawMatrix() {
             const found = defaultOf(theCase, method.name);
             return found ? metricOf(found, metric) : Number.NaN;
         });
-        const best = findBest(values.filter((v) => !Number.isNaN(v)), metric);
+        const ranked = values.map((value, i) =>
+            (methods[i].name === theCase.truth.method ? Number.NaN : value));
+        const best = findBest(ranked.filter((v) => !Number.isNaN(v)), metric);
         // An infinite best would put all others infinitely far: they are shaded from the next.
-        const top = findBest(values.filter(Number.isFinite), metric);
-        const distances = values.map((v) => Math.max(0, gain(metric, top, v)));
+        const top = findBest(ranked.filter(Number.isFinite), metric);
+        const distances = ranked.map((v) => Math.max(0, gain(metric, top, v)));
         gaps.push(...distances.filter(Number.isFinite));
         return {theCase, values, best, distances};
     });
@@ -39,7 +41,8 @@ function drawMatrix() {
             onclick: () => choose({case: theCase}),
         }, theCase.title)},
         ...values.map((value, i) => {
-            if (Number.isNaN(value)) return {content: "–", class: "n soft"};
+            if (Number.isNaN(distances[i]))
+                return {content: formatMetric(metric, value), class: "n soft"};
             const far = distances[i] / scale;
             const strength = value === best ? 1 : Math.max(0, 1 - far);
             return {
