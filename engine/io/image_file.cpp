@@ -8,6 +8,7 @@
 #include <cmath>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace shutter::io {
 
@@ -103,6 +104,13 @@ void checkImage(const image::Image& image) {
 } // namespace
 
 core::Result<image::Image> readImage(const fs::path& path) {
+    core::Result<StoredImage> stored = readStoredImage(path);
+    if (!stored)
+        return stored.error();
+    return std::move(stored.value().image);
+}
+
+core::Result<StoredImage> readStoredImage(const fs::path& path) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
         return core::makeError("cannot read '{}': no such file", path.string());
@@ -117,13 +125,14 @@ core::Result<image::Image> readImage(const fs::path& path) {
     const std::string why = oiio::readFloats(path.string(), pixels);
     if (!why.empty())
         return core::makeError("cannot read '{}': {}", path.string(), why);
-    image::Image image;
-    image.width = pixels.width;
-    image.height = pixels.height;
-    image.channels = pixels.channels;
-    image.pixels = std::move(pixels.values);
-    image.channelNames = std::move(pixels.channelNames);
-    return image;
+    StoredImage stored;
+    stored.image.width = pixels.width;
+    stored.image.height = pixels.height;
+    stored.image.channels = pixels.channels;
+    stored.image.pixels = std::move(pixels.values);
+    stored.image.channelNames = std::move(pixels.channelNames);
+    stored.isDisplayEncoded = pixels.isShortInteger;
+    return stored;
 }
 
 core::Result<bool> isDisplayFormat(const fs::path& path) {

@@ -15,6 +15,15 @@ namespace shutter::io {
 /// Reads any picture OpenImageIO knows as floats (8-bit formats: value / 255, not linearised).
 [[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
 
+/// A picture and what its file says of the values.
+struct StoredImage {
+    image::Image image;
+    bool isDisplayEncoded = false; ///< 8 or 16 bits: sRGB; else (EXR, HDR) linear light, or data
+};
+
+/// As readImage.
+[[nodiscard]] core::Result<StoredImage> readStoredImage(const std::filesystem::path& path);
+
 /// True where the extension stores values in [0, 1] for display (.png .jpg .jpeg), false for .exr.
 /// An Error names the extension when it is neither.
 [[nodiscard]] core::Result<bool> isDisplayFormat(const std::filesystem::path& path);

@@ -85,6 +85,7 @@ std::string readOpened(ImageInput& input, FloatPixels& out) {
     out.height = uint32_t(spec.height);
     out.channels = uint32_t(spec.nchannels);
     out.channelNames.assign(spec.channelnames.begin(), spec.channelnames.end());
+    out.isShortInteger = spec.format == TypeDesc::UINT8 || spec.format == TypeDesc::UINT16;
     out.values.resize(count);
     const bool done =
         hasUintChannel(spec)

@@ -17,6 +17,7 @@ struct FloatPixels {
     uint32_t channels = 0;
     std::vector<float> values;
     std::vector<std::string> channelNames;
+    bool isShortInteger = false; ///< stored in 8 or 16 bits, not as floats or 32-bit integers
 };
 
 struct Rgba8Pixels {

@@ -63,6 +63,22 @@ TEST(ImageFile, AFloatExrComesBackExactlyWithItsChannelNames) {
     EXPECT_EQ(read.value().channelNames, image.channelNames);
 }
 
+TEST(ImageFile, EightBitPicturesAreStoredForADisplayAndFloatsAndIdsAreNot) {
+    const TempFolder folder;
+    for (const char* name : {"a.png", "a.jpg", "a.exr"}) {
+        ASSERT_TRUE(writeImage(folder.path() / name, makeRamp(4, 4, 3)));
+        const core::Result<StoredImage> read = readStoredImage(folder.path() / name);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(read.value().isDisplayEncoded, std::string(name) != "a.exr") << name;
+        EXPECT_EQ(read.value().image.pixels, readImage(folder.path() / name).value().pixels);
+    }
+    for (const SampleType type : {SampleType::Half, SampleType::Uint}) {
+        ASSERT_TRUE(writeImage(folder.path() / "b.exr", makeRamp(4, 4, 1), type));
+        EXPECT_FALSE(readStoredImage(folder.path() / "b.exr").value().isDisplayEncoded);
+    }
+    EXPECT_FALSE(readStoredImage(folder.path() / "missing.exr"));
+}
+
 TEST(ImageFile, AnExrKeepsInfinityAndNaN) {
     const TempFolder folder;
     image::Image image(2, 1, 1);
