@@ -26,6 +26,10 @@ gpu::ComputePipelineDesc describePipeline() {
 
 } // namespace
 
+float computeGain(const TonemapSettings& settings) {
+    return static_cast<float>(std::exp2(std::clamp(settings.exposureValue, -32.0, 32.0)));
+}
+
 Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
     : mSampler(device.nearestSampler()), mSettings(settings),
       mPipeline(device, describePipeline()) {}
@@ -44,7 +48,7 @@ void Tonemap::declare(render::PostContext& context) {
 
     shader::TonemapParams params{};
     params.sizePx = {context.facts.width, context.facts.height};
-    params.gain = static_cast<float>(std::exp2(std::clamp(mSettings.exposureValue, -32.0, 32.0)));
+    params.gain = computeGain(mSettings);
     params.operator_ =
         mSettings.op == Operator::Neutral ? shader::kTonemapNeutral : shader::kTonemapNone;
     const Data& pass = context.graph.addPass<Data>(

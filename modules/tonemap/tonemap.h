@@ -20,6 +20,9 @@ struct TonemapSettings {
     double exposureValue = 0.0; ///< stops: the picture is multiplied by 2^EV first, [-32, 32]
 };
 
+/// 2^EV, the factor before the operator.
+[[nodiscard]] float computeGain(const TonemapSettings& settings);
+
 /// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8).
 class Tonemap : public render::PostEffect {
   public:
