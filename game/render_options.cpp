@@ -2,6 +2,7 @@
 #include "game/render_options.h"
 
 #include "engine/io/image_file.h"
+#include "game/tonemap_options.h"
 #include "shaders/common/numeric.glsl"
 
 #include <CLI/CLI.hpp>
@@ -240,18 +241,13 @@ Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
     if (options.isSequence && options.frameTimes.size() > 1 &&
         frameFile(options.out, 0) == frameFile(options.out, 1))
         return makeError("--out '{}' needs a frame number such as %04d", arguments.out);
-    if (arguments.tonemap == "neutral")
-        options.tonemap.op = tonemap::Operator::Neutral;
-    else if (arguments.tonemap == "none")
-        options.tonemap.op = tonemap::Operator::None;
-    else
-        return makeError("--tonemap '{}' is not one of neutral, none", arguments.tonemap);
+    auto tonemap = interpretTonemap(arguments.tonemap, arguments.exposureValue);
+    if (!tonemap)
+        return tonemap.error();
+    options.tonemap = tonemap.value();
     // Unlit pictures show the materials' own colours.
     if (arguments.unlit)
         options.tonemap.op = tonemap::Operator::None;
-    if (!(std::abs(arguments.exposureValue) <= 32.0))
-        return makeError("--ev must lie in [-32, 32]");
-    options.tonemap.exposureValue = arguments.exposureValue;
     return {};
 }
 
@@ -292,8 +288,7 @@ void defineShotOptions(CLI::App& command, RenderArguments& a) {
     command.add_flag("--unlit", a.unlit, "base colour only");
     command.add_option("--background", a.background, "R,G,B linear; default 0.18,0.18,0.18");
     command.add_option("--ambient", a.ambient, "uniform light, R,G,B; default 0.25,0.25,0.25");
-    command.add_option("--ev", a.exposureValue, "stops of exposure before tone mapping; default 0");
-    command.add_option("--tonemap", a.tonemap, "neutral (default) or none");
+    defineTonemapOptions(command, a.tonemap, a.exposureValue);
     command.add_option(
         "--set", a.settings, "NAME=VALUE of the motion blur's settings (repeatable)"
     );

@@ -17,13 +17,25 @@ constexpr int kUsage = 2;
 
 class CliCompare : public Cli {
   protected:
-    void
-    writePicture(const std::string& name, uint32_t size, uint32_t channels, float value) const {
+    void writePicture(
+        const std::string& name,
+        uint32_t size,
+        uint32_t channels,
+        float value,
+        const std::vector<std::string>& channelNames = {}
+    ) const {
         image::Image picture(size, size, channels);
         for (float& pixel : picture.pixels)
             pixel = value;
+        picture.channelNames = channelNames;
         const core::Status written = io::writeImage(path(name), picture);
         ASSERT_TRUE(written.ok()) << written.error().message;
+    }
+
+    [[nodiscard]] nlohmann::json compareAsJson(Arguments arguments) const {
+        arguments.insert(arguments.begin(), "compare");
+        arguments.push_back("--json");
+        return nlohmann::json::parse(expectSuccess(arguments).out);
     }
 };
 
@@ -67,45 +79,144 @@ TEST_F(CliCompare, AHeatMapThatCannotBeWrittenIsRefused) {
 
 TEST_F(CliCompare, EqualPicturesAreEqual) {
     writePicture("a.png", 16, 3, 0.5f);
-    EXPECT_EQ(expectSuccess({"compare", "a.png", "a.png"}).out, "PSNR inf dB  SSIM 1.0000\n");
-    const auto json =
-        nlohmann::json::parse(expectSuccess({"compare", "a.png", "a.png", "--json"}).out);
+    EXPECT_EQ(
+        expectSuccess({"compare", "a.png", "a.png"}).out,
+        "PSNR inf dB  SSIM 1.0000  FLIP 0.0000  (display values as stored)\n"
+    );
+    const auto json = compareAsJson({"a.png", "a.png"});
     EXPECT_EQ(json.at("equal"), true);
     EXPECT_TRUE(json.at("psnr_db").is_null());
     EXPECT_EQ(json.at("ssim"), 1.0);
+    EXPECT_EQ(json.at("flip"), 0.0);
+    EXPECT_EQ(json.at("values"), "display");
+    EXPECT_TRUE(json.at("tonemap").is_null());
     EXPECT_EQ(json.at("max_difference"), 0.0);
 }
 
-TEST_F(CliCompare, ADifferenceOfATenthIsTwentyDecibels) {
+TEST_F(CliCompare, LinearTakesTheValuesAsTheyAreStored) {
     writePicture("a.exr", 16, 3, 0.5f);
     writePicture("b.exr", 16, 3, 0.6f);
-    const auto json =
-        nlohmann::json::parse(expectSuccess({"compare", "a.exr", "b.exr", "--json"}).out);
+    const auto json = compareAsJson({"a.exr", "b.exr", "--linear"});
     EXPECT_EQ(json.at("equal"), false);
     EXPECT_NEAR(json.at("psnr_db").get<double>(), 20.0, 1e-4);
     EXPECT_NEAR(json.at("max_difference").get<double>(), 0.1, 1e-6);
     EXPECT_LT(json.at("ssim").get<double>(), 1.0);
+    EXPECT_TRUE(json.at("flip").is_null()) << "FLIP models what a display shows";
+    EXPECT_EQ(json.at("values"), "stored");
+    EXPECT_TRUE(json.at("tonemap").is_null());
+    const std::string text = expectSuccess({"compare", "a.exr", "b.exr", "--linear"}).out;
+    EXPECT_EQ(text.find("FLIP"), std::string::npos) << text;
+    EXPECT_NE(text.find("as stored"), std::string::npos) << text;
 }
 
-TEST_F(CliCompare, APictureOfNansStillGivesValidJson) {
+TEST_F(CliCompare, LinearPicturesAreToneMappedAlike) {
+    writePicture("a.exr", 16, 3, 0.04f);
+    writePicture("b.exr", 16, 3, 0.5f);
+    // sRGB alone: 0.22092 and 0.73536.
+    auto json = compareAsJson({"a.exr", "b.exr", "--tonemap", "none"});
+    EXPECT_NEAR(json.at("max_difference").get<double>(), 0.51444, 1e-4);
+    EXPECT_EQ(json.at("values"), "display");
+    EXPECT_EQ(json.at("tonemap").at("operator"), "none");
+    EXPECT_EQ(json.at("tonemap").at("applied_to"), nlohmann::json({"a", "b"}));
+    EXPECT_GT(json.at("flip").get<double>(), 0.3);
+    // Neutral takes 0.04 - 6.25 * 0.04^2 = 0.03 and 0.04 off: sRGB of 0.01 and 0.46.
+    json = compareAsJson({"a.exr", "b.exr"});
+    EXPECT_NEAR(json.at("max_difference").get<double>(), 0.60852, 1e-4);
+    EXPECT_EQ(json.at("tonemap").at("operator"), "neutral");
+    EXPECT_EQ(json.at("tonemap").at("ev"), 0.0);
+    json = compareAsJson({"a.exr", "b.exr", "--tonemap", "none", "--ev", "1"});
+    EXPECT_NEAR(json.at("max_difference").get<double>(), 1.0 - 0.31330, 1e-4);
+    EXPECT_EQ(json.at("tonemap").at("ev"), 1.0);
+    const std::string text = expectSuccess({"compare", "a.exr", "b.exr", "--ev", "-1.5"}).out;
+    EXPECT_NE(text.find("(display values, tone map neutral, EV -1.5)"), std::string::npos) << text;
+}
+
+TEST_F(CliCompare, ALinearPictureAgreesWithItsDisplayPicture) {
+    writePicture("linear.exr", 16, 3, 0.5f);
+    writePicture("display.png", 16, 3, 0.735357f);
+    const auto json = compareAsJson({"linear.exr", "display.png", "--tonemap", "none"});
+    EXPECT_LT(json.at("max_difference").get<double>(), 0.5 / 255.0);
+    EXPECT_EQ(json.at("values"), "display");
+    EXPECT_EQ(json.at("tonemap").at("applied_to"), nlohmann::json::array({"a"}));
+    const std::string text = expectSuccess({"compare", "display.png", "linear.exr"}).out;
+    EXPECT_NE(text.find("EV 0 of 'linear.exr' alone"), std::string::npos) << text;
+}
+
+TEST_F(CliCompare, ADisplayPictureIsNotToneMapped) {
+    writePicture("a.png", 16, 3, 0.2f);
+    writePicture("b.png", 16, 3, 0.4f);
+    EXPECT_EQ(
+        compareAsJson({"a.png", "b.png", "--ev", "3"}),
+        compareAsJson({"a.png", "b.png", "--linear"})
+    );
+}
+
+TEST_F(CliCompare, WhatIsNoColourIsComparedAsStoredOrNotAtAll) {
+    writePicture("motion.exr", 16, 2, 3.0f, {"motion.x", "motion.y"});
+    writePicture("normal.exr", 16, 3, 0.5f, {"N.x", "N.y", "N.z"});
+    writePicture("depth.exr", 16, 1, 7.0f, {"Z"});
+    for (const char* name : {"motion.exr", "normal.exr", "depth.exr"}) {
+        expectRefusal({"compare", name, name}, kFailed, {name, "--linear"});
+        EXPECT_EQ(compareAsJson({name, name, "--linear"}).at("equal"), true);
+    }
+    writePicture("layer.exr", 16, 3, 0.5f, {"layer.R", "layer.G", "layer.B"});
+    EXPECT_EQ(compareAsJson({"layer.exr", "layer.exr"}).at("values"), "display");
+}
+
+TEST_F(CliCompare, OptionsWithoutMeaningAreRefused) {
+    writePicture("a.exr", 16, 3, 0.5f);
+    const Arguments base = {"compare", "a.exr", "a.exr"};
+    const auto refuse = [&](const Arguments& more, int status, const Arguments& mentions) {
+        Arguments all = base;
+        all.insert(all.end(), more.begin(), more.end());
+        expectRefusal(all, status, mentions);
+    };
+    refuse({"--tonemap", "aces"}, kUsage, {"--tonemap", "aces"});
+    refuse({"--ev", "33"}, kUsage, {"--ev"});
+    refuse({"--ev", "nan"}, kUsage, {"--ev"});
+    refuse({"--linear", "--ev", "1"}, kUsage, {"--linear", "--ev"});
+    refuse({"--linear", "--tonemap", "none"}, kUsage, {"--linear", "--tonemap"});
+    refuse({"--map", "heat", "--out", "m.png"}, kUsage, {"--map", "heat"});
+    refuse({"--map", "flip"}, kUsage, {"--map", "--out"});
+    refuse({"--map", "flip", "--linear", "--out", "m.png"}, kFailed, {"--map", "a.exr"});
+}
+
+TEST_F(CliCompare, APictureOfNansStillGivesValidJsonAndTheWorstMaps) {
     writePicture("a.exr", 16, 3, 0.5f);
     writePicture("nan.exr", 16, 3, std::numeric_limits<float>::quiet_NaN());
-    const Outcome outcome = run({"compare", "a.exr", "nan.exr", "--json", "--out", "heat.png"});
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("equal"), false);
+    const auto json = compareAsJson({"a.exr", "nan.exr", "--out", "flip.exr"});
+    EXPECT_EQ(json.at("equal"), false);
+    EXPECT_EQ(json.at("flip"), 1.0);
+    EXPECT_EQ(json.at("psnr_db"), 0.0);
+    EXPECT_EQ(io::readImage(path("flip.exr")).value().at(3, 4, 0), 1.0f);
+    expectSuccess({"compare", "a.exr", "nan.exr", "--linear", "--out", "heat.exr"});
+    EXPECT_EQ(io::readImage(path("heat.exr")).value().at(3, 4, 2), 1.0f);
 }
 
-TEST_F(CliCompare, TheHeatMapIsBlackWhereEqualAndBrightWhereNot) {
-    writePicture("a.exr", 16, 3, 0.0f);
-    writePicture("b.exr", 16, 3, 1.0f);
-    expectSuccess({"compare", "a.exr", "a.exr", "--out", "black.exr"});
-    expectSuccess({"compare", "a.exr", "b.exr", "--out", "white.exr"});
-    const auto black = io::readImage(path("black.exr"));
-    const auto white = io::readImage(path("white.exr"));
-    ASSERT_TRUE(black.ok() && white.ok());
-    EXPECT_EQ(black.value().at(3, 4, 1), 0.0f);
-    EXPECT_EQ(white.value().at(3, 4, 1), 1.0f);
-    EXPECT_EQ(white.value().width, 16u);
+TEST_F(CliCompare, TheErrorMapIsBlackWhereEqualAndBrightWhereNot) {
+    writePicture("a.png", 16, 3, 0.0f);
+    writePicture("b.png", 16, 3, 1.0f);
+    const auto map = [&](const Arguments& more) {
+        Arguments arguments = {"compare", "a.png", "b.png", "--out"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectSuccess(arguments);
+        auto read = io::readImage(path(more.front()));
+        EXPECT_TRUE(read.ok());
+        return read.ok() ? std::move(read.value()) : image::Image(16, 16, 3);
+    };
+    const double flip = compareAsJson({"a.png", "b.png"}).at("flip").get<double>();
+    const image::Image colors = map({"flip.png"});
+    EXPECT_EQ(colors.width, 16u);
+    EXPECT_GT(colors.at(3, 4, 0), 0.95f) << "magma ends in pale yellow";
+    EXPECT_NEAR(colors.at(3, 4, 2), 0.7f, 0.06f);
+    const image::Image errors = map({"flip.exr"});
+    ASSERT_EQ(errors.channels, 1u) << "an EXR holds the errors themselves";
+    EXPECT_NEAR(double(errors.at(3, 4, 0)), flip, 1e-6);
+    const image::Image heat = map({"heat.exr", "--map", "difference"});
+    ASSERT_EQ(heat.channels, 3u);
+    EXPECT_EQ(heat.at(3, 4, 2), 1.0f);
+    expectSuccess({"compare", "a.png", "a.png", "--out", "equal.exr"});
+    EXPECT_EQ(io::readImage(path("equal.exr")).value().at(3, 4, 0), 0.0f);
 }
 
 TEST_F(Cli, InfoNeedsToKnowWhatAbout) {
