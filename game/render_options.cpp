@@ -264,8 +264,11 @@ Status checkStatsWritable(const RenderOptions& options) {
             options.stats.string(),
             folder.string()
         );
-    const bool exists = std::filesystem::exists(options.stats, ignored);
-    if (::access(exists ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
+    // A file is renamed into place, so its folder has to allow it; a pipe or a device is written
+    // to.
+    const bool isOther = std::filesystem::exists(options.stats, ignored) &&
+                         !std::filesystem::is_regular_file(options.stats, ignored);
+    if (::access(isOther ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
         return makeError("--stats: cannot write '{}': permission denied", options.stats.string());
     return {};
 }

@@ -64,15 +64,19 @@ core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t 
 }
 
 core::Status writeFileBytes(const fs::path& path, std::span<const uint8_t> bytes) {
-    const fs::path temporary = makeTemporaryPath(path);
-    const std::string why = writeBytes(temporary, bytes);
     std::error_code failure;
-    if (why.empty())
-        fs::rename(temporary, path, failure);
+    const fs::file_type type = fs::status(path, failure).type();
+    const bool isPlain = type == fs::file_type::regular || type == fs::file_type::not_found;
+    const fs::path target = isPlain ? makeTemporaryPath(path) : path;
+    const std::string why = writeBytes(target, bytes);
+    failure.clear();
+    if (isPlain && why.empty())
+        fs::rename(target, path, failure);
     if (why.empty() && !failure)
         return {};
     std::error_code ignored;
-    fs::remove(temporary, ignored);
+    if (isPlain)
+        fs::remove(target, ignored);
     return core::makeError(
         "cannot write '{}': {}", path.string(), why.empty() ? failure.message() : why
     );

@@ -17,7 +17,8 @@ namespace shutter::io {
 readFileBytes(const std::filesystem::path& path, uint64_t maxBytes);
 
 /// Writes a temporary file beside `path` and renames it, so that an interrupted write never leaves
-/// half a file under this name. An Error names the file and why; then nothing is left behind.
+/// half a file under this name. A pipe or a device is written to as it is, not replaced. An Error
+/// names the file and why; then nothing is left behind.
 [[nodiscard]] core::Status
 writeFileBytes(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 

@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <sys/resource.h>
+
 namespace shutter::game {
 
 namespace {
@@ -67,6 +74,32 @@ TEST(Statistics, MemoryIsUsedAgainSoItsSumIsItsMaximum) {
     addStatistics(total, makeFrame(5.0));
     addStatistics(total, makeFrame(2.0));
     EXPECT_EQ(total.transientBytes, 500u);
+}
+
+TEST(Statistics, AFileThatCannotBeFinishedLeavesTheOldOneAndNothingElse) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "shutter-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    const std::filesystem::path folder = pattern;
+    const std::filesystem::path path = folder / "stats.json";
+    RenderOptions options;
+    options.method = findMethod("sharp").value();
+    ASSERT_TRUE(writeStatistics(path, options, {}, {{0.0, makeFrame(1.0)}}).ok());
+    const auto size = std::filesystem::file_size(path);
+    // No file may grow beyond 100 bytes.
+    rlimit old{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+    const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight{100, old.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+    const core::Status written = writeStatistics(path, options, {}, {{0.0, makeFrame(2.0)}});
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
+    std::signal(SIGXFSZ, oldHandler);
+    ASSERT_FALSE(written.ok());
+    EXPECT_NE(written.error().message.find("--stats"), std::string::npos);
+    EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
+    EXPECT_EQ(std::filesystem::file_size(path), size);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+    std::filesystem::remove_all(folder);
 }
 
 } // namespace shutter::game

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
+#include "tests/unit/io/gltf_fixture.h"
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <thread>
 
 namespace shutter::io {
 
@@ -12,56 +19,76 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FileBytes : public testing::Test {
-  protected:
-    FileBytes() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        mFolder = fs::path(testing::TempDir()) / (std::string("file_bytes_") + test->name());
-        fs::remove_all(mFolder);
-        fs::create_directories(mFolder);
-    }
-
-    ~FileBytes() override { fs::remove_all(mFolder); }
-
-    [[nodiscard]] size_t countFiles() const {
-        size_t count = 0;
-        for ([[maybe_unused]] const auto& entry : fs::directory_iterator(mFolder))
-            ++count;
-        return count;
-    }
-
-    fs::path mFolder;
-};
+std::vector<uint8_t> toBytes(const std::string& text) {
+    return {text.begin(), text.end()};
+}
 
 std::string readText(const fs::path& path) {
-    const auto bytes = readFileBytes(path, 1 << 20);
-    return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : std::string("none");
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+size_t countFiles(const fs::path& folder) {
+    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
 } // namespace
 
-TEST_F(FileBytes, WhatIsWrittenIsReadAgainAndNothingElseIsLeft) {
-    const std::string text("a\0b\n", 4);
-    ASSERT_TRUE(writeFileText(mFolder / "x.txt", text).ok());
-    EXPECT_EQ(readText(mFolder / "x.txt"), text);
-    ASSERT_TRUE(writeFileText(mFolder / "x.txt", "").ok());
-    EXPECT_EQ(readText(mFolder / "x.txt"), "");
-    EXPECT_EQ(countFiles(), 1u);
+TEST(FileBytes, AWrittenFileHoldsTheBytesAndNothingElseIsLeft) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "a.json";
+    for (const std::string text : {"first, and longer", "second", ""}) {
+        const core::Status written = writeFileBytes(path, toBytes(text));
+        ASSERT_TRUE(written) << written.error().message;
+        EXPECT_EQ(readText(path), text);
+        EXPECT_EQ(countFiles(folder.path()), 1u);
+    }
 }
 
-TEST_F(FileBytes, AFolderThatIsMissingIsNamedAndNotMade) {
-    const fs::path path = mFolder / "missing" / "x.txt";
-    const core::Status written = writeFileText(path, "x");
-    ASSERT_FALSE(written.ok());
+TEST(FileBytes, AWriteThatFailsNamesTheFileAndLeavesTheOldOne) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "a.json";
+    ASSERT_TRUE(writeFileBytes(path, toBytes("old")));
+    // No file may grow beyond 100 bytes.
+    rlimit old{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+    const auto oldHandler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight{100, old.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
+    const core::Status written = writeFileBytes(path, std::vector<uint8_t>(100000, 'x'));
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &old), 0);
+    std::signal(SIGXFSZ, oldHandler);
+    ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
-    EXPECT_EQ(countFiles(), 0u);
+    EXPECT_EQ(readText(path), "old");
+    EXPECT_EQ(countFiles(folder.path()), 1u);
 }
 
-TEST_F(FileBytes, AFolderInTheWayStaysAndLeavesNoTemporary) {
-    fs::create_directories(mFolder / "x.txt" / "inside");
-    ASSERT_FALSE(writeFileText(mFolder / "x.txt", "x").ok());
-    EXPECT_TRUE(fs::is_directory(mFolder / "x.txt"));
-    EXPECT_EQ(countFiles(), 1u);
+TEST(FileBytes, AFolderIsNeitherWrittenNorReplaced) {
+    const TempFolder folder;
+    const fs::path inner = folder.path() / "inner";
+    fs::create_directory(inner);
+    for (const fs::path& path : {inner, folder.path() / "missing" / "a.json"}) {
+        const core::Status written = writeFileBytes(path, toBytes("text"));
+        ASSERT_FALSE(written);
+        EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
+    }
+    EXPECT_TRUE(fs::is_directory(inner));
+    EXPECT_EQ(countFiles(folder.path()), 1u);
+}
+
+TEST(FileBytes, APipeIsWrittenToAndStaysAPipe) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "pipe";
+    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+    std::string received;
+    std::thread reader([&] { received = readText(path); });
+    const core::Status written = writeFileBytes(path, toBytes("through the pipe"));
+    reader.join();
+    EXPECT_TRUE(written);
+    EXPECT_EQ(received, "through the pipe");
+    EXPECT_TRUE(fs::is_fifo(path));
+    EXPECT_EQ(countFiles(folder.path()), 1u);
 }
 
 } // namespace shutter::io
