@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
-#include "motion_blur/weights.glsl"
+#include "motion_blur/taps.glsl"
 
 layout(constant_id = 0) const uint kHybrid = 0u; // 1: the revealed layer and the mask are bound
 
@@ -37,8 +37,7 @@ Gathered gather(sampler2D color, sampler2D motionDepth, vec2 dominant, vec2 cent
 
     float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        // What the pixel sees at time s of a surface moving by m lies at m (s_r - s).
-        float u = (float(i) + offset) / float(params.sampleCount) + params.rasterShare - 1.0f;
+        float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
         // A smear reaches this share of its length to this side of the raster instant.
         float reach = u >= 0.0f ? params.rasterShare : 1.0f - params.rasterShare;
         vec2 uv = (centre + dominant * u) * pixelsToUv;

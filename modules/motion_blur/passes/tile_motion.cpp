@@ -8,6 +8,21 @@
 
 namespace shutter::motion_blur {
 
+namespace {
+
+using graph::Access;
+
+struct Data {
+    graph::ImageHandle source;
+    graph::ImageHandle target;
+};
+
+graph::TransientImageDesc describeTiles(const shader::MotionBlurParams& params) {
+    return {params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
+}
+
+} // namespace
+
 TileMotion::TileMotion(gpu::Device& device)
     : mSampler(device.nearestSampler()),
       mTileMax(device, describePass("tile max", motion_blur_tile_max_comp, {kSampled, kStorage})),
@@ -16,30 +31,19 @@ TileMotion::TileMotion(gpu::Device& device)
           describePass("neighbour max", motion_blur_neighbour_max_comp, {kSampled, kStorage})
       ) {}
 
-TileMotionOutputs TileMotion::add(
+graph::ImageHandle TileMotion::addTileMax(
     graph::Graph& graph,
     graph::ImageHandle motionDepth,
     const shader::MotionBlurParams& params,
     const std::string& suffix
 ) const {
-    using graph::Access;
-
-    struct Data {
-        graph::ImageHandle source;
-        graph::ImageHandle target;
-    };
-
-    const graph::TransientImageDesc desc{
-        params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
-    TileMotionOutputs outputs;
-    outputs.tiles = graph.createImage("tiles" + suffix, desc);
-    outputs.dominant = graph.createImage("dominant motion" + suffix, desc);
-    graph.addPass<Data>(
+    const Data& pass = graph.addPass<Data>(
         "tile max" + suffix,
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.source = builder.read(motionDepth, Access::SampledCompute);
-            data.target = outputs.tiles = builder.write(outputs.tiles, Access::StorageWrite);
+            const auto tiles = graph.createImage("tiles" + suffix, describeTiles(params));
+            data.target = builder.write(tiles, Access::StorageWrite);
         },
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
@@ -49,12 +53,24 @@ TileMotionOutputs TileMotion::add(
             vkCmdDispatch(context.commands, params.tileCount.x, params.tileCount.y, 1);
         }
     );
-    graph.addPass<Data>(
+    return pass.target;
+}
+
+TileMotionOutputs TileMotion::add(
+    graph::Graph& graph,
+    graph::ImageHandle motionDepth,
+    const shader::MotionBlurParams& params,
+    const std::string& suffix
+) const {
+    const graph::ImageHandle tiles = addTileMax(graph, motionDepth, params, suffix);
+    const Data& pass = graph.addPass<Data>(
         "neighbour max" + suffix,
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.source = builder.read(outputs.tiles, Access::SampledCompute);
-            data.target = outputs.dominant = builder.write(outputs.dominant, Access::StorageWrite);
+            data.source = builder.read(tiles, Access::SampledCompute);
+            const auto dominant =
+                graph.createImage("dominant motion" + suffix, describeTiles(params));
+            data.target = builder.write(dominant, Access::StorageWrite);
         },
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
@@ -63,7 +79,7 @@ TileMotionOutputs TileMotion::add(
             dispatchPixels(context, mNeighbourMax, bindings, params, params.tileCount);
         }
     );
-    return outputs;
+    return {tiles, pass.target};
 }
 
 } // namespace shutter::motion_blur

@@ -19,6 +19,14 @@ class TileMotion {
   public:
     explicit TileMotion(gpu::Device& device);
 
+    /// The longest motion of each tile only.
+    graph::ImageHandle addTileMax(
+        graph::Graph& graph,
+        graph::ImageHandle motionDepth,
+        const shader::MotionBlurParams& params,
+        const std::string& suffix
+    ) const;
+
     /// \param suffix told apart in the graph's names, e.g. " of reveal"
     TileMotionOutputs
     add(graph::Graph& graph,
