@@ -17,6 +17,7 @@ const std::map<std::string, std::vector<Channel>>& channelTable() {
         {"normal", {{0, "N.x"}, {1, "N.y"}, {2, "N.z"}}},
         {"mesh_id", {{0, "mesh_id"}}}, // -1: nothing
         {"tiles", {{0, "motion.x"}, {1, "motion.y"}}},
+        {"variance", {{0, "variance"}}},
         {"edge", {{0, "candidate"}, {1, "measure"}, {2, "edge"}}},
         {"mask", {{0, "mask"}}},
         {"reveal", {{0, "R"}, {1, "G"}, {2, "B"}}},

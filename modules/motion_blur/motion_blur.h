@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hybrid motion blur as a post effect on a render graph: what an engine gives, what it gets.
+// Motion blur as a post effect on a render graph: what an engine gives, what it gets.
 //
 // Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
 // (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the
@@ -10,8 +10,10 @@
 #include "engine/gpu/device.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/gather.h"
+#include "modules/motion_blur/passes/guertin_tiles.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
+#include "modules/motion_blur/passes/screen_filter.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/settings.h"
 
@@ -36,6 +38,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle color;             ///< RGBA16F
     graph::ImageHandle tiles;             ///< RG32F, one texel a tile: longest motion
     graph::ImageHandle dominant;          ///< RG32F, one texel a tile: longest of the neighbourhood
+    graph::ImageHandle variance;          ///< R32F, one texel a tile: Guertin's, [0, 1]
     graph::ImageHandle edge;              ///< RGBA8: candidate, edge measure, edge
     graph::ImageHandle mask;              ///< R8: 1 inside the ray mask
     graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
@@ -53,7 +56,7 @@ struct MotionBlurCounters {
 class MotionBlur {
   public:
     /// \param sceneLayout layout of the descriptor set in RayInputs::scene; null: no rays, then
-    /// only Method::Gather can run
+    /// Method::Hybrid cannot run
     MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
 
     /// Declares the passes. Settings must be valid (CHECKed).
@@ -64,8 +67,33 @@ class MotionBlur {
     [[nodiscard]] MotionBlurCounters counters() const;
 
   private:
+    MotionBlurOutputs addGather(
+        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
+    ) const;
+    MotionBlurOutputs addHybrid(
+        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
+    );
+    MotionBlurOutputs addOwnVelocity(
+        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
+    ) const;
+    /// A filter that reads colour, motion and depth, and dominant motion.
+    MotionBlurOutputs addTiled(
+        graph::Graph& graph,
+        const ScreenFilter& filter,
+        const MotionBlurInputs& inputs,
+        const shader::MotionBlurParams& params
+    ) const;
+    MotionBlurOutputs addGuertin(
+        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
+    ) const;
+
     TileMotion mTileMotion;
     Gather mGather;
+    ScreenFilter mOwnVelocity;
+    ScreenFilter mMcGuire;
+    GuertinTiles mGuertinTiles;
+    ScreenFilter mGuertin;
+    ScreenFilter mJimenez;
     std::unique_ptr<RayMask> mRayMask;
     std::unique_ptr<RayReveal> mRayReveal;
 };

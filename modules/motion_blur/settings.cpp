@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/settings.h"
 
+#include "engine/core/check.h"
+
 #include <algorithm>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -18,6 +21,41 @@ template <class T> core::Status requireRange(const char* field, T value, T lowes
 
 } // namespace
 
+std::span<const std::string_view> listSettings(Method method) {
+    using Names = std::vector<std::string_view>;
+    static const Names kTiled = {"tileSizePx", "neighbourhoodTiles", "softDepthExtent", "jitter"};
+    static const auto with = [](Names names, const Names& more) {
+        names.insert(names.end(), more.begin(), more.end());
+        return names;
+    };
+    static const Names kGather = with(kTiled, {"foregroundMagnification"});
+    static const Names kHybrid = with(
+        kGather,
+        {"backgroundMagnification",
+         "edgeThreshold",
+         "recursionLimit",
+         "objectTest",
+         "luminanceThreshold"}
+    );
+    static const Names kOwnVelocity = {"jitter", "occluderTest"};
+    static const Names kGuertin = with(kTiled, {"centreBias", "speedThresholdPx"});
+    switch (method) {
+    case Method::Gather:
+        return kGather;
+    case Method::Hybrid:
+        return kHybrid;
+    case Method::OwnVelocity:
+        return kOwnVelocity;
+    case Method::Guertin2014:
+        return kGuertin;
+    case Method::McGuire2012:
+    case Method::Jimenez2014:
+        return kTiled;
+    }
+    SHUTTER_CHECK(false, "there is no method {}", static_cast<int>(method));
+    return {};
+}
+
 core::Status validate(const MotionBlurSettings& settings) {
     const core::Status checks[] = {
         requireRange("tileSizePx", settings.tileSizePx, 1u, 256u),
@@ -30,6 +68,8 @@ core::Status validate(const MotionBlurSettings& settings) {
         requireRange("foregroundMagnification", settings.foregroundMagnification, 1.0f, 1000.0f),
         requireRange("backgroundMagnification", settings.backgroundMagnification, 1.0f, 100.0f),
         requireRange("jitter", settings.jitter, 0.0f, 1.0f),
+        requireRange("centreBias", settings.centreBias, 1.0f, 1000.0f),
+        requireRange("speedThresholdPx", settings.speedThresholdPx, 1e-3f, 100.0f),
     };
     for (const core::Status& check : checks)
         if (!check)
@@ -60,6 +100,11 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
     params.objectTest = settings.objectTest == ObjectTest::MeshId ? shader::kObjectTestMeshId
                                                                   : shader::kObjectTestLuminance;
     params.luminanceThreshold = settings.luminanceThreshold;
+    params.occluderTest = settings.occluderTest == OccluderTest::Velocity
+                              ? shader::kOccluderTestVelocity
+                              : shader::kOccluderTestNone;
+    params.centreBias = settings.centreBias;
+    params.speedThresholdPx = settings.speedThresholdPx;
     return params;
 }
 

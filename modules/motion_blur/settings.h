@@ -5,12 +5,18 @@
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 
 namespace shutter::motion_blur {
 
 enum class Method : uint8_t {
-    Gather, ///< the raster layer alone (Tan et al., "Post-process")
-    Hybrid, ///< with the background that rays reveal inside the ray mask
+    Gather,      ///< the raster layer alone (Tan et al., "Post-process")
+    Hybrid,      ///< with the background that rays reveal inside the ray mask
+    OwnVelocity, ///< mean of samples along the pixel's own motion
+    McGuire2012, ///< "A Reconstruction Filter for Plausible Motion Blur"
+    Guertin2014, ///< "A Fast and Stable Feature-Aware Motion Blur Filter"
+    Jimenez2014, ///< "Next Generation Post Processing in Call of Duty: Advanced Warfare"
 };
 
 /// How the reveal knows that it met another object.
@@ -19,7 +25,13 @@ enum class ObjectTest : uint8_t {
     Luminance, ///< another luminance than the first hit's (the paper's implementation)
 };
 
-/// Defaults are the paper's ("Implementation"). README.md says what each costs.
+/// What own velocity does with samples of what may be in front.
+enum class OccluderTest : uint8_t {
+    None,     ///< takes them all (three.js, Babylon.js)
+    Velocity, ///< drops those whose own motion does not reach the pixel (Bevy)
+};
+
+/// Defaults are the publications'. README.md says which method reads which, and what each costs.
 struct MotionBlurSettings {
     Method method = Method::Hybrid;
     uint32_t tileSizePx = 40;        ///< m, [1, 256]; also the longest blur, pixels
@@ -36,7 +48,16 @@ struct MotionBlurSettings {
     float backgroundMagnification =
         3.0f;            ///< of the revealed layer in the mask, [1, 100]; 1 turns it off
     float jitter = 1.0f; ///< of the taps, share of their distance, [0, 1]; 0: banding, no noise
+    OccluderTest occluderTest = OccluderTest::None; ///< Method::OwnVelocity
+    float centreBias =
+        40.0f; ///< Method::Guertin2014, kappa: divides the pixel's own weight, [1, 1000]
+    float speedThresholdPx =
+        1.5f; ///< Method::Guertin2014, gamma: half velocity beyond half a pixel
+              ///< at which the second direction is the pixel's own, (0, 100]
 };
+
+/// Names of the MotionBlurSettings that a method reads, sampleCount apart, which each does.
+[[nodiscard]] std::span<const std::string_view> listSettings(Method method);
 
 /// One sentence naming the field where a setting is out of its range.
 [[nodiscard]] core::Status validate(const MotionBlurSettings& settings);

@@ -16,6 +16,9 @@ SHUTTER_CONST float kStillPx = 0.5f;
 SHUTTER_CONST uint kObjectTestMeshId = 0u;
 SHUTTER_CONST uint kObjectTestLuminance = 1u;
 
+SHUTTER_CONST uint kOccluderTestNone = 0u;
+SHUTTER_CONST uint kOccluderTestVelocity = 1u;
+
 /// Push constants of every pass.
 struct MotionBlurParams {
     uvec2 sizePx;
@@ -33,6 +36,9 @@ struct MotionBlurParams {
     uint objectTest;               // kObjectTest...
     float luminanceThreshold;
     uvec2 frame;                   // address of the scene's FrameConstants (reveal only)
+    uint occluderTest;             // kOccluderTest... (own velocity only)
+    float centreBias;              // kappa (Guertin only)
+    float speedThresholdPx;        // gamma (Guertin only), of half velocities
 };
 
 /// Arguments of the reveal's indirect dispatch (VkDispatchIndirectCommand).
@@ -53,7 +59,7 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 72);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 84);
 static_assert(sizeof(shutter::shader::RevealArguments) == 12);
 static_assert(sizeof(shutter::shader::MaskHeader) == 16);
 #endif

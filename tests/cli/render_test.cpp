@@ -15,6 +15,9 @@ namespace {
 
 const std::vector<std::string> kMethods = {"sharp", "gather", "hybrid", "accumulate"};
 
+const std::vector<std::string> kRivals = {
+    "own_velocity", "mcguire2012", "guertin2014", "jimenez2014"};
+
 class CliRender : public Cli {
   protected:
     void SetUp() override { requireDevice(); }
@@ -71,6 +74,21 @@ TEST_F(CliRender, BlurShowsInThePictureOfEveryMethodButSharp) {
     for (const char* method : {"gather", "hybrid", "accumulate"})
         EXPECT_NE(read(fmt::format("{}.exr", method)).pixels, sharp) << method;
     EXPECT_EQ(read("still.exr").pixels, sharp);
+}
+
+TEST_F(CliRender, EachRivalDrawsItsOwnPictureTheSameEachTime) {
+    expectSuccess(renderVase({"--method", "sharp", "--out", "sharp.png"}));
+    std::set<std::string> pictures = {readFile("sharp.png")};
+    for (const std::string& method : kRivals) {
+        const std::string file = fmt::format("{}.png", method);
+        expectSuccess(validated(renderVase({"--method", method, "--out", file})));
+        expectPicture(file);
+        const std::string first = readFile(file);
+        expectSuccess(renderVase({"--method", method, "--out", file}));
+        EXPECT_EQ(readFile(file), first) << method;
+        pictures.insert(first);
+    }
+    EXPECT_EQ(pictures.size(), kRivals.size() + 1) << "no two are alike";
 }
 
 TEST_F(CliRender, TheSameCommandTwiceGivesTheSameBytes) {
@@ -134,6 +152,10 @@ TEST_F(CliRender, EveryMethodGivesTheIntermediatesItHas) {
         EXPECT_TRUE(listFiles().contains(fmt::format("{}.mesh_id.exr", method)));
     }
     EXPECT_EQ(read("sharp.depth.exr").pixels, read("accumulate.depth.exr").pixels);
+    expectSuccess(renderVase({"--method", "guertin2014", "--out", "g.exr", "--aov", "all"}));
+    EXPECT_EQ(read("g.tiles.exr").width, 2u); // 64 px in tiles of 40
+    EXPECT_EQ(read("g.variance.exr").width, 2u);
+    EXPECT_FALSE(listFiles().contains("g.mask.exr"));
 }
 
 TEST_F(CliRender, AnIntermediateOfABlurThatDidNotRunIsSaidToBeMissing) {

@@ -37,13 +37,14 @@ SceneBuilder makeScene(double side) {
 }
 
 /// Two devices of thought, one picture: the taps of both must read the same texels. A tap lies at
-/// u = (i + 1/2) / 15 + s_r - 1 of the motion; none may come so near to a border between texels
-/// that rounding decides.
+/// u of the motion, (i + 1/2) / 15 + s_r - 1 (Jimenez's pairs: / 16) or (i + 1) / 16 + s_r - 1;
+/// none may come so near to a border between texels that rounding decides.
 void expectTapsAwayFromTexelBorders(double rasterShare) {
-    for (int i = 0; i < 15; ++i) {
-        const double at = 0.5 + kSpeedPx * ((i + 0.5) / 15.0 + rasterShare - 1.0);
-        ASSERT_GT(std::abs(at - std::round(at)), 1e-3) << "tap " << i;
-    }
+    for (int i = 0; i < 16; ++i)
+        for (double u : {(i + 0.5) / 15.0, (i + 0.5) / 16.0, (i + 1.0) / 16.0}) {
+            const double at = 0.5 + kSpeedPx * (u + rasterShare - 1.0);
+            ASSERT_GT(std::abs(at - std::round(at)), 1e-3) << "tap " << i;
+        }
 }
 
 TEST_F(MirrorLaw, AMirroredSceneMakesTheMirroredPicture) {

@@ -20,7 +20,7 @@ using test::Stage;
 class RobustLaw : public test::GpuTest {};
 
 const std::set<std::string> kAllAovs = {
-    "motion", "depth", "normal", "mesh_id", "tiles", "edge", "mask", "reveal"};
+    "motion", "depth", "normal", "mesh_id", "tiles", "variance", "edge", "mask", "reveal"};
 
 /// Draws by every method, in every phase, with every intermediate, and looks at every value.
 void expectFinite(gpu::Device& device, const SceneBuilder& scene, Shot shot = {}) {

@@ -26,6 +26,28 @@ render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     return request;
 }
 
+/// Of kBlurMethods; the default for the others, which do not use it.
+motion_blur::Method blurMethod(Method method) {
+    using Blur = motion_blur::Method;
+    switch (method) {
+    case Method::OwnVelocity:
+        return Blur::OwnVelocity;
+    case Method::McGuire2012:
+        return Blur::McGuire2012;
+    case Method::Guertin2014:
+        return Blur::Guertin2014;
+    case Method::Jimenez2014:
+        return Blur::Jimenez2014;
+    case Method::Gather:
+        return Blur::Gather;
+    case Method::Sharp:
+    case Method::Hybrid:
+    case Method::Accumulate:
+        break;
+    }
+    return Blur::Hybrid;
+}
+
 render::FrameResult unwrap(core::Result<render::FrameResult> result) {
     if (result)
         return std::move(result).value();
@@ -39,6 +61,14 @@ const char* describe(Method method) {
     switch (method) {
     case Method::Sharp:
         return "sharp";
+    case Method::OwnVelocity:
+        return "own_velocity";
+    case Method::McGuire2012:
+        return "mcguire2012";
+    case Method::Guertin2014:
+        return "guertin2014";
+    case Method::Jimenez2014:
+        return "jimenez2014";
     case Method::Gather:
         return "gather";
     case Method::Hybrid:
@@ -57,8 +87,7 @@ render::FrameResult Stage::render(const Shot& shot) {
     if (shot.method == Method::Accumulate)
         return renderAccumulated(shot, request);
     motion_blur::MotionBlurSettings settings = shot.settings;
-    settings.method =
-        shot.method == Method::Gather ? motion_blur::Method::Gather : motion_blur::Method::Hybrid;
+    settings.method = blurMethod(shot.method);
     const core::Status valid = motion_blur::validate(settings);
     if (!valid) {
         ADD_FAILURE() << valid.error().message;

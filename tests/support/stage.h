@@ -16,10 +16,35 @@
 
 namespace shutter::test {
 
-enum class Method { Sharp, Gather, Hybrid, Accumulate };
+enum class Method {
+    Sharp,
+    OwnVelocity,
+    McGuire2012,
+    Guertin2014,
+    Jimenez2014,
+    Gather,
+    Hybrid,
+    Accumulate
+};
 
 inline constexpr Method kAllMethods[] = {
-    Method::Sharp, Method::Gather, Method::Hybrid, Method::Accumulate};
+    Method::Sharp,
+    Method::OwnVelocity,
+    Method::McGuire2012,
+    Method::Guertin2014,
+    Method::Jimenez2014,
+    Method::Gather,
+    Method::Hybrid,
+    Method::Accumulate};
+
+/// Those of modules/motion_blur.
+inline constexpr Method kBlurMethods[] = {
+    Method::OwnVelocity,
+    Method::McGuire2012,
+    Method::Guertin2014,
+    Method::Jimenez2014,
+    Method::Gather,
+    Method::Hybrid};
 
 [[nodiscard]] const char* describe(Method method);
 
@@ -34,7 +59,7 @@ struct Shot {
     math::vec3 ambient{0.0f};
     uint32_t instants = 16; ///< Accumulate only
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
-    motion_blur::MotionBlurSettings settings{}; ///< Gather and Hybrid; their method is set here
+    motion_blur::MotionBlurSettings settings{}; ///< kBlurMethods; their method is set here
     std::set<std::string> aovs{};
     bool wantDisplay = false;
     /// Declared after the method's own effects; null: none.

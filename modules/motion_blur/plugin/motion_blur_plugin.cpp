@@ -32,12 +32,15 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             render::splitAddress(context.rays->frameConstants)};
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, mSettings);
     context.color = outputs.color;
-    context.intermediates.publish("tiles", outputs.dominant);
-    if (!outputs.mask.isValid())
-        return;
-    context.intermediates.publish("edge", outputs.edge);
-    context.intermediates.publish("mask", outputs.mask);
-    context.intermediates.publish("reveal", outputs.revealColor);
+    const std::pair<const char*, graph::ImageHandle> views[] = {
+        {"tiles", outputs.dominant},
+        {"variance", outputs.variance},
+        {"edge", outputs.edge},
+        {"mask", outputs.mask},
+        {"reveal", outputs.revealColor}};
+    for (const auto& [name, image] : views)
+        if (image.isValid())
+            context.intermediates.publish(name, image);
 }
 
 void MotionBlurPlugin::collect(render::Counters& counters) {

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shutter::motion_blur {
@@ -37,6 +40,8 @@ const std::vector<NumberField> kNumbers = {
     {"foregroundMagnification", &MotionBlurSettings::foregroundMagnification, 1.0f, 1000.0f},
     {"backgroundMagnification", &MotionBlurSettings::backgroundMagnification, 1.0f, 100.0f},
     {"jitter", &MotionBlurSettings::jitter, 0.0f, 1.0f},
+    {"centreBias", &MotionBlurSettings::centreBias, 1.0f, 1000.0f},
+    {"speedThresholdPx", &MotionBlurSettings::speedThresholdPx, 0.001f, 100.0f},
 };
 
 struct CountField {
@@ -125,6 +130,9 @@ TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
     settings.foregroundMagnification = 12.0f;
     settings.backgroundMagnification = 6.0f;
     settings.jitter = 0.75f;
+    settings.occluderTest = OccluderTest::Velocity;
+    settings.centreBias = 20.0f;
+    settings.speedThresholdPx = 2.5f;
     const shader::MotionBlurParams params = resolve(settings, 100, 50, 0.5);
     EXPECT_EQ(params.sizePx, glm::uvec2(100, 50));
     EXPECT_EQ(params.tileCount, glm::uvec2(5, 3));
@@ -140,7 +148,41 @@ TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
     EXPECT_EQ(params.recursionLimit, 9u);
     EXPECT_EQ(params.objectTest, shader::kObjectTestLuminance);
     EXPECT_EQ(params.luminanceThreshold, 0.125f);
+    EXPECT_EQ(params.occluderTest, shader::kOccluderTestVelocity);
+    EXPECT_EQ(params.centreBias, 20.0f);
+    EXPECT_EQ(params.speedThresholdPx, 2.5f);
+    EXPECT_EQ(resolve({}, 8, 8, 1.0).occluderTest, shader::kOccluderTestNone);
     EXPECT_EQ(resolve({}, 8, 8, 1.0).objectTest, shader::kObjectTestMeshId);
+}
+
+TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
+    const auto reads = [](Method method, std::string_view name) {
+        const auto names = listSettings(method);
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const Method methods[] = {
+        Method::Gather,
+        Method::Hybrid,
+        Method::OwnVelocity,
+        Method::McGuire2012,
+        Method::Guertin2014,
+        Method::Jimenez2014};
+    for (const Method method : methods) {
+        EXPECT_TRUE(reads(method, "jitter"));
+        EXPECT_EQ(reads(method, "edgeThreshold"), method == Method::Hybrid);
+        EXPECT_EQ(reads(method, "occluderTest"), method == Method::OwnVelocity);
+        EXPECT_EQ(reads(method, "centreBias"), method == Method::Guertin2014);
+        EXPECT_EQ(reads(method, "tileSizePx"), method != Method::OwnVelocity);
+        EXPECT_EQ(
+            reads(method, "foregroundMagnification"),
+            method == Method::Gather || method == Method::Hybrid
+        );
+    }
+    // Every field that has a name on the command line is some method's.
+    for (const NumberField& number : kNumbers)
+        EXPECT_TRUE(std::any_of(std::begin(methods), std::end(methods), [&](Method method) {
+            return reads(method, number.name);
+        })) << number.name;
 }
 
 TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {
