@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -134,22 +135,26 @@ Status parseShutter(const RenderArguments& arguments, RenderOptions& options) {
     return {};
 }
 
-/// --set NAME=VALUE; names are MotionBlurSettings' fields.
-Status applySetting(const std::string& text, motion_blur::MotionBlurSettings& settings) {
-    const size_t equals = text.find('=');
-    if (equals == std::string::npos)
-        return makeError("--set '{}' is not NAME=VALUE", text);
-    const std::string name = text.substr(0, equals);
-    const std::string value = text.substr(equals + 1);
-    if (name == "objectTest") {
-        if (value == "mesh_id")
-            settings.objectTest = motion_blur::ObjectTest::MeshId;
-        else if (value == "luminance")
-            settings.objectTest = motion_blur::ObjectTest::Luminance;
-        else
-            return makeError("--set objectTest: '{}' is not mesh_id or luminance", value);
-        return {};
-    }
+/// A setting whose values are words.
+template <class T>
+Status applyWord(
+    const std::string& name,
+    const std::string& value,
+    const std::array<std::pair<const char*, T>, 2>& words,
+    T& target
+) {
+    for (const auto& [word, meaning] : words)
+        if (value == word) {
+            target = meaning;
+            return {};
+        }
+    return makeError("--set {}: '{}' is not {} or {}", name, value, words[0].first, words[1].first);
+}
+
+/// A setting whose values are numbers; its range is checked with all others.
+Status applyNumber(
+    const std::string& name, const std::string& value, motion_blur::MotionBlurSettings& settings
+) {
     const std::vector<std::pair<const char*, uint32_t*>> counts = {
         {"tileSizePx", &settings.tileSizePx},
         {"neighbourhoodTiles", &settings.neighbourhoodTiles},
@@ -162,6 +167,8 @@ Status applySetting(const std::string& text, motion_blur::MotionBlurSettings& se
         {"foregroundMagnification", &settings.foregroundMagnification},
         {"backgroundMagnification", &settings.backgroundMagnification},
         {"jitter", &settings.jitter},
+        {"centreBias", &settings.centreBias},
+        {"speedThresholdPx", &settings.speedThresholdPx},
     };
     const auto number = parseNumber(value);
     if (!number)
@@ -179,6 +186,46 @@ Status applySetting(const std::string& text, motion_blur::MotionBlurSettings& se
             return {};
         }
     return makeError("--set: there is no setting '{}'", name);
+}
+
+/// --set NAME=VALUE; names are MotionBlurSettings' fields, and only those that the method reads.
+Status applySetting(
+    const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
+) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+        return makeError("--set '{}' is not NAME=VALUE", text);
+    const std::string name = text.substr(0, equals);
+    const std::string value = text.substr(equals + 1);
+    std::span<const std::string_view> known;
+    if (method.family == MethodFamily::MotionBlur)
+        known = motion_blur::listSettings(method.blur);
+    if (known.empty())
+        return makeError("--set '{}': method {} has no settings", name, method.name);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        return makeError(
+            "--set '{}': method {} has no such setting, it has {}",
+            name,
+            method.name,
+            fmt::join(known, ", ")
+        );
+    using motion_blur::ObjectTest;
+    using motion_blur::OccluderTest;
+    if (name == "objectTest")
+        return applyWord<ObjectTest>(
+            name,
+            value,
+            {{{"mesh_id", ObjectTest::MeshId}, {"luminance", ObjectTest::Luminance}}},
+            settings.objectTest
+        );
+    if (name == "occluderTest")
+        return applyWord<OccluderTest>(
+            name,
+            value,
+            {{{"none", OccluderTest::None}, {"velocity", OccluderTest::Velocity}}},
+            settings.occluderTest
+        );
+    return applyNumber(name, value, settings);
 }
 
 Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
@@ -202,7 +249,7 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
         options.method->family != MethodFamily::Accumulate)
         return makeError("--pixel box needs a method that takes many samples a pixel: accumulate");
     for (const std::string& setting : arguments.settings)
-        if (Status applied = applySetting(setting, options.motionBlur); !applied)
+        if (Status applied = applySetting(setting, *options.method, options.motionBlur); !applied)
             return applied;
     options.motionBlur.method = options.method->blur;
     if (Status valid = motion_blur::validate(options.motionBlur); !valid)
@@ -292,9 +339,6 @@ void defineShotOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--background", a.background, "R,G,B linear; default 0.18,0.18,0.18");
     command.add_option("--ambient", a.ambient, "uniform light, R,G,B; default 0.25,0.25,0.25");
     defineTonemapOptions(command, a.tonemap, a.exposureValue);
-    command.add_option(
-        "--set", a.settings, "NAME=VALUE of the motion blur's settings (repeatable)"
-    );
 }
 
 void defineDeviceOptions(CLI::App& command, RenderArguments& a) {
@@ -310,8 +354,9 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
         ->excludes(command.get_option("--time"));
     command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
-    command.add_option("--samples", a.samples, "taps (gather, hybrid) or instants (accumulate)");
+    command.add_option("--samples", a.samples, "taps of a gather, or instants (accumulate)");
     command.add_option("--size", a.size, "WxH; default 1280x720");
+    command.add_option("--set", a.settings, "NAME=VALUE of the method's settings (repeatable)");
     command.add_option(
         "--aov", a.aov, "intermediates to write beside --out, comma-separated, or all"
     );

@@ -102,6 +102,23 @@ TEST_F(Cli, ANumberOutOfItsRangeIsRefused) {
         );
 }
 
+TEST_F(Cli, ASettingThatTheMethodDoesNotReadIsRefusedByName) {
+    const std::vector<std::pair<std::string, std::string>> bad = {
+        {"sharp", "jitter"},
+        {"accumulate", "tileSizePx"},
+        {"gather", "edgeThreshold"},
+        {"own_velocity", "tileSizePx"},
+        {"mcguire2012", "foregroundMagnification"},
+        {"guertin2014", "occluderTest"},
+        {"jimenez2014", "centreBias"}};
+    for (const auto& [method, setting] : bad)
+        expectRefusal(
+            renderVase({"--out", "a.png", "--method", method, "--set", fmt::format("{}=1", setting)}),
+            kUsage,
+            {"--set", method, setting}
+        );
+}
+
 TEST_F(Cli, OptionsThatExcludeEachOtherAreRefused) {
     expectRefusal(
         renderVase({"--out", "a.png", "--exposure", "0.1", "--shutter-angle", "180"}),

@@ -249,6 +249,49 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
     );
 }
 
+TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
+    const auto with = [&](const char* method, std::vector<std::string> settings) {
+        return accept([&](auto& a) {
+                   a.method = method;
+                   a.settings = std::move(settings);
+               }
+        ).motionBlur;
+    };
+    const auto guertin = with("guertin2014", {"centreBias=20", "speedThresholdPx=3"});
+    EXPECT_EQ(guertin.method, motion_blur::Method::Guertin2014);
+    EXPECT_EQ(guertin.sampleCount, 35u);
+    EXPECT_EQ(guertin.centreBias, 20.0f);
+    EXPECT_EQ(guertin.speedThresholdPx, 3.0f);
+    using motion_blur::OccluderTest;
+    EXPECT_EQ(with("own_velocity", {"occluderTest=velocity"}).occluderTest, OccluderTest::Velocity);
+    EXPECT_EQ(with("own_velocity", {"occluderTest=none"}).occluderTest, OccluderTest::None);
+    EXPECT_EQ(with("jimenez2014", {"softDepthExtent=1"}).softDepthExtent, 1.0f);
+    EXPECT_EQ(with("mcguire2012", {"tileSizePx=20"}).tileSizePx, 20u);
+}
+
+TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
+    // Each name is some method's, and each method but the hybrid lacks some.
+    for (const MethodInfo& method : listMethods()) {
+        const bool blurs = method.family == MethodFamily::MotionBlur;
+        const char* foreign =
+            method.name == std::string("own_velocity") ? "tileSizePx=20" : "occluderTest=none";
+        refuse(method.name, [&](auto& a) {
+            a.method = method.name;
+            a.settings = {foreign};
+        });
+        if (blurs)
+            accept([&](auto& a) {
+                a.method = method.name;
+                a.settings = {"jitter=0.5"};
+            });
+        else
+            refuse("--set 'jitter'", [&](auto& a) {
+                a.method = method.name;
+                a.settings = {"jitter=0.5"};
+            });
+    }
+}
+
 TEST_F(RenderOptionsTest, BadSettingsAreRefused) {
     for (const char* setting :
          {"",
@@ -282,6 +325,8 @@ TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     EXPECT_EQ(aovs("sharp", "all").size(), 4u);
     EXPECT_EQ(aovs("gather", "all").size(), 5u);
     EXPECT_EQ(aovs("hybrid", "all").size(), 8u);
+    EXPECT_EQ(aovs("own_velocity", "all").size(), 4u);
+    EXPECT_EQ(aovs("guertin2014", "variance,tiles").size(), 2u);
     for (const char* names : {"nosuch", "motion,", ",", "motion,nosuch", "Motion", "motion depth"})
         refuse("--aov", [&](auto& a) { a.aov = names; });
     refuse("--aov", [](auto& a) {
