@@ -18,7 +18,7 @@ vec2 tileMotion(ivec2 tile) {
 }
 
 /// 1 - mean |cos| between a tile's motion and its moving neighbours' (itself included). A still tile
-/// has no direction: it is not a neighbour, and its own is the dominant one.
+/// has no direction: it is not a neighbour, and its own is the dominant one, which is never still.
 float measureVariance(ivec2 tile, ivec2 first, ivec2 end, vec2 dominant) {
     vec2 own = tileMotion(tile);
     vec2 reference = length(own) < kStillPx ? dominant : own;
@@ -31,7 +31,7 @@ float measureVariance(ivec2 tile, ivec2 first, ivec2 end, vec2 dominant) {
             sum += alignment(reference, motion);
             count += 1.0f;
         }
-    return count > 0.0f ? saturate(1.0f - sum / count) : 0.0f;
+    return saturate(1.0f - sum / count);
 }
 
 void main() {

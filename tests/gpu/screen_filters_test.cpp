@@ -288,6 +288,66 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
     }
 }
 
+TEST_F(ScreenFilters, WhereEveryTapIsAnOccluderTheSharpColourStays) {
+    Scene scene;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            scene.color.at(x, y, x == 24 ? 1 : 0) = 1.0f;
+            scene.motionDepth.at(x, y, 0) = x == 24 ? 400.0f : 0.0f; // no tap at its own place
+            scene.motionDepth.at(x, y, 2) = x == 24 ? 9.0f : 2.0f;
+        }
+    MotionBlurSettings settings = oneTile(Method::OwnVelocity);
+    settings.occluderTest = motion_blur::OccluderTest::Velocity;
+    settings.sampleCount = 16;
+    EXPECT_TRUE(test::sameBits(blur(device(), scene, settings), scene.color));
+}
+
+TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
+    // A tile that moves beside one that does not, each its own neighbourhood.
+    Scene scene = makeScene();
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            scene.motionDepth.at(x, y, 0) = x < 16 ? 9.0f : 0.0f;
+            scene.motionDepth.at(x, y, 1) = 0.0f;
+            scene.motionDepth.at(x, y, 2) = 3.0f;
+        }
+    for (const Method method : {Method::Guertin2014, Method::Jimenez2014}) {
+        MotionBlurSettings settings = oneTile(method);
+        settings.tileSizePx = 16;
+        settings.neighbourhoodTiles = 1;
+        settings.jitter = 1.0f;
+        const Image picture = blur(device(), scene, settings);
+        size_t sharp = 0;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < 16; ++x)
+                sharp += std::abs(picture.at(x, y, 0) - scene.color.at(x, y, 0)) < 1e-4f &&
+                         std::abs(picture.at(x, y, 1) - scene.color.at(x, y, 1)) < 1e-4f;
+        EXPECT_EQ(sharp, 0u) << int(method);
+    }
+}
+
+TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
+    // A red slab above moves up, one below moves down, what is between stands still; the dominant
+    // motion runs across. At shutter close each slab was over the middle before.
+    Scene scene;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            const bool slab = x < 20 && (y < 6 || y >= 26); // out of reach of each other
+            scene.color.at(x, y, 0) = slab ? 1.0f : 0.0f;
+            scene.motionDepth.at(x, y, 1) = !slab ? 0.0f : y < 6 ? -10.0f : 10.0f;
+            scene.motionDepth.at(x, y, 2) = slab ? 3.0f : 9.0f;
+        }
+    scene.motionDepth.at(22, 15, 0) = 12.0f;
+    MotionBlurSettings settings = oneTile(Method::Guertin2014);
+    settings.tileSizePx = 24; // two tiles beside each other; the other one's motion goes up
+    scene.motionDepth.at(40, 15, 0) = 0.6f;
+    scene.motionDepth.at(40, 15, 1) = 9.0f;
+    settings.sampleCount = 35;
+    const Image picture = blur(device(), scene, settings, 1.0);
+    EXPECT_GT(picture.at(8, 8, 0), 0.1f) << "from above";
+    EXPECT_GT(picture.at(8, 23, 0), 0.1f) << "from below";
+}
+
 TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
     // No weight but the target's own: still pixels, each at a depth of its own, beside one mover.
     Scene scene = makeScene();
