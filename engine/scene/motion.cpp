@@ -72,6 +72,20 @@ dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
     return result;
 }
 
+bool mayMove(const World& world, ecs::Entity entity) {
+    const ecs::Registry& registry = world.registry;
+    size_t steps = 0;
+    for (ecs::Entity ancestor = entity; ancestor != ecs::kNullEntity; ++steps) {
+        SHUTTER_CHECK(steps < registry.aliveCount(), "the parents of {} form a cycle", entity);
+        if (registry.find<LinearVelocity>(ancestor) || registry.find<AngularVelocity>(ancestor) ||
+            registry.find<Animated>(ancestor))
+            return true;
+        const auto* parent = registry.find<Parent>(ancestor);
+        ancestor = parent ? parent->entity : ecs::kNullEntity;
+    }
+    return false;
+}
+
 ExposureInterval computeExposure(const CameraShutter& shutter, double frameSeconds) {
     const double asked = shutter.exposureSeconds;
     const double exposure = asked > 0.0 && std::isfinite(asked) ? asked : 0.0;

@@ -17,6 +17,10 @@ namespace shutter::scene {
 /// its parents must be alive, `seconds` finite. An entity without a transform sits at its parent.
 [[nodiscard]] math::dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds);
 
+/// False when nothing that could move `entity` is on it or on one of its parents: worldFromEntity
+/// then answers the same at every time.
+[[nodiscard]] bool mayMove(const World& world, ecs::Entity entity);
+
 /// Time interval of the exposure around a frame's own time.
 struct ExposureInterval {
     double open = 0.0;   ///< seconds

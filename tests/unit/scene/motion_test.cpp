@@ -207,6 +207,22 @@ void expectInterval(
     EXPECT_DOUBLE_EQ(interval.at(interval.rasterShare), interval.raster);
 }
 
+TEST_F(WorldFromEntity, OnlyWhatCouldMoveMayMove) {
+    const ecs::Entity still = addEntity();
+    const ecs::Entity stillChild = addChild(still);
+    EXPECT_FALSE(mayMove(mWorld, stillChild));
+    const ecs::Entity slider = addEntity();
+    mWorld.registry.add(slider, LinearVelocity{});
+    const ecs::Entity spinner = addEntity();
+    mWorld.registry.add(spinner, AngularVelocity{});
+    const ecs::Entity animated = addEntity();
+    mWorld.registry.add(animated, Animated{});
+    for (const ecs::Entity mover : {slider, spinner, animated}) {
+        EXPECT_TRUE(mayMove(mWorld, mover));
+        EXPECT_TRUE(mayMove(mWorld, addChild(addChild(mover)))) << "with its parents";
+    }
+}
+
 TEST(ComputeExposure, ThePhaseSaysWhereTheFrameTimeLies) {
     expectInterval(computeExposure({0.5, ShutterPhase::Start}, 10.0), 10.0, 10.0, 10.5, 0.0);
     expectInterval(computeExposure({0.5, ShutterPhase::Centre}, 10.0), 9.75, 10.0, 10.25, 0.5);
