@@ -35,6 +35,99 @@ VkAccelerationStructureGeometryKHR describeTriangles(const TriangleGeometry& tri
     return geometry;
 }
 
+VkDeviceAddress alignScratch(const Device& device, const Buffer& scratch) {
+    return alignUp(scratch.address(), device.minScratchAlignment());
+}
+
+Buffer makeScratch(Device& device, const char* name, VkDeviceSize bytes) {
+    return Buffer(
+        device,
+        name,
+        bytes + device.minScratchAlignment(),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        MemoryUse::Device
+    );
+}
+
+VkAccelerationStructureInstanceKHR makeRecord(const Instance& instance) {
+    SHUTTER_CHECK(instance.customIndex < (1u << 24), "{}", instance.customIndex);
+    VkAccelerationStructureInstanceKHR record{};
+    std::memcpy(&record.transform, instance.worldFromObject, sizeof(record.transform));
+    record.instanceCustomIndex = instance.customIndex & 0xFFFFFFu;
+    record.mask = instance.mask & 0xFFu;
+    record.flags =
+        instance.cullDisabled ? VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR : 0;
+    record.accelerationStructureReference = instance.bottomLevel;
+    return record;
+}
+
+/// A build of one geometry; `info` points into it, so it does not move.
+struct SingleBuild {
+    VkAccelerationStructureGeometryKHR geometry{
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
+    VkAccelerationStructureBuildGeometryInfoKHR info{
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+
+    explicit SingleBuild(VkAccelerationStructureTypeKHR type) {
+        info.type = type;
+        info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+        info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+        info.geometryCount = 1;
+        info.pGeometries = &geometry;
+    }
+
+    SingleBuild(const SingleBuild&) = delete;
+    SingleBuild& operator=(const SingleBuild&) = delete;
+
+    [[nodiscard]] VkAccelerationStructureBuildSizesInfoKHR
+    measure(const Device& device, uint32_t count) const {
+        VkAccelerationStructureBuildSizesInfoKHR sizes{
+            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
+        device.functions().getAccelerationStructureBuildSizes(
+            device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &count, &sizes
+        );
+        return sizes;
+    }
+
+    void record(
+        const Device& device,
+        VkCommandBuffer commands,
+        const AccelerationStructure& target,
+        VkDeviceAddress scratch,
+        uint32_t count
+    ) {
+        info.dstAccelerationStructure = target.handle();
+        info.scratchData.deviceAddress = scratch;
+        const VkAccelerationStructureBuildRangeInfoKHR range{count, 0, 0, 0};
+        const auto* ranges = &range;
+        device.functions().cmdBuildAccelerationStructures(commands, 1, &info, &ranges);
+    }
+};
+
+struct InstanceBuild : SingleBuild {
+    explicit InstanceBuild(VkDeviceAddress instances)
+        : SingleBuild(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR) {
+        geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
+        auto& data = geometry.geometry.instances;
+        data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
+        data.data.deviceAddress = instances;
+    }
+};
+
+struct BoxBuild : SingleBuild {
+    explicit BoxBuild(VkDeviceAddress boxes)
+        : SingleBuild(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR) {
+        geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+        geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+        auto& data = geometry.geometry.aabbs;
+        data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+        data.data.deviceAddress = boxes;
+        data.stride = sizeof(BoxGeometry);
+    }
+};
+
+static_assert(sizeof(BoxGeometry) == sizeof(VkAabbPositionsKHR));
+
 /// Everything one BLAS build needs; addresses into `geometries` stay valid while it lives.
 struct BottomLevelBuild {
     std::vector<VkAccelerationStructureGeometryKHR> geometries;
@@ -140,16 +233,9 @@ buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> 
             VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
             build.sizes.accelerationStructureSize
         );
-        const VkDeviceSize alignment = device.minScratchAlignment();
-        Buffer scratch(
-            device,
-            "BLAS scratch",
-            build.sizes.buildScratchSize + alignment,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            MemoryUse::Device
-        );
+        const Buffer scratch = makeScratch(device, "BLAS scratch", build.sizes.buildScratchSize);
         build.info.dstAccelerationStructure = structures[i].handle();
-        build.info.scratchData.deviceAddress = alignUp(scratch.address(), alignment);
+        build.info.scratchData.deviceAddress = alignScratch(device, scratch);
         const auto* ranges = build.ranges.data();
         runOnce(device, [&](VkCommandBuffer commands) {
             device.functions().cmdBuildAccelerationStructures(commands, 1, &build.info, &ranges);
@@ -173,68 +259,84 @@ void TopLevel::prepare(Device& device, std::span<const Instance> instances) {
         );
     std::vector<VkAccelerationStructureInstanceKHR> records;
     records.reserve(mCount);
-    for (const Instance& instance : instances) {
-        SHUTTER_CHECK(instance.customIndex < (1u << 24), "{}", instance.customIndex);
-        VkAccelerationStructureInstanceKHR record{};
-        std::memcpy(&record.transform, instance.worldFromObject, sizeof(record.transform));
-        record.instanceCustomIndex = instance.customIndex & 0xFFFFFFu;
-        record.mask = 0xFF;
-        record.flags =
-            instance.cullDisabled ? VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR : 0;
-        record.accelerationStructureReference = instance.bottomLevel;
-        records.push_back(record);
-    }
+    for (const Instance& instance : instances)
+        records.push_back(makeRecord(instance));
     mInstances.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
     if (!grow)
         return;
-
-    const auto build = describeBuild();
-    VkAccelerationStructureBuildSizesInfoKHR sizes{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    device.functions().getAccelerationStructureBuildSizes(
-        device.handle(),
-        VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-        &build->info,
-        &mCapacity,
-        &sizes
-    );
+    const auto sizes = InstanceBuild(mInstances.address()).measure(device, mCapacity);
     mStructure = AccelerationStructure(
         device,
         "TLAS",
         VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
         sizes.accelerationStructureSize
     );
-    mScratch = Buffer(
-        device,
-        "TLAS scratch",
-        sizes.buildScratchSize + device.minScratchAlignment(),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-        MemoryUse::Device
-    );
-}
-
-std::unique_ptr<TopLevel::Build> TopLevel::describeBuild() const {
-    auto build = std::make_unique<Build>();
-    build->geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
-    auto& data = build->geometry.geometry.instances;
-    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
-    data.data.deviceAddress = mInstances.address();
-    build->info.type = VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR;
-    build->info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-    build->info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-    build->info.geometryCount = 1;
-    build->info.pGeometries = &build->geometry;
-    return build;
+    mScratch = makeScratch(device, "TLAS scratch", sizes.buildScratchSize);
 }
 
 void TopLevel::record(const Device& device, VkCommandBuffer commands) {
-    const auto build = describeBuild();
-    build->info.dstAccelerationStructure = mStructure.handle();
-    build->info.scratchData.deviceAddress =
-        alignUp(mScratch.address(), device.minScratchAlignment());
-    const VkAccelerationStructureBuildRangeInfoKHR range{mCount, 0, 0, 0};
-    const auto* ranges = &range;
-    device.functions().cmdBuildAccelerationStructures(commands, 1, &build->info, &ranges);
+    InstanceBuild(mInstances.address())
+        .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
+}
+
+std::vector<AccelerationStructure>
+buildTopLevels(Device& device, std::span<const Instance> instances) {
+    std::vector<VkAccelerationStructureInstanceKHR> records;
+    records.reserve(instances.size());
+    for (const Instance& instance : instances)
+        records.push_back(makeRecord(instance));
+    Buffer buffer(
+        device,
+        "TLAS instances",
+        records.size() * sizeof(VkAccelerationStructureInstanceKHR),
+        kInputUsage,
+        MemoryUse::Upload
+    );
+    buffer.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
+    std::vector<AccelerationStructure> structures;
+    for (size_t i = 0; i < instances.size(); ++i) {
+        InstanceBuild build(buffer.address() + i * sizeof(VkAccelerationStructureInstanceKHR));
+        const auto sizes = build.measure(device, 1);
+        structures.emplace_back(
+            device,
+            fmt::format("TLAS of one {}", i),
+            VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
+            sizes.accelerationStructureSize
+        );
+        const Buffer scratch = makeScratch(device, "TLAS scratch", sizes.buildScratchSize);
+        runOnce(device, [&](VkCommandBuffer commands) {
+            build.record(device, commands, structures[i], alignScratch(device, scratch), 1);
+        });
+    }
+    return structures;
+}
+
+void BoxLevel::prepare(Device& device, std::span<const BoxGeometry> boxes) {
+    SHUTTER_CHECK(!boxes.empty(), "a structure of no boxes");
+    mCount = static_cast<uint32_t>(boxes.size());
+    const bool grow = mCount > mCapacity;
+    if (grow) {
+        mCapacity = std::max(mCount + mCount / 2, 16u);
+        mBoxes = Buffer(
+            device, "moving boxes", mCapacity * sizeof(BoxGeometry), kInputUsage, MemoryUse::Upload
+        );
+    }
+    mBoxes.write(boxes);
+    if (!grow)
+        return;
+    const auto sizes = BoxBuild(mBoxes.address()).measure(device, mCapacity);
+    mStructure = AccelerationStructure(
+        device,
+        "BLAS of boxes",
+        VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
+        sizes.accelerationStructureSize
+    );
+    mScratch = makeScratch(device, "box scratch", sizes.buildScratchSize);
+}
+
+void BoxLevel::record(const Device& device, VkCommandBuffer commands) {
+    BoxBuild(mBoxes.address())
+        .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
 }
 
 } // namespace shutter::gpu

@@ -6,7 +6,6 @@
 #include "engine/gpu/memory.h"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,7 +59,38 @@ struct Instance {
     float worldFromObject[3][4]; ///< row-major, rows x y z
     uint32_t customIndex = 0;    ///< < 2^24
     bool cullDisabled = true;    ///< double sided
+    uint32_t mask = 0xFF;        ///< rays whose cull mask shares a bit meet it
     VkDeviceAddress bottomLevel = 0;
+};
+
+/// One TLAS an instance, built and waited for: load time only.
+[[nodiscard]] std::vector<AccelerationStructure>
+buildTopLevels(Device& device, std::span<const Instance> instances);
+
+/// An axis-aligned box; finite, min at or below max.
+struct BoxGeometry {
+    float min[3];
+    float max[3];
+};
+
+/// A BLAS of boxes whose contents shaders decide about, rebuilt whenever they moved. A box's index
+/// is its primitive index. Keeps its buffers and grows them.
+class BoxLevel {
+  public:
+    /// Writes the boxes, at least one, and (re)creates buffers; call before record(). The GPU must
+    /// be done with the last build's boxes.
+    void prepare(Device& device, std::span<const BoxGeometry> boxes);
+    /// Records the build; the caller places barriers.
+    void record(const Device& device, VkCommandBuffer commands);
+
+    [[nodiscard]] const AccelerationStructure& structure() const { return mStructure; }
+
+  private:
+    Buffer mBoxes;
+    Buffer mScratch;
+    AccelerationStructure mStructure;
+    uint32_t mCapacity = 0;
+    uint32_t mCount = 0;
 };
 
 /// A TLAS that is rebuilt whenever its instances moved. Keeps its buffers and grows them.
@@ -76,16 +106,6 @@ class TopLevel {
     [[nodiscard]] const AccelerationStructure& structure() const { return mStructure; }
 
   private:
-    /// Build description; `info` points into it, so it does not move.
-    struct Build {
-        VkAccelerationStructureGeometryKHR geometry{
-            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
-        VkAccelerationStructureBuildGeometryInfoKHR info{
-            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
-    };
-
-    [[nodiscard]] std::unique_ptr<Build> describeBuild() const;
-
     Buffer mInstances;
     Buffer mScratch;
     AccelerationStructure mStructure;

@@ -135,5 +135,34 @@ TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
     EXPECT_EQ(top.structure().handle(), large);
 }
 
+TEST_F(AccelerationStructure, OneTopLevelAnInstance) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
+    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    const auto tops = gpu::buildTopLevels(device(), std::vector(3, makeInstance(structures.at(0))));
+    ASSERT_EQ(tops.size(), 3u);
+    for (const gpu::AccelerationStructure& top : tops)
+        EXPECT_NE(top.address(), 0u);
+    EXPECT_NE(tops[0].address(), tops[1].address());
+    EXPECT_TRUE(gpu::buildTopLevels(device(), {}).empty());
+}
+
+TEST_F(AccelerationStructure, BoxesGrowAndKeepTheirRoomWhenTheyShrink) {
+    const auto buildBoxes = [&](gpu::BoxLevel& level, size_t count) {
+        level.prepare(device(), std::vector<gpu::BoxGeometry>(count, {{-1, -1, -1}, {1, 1, 1}}));
+        gpu::runOnce(device(), [&](VkCommandBuffer commands) { level.record(device(), commands); });
+        return level.structure().address();
+    };
+    gpu::BoxLevel level;
+    const VkDeviceAddress small = buildBoxes(level, 1);
+    EXPECT_NE(small, 0u);
+    const VkDeviceAddress large = buildBoxes(level, 100);
+    EXPECT_NE(large, small);
+    EXPECT_EQ(buildBoxes(level, 3), large);
+    gpu::TopLevel top;
+    build(device(), top, std::vector{makeInstance(level.structure())});
+    EXPECT_TRUE(top.structure());
+}
+
 } // namespace
 } // namespace shutter
