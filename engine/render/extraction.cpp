@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/math/projection.h"
+#include "engine/render/poses.h"
 
 #include <algorithm>
 #include <array>
@@ -32,29 +33,11 @@ dmat4 makeProjection(const scene::Camera& camera, double aspect) {
     );
 }
 
-bool isDrawable(const dmat4& matrix) {
-    const double determinant = glm::determinant(math::dmat3(matrix));
-    return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
-}
-
-/// Scale in a camera's node has no meaning for the view: only where it stands and looks counts. One
-/// that is scaled to nothing looks along the world's axes.
-dmat4 removeScale(const dmat4& world) {
-    if (!isDrawable(world))
-        return glm::translate(dmat4(1.0), dvec3(world[3]));
-    dmat4 rigid = world;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double size = glm::length(dvec3(world[axis]));
-        if (size > 0.0)
-            rigid[axis] = dvec4(dvec3(world[axis]) / size, 0.0);
-    }
-    return rigid;
-}
-
 CameraPose poseCamera(
     const scene::World& world, ecs::Entity entity, const dmat4& clipFromView, double seconds
 ) {
-    const dmat4 worldFromView = removeScale(scene::worldFromEntity(world, entity, seconds));
+    const dmat4 worldFromView =
+        computeWorldFromView(scene::worldFromEntity(world, entity, seconds));
     CameraPose pose;
     pose.viewFromWorld = glm::inverse(worldFromView);
     pose.clipFromWorld = clipFromView * pose.viewFromWorld;
@@ -86,23 +69,6 @@ bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
     return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
 }
 
-shader::LightRow makeLight(const scene::Light& light, const dmat4& world, const dvec3& origin) {
-    shader::LightRow row{};
-    const dvec3 direction = -dvec3(world[2]);
-    const double size = glm::length(direction);
-    const dvec3 unit = size > 0.0 ? direction / size : dvec3(0.0, 0.0, -1.0);
-    const float range = std::isfinite(light.range) ? light.range : 0.0f;
-    row.positionRange = math::vec4(math::vec3(dvec3(world[3]) - origin), range);
-    row.direction = math::vec4(math::vec3(unit), 0.0f);
-    row.radiance = math::vec4(light.color * light.intensity, 0.0f);
-    row.kind = static_cast<uint32_t>(light.kind);
-    // KHR_lights_punctual, "Inner and Outer Cone Angles".
-    const float outer = std::cos(light.outerConeAngle);
-    row.spotScale = 1.0f / std::max(0.001f, std::cos(light.innerConeAngle) - outer);
-    row.spotOffset = -outer * row.spotScale;
-    return row;
-}
-
 class Extractor {
   public:
     Extractor(const scene::World& world, const SceneLayout& layout, const ViewRequest& request)
@@ -126,7 +92,7 @@ class Extractor {
             addEntity(entity, instance.mesh);
         }
         for (auto [entity, light] : mWorld.registry.view<scene::Light>())
-            addLight(light, worldAt(entity));
+            addLight(entity, light);
         mFrame.constants.lightCount = static_cast<uint32_t>(mFrame.lights.size());
         std::stable_sort(
             mFrame.opaque.begin(),
@@ -142,10 +108,6 @@ class Extractor {
     }
 
   private:
-    dmat4 worldAt(ecs::Entity entity) const {
-        return scene::worldFromEntity(mWorld, entity, mRequest.exposure.raster);
-    }
-
     /// Clip space moved by a part of a pixel, for sampling inside it.
     dmat4 jitterClip() const {
         const math::dvec2 shift =
@@ -183,9 +145,12 @@ class Extractor {
     }
 
     /// A light that is nowhere lights nothing; its NaN would blacken the picture.
-    void addLight(const scene::Light& light, const dmat4& world) {
-        if (math::isFinite(world))
-            mFrame.lights.push_back(makeLight(light, world, mPoses.raster.position));
+    void addLight(ecs::Entity entity, const scene::Light& light) {
+        const dmat4 world = scene::worldFromEntity(mWorld, entity, mRequest.exposure.raster);
+        if (!math::isFinite(world))
+            return;
+        mFrame.lights.push_back(makeLight(light, world, mPoses.raster.position));
+        mFrame.lightEntities.push_back(entity);
     }
 
     void addEntity(ecs::Entity entity, uint32_t mesh) {
@@ -215,6 +180,7 @@ class Extractor {
         const auto index = static_cast<uint32_t>(mFrame.entities.size());
         mFrame.entities.push_back(row);
         mFrame.entityMeshes.push_back(mesh);
+        mFrame.entityHandles.push_back(entity);
         if (isOutside(clipRaster, mLayout.bounds[mesh]))
             return;
         mFrame.moves = mFrame.moves || row.clipFromObjectOpen != row.clipFromObjectClose;

@@ -40,12 +40,14 @@ struct DrawItem {
 
 struct ExtractedFrame {
     std::vector<shader::EntityRow> entities;
-    std::vector<uint32_t> entityMeshes; ///< one a row: index into Assets::meshes
-    std::vector<DrawItem> opaque;       ///< opaque and masked, near to far
-    std::vector<DrawItem> blended;      ///< far to near
+    std::vector<uint32_t> entityMeshes;     ///< one a row: index into Assets::meshes
+    std::vector<ecs::Entity> entityHandles; ///< one a row: whose it is
+    std::vector<DrawItem> opaque;           ///< opaque and masked, near to far
+    std::vector<DrawItem> blended;          ///< far to near
     std::vector<shader::LightRow> lights;
-    shader::FrameConstants constants{}; ///< without the tables' addresses
-    bool moves = false;                 ///< something in the picture, or the camera, moves
+    std::vector<ecs::Entity> lightEntities; ///< one a light: whose it is
+    shader::FrameConstants constants{};     ///< without the tables' addresses
+    bool moves = false;                     ///< something in the picture, or the camera, moves
 };
 
 /// Entities whose transform is singular or not finite, or whose mesh has no triangles, get no row.

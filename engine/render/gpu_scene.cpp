@@ -2,6 +2,7 @@
 #include "engine/render/gpu_scene.h"
 
 #include "engine/gpu/upload.h"
+#include "engine/render/instances.h"
 #include "engine/render/spatial_order.h"
 
 #include <glm/gtc/packing.hpp>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace shutter::render {
@@ -72,7 +74,8 @@ shader::MaterialRow packMaterial(const scene::Material& material) {
         material.occlusionStrength};
     row.flags = (material.unlit ? shader::kMaterialUnlit : 0u) |
                 (material.doubleSided ? shader::kMaterialDoubleSided : 0u) |
-                (material.alphaMode == AlphaMode::Mask ? shader::kMaterialMask : 0u);
+                (material.alphaMode == AlphaMode::Mask ? shader::kMaterialMask : 0u) |
+                (material.alphaMode == AlphaMode::Blend ? shader::kMaterialBlend : 0u);
     const auto pack = [](const scene::TextureSlot& slot, bool srgb) {
         return packSlot(slot, bindlessIndex(slot, srgb));
     };
@@ -298,9 +301,7 @@ void GpuScene::buildBottomLevels() {
             triangles.vertexStride = sizeof(shader::Vertex);
             triangles.vertexCount = mVertexCounts[i];
             triangles.indices = mIndices.address() + uint64_t(info.firstIndex) * 4;
-            // A blended surface hides nothing that a reveal could show; its place in the list stays
-            // so that geometry indices do.
-            triangles.triangleCount = info.alphaMode == AlphaMode::Blend ? 0 : info.indexCount / 3;
+            triangles.triangleCount = info.indexCount / 3;
             // Culling is per instance in Vulkan. Where a mesh mixes sides, the shader must see the
             // single-sided candidates to drop their backs (trace.glsl).
             const bool shaderCulls = anyDoubleSided && anySingleSided && !info.doubleSided;
@@ -309,6 +310,21 @@ void GpuScene::buildBottomLevels() {
         }
     }
     mBottomLevels = gpu::buildBottomLevel(mDevice, meshes);
+    mMeshScenes.resize(mBottomLevels.size());
+}
+
+void GpuScene::buildMeshScenes(std::span<const uint32_t> meshes) {
+    std::set<uint32_t> missing;
+    for (const uint32_t mesh : meshes)
+        if (!mMeshScenes[mesh])
+            missing.insert(mesh);
+    std::vector<gpu::Instance> instances;
+    for (const uint32_t mesh : missing)
+        instances.push_back(describeInstance(*this, mesh));
+    auto built = gpu::buildTopLevels(mDevice, instances);
+    size_t next = 0;
+    for (const uint32_t mesh : missing)
+        mMeshScenes[mesh] = std::move(built[next++]);
 }
 
 } // namespace shutter::render

@@ -8,6 +8,7 @@
 #include "shaders/render/scene_shared.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace shutter::render {
@@ -52,12 +53,22 @@ class GpuScene {
 
     [[nodiscard]] VkDescriptorSet textureSet() const { return mTextureSet; }
 
-    /// Builds every mesh's BLAS the first time; blended geometries are left out of them.
+    /// Builds every mesh's BLAS the first time. Candidates of blended geometries are shown to the
+    /// shader, which passes or takes them.
     void buildBottomLevels();
 
     /// Null (false) for a mesh without triangles that rays can meet.
     [[nodiscard]] const gpu::AccelerationStructure& bottomLevel(uint32_t mesh) const {
         return mBottomLevels[mesh];
+    }
+
+    /// Builds, where it is not yet there, each mesh's own TLAS: one instance, in object space.
+    /// \param meshes that have a bottomLevel(); may hold one more than once
+    void buildMeshScenes(std::span<const uint32_t> meshes);
+
+    /// Null (false) until built.
+    [[nodiscard]] const gpu::AccelerationStructure& meshScene(uint32_t mesh) const {
+        return mMeshScenes[mesh];
     }
 
   private:
@@ -78,6 +89,7 @@ class GpuScene {
     VkDescriptorPool mTexturePool = VK_NULL_HANDLE;
     VkDescriptorSet mTextureSet = VK_NULL_HANDLE;
     std::vector<gpu::AccelerationStructure> mBottomLevels;
+    std::vector<gpu::AccelerationStructure> mMeshScenes;
     std::vector<uint32_t> mFirstVertex;  ///< one a geometry
     std::vector<uint32_t> mVertexCounts; ///< one a geometry
     bool mBottomLevelsBuilt = false;

@@ -39,6 +39,16 @@ struct RayScene {
     VkDeviceAddress frameConstants = 0;
 };
 
+/// What rays that each have their own time need (moving_scene.h); handles of this frame.
+struct MovingRays {
+    graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
+    graph::BufferHandle boxesBuffer;    ///< the same, unless it is invalid: then nothing moves
+    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
+    VkDescriptorSet textures = VK_NULL_HANDLE;
+    VkDeviceAddress frameConstants = 0;
+    VkDeviceAddress movingConstants = 0; ///< shader::MovingConstants
+};
+
 /// Named intermediates that somebody asked to see (`--aov`).
 class Intermediates {
   public:
@@ -65,14 +75,17 @@ struct PostContext {
     graph::Graph& graph;
     const ViewFacts& facts;
     const GBuffer& gbuffer;
-    const RayScene* rays;       ///< null where no effect asked for rays
-    graph::ImageHandle color;   ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display; ///< display-encoded, once somebody made it
+    const RayScene* rays;         ///< null where no effect asked for rays
+    const MovingRays* movingRays; ///< null where no effect asked for moving rays
+    graph::ImageHandle color;     ///< linear HDR so far; an effect replaces it
+    graph::ImageHandle display;   ///< display-encoded, once somebody made it
     Intermediates& intermediates;
 };
 
 /// Numbers an effect reports about a frame, e.g. "rays traced".
 using Counters = std::map<std::string, uint64_t>;
+/// Figures an effect measures, e.g. "standard error"; a later frame's replaces an earlier one's.
+using Measures = std::map<std::string, double>;
 
 class PostEffect {
   public:
@@ -84,11 +97,17 @@ class PostEffect {
 
     [[nodiscard]] virtual bool needsRays() const { return false; }
 
+    /// Rays at any time of the exposure.
+    [[nodiscard]] virtual bool needsMovingRays() const { return false; }
+
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;
 
     /// Counters of the frame declared last; called when the GPU is done with it.
     virtual void collect(Counters&) {}
+
+    /// Measures of the frame declared last; called when the GPU is done with it.
+    virtual void measure(Measures&) {}
 };
 
 } // namespace shutter::render

@@ -3,7 +3,7 @@
 
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
-#include "engine/render/spatial_order.h"
+#include "engine/render/instances.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,40 +21,6 @@ double millisecondsSince(Clock::time_point start) {
 
 VkDeviceSize alignTable(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
-}
-
-/// Rows that rays can meet, in an order that builders which keep it make a good tree of.
-std::vector<gpu::Instance> makeInstances(const ExtractedFrame& frame, const GpuScene& scene) {
-    std::vector<gpu::Instance> instances;
-    std::vector<Box> boxes;
-    const SceneLayout& layout = scene.layout();
-    for (uint32_t i = 0; i < frame.entities.size(); ++i) {
-        const uint32_t mesh = frame.entityMeshes[i];
-        const gpu::AccelerationStructure& bottomLevel = scene.bottomLevel(mesh);
-        if (!bottomLevel)
-            continue;
-        gpu::Instance instance;
-        instance.customIndex = i;
-        instance.bottomLevel = bottomLevel.address();
-        instance.cullDisabled = false;
-        for (uint32_t g = layout.firstGeometry[mesh]; g < layout.firstGeometry[mesh + 1]; ++g)
-            instance.cullDisabled = instance.cullDisabled || layout.geometries[g].doubleSided;
-        math::dmat4 eyeFromObject(1.0);
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 4; ++column) {
-                instance.worldFromObject[row][column] =
-                    frame.entities[i].eyeFromObject[row][column];
-                eyeFromObject[column][row] = double(instance.worldFromObject[row][column]);
-            }
-        const math::Bounds bounds = math::transformBounds(eyeFromObject, layout.bounds[mesh]);
-        boxes.push_back({math::vec3(bounds.min), math::vec3(bounds.max)});
-        instances.push_back(instance);
-    }
-    std::vector<gpu::Instance> ordered;
-    ordered.reserve(instances.size());
-    for (uint32_t index : computeSpatialOrder(boxes))
-        ordered.push_back(instances[index]);
-    return ordered;
 }
 
 ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays) {
@@ -78,7 +44,8 @@ std::vector<PostEffect*> askEffects(
     std::vector<PostEffect*> running;
     for (PostEffect* effect : effects) {
         Decision decision = effect->ask(facts);
-        if (decision.run && effect->needsRays() && !facts.deviceHasRays)
+        const bool needsRays = effect->needsRays() || effect->needsMovingRays();
+        if (decision.run && needsRays && !facts.deviceHasRays)
             decision = {false, "it needs rays, which the device cannot trace"};
         reasons[effect->name()] = (decision.run ? "ran: " : "skipped: ") + decision.reason;
         if (decision.run)
@@ -91,7 +58,7 @@ std::vector<PostEffect*> askEffects(
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
-      mPool(device), mReadback(device) {}
+      mPool(device), mReadback(device), mMovingScene(device) {}
 
 VkDeviceAddress Renderer::uploadTables(ExtractedFrame& frame) {
     const VkDeviceSize entitiesAt = alignTable(sizeof(shader::FrameConstants));
@@ -118,8 +85,10 @@ VkDeviceAddress Renderer::uploadTables(ExtractedFrame& frame) {
 
 void Renderer::declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays) {
     mScene.buildBottomLevels();
-    const auto instances = makeInstances(frame, mScene);
-    mTopLevel.prepare(mDevice, instances);
+    InstanceList instances(mScene);
+    for (uint32_t row = 0; row < frame.entities.size(); ++row)
+        instances.add(row, frame.entityMeshes[row], frame.entities[row].eyeFromObject);
+    mTopLevel.prepare(mDevice, instances.order());
     rays.topLevel = mTopLevel.structure().handle();
     const auto imported =
         graph.importBuffer("top-level acceleration structure", mTopLevel.structure().buffer(), 0);
@@ -158,10 +127,19 @@ core::Result<FrameResult> Renderer::renderFrame(
     const std::vector<PostEffect*> running =
         askEffects(effects, facts, result.statistics.decisions);
 
+    std::optional<MovingTables> moving;
+    if (std::any_of(running.begin(), running.end(), [](auto* e) { return e->needsMovingRays(); })) {
+        auto computed = computeMovingTables(world, mScene.layout(), request.view, frame);
+        if (!computed)
+            return computed.error();
+        moving = std::move(computed).value();
+    }
+
     mFrame.begin();
     mReadback.reset();
     graph::Graph graph;
-    const Tickets tickets = declareFrame(graph, request, facts, frame, running);
+    const Tickets tickets =
+        declareFrame(graph, request, facts, frame, moving ? &*moving : nullptr, running);
     auto plan = graph::execute(graph, mFrame, mPool);
     if (!plan)
         return plan.error();
@@ -170,8 +148,10 @@ core::Result<FrameResult> Renderer::renderFrame(
     result.statistics.passes = mFrame.waitForTimes();
     result.statistics.wallMilliseconds = millisecondsSince(start);
     result.statistics.transientBytes = mPool.heldBytes();
-    for (PostEffect* effect : running)
+    for (PostEffect* effect : running) {
         effect->collect(result.statistics.counters);
+        effect->measure(result.statistics.measures);
+    }
     if (request.wantDump)
         result.dump = graph::dump(graph, plan.value());
     if (tickets.color)
@@ -188,6 +168,7 @@ Renderer::Tickets Renderer::declareFrame(
     const FrameRequest& request,
     const ViewFacts& facts,
     ExtractedFrame& frame,
+    const MovingTables* moving,
     std::span<PostEffect* const> running
 ) {
     RayScene rays;
@@ -198,11 +179,21 @@ Renderer::Tickets Renderer::declareFrame(
     });
     if (raysWanted)
         declareTopLevel(graph, frame, rays);
+    MovingRays movingRays;
+    if (moving)
+        movingRays = mMovingScene.declare(graph, *moving, frame, mScene, rays.frameConstants);
     const GBuffer gbuffer = mGBufferPass.declare(graph, frame, mScene, rays.frameConstants);
     Intermediates intermediates(request.intermediates);
     publishGBuffer(gbuffer, intermediates);
     PostContext context{
-        graph, facts, gbuffer, raysWanted ? &rays : nullptr, gbuffer.color, {}, intermediates};
+        graph,
+        facts,
+        gbuffer,
+        raysWanted ? &rays : nullptr,
+        moving ? &movingRays : nullptr,
+        gbuffer.color,
+        {},
+        intermediates};
     for (PostEffect* effect : running)
         effect->declare(context);
 

@@ -9,6 +9,7 @@
 #include "engine/render/extraction.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/gpu_scene.h"
+#include "engine/render/moving_scene.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
@@ -36,6 +37,7 @@ struct FrameStatistics {
     double cpuMilliseconds = 0.0;      ///< extraction, declaring, compiling, recording
     double wallMilliseconds = 0.0;     ///< the whole frame with waiting for the GPU
     Counters counters;
+    Measures measures;
     std::map<std::string, std::string> decisions; ///< effect -> "ran: ..." or "skipped: ..."
     uint64_t transientBytes = 0;                  ///< memory of the graph's images
 };
@@ -73,6 +75,7 @@ class Renderer {
         const FrameRequest& request,
         const ViewFacts& facts,
         ExtractedFrame& frame,
+        const MovingTables* moving,
         std::span<PostEffect* const> running
     );
     VkDeviceAddress uploadTables(ExtractedFrame& frame);
@@ -87,6 +90,7 @@ class Renderer {
     Readback mReadback;
     gpu::Buffer mTables; ///< constants, entities and lights of the frame, mapped
     gpu::TopLevel mTopLevel;
+    MovingScene mMovingScene;
 };
 
 } // namespace shutter::render

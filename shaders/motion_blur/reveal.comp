@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "motion_blur/motion_blur_shared.h"
-#include "render/lighting.glsl"
+#include "render/shade_hit.glsl"
 #include "render/sky.glsl"
 #include "render/trace.glsl"
 #include "render/view_ray.glsl"
@@ -40,25 +40,20 @@ Revealed revealSky(FrameRef frame, vec2 centre, vec3 direction) {
     );
 }
 
-Revealed shadeHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
-    EntityRow row = EntityTable(frame.value.entities).rows[rayHit.id.entity];
-    Hit hit = fetchHit(frame, row, rayHit.id);
-    MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
-    Surface surface = evaluateSurface(frame, material, hit.point, direction);
-    Revealed revealed;
-    revealed.color =
-        shadeSurface(frame, material, surface, hit.point.eyePosition, direction);
-    vec4 position = vec4(hit.objectPosition, 1.0f);
-    vec4 open = row.clipFromObjectOpen * position;
-    vec4 visible = row.clipFromObjectRaster * position;
-    vec4 close = row.clipFromObjectClose * position;
+Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
+    Placement placement = placeAtRaster(frame, rayHit.id.entity);
+    ShadedHit shaded =
+        shadeHit(frame, placement, rayHit.id, direction, vec3(0.0f), lightsAtRaster(frame));
+    EntityTable entities = EntityTable(frame.value.entities);
+    vec4 position = vec4(shaded.objectPosition, 1.0f);
+    vec4 open = entities.rows[rayHit.id.entity].clipFromObjectOpen * position;
+    vec4 visible = entities.rows[rayHit.id.entity].clipFromObjectRaster * position;
+    vec4 close = entities.rows[rayHit.id.entity].clipFromObjectClose * position;
     vec2 motion = motionFromClip(
         open.xyw, close.xyw, visible.xyw, frame.value.forward.w, frame.value.sizePx
     );
-    float depth = dot(hit.point.eyePosition, frame.value.forward.xyz);
-    revealed.motionDepth = vec4(motion, depth, 0.0f);
-    revealed.meshId = rayHit.id.entity;
-    return revealed;
+    float depth = dot(shaded.eyePosition, frame.value.forward.xyz);
+    return Revealed(shaded.color, vec4(motion, depth, 0.0f), rayHit.id.entity);
 }
 
 void main() {
@@ -95,7 +90,7 @@ void main() {
         bool last = level + 1u == params.recursionLimit;
         bool other = hit.id.entity != frontId;
         if (params.objectTest == kObjectTestMeshId && !other && !last) continue;
-        revealed = shadeHit(frame, hit, centre, ray.direction);
+        revealed = revealHit(frame, hit, centre, ray.direction);
         if (params.objectTest == kObjectTestLuminance)
             other = abs(luminance(revealed.color) - frontLuminance) > params.luminanceThreshold;
         if (other) break;

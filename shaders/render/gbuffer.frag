@@ -55,7 +55,9 @@ void main() {
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
     if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;
 
-    vec3 color = shadeSurface(frame, material, surface, inEyePosition, viewDirection);
+    vec3 color = shadeSurface(
+        frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame)
+    );
     outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
     outNormal = vec4(surface.normal, 0.0f);
     // x, y, w of the raster clip position; 1 / gl_FragCoord.w is w.

@@ -25,10 +25,12 @@ void main() {
     vec4 close = row.clipFromObjectClose * position;
     outClipOpen = open.xyw;
     outClipClose = close.xyw;
-    outEyePosition = transformPoint(row, position.xyz);
-    outNormal = transformNormal(row, vertex.normalV0.xyz);
-    outTangent =
-        vec4(transformDirection(row, vertex.tangent.xyz), vertex.tangent.w * row.handedness);
+    Placement placement = placeAtRaster(frame, draw.entity);
+    outEyePosition = transformPoint(placement, position.xyz);
+    outNormal = transformNormal(placement, vertex.normalV0.xyz);
+    outTangent = vec4(
+        transformDirection(placement, vertex.tangent.xyz), vertex.tangent.w * placement.handedness
+    );
     outUv = vec4(vertex.positionU0.w, vertex.normalV0.w, vertex.uv1);
     outColor = unpackColor(vertex.color);
 }

@@ -31,10 +31,39 @@ void evaluateLight(LightRow light, vec3 position, out vec3 toLight, out vec3 irr
     irradiance = light.radiance.rgb * attenuation;
 }
 
+/// All lights at one instant: between two tables.
+struct LightSet {
+    uvec2 first;  // address of LightRow[]
+    uvec2 second;
+    float blend;  // 0: the first, 1: the second
+    uint count;
+};
+
+LightSet lightsAtRaster(FrameRef frame) {
+    return LightSet(frame.value.lights, frame.value.lights, 0.0f, frame.value.lightCount);
+}
+
+LightRow lightAt(LightSet lights, uint index) {
+    LightRow light = LightTable(lights.first).rows[index];
+    if (lights.blend > 0.0f) {
+        LightTable second = LightTable(lights.second);
+        light.positionRange =
+            mix(light.positionRange, second.rows[index].positionRange, lights.blend);
+        light.radiance = mix(light.radiance, second.rows[index].radiance, lights.blend);
+        light.direction.xyz = safeNormalize(
+            mix(light.direction.xyz, second.rows[index].direction.xyz, lights.blend),
+            light.direction.xyz
+        );
+    }
+    return light;
+}
+
 /// Radiance from the surface towards the camera; always storable in a half-float image.
+/// \param position in the lights' space
 /// \param viewDirection unit, from the camera to the surface
 vec3 shadeSurface(
-    FrameRef frame, MaterialRow material, Surface surface, vec3 position, vec3 viewDirection
+    FrameRef frame, MaterialRow material, Surface surface, vec3 position, vec3 viewDirection,
+    LightSet lights
 ) {
     if ((frame.value.flags & kFrameUnlit) != 0u || (material.flags & kMaterialUnlit) != 0u)
         return storableColor(surface.baseColor);
@@ -44,11 +73,10 @@ vec3 shadeSurface(
     vec3 mirrored = environmentBrdf(f0, roughness, saturate(abs(dot(surface.normal, v))));
     vec3 diffuse = surface.baseColor * (1.0f - surface.metallic) * (vec3(1.0f) - mirrored);
     vec3 color = frame.value.ambient.rgb * (diffuse + mirrored) * surface.occlusion;
-    LightTable lights = LightTable(frame.value.lights);
-    for (uint i = 0u; i < frame.value.lightCount; ++i) {
+    for (uint i = 0u; i < lights.count; ++i) {
         vec3 toLight;
         vec3 irradiance;
-        evaluateLight(lights.rows[i], position, toLight, irradiance);
+        evaluateLight(lightAt(lights, i), position, toLight, irradiance);
         color += irradiance * reflectLight(
                                   surface.baseColor, surface.metallic, roughness, surface.normal, v,
                                   toLight

@@ -55,6 +55,11 @@ struct TextureRef {
 SHUTTER_CONST uint kMaterialUnlit = 1u;
 SHUTTER_CONST uint kMaterialDoubleSided = 2u;
 SHUTTER_CONST uint kMaterialMask = 4u;
+SHUTTER_CONST uint kMaterialBlend = 8u;
+
+/// Bits of an instance's mask and of a ray's: what can be met.
+SHUTTER_CONST uint kSolidMask = 1u;   // opaque and masked surfaces
+SHUTTER_CONST uint kBlendedMask = 2u; // blended ones
 
 struct MaterialRow {
     vec4 baseColor;

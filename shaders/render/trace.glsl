@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The one place that traces. Everything else asks traceRay().
+// Rays at the raster instant, and what counts as a hit for rays at any time.
 #ifndef SHUTTER_TRACE_GLSL
 #define SHUTTER_TRACE_GLSL
 
@@ -13,8 +13,28 @@ struct RayHit {
     HitId id;
 };
 
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn: back faces of
-/// single-sided materials and transparent parts of masked ones are passed.
+/// Whether raster would have drawn the candidate there: back faces of single-sided materials and
+/// transparent parts of masked ones are passed.
+/// \param direction unit, from the camera
+/// \param eye place of the camera, eye space
+bool isDrawn(
+    FrameRef frame, Placement placement, HitId id, bool frontFace, vec3 direction, vec3 eye,
+    uint mask
+) {
+    uint geometry = placement.firstGeometry + id.geometry;
+    uint index = GeometryTable(frame.value.geometries).rows[geometry].material;
+    MaterialTable materials = MaterialTable(frame.value.materials);
+    uint flags = materials.rows[index].flags;
+    if ((flags & kMaterialBlend) != 0u && (mask & kBlendedMask) == 0u) return false;
+    if ((flags & kMaterialDoubleSided) == 0u && !frontFace) return false;
+    if ((flags & kMaterialMask) == 0u) return true;
+    Hit hit = fetchHit(frame, placement, id);
+    hit.point.eyePosition -= eye;
+    return isCovered(frame, materials.rows[index], hit.point, direction);
+}
+
+/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn; blended ones are
+/// passed.
 /// \param direction unit
 RayHit traceRay(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
@@ -22,10 +42,9 @@ RayHit traceRay(
 ) {
     rayQueryEXT query;
     rayQueryInitializeEXT(
-        query, scene, gl_RayFlagsCullBackFacingTrianglesEXT, 0xFF, origin, tMin, direction, tMax
+        query, scene, gl_RayFlagsCullBackFacingTrianglesEXT, kSolidMask, origin, tMin, direction,
+        tMax
     );
-    EntityTable entities = EntityTable(frame.value.entities);
-    MaterialTable materials = MaterialTable(frame.value.materials);
     while (rayQueryProceedEXT(query)) {
         if (rayQueryGetIntersectionTypeEXT(query, false) !=
             gl_RayQueryCandidateIntersectionTriangleEXT)
@@ -36,15 +55,10 @@ RayHit traceRay(
             uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)),
             rayQueryGetIntersectionBarycentricsEXT(query, false)
         );
-        Hit hit = fetchHit(frame, entities.rows[id.entity], id);
-        MaterialRow material = materials.rows[hit.material];
-        if ((material.flags & kMaterialDoubleSided) == 0u &&
-            !rayQueryGetIntersectionFrontFaceEXT(query, false))
-            continue;
-        if ((material.flags & kMaterialMask) != 0u &&
-            !isCovered(frame, material, hit.point, direction))
-            continue;
-        rayQueryConfirmIntersectionEXT(query);
+        bool frontFace = rayQueryGetIntersectionFrontFaceEXT(query, false);
+        Placement placement = placeAtRaster(frame, id.entity);
+        if (isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), kSolidMask))
+            rayQueryConfirmIntersectionEXT(query);
     }
     RayHit result;
     result.found = rayQueryGetIntersectionTypeEXT(query, true) ==

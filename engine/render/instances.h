@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Entities as instances of their meshes, for top-level acceleration structures.
+#pragma once
+
+#include "engine/gpu/acceleration_structure.h"
+#include "engine/render/extraction.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/render/spatial_order.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shutter::render {
+
+/// Instances and the boxes to order them by.
+class InstanceList {
+  public:
+    explicit InstanceList(const GpuScene& scene) : mScene(scene) {}
+
+    /// Leaves out meshes that no ray can meet and matrices that are singular or not finite.
+    /// \param eyeFromObject rows of a 3x4 matrix
+    void add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3]);
+    void add(const gpu::Instance& instance, const Box& box);
+
+    /// In an order that builders which keep it make a good tree of.
+    [[nodiscard]] std::vector<gpu::Instance> order() const;
+
+  private:
+    const GpuScene& mScene;
+    std::vector<gpu::Instance> mInstances;
+    std::vector<Box> mBoxes;
+};
+
+/// Culling and mask of a mesh's instances; placed at the origin.
+[[nodiscard]] gpu::Instance describeInstance(const GpuScene& scene, uint32_t mesh);
+
+} // namespace shutter::render

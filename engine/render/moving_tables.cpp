@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/moving_tables.h"
+
+#include "engine/math/transform.h"
+#include "engine/render/poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shutter::render {
+
+namespace {
+
+using math::Bounds;
+using math::dmat4;
+using math::dvec3;
+
+constexpr uint32_t kPathIntervals = 16;
+/// Boxes grow by this much of their largest coordinate: rounding of keys and of the ray's way into
+/// object space must not leave a surface outside of its box.
+constexpr double kBoxGrowth = 1.0e-5;
+/// Deviation of a light's place, of the length of its way, and of its direction, radians.
+constexpr double kLightTolerance = 1.0e-3;
+
+bool isFiniteBox(const Bounds& bounds) {
+    constexpr double kLargest = 1.0e18; // lavapipe's rays lose themselves beyond 1e20
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(bounds.min[axis] > -kLargest) || !(bounds.max[axis] < kLargest))
+            return false;
+    return true;
+}
+
+Box growBox(const Bounds& bounds) {
+    const dvec3 largest = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const double margin = kBoxGrowth * std::max({largest.x, largest.y, largest.z, 1.0e-3});
+    return {math::vec3(bounds.min - margin), math::vec3(bounds.max + margin)};
+}
+
+class Builder {
+  public:
+    Builder(
+        const scene::World& world,
+        const SceneLayout& layout,
+        const ViewRequest& request,
+        ExtractedFrame& frame
+    )
+        : mWorld(world), mLayout(layout), mRequest(request), mFrame(frame),
+          mCamera(world.registry.get<scene::Camera>(request.camera)) {
+        mOrigin = dvec3(viewAt(request.exposure.raster)[3]);
+    }
+
+    core::Result<MovingTables> run() {
+        describeView();
+        for (size_t row = 0; row < mFrame.entities.size(); ++row)
+            mTables.rows.push_back(computeRow(row));
+        if (core::Status added = addHiddenEntities(); !added)
+            return added.error();
+        addLights();
+        collectMoving();
+        return std::move(mTables);
+    }
+
+  private:
+    dmat4 viewAt(double seconds) const {
+        return computeWorldFromView(scene::worldFromEntity(mWorld, mRequest.camera, seconds));
+    }
+
+    dmat4 toEye(dmat4 world) const {
+        world[3] -= math::dvec4(mOrigin, 0.0);
+        return world;
+    }
+
+    dmat4 entityAt(ecs::Entity entity, double s) const {
+        return toEye(scene::worldFromEntity(mWorld, entity, mRequest.exposure.at(s)));
+    }
+
+    void describeView() {
+        const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
+        const double aspect = double(mRequest.width) / mRequest.height;
+        const double halfHeight = perspective ? std::tan(mCamera.yFov / 2.0) : mCamera.yMag;
+        const math::dvec2 half(halfHeight * aspect, halfHeight);
+        mTables.view = {
+            float(half.x), float(half.y), float(mCamera.near), perspective ? 1.0f : 0.0f};
+        const double pixel = 2.0 * halfHeight / mRequest.height;
+        mTolerance.near = perspective ? mCamera.near : 0.0;
+        (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
+
+        const auto eyeFromView = [&](double s) { return toEye(viewAt(mRequest.exposure.at(s))); };
+        auto keys = computeCameraKeys(eyeFromView, half, mTolerance);
+        if (keys)
+            mTables.camera = std::move(*keys);
+        else // a camera that is nowhere for a while sees what it sees at the raster instant
+            mTables.camera.keys = {makeKey(toEye(viewAt(mRequest.exposure.raster)))};
+        for (uint32_t i = 0; i <= kPathIntervals; ++i)
+            mTolerance.cameraPath.push_back(
+                dvec3(interpolateKeys(mTables.camera.keys, double(i) / kPathIntervals)[3])
+            );
+    }
+
+    MotionKeys computeRow(size_t row) const {
+        const ecs::Entity entity = mFrame.entityHandles[row];
+        const Bounds& bounds = mLayout.bounds[mFrame.entityMeshes[row]];
+        if (scene::mayMove(mWorld, entity))
+            if (auto keys = computeKeys(entity, bounds))
+                return std::move(*keys);
+        MotionKeys still;
+        const auto& matrix = mFrame.entities[row].eyeFromObject;
+        still.keys = {{{matrix[0], matrix[1], matrix[2]}}};
+        still.swept = math::transformBounds(expandKey(still.keys[0]), bounds);
+        return still;
+    }
+
+    std::optional<MotionKeys> computeKeys(ecs::Entity entity, const Bounds& bounds) const {
+        return computeMotionKeys([&](double s) { return entityAt(entity, s); }, bounds, mTolerance);
+    }
+
+    core::Status addHiddenEntities() {
+        const std::vector<ecs::Entity> drawn = mFrame.entityHandles;
+        size_t next = 0; // rows are in the order of the registry's view
+        for (auto [entity, instance] : mWorld.registry.view<scene::MeshInstance>()) {
+            if (next < drawn.size() && drawn[next] == entity) {
+                ++next;
+                continue;
+            }
+            const Bounds& bounds = mLayout.bounds[instance.mesh];
+            const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];
+            if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1] ||
+                !scene::mayMove(mWorld, entity))
+                continue;
+            auto keys = computeKeys(entity, bounds);
+            if (!keys || keys->keys.size() == 1)
+                continue;
+            if (mFrame.entities.size() >= kMaxEntities)
+                return core::makeError(
+                    "the scene draws more than {} entities, the most the entity table holds",
+                    kMaxEntities
+                );
+            shader::EntityRow row{};
+            row.firstGeometry = firstGeometry;
+            row.handedness = 1.0f;
+            mFrame.entities.push_back(row);
+            mFrame.entityMeshes.push_back(instance.mesh);
+            mFrame.entityHandles.push_back(entity);
+            mTables.rows.push_back(std::move(*keys));
+        }
+        return {};
+    }
+
+    shader::LightRow lightAt(size_t index, double s) const {
+        const ecs::Entity entity = mFrame.lightEntities[index];
+        const dmat4 world = scene::worldFromEntity(mWorld, entity, mRequest.exposure.at(s));
+        if (math::isFinite(world))
+            return makeLight(mWorld.registry.get<scene::Light>(entity), world, mOrigin);
+        shader::LightRow dark = mFrame.lights[index];
+        dark.radiance = math::vec4(0.0f);
+        return dark;
+    }
+
+    /// Intervals after which the light is where linear interpolation says, to the tolerance.
+    uint32_t countLightIntervals(size_t index) const {
+        if (!scene::mayMove(mWorld, mFrame.lightEntities[index]))
+            return 0;
+        const auto far = [](const math::vec4& a, const math::vec4& b) {
+            return double(glm::length(math::vec3(a - b)));
+        };
+        const shader::LightRow open = lightAt(index, 0.0);
+        double way = 0.0;
+        double turn = 0.0;
+        for (uint32_t i = 1; i <= kPathIntervals; ++i) {
+            const shader::LightRow row = lightAt(index, double(i) / kPathIntervals);
+            way = std::max(way, far(row.positionRange, open.positionRange));
+            turn = std::max(turn, far(row.direction, open.direction));
+        }
+        if (way == 0.0 && turn == 0.0)
+            return 0;
+        uint32_t intervals = kPathIntervals;
+        for (; intervals < kMaxLightIntervals; intervals *= 2) {
+            bool follows = true;
+            for (uint32_t i = 0; i < intervals && follows; ++i) {
+                const shader::LightRow a = lightAt(index, double(i) / intervals);
+                const shader::LightRow b = lightAt(index, (i + 1.0) / intervals);
+                const shader::LightRow m = lightAt(index, (i + 0.5) / intervals);
+                follows = far(m.positionRange, (a.positionRange + b.positionRange) * 0.5f) <=
+                              kLightTolerance * way &&
+                          far(m.direction, (a.direction + b.direction) * 0.5f) <= kLightTolerance;
+            }
+            if (follows)
+                break;
+        }
+        return intervals;
+    }
+
+    void addLights() {
+        uint32_t intervals = 0;
+        for (size_t i = 0; i < mFrame.lights.size(); ++i)
+            intervals = std::max(intervals, countLightIntervals(i));
+        mTables.lightKeyCount = intervals + 1;
+        if (intervals == 0) {
+            mTables.lights = mFrame.lights;
+            return;
+        }
+        for (uint32_t key = 0; key <= intervals; ++key)
+            for (size_t i = 0; i < mFrame.lights.size(); ++i)
+                mTables.lights.push_back(lightAt(i, double(key) / intervals));
+    }
+
+    bool hasTriangles(uint32_t row) const {
+        const uint32_t mesh = mFrame.entityMeshes[row];
+        const auto begin = mLayout.geometries.begin();
+        return std::any_of(
+            begin + mLayout.firstGeometry[mesh],
+            begin + mLayout.firstGeometry[mesh + 1],
+            [](const SceneLayout::GeometryInfo& info) { return info.indexCount > 0; }
+        );
+    }
+
+    void collectMoving() {
+        std::vector<uint32_t> rows;
+        std::vector<Box> boxes;
+        for (uint32_t row = 0; row < mTables.rows.size(); ++row) {
+            const MotionKeys& keys = mTables.rows[row];
+            if (keys.keys.size() == 1 || !isFiniteBox(keys.swept) || !hasTriangles(row))
+                continue;
+            rows.push_back(row);
+            boxes.push_back(growBox(keys.swept));
+        }
+        for (const uint32_t index : computeSpatialOrder(boxes)) {
+            mTables.moving.push_back(rows[index]);
+            mTables.boxes.push_back(boxes[index]);
+        }
+    }
+
+    const scene::World& mWorld;
+    const SceneLayout& mLayout;
+    const ViewRequest& mRequest;
+    ExtractedFrame& mFrame;
+    const scene::Camera& mCamera;
+    dvec3 mOrigin{0.0};
+    KeyTolerance mTolerance;
+    MovingTables mTables;
+};
+
+} // namespace
+
+core::Result<MovingTables> computeMovingTables(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& request,
+    ExtractedFrame& frame
+) {
+    return Builder(world, layout, request, frame).run();
+}
+
+} // namespace shutter::render

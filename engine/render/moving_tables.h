@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// All motion of a frame as keys, on the CPU: entities, camera, lights.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/extraction.h"
+#include "engine/render/motion_keys.h"
+#include "engine/render/spatial_order.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::render {
+
+/// Most intervals between two tables of lights.
+inline constexpr uint32_t kMaxLightIntervals = 256;
+
+struct MovingTables {
+    std::vector<MotionKeys> rows;         ///< beside ExtractedFrame::entities
+    MotionKeys camera;                    ///< eyeFromView
+    math::vec4 view{0.0f};                ///< MovingConstants::view
+    std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
+    uint32_t lightKeyCount = 1;
+    std::vector<uint32_t> moving; ///< rows that move and can be met, in spatial order
+    std::vector<Box> boxes;       ///< of `moving`: eye space, over the whole exposure, finite
+};
+
+/// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster
+/// instant but can at another (scaled to nothing for a while, say) gets a row of its own behind the
+/// others: no pixel of the raster image has its id, rays may meet it. Error: the world has more
+/// entities than the table can hold.
+[[nodiscard]] core::Result<MovingTables> computeMovingTables(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& request,
+    ExtractedFrame& frame
+);
+
+} // namespace shutter::render

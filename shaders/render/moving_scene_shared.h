@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// What rays at any time of the exposure read. Shutter time s runs from 0 (open) to 1 (close); eye
+// space is scene_shared.h's, with its origin where the camera is at the raster instant, at all s.
+#ifndef SHUTTER_MOVING_SCENE_SHARED_H
+#define SHUTTER_MOVING_SCENE_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// A 3x4 matrix at one shutter time, row by row.
+struct MotionKey {
+    vec4 rows[3];
+};
+
+/// Beside each row of the entity table.
+struct MovingRow {
+    uvec2 keys;         // address of MotionKey[]: eyeFromObject
+    uint keyCount;      // 1: it stands still; else uniform over s, both ends included
+    uint firstGeometry; // as EntityRow's
+    uvec2 meshScene;    // address of the mesh's own top level, object space; 0 where it stands still
+    uint padding0;
+    uint padding1;
+};
+
+struct MovingConstants {
+    vec4 view;        // x, y: half the view's width and height, at distance 1 (perspective) or
+                      // anywhere (orthographic); z: near plane, metres; w: 1 perspective, 0 not
+    uvec2 rows;       // address of MovingRow[]
+    uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
+    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView, rigid
+    uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
+    uint cameraKeyCount;
+    uint lightKeyCount;
+    uint lightCount;
+    uint padding0;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::MotionKey) == 48);
+static_assert(sizeof(shutter::shader::MovingRow) == 32);
+static_assert(sizeof(shutter::shader::MovingConstants) == 64);
+#endif
+
+#endif

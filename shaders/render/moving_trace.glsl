@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Rays at any shutter time (moving_scene.h has the idea).
+#ifndef SHUTTER_MOVING_TRACE_GLSL
+#define SHUTTER_MOVING_TRACE_GLSL
+
+#include "render/moving_scene.glsl"
+#include "render/trace.glsl"
+
+/// What of the moving scene a ray is asked for.
+struct MovingQuery {
+    float s;   // shutter time
+    vec3 eye;  // place of the camera, eye space
+    uint mask; // kSolidMask, kBlendedMask or both
+    float tMin;
+    float tMax;
+};
+
+/// Nearest hit within one moving entity; `best` is replaced where there is one before it.
+void traceEntity(
+    FrameRef frame, MovingRef moving, uint entity, vec3 origin, vec3 direction, MovingQuery query,
+    inout RayHit best
+) {
+    Placement placement = placeAt(moving, entity, query.s);
+    vec4 rows[3] = placement.eyeFromObject;
+    // Columns of the inverse are cross products of the rows over the determinant.
+    vec3 c0 = cross(rows[1].xyz, rows[2].xyz);
+    vec3 c1 = cross(rows[2].xyz, rows[0].xyz);
+    vec3 c2 = cross(rows[0].xyz, rows[1].xyz);
+    float determinant = dot(rows[0].xyz, c0);
+    // Scaled to nothing at this instant, or NaN: not there.
+    if (!(abs(determinant) > 0.0f)) return;
+    float scale = 1.0f / determinant;
+    vec3 from = origin - vec3(rows[0].w, rows[1].w, rows[2].w);
+    vec3 objectOrigin = (c0 * from.x + c1 * from.y + c2 * from.z) * scale;
+    // Its length is left as it comes, so that t means the same in both spaces.
+    vec3 objectDirection = (c0 * direction.x + c1 * direction.y + c2 * direction.z) * scale;
+    if (!isFinite(dot(objectOrigin, objectOrigin)) ||
+        !isFinite(dot(objectDirection, objectDirection)))
+        return;
+
+    uvec2 address = MovingTable(moving.value.rows).rows[entity].meshScene;
+    rayQueryEXT inner;
+    rayQueryInitializeEXT(
+        inner, accelerationStructureEXT(address), gl_RayFlagsCullBackFacingTrianglesEXT, query.mask,
+        objectOrigin, query.tMin, objectDirection, best.t
+    );
+    while (rayQueryProceedEXT(inner)) {
+        if (rayQueryGetIntersectionTypeEXT(inner, false) !=
+            gl_RayQueryCandidateIntersectionTriangleEXT)
+            continue;
+        HitId id = HitId(
+            entity, uint(rayQueryGetIntersectionGeometryIndexEXT(inner, false)),
+            uint(rayQueryGetIntersectionPrimitiveIndexEXT(inner, false)),
+            rayQueryGetIntersectionBarycentricsEXT(inner, false)
+        );
+        bool frontFace = rayQueryGetIntersectionFrontFaceEXT(inner, false);
+        if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
+            rayQueryConfirmIntersectionEXT(inner);
+    }
+    if (rayQueryGetIntersectionTypeEXT(inner, true) !=
+        gl_RayQueryCommittedIntersectionTriangleEXT)
+        return;
+    best.found = true;
+    best.t = rayQueryGetIntersectionTEXT(inner, true);
+    best.id = HitId(
+        entity, uint(rayQueryGetIntersectionGeometryIndexEXT(inner, true)),
+        uint(rayQueryGetIntersectionPrimitiveIndexEXT(inner, true)),
+        rayQueryGetIntersectionBarycentricsEXT(inner, true)
+    );
+}
+
+/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn at shutter time s.
+/// \param direction unit
+RayHit traceMovingRay(
+    accelerationStructureEXT scene, FrameRef frame, MovingRef moving, vec3 origin, vec3 direction,
+    MovingQuery query
+) {
+    rayQueryEXT outer;
+    rayQueryInitializeEXT(
+        outer, scene, gl_RayFlagsCullBackFacingTrianglesEXT, query.mask, origin, query.tMin,
+        direction, query.tMax
+    );
+    RayHit best; // nearest so far, moving or still
+    best.found = false;
+    best.t = query.tMax;
+    best.id = HitId(kNoEntity, 0u, 0u, vec2(0.0f));
+    while (rayQueryProceedEXT(outer)) {
+        uint committed = rayQueryGetIntersectionTypeEXT(outer, true);
+        if (committed == gl_RayQueryCommittedIntersectionTriangleEXT)
+            best.t = min(best.t, rayQueryGetIntersectionTEXT(outer, true));
+        if (rayQueryGetIntersectionTypeEXT(outer, false) ==
+            gl_RayQueryCandidateIntersectionTriangleEXT) {
+            HitId id = HitId(
+                uint(rayQueryGetIntersectionInstanceCustomIndexEXT(outer, false)),
+                uint(rayQueryGetIntersectionGeometryIndexEXT(outer, false)),
+                uint(rayQueryGetIntersectionPrimitiveIndexEXT(outer, false)),
+                rayQueryGetIntersectionBarycentricsEXT(outer, false)
+            );
+            bool frontFace = rayQueryGetIntersectionFrontFaceEXT(outer, false);
+            Placement placement = placeAt(moving, id.entity, query.s);
+            if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
+                rayQueryConfirmIntersectionEXT(outer);
+            continue;
+        }
+        uint box = uint(rayQueryGetIntersectionPrimitiveIndexEXT(outer, false));
+        uint entity = BoxTable(moving.value.boxes).rows[box];
+        float before = best.t;
+        traceEntity(frame, moving, entity, origin, direction, query, best);
+        if (best.t < before) rayQueryGenerateIntersectionEXT(outer, best.t);
+    }
+    uint committed = rayQueryGetIntersectionTypeEXT(outer, true);
+    if (committed == gl_RayQueryCommittedIntersectionTriangleEXT) {
+        best.found = true;
+        best.t = rayQueryGetIntersectionTEXT(outer, true);
+        best.id = HitId(
+            uint(rayQueryGetIntersectionInstanceCustomIndexEXT(outer, true)),
+            uint(rayQueryGetIntersectionGeometryIndexEXT(outer, true)),
+            uint(rayQueryGetIntersectionPrimitiveIndexEXT(outer, true)),
+            rayQueryGetIntersectionBarycentricsEXT(outer, true)
+        );
+    }
+    return best;
+}
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What a ray sees where it hit, by the shading of the raster image.
+#ifndef SHUTTER_SHADE_HIT_GLSL
+#define SHUTTER_SHADE_HIT_GLSL
+
+#include "render/hit.glsl"
+#include "render/lighting.glsl"
+
+struct ShadedHit {
+    vec3 color;
+    float alpha; // of blended materials, [0, 1]; 1 for all others
+    vec3 normal; // eye space, unit, on the viewer's side
+    vec3 eyePosition;
+    vec3 objectPosition;
+};
+
+/// \param direction unit, from the camera
+/// \param eye place of the camera, eye space
+ShadedHit shadeHit(
+    FrameRef frame, Placement placement, HitId id, vec3 direction, vec3 eye, LightSet lights
+) {
+    Hit hit = fetchHit(frame, placement, id);
+    ShadedHit shaded;
+    shaded.eyePosition = hit.point.eyePosition;
+    shaded.objectPosition = hit.objectPosition;
+    hit.point.eyePosition -= eye; // a texture's level follows the distance from the camera
+    MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
+    Surface surface = evaluateSurface(frame, material, hit.point, direction);
+    shaded.color = shadeSurface(frame, material, surface, shaded.eyePosition, direction, lights);
+    shaded.alpha = (material.flags & kMaterialBlend) != 0u ? saturate(surface.alpha) : 1.0f;
+    shaded.normal = surface.normal;
+    return shaded;
+}
+
+#endif
