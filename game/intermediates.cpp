@@ -21,6 +21,7 @@ const std::map<std::string, std::vector<Channel>>& channelTable() {
         {"edge", {{0, "candidate"}, {1, "measure"}, {2, "edge"}}},
         {"mask", {{0, "mask"}}},
         {"reveal", {{0, "R"}, {1, "G"}, {2, "B"}}},
+        {"error", {{0, "R"}, {1, "G"}, {2, "B"}}},
     };
     return kTable;
 }

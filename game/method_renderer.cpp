@@ -3,6 +3,7 @@
 
 #include "game/statistics.h"
 
+#include <algorithm>
 #include <array>
 
 namespace shutter::game {
@@ -21,7 +22,8 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
         );
     // The ray mask lists its pixels in one storage buffer.
     const uint64_t listBytes = uint64_t(options.width) * options.height * 4 + 16;
-    if (options.method->needsRays && listBytes > device.limits().maxStorageBufferRange)
+    if (options.method->family == MethodFamily::MotionBlur && options.method->needsRays &&
+        listBytes > device.limits().maxStorageBufferRange)
         return core::makeError(
             "--size {}x{}: method {} needs a buffer of {} MiB, {} has at most {}",
             options.width,
@@ -33,6 +35,14 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
         );
     return {};
 }
+
+truth::PixelModel pixelModel(const RenderOptions& options) {
+    return options.pixel == accumulate::PixelModel::Box ? truth::PixelModel::Box
+                                                        : truth::PixelModel::Centre;
+}
+
+/// With fewer rays a mover that few of them met yet looks like none.
+constexpr uint32_t kLeastRaysToStop = 16;
 
 } // namespace
 
@@ -60,14 +70,19 @@ MethodRenderer::MethodRenderer(
         );
     if (options.method->family == MethodFamily::Accumulate)
         mAccumulate = std::make_unique<accumulate::Accumulate>(device);
+    if (options.method->family == MethodFamily::Truth)
+        mTruth = std::make_unique<truth::Truth>(
+            device, mRenderer.scene(), truth::TruthSettings{pixelModel(options), options.seed}
+        );
 }
 
 uint32_t MethodRenderer::stepsPerPicture() const {
-    return mAccumulate ? mOptions.samples : 1;
+    return mAccumulate || mTruth ? mOptions.samples : 1;
 }
 
-core::Result<render::FrameResult>
-MethodRenderer::renderPicture(double seconds, const std::function<void()>& onStep) {
+core::Result<render::FrameResult> MethodRenderer::renderPicture(
+    double seconds, const std::function<void()>& onStep, const Checkpoints& checkpoints
+) {
     render::FrameRequest request;
     request.view = makeView(mShot, mOptions, seconds);
     request.intermediates = mOptions.aovs;
@@ -76,6 +91,8 @@ MethodRenderer::renderPicture(double seconds, const std::function<void()>& onSte
     request.wantDump = mOptions.dumpGraph;
     if (mAccumulate)
         return renderAccumulated(request, onStep);
+    if (mTruth)
+        return renderTruth(request, onStep, checkpoints);
     std::vector<render::PostEffect*> effects;
     if (mMotionBlur)
         effects.push_back(mMotionBlur.get());
@@ -121,6 +138,61 @@ core::Result<render::FrameResult> MethodRenderer::renderAccumulated(
         return result;
     }
     return core::makeError("--samples 0: accumulate needs at least one instant");
+}
+
+bool MethodRenderer::isGoodEnough(uint32_t rays) const {
+    const std::optional<double> error = mTruth->standardError();
+    return mOptions.error && error && rays >= kLeastRaysToStop && *error <= *mOptions.error;
+}
+
+core::Result<render::FrameResult> MethodRenderer::renderTruth(
+    const render::FrameRequest& request,
+    const std::function<void()>& onStep,
+    const Checkpoints& checkpoints
+) {
+    const std::array<render::PostEffect*, 2> effects{mTruth.get(), &mTonemap};
+    const uint32_t rays = mOptions.samples;
+    const auto isStop = [&](uint32_t count) {
+        const auto& stops = checkpoints.rays;
+        return std::find(stops.begin(), stops.end(), count) != stops.end();
+    };
+    render::FrameStatistics total;
+    uint32_t done = 0;
+    // One frame; what is wanted of it is read back only where it will be used.
+    const auto draw = [&](uint32_t count, bool show, bool last) {
+        render::FrameRequest batch = request;
+        batch.view.lodBias += truth::computeLodBias(pixelModel(mOptions), rays);
+        batch.wantColor = show && request.wantColor;
+        batch.wantDisplay = show && request.wantDisplay;
+        if (!last)
+            batch.intermediates.clear();
+        mTruth->setBatch(done, count);
+        auto result = mRenderer.renderFrame(mShot.world, batch, effects);
+        if (!result)
+            return result;
+        done += count;
+        addStatistics(total, result.value().statistics);
+        result.value().statistics = total;
+        return result;
+    };
+    const uint64_t pixels = uint64_t(request.view.width) * request.view.height;
+    for (const uint32_t count : truth::planBatches(pixels, rays, checkpoints.rays)) {
+        const bool stop = isStop(done + count);
+        auto result = draw(count, stop || done + count == rays, done + count == rays);
+        if (!result)
+            return result;
+        for (uint32_t i = 0; i < count; ++i)
+            onStep();
+        if (stop)
+            checkpoints.onPicture(done, result.value());
+        if (done == rays)
+            return result;
+        if (isGoodEnough(done))
+            break;
+    }
+    for (uint32_t i = done; i < rays; ++i)
+        onStep();
+    return draw(0, true, true); // the mean so far once more, now to be shown
 }
 
 } // namespace shutter::game

@@ -8,11 +8,21 @@
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/tonemap/tonemap.h"
+#include "modules/truth/truth.h"
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace shutter::game {
+
+/// Pictures on the way of a progressive method.
+struct Checkpoints {
+    std::vector<uint32_t> rays; ///< a pixel, above 0, any order; those above --samples never come
+    /// The picture so far, what was asked for of it (no intermediates), with the times summed so
+    /// far. Called for the last picture too where its rays are among `rays`.
+    std::function<void(uint32_t rays, const render::FrameResult& picture)> onPicture;
+};
 
 /// Draws a shot with one method: the effects the method is made of, in their order.
 class MethodRenderer {
@@ -27,11 +37,13 @@ class MethodRenderer {
     );
 
     /// One finished picture at `seconds`. Times of a method that draws many frames are summed.
-    /// \param onStep called after each frame drawn (progress)
-    [[nodiscard]] core::Result<render::FrameResult>
-    renderPicture(double seconds, const std::function<void()>& onStep);
+    /// \param onStep called stepsPerPicture() times (progress)
+    /// \param checkpoints MethodFamily::Truth only; the others draw none
+    [[nodiscard]] core::Result<render::FrameResult> renderPicture(
+        double seconds, const std::function<void()>& onStep, const Checkpoints& checkpoints = {}
+    );
 
-    /// Frames drawn for one picture.
+    /// Steps of the work for one picture: frames, or rays a pixel.
     [[nodiscard]] uint32_t stepsPerPicture() const;
 
   private:
@@ -43,12 +55,19 @@ class MethodRenderer {
     );
     core::Result<render::FrameResult>
     renderAccumulated(const render::FrameRequest& request, const std::function<void()>& onStep);
+    core::Result<render::FrameResult> renderTruth(
+        const render::FrameRequest& request,
+        const std::function<void()>& onStep,
+        const Checkpoints& checkpoints
+    );
+    [[nodiscard]] bool isGoodEnough(uint32_t rays) const;
 
     const Shot& mShot;
     const RenderOptions& mOptions;
     render::Renderer& mRenderer;
     std::unique_ptr<motion_blur::MotionBlurPlugin> mMotionBlur;
     std::unique_ptr<accumulate::Accumulate> mAccumulate;
+    std::unique_ptr<truth::Truth> mTruth;
     tonemap::Tonemap mTonemap;
 };
 

@@ -78,6 +78,15 @@ std::span<const MethodInfo> listMethods() {
          .dial = Dial::Instants,
          .defaultSamples = 256,
          .aovs = {}},
+        {.name = "truth",
+         .description = "truth: rays that each have their own time, averaged",
+         .publication = "Cook, Porter, Carpenter 1984",
+         .family = MethodFamily::Truth,
+         .blur = {},
+         .needsRays = true,
+         .dial = Dial::Rays,
+         .defaultSamples = 256,
+         .aovs = {"error"}},
     };
     return kMethods;
 }

@@ -14,7 +14,7 @@
 namespace shutter::game {
 
 /// The effect that a method is made of.
-enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate };
+enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate, Truth };
 
 /// What `--samples` counts; the number that trades time for error.
 enum class Dial : uint8_t {

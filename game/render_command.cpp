@@ -32,10 +32,13 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
     for (const std::string& aov : options.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
+            const auto& decisions = result.statistics.decisions;
+            const auto blur = decisions.find("motion blur");
             core::logWarning(
-                "--aov {} is not written: motion blur was {}",
+                "--aov {} is not written: {}",
                 aov,
-                result.statistics.decisions.at("motion blur")
+                blur == decisions.end() ? "one ray a pixel shows no error"
+                                        : "motion blur was " + blur->second
             );
             continue;
         }

@@ -245,9 +245,18 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
         options.pixel = accumulate::PixelModel::Box;
     else if (arguments.pixel != "centre")
         return makeError("--pixel '{}' is not one of centre, box", arguments.pixel);
-    if (options.pixel == accumulate::PixelModel::Box &&
-        options.method->family != MethodFamily::Accumulate)
-        return makeError("--pixel box needs a method that takes many samples a pixel: accumulate");
+    const MethodFamily family = options.method->family;
+    if (options.pixel == accumulate::PixelModel::Box && family != MethodFamily::Accumulate &&
+        family != MethodFamily::Truth)
+        return makeError(
+            "--pixel box needs a method that takes many samples a pixel: accumulate or truth"
+        );
+    if (arguments.error && family != MethodFamily::Truth)
+        return makeError("--error needs a method that estimates its error: truth");
+    // Written so that NaN fails.
+    if (arguments.error && !(*arguments.error > 0.0 && std::isfinite(*arguments.error)))
+        return makeError("--error {} must be above 0", *arguments.error);
+    options.error = arguments.error;
     for (const std::string& setting : arguments.settings)
         if (Status applied = applySetting(setting, *options.method, options.motionBlur); !applied)
             return applied;
@@ -334,7 +343,7 @@ void defineShotOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--shutter-angle", a.shutterAngle, "degrees of a frame at F");
     command.add_option("--phase", a.phase, "raster instant: start, centre or end (default)");
     command.add_option("--pixel", a.pixel, "centre (default) or box");
-    command.add_option("--seed", a.seed, "of the sample places of --pixel box");
+    command.add_option("--seed", a.seed, "of the times (truth) and of --pixel box's places");
     command.add_flag("--unlit", a.unlit, "base colour only");
     command.add_option("--background", a.background, "R,G,B linear; default 0.18,0.18,0.18");
     command.add_option("--ambient", a.ambient, "uniform light, R,G,B; default 0.25,0.25,0.25");
@@ -354,7 +363,10 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
         ->excludes(command.get_option("--time"));
     command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
-    command.add_option("--samples", a.samples, "taps of a gather, or instants (accumulate)");
+    command.add_option(
+        "--samples", a.samples, "taps (gathers), instants (accumulate), rays a pixel (truth)"
+    );
+    command.add_option("--error", a.error, "truth: stop at this standard error (linear RMS)");
     command.add_option("--size", a.size, "WxH; default 1280x720");
     command.add_option("--set", a.settings, "NAME=VALUE of the method's settings (repeatable)");
     command.add_option(

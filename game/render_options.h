@@ -41,6 +41,7 @@ struct RenderArguments {
     uint32_t samples = 0;
     std::string pixel = "centre";
     uint32_t seed = 0;
+    std::optional<double> error;
     std::string size = "1280x720";
     bool unlit = false;
     std::string background = "0.18,0.18,0.18";
@@ -71,6 +72,7 @@ struct RenderOptions {
     uint32_t samples = 0;
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
     uint32_t seed = 0;
+    std::optional<double> error; ///< of Truth: stop at this standard error, linear, above 0
     uint32_t width = 0;
     uint32_t height = 0;
     bool unlit = false;

@@ -27,6 +27,9 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
     nlohmann::json counters = nlohmann::json::object();
     for (const auto& [name, value] : frame.counters)
         counters[name] = value;
+    nlohmann::json measures = nlohmann::json::object();
+    for (const auto& [name, value] : frame.measures)
+        measures[name] = value;
     return {
         {"time_s", picture.seconds},
         {"gpu_ms", gpu},
@@ -35,6 +38,7 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
         {"transient_bytes", frame.transientBytes},
         {"passes", passes},
         {"counters", counters},
+        {"measures", measures},
         {"decisions", frame.decisions}};
 }
 
@@ -56,6 +60,8 @@ void addStatistics(render::FrameStatistics& total, const render::FrameStatistics
     total.wallMilliseconds += frame.wallMilliseconds;
     for (const auto& [name, value] : frame.counters)
         total.counters[name] += value;
+    for (const auto& [name, value] : frame.measures)
+        total.measures[name] = value;
     total.decisions = frame.decisions;
     total.transientBytes = std::max(total.transientBytes, frame.transientBytes);
 }

@@ -42,6 +42,18 @@ TEST_F(Cli, ABadSizeIsRefused) {
     expectRefusal(renderVase({"--out", "a.png", "--size", "5x5"}), kUsage, {"--size"}); // twice
 }
 
+TEST_F(Cli, AnErrorThatCannotBeStoppedAtIsRefused) {
+    expectRefusal(
+        renderVase({"--out", "a.png", "--method", "truth", "--error", "0"}), kUsage, {"--error"}
+    );
+    expectRefusal(
+        renderVase({"--out", "a.png", "--method", "truth", "--error", "x"}), kUsage, {"--error"}
+    );
+    expectRefusal(
+        renderVase({"--out", "a.png", "--method", "hybrid", "--error", "0.1"}), kUsage, {"--error"}
+    );
+}
+
 TEST_F(Cli, ANameThatIsNoneOfAListIsRefused) {
     const std::vector<std::pair<std::string, std::string>> bad = {
         {"--method", "nosuch"},

@@ -224,7 +224,9 @@ TEST_F(Cli, InfoNeedsToKnowWhatAbout) {
 }
 
 TEST_F(Cli, InfoListsTheMethodsOneALine) {
-    EXPECT_EQ(expectSuccess({"info", "--methods"}).out, "sharp\ngather\nhybrid\naccumulate\n");
+    EXPECT_EQ(
+        expectSuccess({"info", "--methods"}).out, "sharp\ngather\nhybrid\naccumulate\ntruth\n"
+    );
 }
 
 TEST_F(Cli, InfoListsDevicesWithTheirRays) {

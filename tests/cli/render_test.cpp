@@ -13,7 +13,7 @@ namespace shutter::cli {
 
 namespace {
 
-const std::vector<std::string> kMethods = {"sharp", "gather", "hybrid", "accumulate"};
+const std::vector<std::string> kMethods = {"sharp", "gather", "hybrid", "accumulate", "truth"};
 
 const std::vector<std::string> kRivals = {
     "own_velocity", "mcguire2012", "guertin2014", "jimenez2014"};
@@ -58,7 +58,7 @@ TEST_F(CliRender, EveryMethodWritesEveryFormatWithoutAValidationMessage) {
         for (const char* extension : {"png", "jpg", "exr"}) {
             const std::string file = fmt::format("{}.{}", method, extension);
             Arguments more = {"--method", method, "--out", file};
-            if (method == "accumulate")
+            if (method == "accumulate" || method == "truth")
                 more.insert(more.end(), {"--samples", "4"});
             expectSuccess(validated(renderVase(more)));
             expectPicture(file);
@@ -71,7 +71,7 @@ TEST_F(CliRender, BlurShowsInThePictureOfEveryMethodButSharp) {
         expectSuccess(renderVase({"--method", method, "--samples", "8", "--out", method + ".exr"}));
     expectSuccess(renderVase({"--method", "hybrid", "--exposure", "0", "--out", "still.exr"}));
     const std::vector<float> sharp = read("sharp.exr").pixels;
-    for (const char* method : {"gather", "hybrid", "accumulate"})
+    for (const char* method : {"gather", "hybrid", "accumulate", "truth"})
         EXPECT_NE(read(fmt::format("{}.exr", method)).pixels, sharp) << method;
     EXPECT_EQ(read("still.exr").pixels, sharp);
 }

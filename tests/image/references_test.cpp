@@ -37,7 +37,10 @@ image::Image readReference(const std::filesystem::path& path) {
 
 /// Renders the case with its JSON's settings and compares.
 /// \param suffix of the reference, "" (moving) or ".still"
-void expectReference(const std::string& name, const std::string& suffix) {
+/// \param method accumulate or truth
+void expectReference(
+    const std::string& name, const std::string& suffix, const std::string& method = "accumulate"
+) {
     const std::filesystem::path folder = test::sharedFolder() / "references";
     if (!std::filesystem::exists(folder / (name + ".json")))
         GTEST_SKIP() << "the references are not beside the project (" << name << ".json)";
@@ -47,11 +50,11 @@ void expectReference(const std::string& name, const std::string& suffix) {
     const double exposure = still ? 0.0 : settings.at("exposure").get<double>();
     const auto world = settings.at("world").get<std::vector<double>>();
     const auto rendered = test::renderWithShutter(
-        fmt::format("reference_{}{}", name, suffix),
+        fmt::format("reference_{}{}_{}", name, suffix, method),
         ".exr",
         folder / settings.at("scene").get<std::string>(),
         {"--method",
-         "accumulate",
+         method,
          "--pixel",
          "box",
          "--samples",
@@ -79,7 +82,7 @@ void expectReference(const std::string& name, const std::string& suffix) {
     const double psnr = image::computePsnr(rendered, reference);
     EXPECT_GE(psnr, kLeastPsnr);
     ::testing::Test::RecordProperty("psnr", number(psnr));
-    fmt::print("{}{}: {:.2f} dB\n", name, suffix, psnr);
+    fmt::print("{} {}{}: {:.2f} dB\n", method, name, suffix, psnr);
 }
 
 TEST_F(References, TheStillQuadIsCyclesQuad) {
@@ -120,6 +123,39 @@ TEST_F(References, TheStillCheckerIsCyclesChecker) {
 
 TEST_F(References, TheCheckerUnderAMovingCameraIsCyclesChecker) {
     expectReference("camera_checker", "");
+}
+
+class TruthReferences : public References {
+  protected:
+    void SetUp() override {
+        References::SetUp();
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+            GTEST_SKIP() << device().info().name << " has no ray queries";
+    }
+};
+
+TEST_F(TruthReferences, RaysMeetCyclesTrapezoid) {
+    expectReference("translate_quad", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesTrapezoidWithThePhaseAtTheStart) {
+    expectReference("translate_quad_start", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesBoxThatCrossesTheWall) {
+    expectReference("partial_occlusion", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesArc) {
+    expectReference("rotate_bar", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesCheckerUnderAMovingCamera) {
+    expectReference("camera_checker", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesStillChecker) {
+    expectReference("camera_checker", ".still", "truth");
 }
 
 } // namespace

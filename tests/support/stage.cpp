@@ -3,9 +3,11 @@
 
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/tonemap/tonemap.h"
+#include "modules/truth/truth.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace shutter::test {
@@ -75,6 +77,8 @@ const char* describe(Method method) {
         return "hybrid";
     case Method::Accumulate:
         return "accumulate";
+    case Method::Truth:
+        return "truth";
     }
     return "?";
 }
@@ -86,6 +90,8 @@ render::FrameResult Stage::render(const Shot& shot) {
     const render::FrameRequest request = makeRequest(mScene, shot);
     if (shot.method == Method::Accumulate)
         return renderAccumulated(shot, request);
+    if (shot.method == Method::Truth)
+        return renderTruth(shot, request);
     motion_blur::MotionBlurSettings settings = shot.settings;
     settings.method = blurMethod(shot.method);
     const core::Status valid = motion_blur::validate(settings);
@@ -120,6 +126,25 @@ Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) 
         instant.wantDisplay = last && shot.wantDisplay;
         sum.setInstant(i, shot.instants);
         result = unwrap(mRenderer.renderFrame(mScene.world, instant, effects));
+    }
+    return result;
+}
+
+render::FrameResult Stage::renderTruth(const Shot& shot, const render::FrameRequest& request) {
+    const auto pixel = shot.pixel == accumulate::PixelModel::Box ? truth::PixelModel::Box
+                                                                 : truth::PixelModel::Centre;
+    truth::Truth rays(mDevice, mRenderer.scene(), {pixel, shot.seed});
+    tonemap::Tonemap tonemap(mDevice, {});
+    const std::vector<render::PostEffect*> effects{&rays, &tonemap};
+    render::FrameRequest batch = request;
+    batch.view.lodBias += truth::computeLodBias(pixel, shot.instants);
+    const uint32_t longest = shot.batch > 0 ? shot.batch : shot.instants;
+    render::FrameResult result;
+    for (uint32_t done = 0; done < shot.instants;) {
+        const uint32_t count = std::min(longest, shot.instants - done);
+        rays.setBatch(done, count);
+        result = unwrap(mRenderer.renderFrame(mScene.world, batch, effects));
+        done += count;
     }
     return result;
 }

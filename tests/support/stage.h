@@ -24,9 +24,11 @@ enum class Method {
     Jimenez2014,
     Gather,
     Hybrid,
-    Accumulate
+    Accumulate,
+    Truth
 };
 
+/// Those that share the raster image's half floats and may be held against it bit by bit.
 inline constexpr Method kAllMethods[] = {
     Method::Sharp,
     Method::OwnVelocity,
@@ -57,7 +59,9 @@ struct Shot {
     scene::ShutterPhase phase = scene::ShutterPhase::Centre;
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
-    uint32_t instants = 16; ///< Accumulate only
+    uint32_t instants = 16; ///< Accumulate: instants; Truth: rays a pixel
+    uint32_t seed = 0;      ///< Truth only
+    uint32_t batch = 0;     ///< Truth: rays a pixel of each frame; 0: all in one
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
     motion_blur::MotionBlurSettings settings{}; ///< kBlurMethods; their method is set here
     std::set<std::string> aovs{};
@@ -78,6 +82,8 @@ class Stage {
   private:
     [[nodiscard]] render::FrameResult
     renderAccumulated(const Shot& shot, const render::FrameRequest& request);
+    [[nodiscard]] render::FrameResult
+    renderTruth(const Shot& shot, const render::FrameRequest& request);
 
     gpu::Device& mDevice;
     const SceneBuilder& mScene;

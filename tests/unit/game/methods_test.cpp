@@ -32,13 +32,15 @@ TEST(Methods, ADialHasADefault) {
 
 TEST(Methods, TheHybridNeedsRaysAndTheGatherDoesWithout) {
     EXPECT_TRUE(findMethod("hybrid").value()->needsRays);
+    EXPECT_TRUE(findMethod("truth").value()->needsRays);
     EXPECT_FALSE(findMethod("gather").value()->needsRays);
 }
 
 TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     const auto found = findMethod("nosuch");
     ASSERT_FALSE(found.ok());
-    for (const char* part : {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate"})
+    for (const char* part :
+         {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate", "truth"})
         EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
 }
 

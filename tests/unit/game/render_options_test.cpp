@@ -181,7 +181,7 @@ TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
 TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     for (const char* name : {"", "Hybrid", "nosuch"})
         refuse("--method", [&](auto& a) { a.method = name; });
-    refuse("gather, hybrid, accumulate", [](auto& a) { a.method = "nosuch"; });
+    refuse("gather, hybrid, accumulate, truth", [](auto& a) { a.method = "nosuch"; });
 }
 
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
@@ -195,6 +195,7 @@ TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     EXPECT_EQ(samples("gather", 256).motionBlur.sampleCount, 256u);
     EXPECT_EQ(samples("accumulate", 0).samples, 256u);
     EXPECT_EQ(samples("accumulate", 65536).samples, 65536u);
+    EXPECT_EQ(samples("truth", 0).samples, 256u);
     EXPECT_EQ(samples("sharp", 0).samples, 0u);
     for (const char* method : {"gather", "hybrid"})
         refuse("--samples", [&](auto& a) {
@@ -215,8 +216,37 @@ TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
         }).pixel,
         accumulate::PixelModel::Box
     );
+    EXPECT_EQ(
+        accept([](auto& a) {
+            a.method = "truth";
+            a.pixel = "box";
+        }).pixel,
+        accumulate::PixelModel::Box
+    );
     refuse("--pixel", [](auto& a) { a.pixel = "box"; });
     refuse("--pixel", [](auto& a) { a.pixel = "gauss"; });
+}
+
+TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
+    const auto truth = [](double error) {
+        return [error](auto& a) {
+            a.method = "truth";
+            a.error = error;
+        };
+    };
+    EXPECT_EQ(accept(truth(0.01)).error, 0.01);
+    EXPECT_FALSE(accept([](auto& a) { a.method = "truth"; }).error.has_value());
+    for (const double bad :
+         {0.0,
+          -1.0,
+          std::numeric_limits<double>::quiet_NaN(),
+          std::numeric_limits<double>::infinity()})
+        refuse("--error", truth(bad));
+    for (const char* method : {"sharp", "hybrid", "accumulate"})
+        refuse("--error", [&](auto& a) {
+            a.method = method;
+            a.error = 0.01;
+        });
 }
 
 TEST_F(RenderOptionsTest, EverySettingCanBeSet) {

@@ -56,7 +56,11 @@ TEST(Statistics, SumsAreByPassNameInTheOrderOfFirstAppearance) {
     render::FrameStatistics next = makeFrame(2.0);
     next.passes = {{"blur", 5.0, 1.0}, {"tone map", 7.0, 1.0}, {"draw", 2.0, 4.0}};
     next.decisions = {{"motion blur", "ran: later"}};
+    total.measures = {{"standard error", 0.5}, {"other", 2.0}};
+    next.measures = {{"standard error", 0.25}};
     addStatistics(total, next);
+    EXPECT_EQ(total.measures.at("standard error"), 0.25) << "the later frame's";
+    EXPECT_EQ(total.measures.at("other"), 2.0);
     ASSERT_EQ(total.passes.size(), 3u);
     EXPECT_EQ(total.passes[0].name, "draw");
     EXPECT_EQ(total.passes[0].gpuMilliseconds, 3.0);

@@ -3,8 +3,10 @@
 // member, and the answer is held against C++'s.
 #include "shaders/accumulate/accumulate_shared.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
+#include "shaders/render/moving_scene_shared.h"
 #include "shaders/render/scene_shared.h"
 #include "shaders/tonemap/tonemap_shared.h"
+#include "shaders/truth/truth_shared.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -117,6 +119,34 @@ const std::vector<Struct>& listStructs() {
           MEMBER(FrameConstants, geometries),
           MEMBER(FrameConstants, materials),
           MEMBER(FrameConstants, lights)}},
+        {"MovingRow",
+         sizeof(MovingRow),
+         {MEMBER(MovingRow, keys),
+          MEMBER(MovingRow, keyCount),
+          MEMBER(MovingRow, firstGeometry),
+          MEMBER(MovingRow, meshScene),
+          MEMBER(MovingRow, padding0),
+          MEMBER(MovingRow, padding1)}},
+        {"MovingConstants",
+         sizeof(MovingConstants),
+         {MEMBER(MovingConstants, view),
+          MEMBER(MovingConstants, rows),
+          MEMBER(MovingConstants, boxes),
+          MEMBER(MovingConstants, cameraKeys),
+          MEMBER(MovingConstants, lights),
+          MEMBER(MovingConstants, cameraKeyCount),
+          MEMBER(MovingConstants, lightKeyCount),
+          MEMBER(MovingConstants, lightCount),
+          MEMBER(MovingConstants, padding0)}},
+        {"TruthParams",
+         sizeof(TruthParams),
+         {MEMBER(TruthParams, sizePx),
+          MEMBER(TruthParams, frame),
+          MEMBER(TruthParams, moving),
+          MEMBER(TruthParams, firstRay),
+          MEMBER(TruthParams, rayCount),
+          MEMBER(TruthParams, seed),
+          MEMBER(TruthParams, boxFilter)}},
         {"DrawConstants",
          sizeof(DrawConstants),
          {MEMBER(DrawConstants, frame),
@@ -184,6 +214,8 @@ std::string writeShader(const Struct& type) {
                        "#extension GL_EXT_scalar_block_layout : require\n";
     for (const char* header :
          {"render/scene_shared.h",
+          "render/moving_scene_shared.h",
+          "truth/truth_shared.h",
           "motion_blur/motion_blur_shared.h",
           "accumulate/accumulate_shared.h",
           "tonemap/tonemap_shared.h"})

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Truth by distributed ray tracing (Cook, Porter and Carpenter 1984): each ray has its own time,
+// stratified over the exposure; their mean is the picture. Progressive, and it knows its error.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/render/post_effect.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::truth {
+
+/// Where inside the pixel a ray goes.
+enum class PixelModel : uint8_t {
+    Centre, ///< through the centre: isolates motion from anti-aliasing
+    Box,    ///< anywhere, evenly: a box filter one pixel wide
+};
+
+struct TruthSettings {
+    PixelModel pixel = PixelModel::Centre;
+    uint32_t seed = 0; ///< another seed gives other times and places
+};
+
+/// Bias of texture levels that lets `rays` a pixel resolve what they can: 0 for the centre.
+[[nodiscard]] float computeLodBias(PixelModel pixel, uint32_t rays);
+
+/// Rays a pixel of each batch, in order: their sum is `rays`, a batch ends at each of `stops` below
+/// it (above 0), and none but a batch of one ray a pixel is longer than a device does in a blink.
+/// \param pixels of the picture, above 0
+[[nodiscard]] std::vector<uint32_t>
+planBatches(uint64_t pixels, uint32_t rays, std::span<const uint32_t> stops);
+
+/// Adds a batch of rays to a sum each frame; the context's colour becomes the mean of all so far.
+/// Call setBatch() before each frame. Reads nothing of the G-buffer.
+class Truth : public render::PostEffect {
+  public:
+    Truth(gpu::Device& device, const render::GpuScene& scene, const TruthSettings& settings);
+
+    /// \param first rays a pixel that earlier batches traced; 0 starts anew
+    /// \param count rays a pixel of this batch; 0, after the first, shows the mean once more
+    void setBatch(uint32_t first, uint32_t count);
+
+    /// Of the frame collected last: standard error of the mean in linear light, root mean square
+    /// over pixels and channels. Nothing below two rays a pixel: one ray has no error to see.
+    [[nodiscard]] std::optional<double> standardError() const { return mStandardError; }
+
+    [[nodiscard]] std::string name() const override { return "truth"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+
+    [[nodiscard]] bool needsMovingRays() const override { return true; }
+
+    /// Publishes "error": the standard error per pixel and channel.
+    void declare(render::PostContext& context) override;
+    void collect(render::Counters& counters) override;
+    void measure(render::Measures& measures) override;
+
+  private:
+    struct Images {
+        graph::ImageHandle sumA;
+        graph::ImageHandle sumB;
+    };
+
+    Images importSums(render::PostContext& context);
+
+    gpu::Device& mDevice;
+    TruthSettings mSettings;
+    gpu::Pipeline mPipeline;
+    gpu::Image mSumA;    ///< RGBA32F, in GENERAL layout between frames
+    gpu::Image mSumB;    ///< the same
+    gpu::Buffer mGroups; ///< squared error and rays of each group of the last frame
+    uint32_t mGroupCount = 0;
+    uint64_t mPixels = 0;
+    uint32_t mFirst = 0;
+    uint32_t mCount = 1;
+    std::optional<double> mStandardError;
+};
+
+} // namespace shutter::truth

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#ifndef SHUTTER_TRUTH_SHARED_H
+#define SHUTTER_TRUTH_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_CONST uint kTruthGroupSize = 8u; // 8 x 8 threads
+
+struct TruthParams {
+    uvec2 sizePx;
+    uvec2 frame;    // address of FrameConstants
+    uvec2 moving;   // address of MovingConstants
+    uint firstRay;  // rays a pixel has before this batch; 0 clears
+    uint rayCount;  // rays a pixel of this batch
+    uint seed;
+    uint boxFilter; // 1: anywhere in the pixel, 0: its centre
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::TruthParams) == 40);
+#endif
+
+#endif
