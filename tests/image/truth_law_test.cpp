@@ -215,7 +215,7 @@ TEST_F(TruthLaw, BatchesAddUpToTheSamePicture) {
                 whole.color,
                 stage
                     .render(
-                        {.method = Method::Truth, .instants = 13, .pixel = pixel, .batch = batch}
+                        {.method = Method::Truth, .instants = 13, .batch = batch, .pixel = pixel}
                     )
                     .color
             )) << batch;
