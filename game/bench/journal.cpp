@@ -97,12 +97,15 @@ const Record& Journal::find(const std::string& key) const {
 }
 
 core::Status Journal::addSample(const std::string& key, Sample sample) {
-    mRecords[key].samples.push_back(std::move(sample));
+    Record& record = mRecords[key];
+    record.skipped.clear(); // a limit that refused it once was raised
+    record.samples.push_back(std::move(sample));
     return save();
 }
 
 core::Status Journal::setPicture(const std::string& key, PictureFacts picture) {
     Record& record = mRecords[key];
+    record.skipped.clear();
     record.hasPicture = true;
     record.picture = std::move(picture);
     return save();

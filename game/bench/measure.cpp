@@ -51,8 +51,10 @@ class CaseBench {
         const StopQuestion& stop
     )
         : mDevice(device), mCase(shot), mOptions(options), mProgress(progress), mStop(stop) {
-        for (const DialPoint& point : sweep)
-            mEntries.push_back({point, {}, nullptr, 0.0});
+        for (const DialPoint& point : sweep) {
+            const bool progressive = point.method->family == game::MethodFamily::Truth;
+            (progressive ? mProgressive : mEntries).push_back({point, {}, nullptr, 0.0});
+        }
     }
 
     core::Result<CaseResult> run() {
@@ -65,11 +67,16 @@ class CaseBench {
             if (!mStop())
                 if (Status drawn = drawFirst(entry); !drawn)
                     return drawn.error();
-        for (uint32_t round = 0; round < mOptions.repeats; ++round)
+        if (Status drawn = drawProgressive(); !drawn)
+            return drawn.error();
+        for (uint32_t round = 0; round < mOptions.repeats; ++round) {
             for (Entry& entry : mEntries)
                 if (!mStop())
                     if (Status timed = timeOnce(entry, round); !timed)
                         return timed.error();
+            if (Status timed = timeProgressive(round); !timed)
+                return timed.error();
+        }
         mResult.records = mJournal->records();
         if (mOptions.comparePictures && !mStop())
             if (Status chosen = chooseCrops(); !chosen)
@@ -83,6 +90,7 @@ class CaseBench {
         game::RenderOptions options; ///< the renderer keeps a reference
         std::unique_ptr<game::MethodRenderer> renderer;
         double firstSeconds; ///< wall time of the picture drawn first, 0: not drawn
+        bool isRefused = false;
     };
 
     core::Result<game::RenderOptions> makeOptions(const MethodInfo& method, uint32_t samples) {
@@ -144,7 +152,8 @@ class CaseBench {
         return cached.empty() ? Status() : io::writeImage(cached, mTruth);
     }
 
-    core::Result<render::FrameResult> draw(Entry& entry) {
+    core::Result<render::FrameResult>
+    draw(Entry& entry, const game::Checkpoints& checkpoints = {}) {
         if (!entry.renderer) {
             auto options = makeOptions(*entry.point.method, entry.point.samples);
             if (!options)
@@ -155,9 +164,9 @@ class CaseBench {
                 return created.error();
             entry.renderer = std::move(created.value());
         }
-        return entry.renderer->renderPicture(entry.options.frameTimes.front(), [&] {
-            mProgress.advance();
-        });
+        return entry.renderer->renderPicture(
+            entry.options.frameTimes.front(), [&] { mProgress.advance(); }, checkpoints
+        );
     }
 
     /// Why an entry is not drawn; empty where it is.
@@ -170,11 +179,13 @@ class CaseBench {
             if (other.point.method == entry.point.method && other.firstSeconds > 0.0)
                 perStep = other.firstSeconds / double(stepsOf(other.point));
         const double predicted = perStep * double(stepsOf(entry.point));
-        if (predicted > mOptions.limitSeconds)
-            return fmt::format(
-                "predicted {:.0f} s, above the limit of {:.0f} s", predicted, mOptions.limitSeconds
-            );
-        return {};
+        return predicted > mOptions.limitSeconds ? describeLimit(predicted) : std::string();
+    }
+
+    std::string describeLimit(double predicted) const {
+        return fmt::format(
+            "predicted {:.0f} s, above the limit of {:.0f} s", predicted, mOptions.limitSeconds
+        );
     }
 
     /// Warms the driver up, compares the picture, learns what it costs.
@@ -183,6 +194,7 @@ class CaseBench {
         const Record& known = mJournal->find(key);
         const std::string refused = refuse(entry);
         if (!refused.empty()) {
+            entry.isRefused = true;
             mProgress.advance(stepsOf(entry.point) * (mOptions.repeats + 1));
             return mJournal->skip(key, refused);
         }
@@ -240,7 +252,7 @@ class CaseBench {
 
     Status timeOnce(Entry& entry, uint32_t round) {
         const Record& known = mJournal->find(makeKey(entry.point));
-        if (!known.skipped.empty() || known.samples.size() > round)
+        if (entry.isRefused || known.samples.size() > round)
             return {};
         const double affordable = kSecondsAPoint / std::max(entry.firstSeconds, 1e-3);
         if (round > 0 && double(round) >= affordable) {
@@ -251,6 +263,82 @@ class CaseBench {
         if (!drawn)
             return drawn.error();
         return keepSample(entry, drawn.value());
+    }
+
+    /// One run of a progressive method to the dial of `last`; what it is at the dials before it is
+    /// measured on the way.
+    Status runProgressive(Entry& last) {
+        Status kept;
+        game::Checkpoints checkpoints;
+        for (const Entry& entry : mProgressive)
+            if (entry.point.samples <= last.point.samples)
+                checkpoints.rays.push_back(entry.point.samples);
+        checkpoints.onPicture = [&](uint32_t rays, const render::FrameResult& picture) {
+            const auto entry =
+                std::find_if(mProgressive.begin(), mProgressive.end(), [&](const Entry& candidate) {
+                    return candidate.point.samples == rays;
+                });
+            if (kept && mTruth.width > 0 && !mJournal->find(makeKey(entry->point)).hasPicture)
+                kept = keepPicture(*entry, picture);
+            if (kept)
+                kept = keepSample(*entry, picture);
+        };
+        auto drawn = draw(last, checkpoints);
+        if (!drawn)
+            return drawn.error();
+        return kept;
+    }
+
+    /// The last dial whose picture takes at most so many seconds; null where none does.
+    Entry* findLastWithin(double seconds) {
+        Entry* last = nullptr;
+        for (Entry& entry : mProgressive)
+            if (entry.firstSeconds <= seconds)
+                last = &entry;
+        return last;
+    }
+
+    Status drawProgressive() {
+        if (mProgressive.empty() || mStop())
+            return {};
+        if (!mDevice.hasRays()) {
+            for (const Entry& entry : mProgressive)
+                if (Status kept = mJournal->skip(makeKey(entry.point), "the device traces no rays");
+                    !kept)
+                    return kept;
+            return {};
+        }
+        // The first run warms up, the second tells what a ray costs.
+        Entry& first = mProgressive.front();
+        auto warm = draw(first);
+        auto drawn = warm ? draw(first) : std::move(warm);
+        if (!drawn)
+            return drawn.error();
+        const double seconds =
+            drawn.value().statistics.wallMilliseconds / 1e3 / first.point.samples;
+        for (Entry& entry : mProgressive)
+            entry.firstSeconds = seconds * entry.point.samples;
+        Entry* last = findLastWithin(mOptions.limitSeconds);
+        for (Entry& entry : mProgressive)
+            if (last == nullptr || entry.point.samples > last->point.samples) {
+                Status kept =
+                    mJournal->skip(makeKey(entry.point), describeLimit(entry.firstSeconds));
+                if (!kept)
+                    return kept;
+            }
+        const bool isKnown =
+            last == nullptr || !mJournal->find(makeKey(last->point)).samples.empty();
+        return isKnown || mStop() ? Status() : runProgressive(*last);
+    }
+
+    /// The dear end of the dial is timed once, by the run that made its pictures.
+    Status timeProgressive(uint32_t round) {
+        if (round == 0 || mProgressive.empty() || mStop() || !mDevice.hasRays())
+            return {};
+        Entry* last = findLastWithin(kSecondsAPoint / mOptions.repeats);
+        if (last == nullptr || mJournal->find(makeKey(last->point)).samples.size() > round)
+            return {};
+        return runProgressive(*last);
     }
 
     /// Where rays change the picture most, and where motion blur does.
@@ -297,8 +385,9 @@ class CaseBench {
     std::optional<Journal> mJournal;
     std::optional<game::Shot> mShot;
     std::unique_ptr<render::Renderer> mRenderer;
-    std::vector<Entry> mEntries; ///< after the renderer: gone before it is
-    image::Image mTruth;         ///< empty where pictures are not compared
+    std::vector<Entry> mEntries;     ///< after the renderer: gone before it is
+    std::vector<Entry> mProgressive; ///< dials of methods that pass them on the way to the last
+    image::Image mTruth;             ///< empty where pictures are not compared
     CaseResult mResult;
 };
 

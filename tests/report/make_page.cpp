@@ -6,7 +6,7 @@
 #include <cstdio>
 
 int main(int argc, char** argv) {
-    if (const shutter::core::Status possible = shutter::game::checkReportPageCanBeMade();
+    if (const shutter::core::Status possible = shutter::bench::checkReportPageCanBeMade();
         !possible) {
         std::fprintf(stderr, "%s\n", possible.error().message.c_str());
         return 77; // the tests skip

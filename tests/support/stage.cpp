@@ -45,6 +45,7 @@ motion_blur::Method blurMethod(Method method) {
     case Method::Sharp:
     case Method::Hybrid:
     case Method::Accumulate:
+    case Method::Truth:
         break;
     }
     return Blur::Hybrid;

@@ -55,6 +55,13 @@ TEST_F(JournalFile, WhatWasMeasuredIsThereAgain) {
     EXPECT_TRUE(again.find("never").samples.empty());
 }
 
+TEST_F(JournalFile, WhatIsMeasuredAfterAllIsNoLongerSkipped) {
+    Journal journal(mFile, "a");
+    ASSERT_TRUE(journal.skip("truth/256", "too long").ok());
+    ASSERT_TRUE(journal.addSample("truth/256", {}).ok());
+    EXPECT_TRUE(Journal(mFile, "a").find("truth/256").skipped.empty());
+}
+
 TEST_F(JournalFile, AnotherFingerprintStartsAnew) {
     ASSERT_TRUE(Journal(mFile, "a").addSample("x/1", {}).ok());
     EXPECT_TRUE(Journal(mFile, "b").records().empty());
