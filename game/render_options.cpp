@@ -159,6 +159,7 @@ Status applyNumber(
         {"tileSizePx", &settings.tileSizePx},
         {"neighbourhoodTiles", &settings.neighbourhoodTiles},
         {"recursionLimit", &settings.recursionLimit},
+        {"filterLevels", &settings.filterLevels},
     };
     const std::vector<std::pair<const char*, float*>> numbers = {
         {"softDepthExtent", &settings.softDepthExtent},
@@ -169,6 +170,7 @@ Status applyNumber(
         {"jitter", &settings.jitter},
         {"centreBias", &settings.centreBias},
         {"speedThresholdPx", &settings.speedThresholdPx},
+        {"luminanceSigma", &settings.luminanceSigma},
     };
     const auto number = parseNumber(value);
     if (!number)
@@ -364,7 +366,9 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
         ->excludes(command.get_option("--time"));
     command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
     command.add_option(
-        "--samples", a.samples, "taps (gathers), instants (accumulate), rays a pixel (truth)"
+        "--samples",
+        a.samples,
+        "taps (gathers), instants (accumulate), rays a pixel (truth, denoised)"
     );
     command.add_option("--error", a.error, "truth: stop at this standard error (linear RMS)");
     command.add_option("--size", a.size, "WxH; default 1280x720");

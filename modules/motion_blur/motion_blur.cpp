@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/motion_blur.h"
 
+#include "spirv/motion_blur/denoise_atrous.comp.h"
+#include "spirv/motion_blur/denoise_variance.comp.h"
 #include "spirv/motion_blur/guertin2014.comp.h"
 #include "spirv/motion_blur/jimenez2014.comp.h"
 #include "spirv/motion_blur/mcguire2012.comp.h"
@@ -19,9 +21,12 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
       mOwnVelocity(device, "own velocity", motion_blur_own_velocity_comp, 2),
       mMcGuire(device, "mcguire2012", motion_blur_mcguire2012_comp, 3), mGuertinTiles(device),
       mGuertin(device, "guertin2014", motion_blur_guertin2014_comp, 4),
-      mJimenez(device, "jimenez2014", motion_blur_jimenez2014_comp, 3) {
+      mJimenez(device, "jimenez2014", motion_blur_jimenez2014_comp, 3),
+      mVariance(device, "variance of rays", motion_blur_denoise_variance_comp, 3),
+      mATrous(device, "denoise", motion_blur_denoise_atrous_comp, 2) {
     if (!sceneLayout || !device.hasRays())
         return;
+    mStochasticRays = std::make_unique<StochasticRays>(device, sceneLayout);
     mRayMask = std::make_unique<RayMask>(device);
     mRayReveal = std::make_unique<RayReveal>(device, sceneLayout);
 }
@@ -46,6 +51,8 @@ MotionBlurOutputs MotionBlur::add(
         return addGuertin(graph, inputs, params);
     case Method::Jimenez2014:
         return addTiled(graph, mJimenez, inputs, params);
+    case Method::Denoised:
+        return addDenoised(graph, inputs, settings, params);
     }
     SHUTTER_CHECK(false, "there is no method {}", static_cast<int>(settings.method));
     return {};
@@ -131,6 +138,36 @@ MotionBlurOutputs MotionBlur::addGuertin(
     outputs.color = mGuertin.add(
         graph, std::array{inputs.color, inputs.motionDepth, tiles.dominant, tiles.variance}, params
     );
+    return outputs;
+}
+
+MotionBlurOutputs MotionBlur::addDenoised(
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    const MotionBlurSettings& settings,
+    const MotionBlurParams& resolved
+) const {
+    SHUTTER_CHECK(inputs.movingRays && mStochasticRays, "the denoised method needs moving rays");
+    MotionBlurParams params = resolved;
+    params.frame = inputs.movingRays->frame;
+    params.moving = inputs.movingRays->moving;
+    const StochasticRaysOutputs rays = mStochasticRays->add(graph, *inputs.movingRays, params);
+    const TileMotionOutputs tiles = mTileMotion.add(graph, rays.motionDepth, params, "");
+    MotionBlurOutputs outputs;
+    outputs.noisy = rays.color;
+    outputs.tiles = tiles.tiles;
+    outputs.dominant = tiles.dominant;
+    outputs.color =
+        mVariance.add(graph, std::array{rays.color, rays.motionDepth, tiles.dominant}, params);
+    for (uint32_t level = 0; level < settings.filterLevels; ++level) {
+        params.stepPx = static_cast<float>(1u << level);
+        outputs.color = mATrous.add(
+            graph,
+            std::array{outputs.color, tiles.dominant},
+            params,
+            fmt::format(", step {}", 1u << level)
+        );
+    }
     return outputs;
 }
 

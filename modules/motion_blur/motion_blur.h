@@ -14,6 +14,7 @@
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
 #include "modules/motion_blur/passes/screen_filter.h"
+#include "modules/motion_blur/passes/stochastic_rays.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/settings.h"
 
@@ -23,12 +24,13 @@
 namespace shutter::motion_blur {
 
 struct MotionBlurInputs {
-    graph::ImageHandle color;            ///< RGBA16F
-    graph::ImageHandle motionDepth;      ///< RGBA32F: motion.xy, depth; every value finite
-    graph::ImageHandle normal;           ///< RGBA16F: xyz unit; read by the ray mask only
-    graph::ImageHandle meshId;           ///< R32_UINT; read by mask and reveal only
-    double rasterShare = 1.0;            ///< s of the raster instant: 0 start, 0.5 centre, 1 end
-    std::optional<RayInputs> rays;       ///< Method::Hybrid needs them (CHECKed)
+    graph::ImageHandle color;       ///< RGBA16F
+    graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
+    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; read by the ray mask only
+    graph::ImageHandle meshId;      ///< R32_UINT; read by mask and reveal only
+    double rasterShare = 1.0;       ///< s of the raster instant: 0 start, 0.5 centre, 1 end
+    std::optional<RayInputs> rays;  ///< Method::Hybrid needs them (CHECKed)
+    std::optional<MovingRayInputs> movingRays; ///< Method::Denoised needs them (CHECKed)
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
 };
 
@@ -44,6 +46,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
     graph::ImageHandle revealMotionDepth; ///< RGBA32F
     graph::ImageHandle revealMeshId;      ///< R32_UINT
+    graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered
 };
 
 /// What the GPU counted in the last frame.
@@ -56,7 +59,7 @@ struct MotionBlurCounters {
 class MotionBlur {
   public:
     /// \param sceneLayout layout of the descriptor set in RayInputs::scene; null: no rays, then
-    /// Method::Hybrid cannot run
+    /// Method::Hybrid and Method::Denoised cannot run
     MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
 
     /// Declares the passes. Settings must be valid (CHECKed).
@@ -83,6 +86,13 @@ class MotionBlur {
         const MotionBlurInputs& inputs,
         const shader::MotionBlurParams& params
     ) const;
+    /// Reads no raster image.
+    MotionBlurOutputs addDenoised(
+        graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const MotionBlurSettings& settings,
+        const shader::MotionBlurParams& params
+    ) const;
     MotionBlurOutputs addGuertin(
         graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
     ) const;
@@ -94,6 +104,9 @@ class MotionBlur {
     GuertinTiles mGuertinTiles;
     ScreenFilter mGuertin;
     ScreenFilter mJimenez;
+    ScreenFilter mVariance;
+    ScreenFilter mATrous;
+    std::unique_ptr<StochasticRays> mStochasticRays;
     std::unique_ptr<RayMask> mRayMask;
     std::unique_ptr<RayReveal> mRayReveal;
 };

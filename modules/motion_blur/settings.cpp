@@ -39,6 +39,8 @@ std::span<const std::string_view> listSettings(Method method) {
     );
     static const Names kOwnVelocity = {"jitter", "occluderTest"};
     static const Names kGuertin = with(kTiled, {"centreBias", "speedThresholdPx"});
+    static const Names kDenoised = {
+        "tileSizePx", "neighbourhoodTiles", "filterLevels", "luminanceSigma"};
     switch (method) {
     case Method::Gather:
         return kGather;
@@ -51,6 +53,8 @@ std::span<const std::string_view> listSettings(Method method) {
     case Method::McGuire2012:
     case Method::Jimenez2014:
         return kTiled;
+    case Method::Denoised:
+        return kDenoised;
     }
     SHUTTER_CHECK(false, "there is no method {}", static_cast<int>(method));
     return {};
@@ -70,6 +74,8 @@ core::Status validate(const MotionBlurSettings& settings) {
         requireRange("jitter", settings.jitter, 0.0f, 1.0f),
         requireRange("centreBias", settings.centreBias, 1.0f, 1000.0f),
         requireRange("speedThresholdPx", settings.speedThresholdPx, 1e-3f, 100.0f),
+        requireRange("filterLevels", settings.filterLevels, 0u, 8u),
+        requireRange("luminanceSigma", settings.luminanceSigma, 0.01f, 100.0f),
     };
     for (const core::Status& check : checks)
         if (!check)
@@ -105,6 +111,7 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
                               : shader::kOccluderTestNone;
     params.centreBias = settings.centreBias;
     params.speedThresholdPx = settings.speedThresholdPx;
+    params.luminanceSigma = settings.luminanceSigma;
     return params;
 }
 

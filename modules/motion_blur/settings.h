@@ -17,6 +17,7 @@ enum class Method : uint8_t {
     McGuire2012, ///< "A Reconstruction Filter for Plausible Motion Blur"
     Guertin2014, ///< "A Fast and Stable Feature-Aware Motion Blur Filter"
     Jimenez2014, ///< "Next Generation Post Processing in Call of Duty: Advanced Warfare"
+    Denoised,    ///< rays at random times and a filter along the motion (Oberberger 2022)
 };
 
 /// How the reveal knows that it met another object.
@@ -36,7 +37,7 @@ struct MotionBlurSettings {
     Method method = Method::Hybrid;
     uint32_t tileSizePx = 40;        ///< m, [1, 256]; also the longest blur, pixels
     uint32_t neighbourhoodTiles = 3; ///< n, odd, [1, 15]; 1 lets blur end at tile borders
-    uint32_t sampleCount = 15;       ///< taps of each gather, [1, 256]
+    uint32_t sampleCount = 15;       ///< taps of each gather, or rays a pixel (Denoised), [1, 256]
     float softDepthExtent = 0.03f;   ///< SOFT_Z_EXTENT, metres, above 0; the paper: 5 mm to 3 cm
     float edgeThreshold = 0.9f;      ///< e, [0, 1]; the paper: 0.9 to 0.98; higher: fewer rays
     uint32_t recursionLimit = 5;     ///< surfaces along a ray, the first included, [1, 64]
@@ -52,8 +53,11 @@ struct MotionBlurSettings {
     float centreBias =
         40.0f; ///< Method::Guertin2014, kappa: divides the pixel's own weight, [1, 1000]
     float speedThresholdPx =
-        1.5f; ///< Method::Guertin2014, gamma: half velocity beyond half a pixel
-              ///< at which the second direction is the pixel's own, (0, 100]
+        1.5f;                  ///< Method::Guertin2014, gamma: half velocity beyond half a pixel
+                               ///< at which the second direction is the pixel's own, (0, 100]
+    uint32_t filterLevels = 5; ///< Method::Denoised: of the filter, each twice as wide, [0, 8]
+    float luminanceSigma =
+        4.0f; ///< Method::Denoised: standard deviations that count as noise, [0.01, 100]
 };
 
 /// Names of the MotionBlurSettings that a method reads, sampleCount apart, which each does.

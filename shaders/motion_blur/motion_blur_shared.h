@@ -39,6 +39,9 @@ struct MotionBlurParams {
     uint occluderTest;             // kOccluderTest... (own velocity only)
     float centreBias;              // kappa (Guertin only)
     float speedThresholdPx;        // gamma (Guertin only), of half velocities
+    uvec2 moving;                  // address of the scene's MovingConstants (denoised only)
+    float luminanceSigma;          // deviations that count as noise (denoised only)
+    float stepPx;                  // between taps of one level (denoised only)
 };
 
 /// Arguments of the reveal's indirect dispatch (VkDispatchIndirectCommand).
@@ -59,7 +62,7 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 84);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 100);
 static_assert(sizeof(shutter::shader::RevealArguments) == 12);
 static_assert(sizeof(shutter::shader::MaskHeader) == 16);
 #endif

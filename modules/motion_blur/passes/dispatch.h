@@ -31,9 +31,10 @@ inline void dispatchPixels(
     const gpu::Pipeline& pipeline,
     const gpu::BindingList& bindings,
     const shader::MotionBlurParams& params,
-    glm::uvec2 extent
+    glm::uvec2 extent,
+    VkDescriptorSet sceneSet = VK_NULL_HANDLE
 ) {
-    context.frame.bind(pipeline, bindings, &params, sizeof(params));
+    context.frame.bind(pipeline, bindings, &params, sizeof(params), sceneSet);
     const glm::uvec2 groups = (extent + shader::kGroupSize - 1u) / shader::kGroupSize;
     vkCmdDispatch(context.commands, groups.x, groups.y, 1);
 }

@@ -27,7 +27,8 @@ ScreenFilter::ScreenFilter(
 graph::ImageHandle ScreenFilter::add(
     graph::Graph& graph,
     std::span<const graph::ImageHandle> inputs,
-    const shader::MotionBlurParams& params
+    const shader::MotionBlurParams& params,
+    const std::string& suffix
 ) const {
     using graph::Access;
 
@@ -38,7 +39,7 @@ graph::ImageHandle ScreenFilter::add(
 
     SHUTTER_CHECK_EQ(inputs.size(), mInputCount);
     const Data& pass = graph.addPass<Data>(
-        mName,
+        mName + suffix,
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             for (graph::ImageHandle image : inputs)

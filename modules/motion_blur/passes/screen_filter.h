@@ -23,10 +23,12 @@ class ScreenFilter {
 
     /// \param inputs as many as the shader samples (CHECKed); the first is the colour, whose size
     /// and format the result has
+    /// \param suffix told apart in the graph's names where the filter runs more than once
     [[nodiscard]] graph::ImageHandle
     add(graph::Graph& graph,
         std::span<const graph::ImageHandle> inputs,
-        const shader::MotionBlurParams& params) const;
+        const shader::MotionBlurParams& params,
+        const std::string& suffix = "") const;
 
   private:
     std::string mName;

@@ -30,6 +30,14 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.rays->topLevel,
             context.rays->textures,
             render::splitAddress(context.rays->frameConstants)};
+    if (context.movingRays)
+        inputs.movingRays = MovingRayInputs{
+            context.movingRays->topLevelBuffer,
+            context.movingRays->boxesBuffer,
+            context.movingRays->topLevel,
+            context.movingRays->textures,
+            render::splitAddress(context.movingRays->frameConstants),
+            render::splitAddress(context.movingRays->movingConstants)};
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, mSettings);
     context.color = outputs.color;
     const std::pair<const char*, graph::ImageHandle> views[] = {
@@ -37,7 +45,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         {"variance", outputs.variance},
         {"edge", outputs.edge},
         {"mask", outputs.mask},
-        {"reveal", outputs.revealColor}};
+        {"reveal", outputs.revealColor},
+        {"noisy", outputs.noisy}};
     for (const auto& [name, image] : views)
         if (image.isValid())
             context.intermediates.publish(name, image);

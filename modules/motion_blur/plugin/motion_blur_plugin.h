@@ -24,6 +24,10 @@ class MotionBlurPlugin : public render::PostEffect {
 
     [[nodiscard]] bool needsRays() const override { return mSettings.method == Method::Hybrid; }
 
+    [[nodiscard]] bool needsMovingRays() const override {
+        return mSettings.method == Method::Denoised;
+    }
+
     void declare(render::PostContext& context) override;
     void collect(render::Counters& counters) override;
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The scene as rays see it that each have their own time of the exposure: right on average, noisy
+// in each pixel (Cook 1984). Motion and depth are those of the surface that moves most in the pixel.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "motion_blur/denoise.glsl"
+#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/weights.glsl"
+#include "render/distributed_ray.glsl"
+#include "render/motion.glsl"
+#include "render/sky.glsl"
+#include "render/view_ray.glsl"
+
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(set = 0, binding = 0) uniform accelerationStructureEXT uScene;
+layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D uNoisy;
+layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D uMotionDepth;
+
+vec2 motionOf(FrameRef frame, DistributedSample seen, vec2 centre) {
+    if (seen.entity == kNoEntity)
+        return skyMotion(frame, centre, makeViewRay(frame, centre).direction);
+    EntityTable entities = EntityTable(frame.value.entities);
+    vec4 position = vec4(seen.objectPosition, 1.0f);
+    vec4 open = entities.rows[seen.entity].clipFromObjectOpen * position;
+    vec4 raster = entities.rows[seen.entity].clipFromObjectRaster * position;
+    vec4 close = entities.rows[seen.entity].clipFromObjectClose * position;
+    return motionFromClip(
+        open.xyw, close.xyw, raster.xyw, frame.value.forward.w, frame.value.sizePx
+    );
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
+    FrameRef frame = FrameRef(params.frame);
+    MovingRef moving = MovingRef(params.moving);
+    vec2 centre = vec2(pixel) + 0.5f;
+    float offset = interleavedGradientNoise(vec2(pixel));
+    vec3 sum = vec3(0.0f);
+    float sum1 = 0.0f;
+    float sum2 = 0.0f;
+    vec4 motionDepth = vec4(0.0f, 0.0f, kSkyDepth, 0.0f);
+    for (uint i = 0u; i < params.sampleCount; ++i) {
+        float s = (float(i) + offset) / float(params.sampleCount);
+        DistributedSample seen = traceDistributed(uScene, frame, moving, centre, s);
+        vec3 color = storableColor(seen.radiance);
+        float light = luminance(color);
+        sum += color;
+        sum1 += light;
+        sum2 += light * light;
+        vec2 motion = motionOf(frame, seen, centre);
+        bool isLonger = dot(motion, motion) > dot(motionDepth.xy, motionDepth.xy);
+        if (i == 0u || isLonger) motionDepth = vec4(motion, seen.depth, 0.0f);
+    }
+    imageStore(
+        uNoisy, pixel,
+        vec4(sum / float(params.sampleCount), deviationOfMean(sum1, sum2, params.sampleCount))
+    );
+    imageStore(uMotionDepth, pixel, motionDepth);
+}
