@@ -26,7 +26,8 @@ class BenchRun {
     BenchRun(gpu::Device& device, const RunOptions& options, const StopQuestion& stop)
         : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
           mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
-          mDefaults(makeDefaults(mMethods)), mOptions(options.measure), mTimesOnly(mOptions) {
+          mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
+          mTimesOnly(mOptions) {
         mTimesOnly.comparePictures = false;
     }
 
@@ -56,7 +57,7 @@ class BenchRun {
     uint64_t countAllSteps() const {
         uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
         for (const ScalingAxis& axis : mSuite.axes)
-            steps += axis.points.size() * countSteps(mDefaults, mTimesOnly);
+            steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
         return steps;
     }
 
@@ -106,14 +107,15 @@ class BenchRun {
     Status measureAxis(const ScalingAxis& axis, core::Progress& progress) {
         std::vector<MeasuredPoint> measured;
         for (const ScalingPoint& point : axis.points) {
-            auto result = measureCase(mDevice, point.shot, mDefaults, mTimesOnly, progress, mStop);
+            auto result =
+                measureCase(mDevice, point.shot, mScalingPoints, mTimesOnly, progress, mStop);
             if (!result)
                 return result.error();
             if (mStop())
                 return stopEarly();
             measured.push_back({&point, std::move(result.value())});
         }
-        mRoot["scaling"].push_back(describeAxis(axis, mDefaults, measured));
+        mRoot["scaling"].push_back(describeAxis(axis, mScalingPoints, measured));
         return writeResults();
     }
 
@@ -132,7 +134,7 @@ class BenchRun {
     const game::RenderOptions& mShot;
     const StopQuestion& mStop;
     std::vector<DialPoint> mSweep;
-    std::vector<DialPoint> mDefaults;
+    std::vector<DialPoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
     json mRoot;

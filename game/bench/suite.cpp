@@ -93,10 +93,14 @@ makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays)
     return points;
 }
 
-std::vector<DialPoint> makeDefaults(const std::vector<const game::MethodInfo*>& methods) {
+std::vector<DialPoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
+    constexpr uint32_t kMostSamples = 4;
     std::vector<DialPoint> points;
-    for (const game::MethodInfo* method : methods)
-        points.push_back({method, method->defaultSamples, true});
+    for (const game::MethodInfo* method : methods) {
+        const bool isTruth = method->family == game::MethodFamily::Accumulate ||
+                             method->family == game::MethodFamily::Truth;
+        points.push_back({method, isTruth ? kMostSamples : method->defaultSamples, !isTruth});
+    }
     return points;
 }
 

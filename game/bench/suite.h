@@ -68,8 +68,9 @@ struct DialPoint {
 [[nodiscard]] std::vector<DialPoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
 
-/// The methods at their defaults.
+/// The methods at their defaults; truths with a few samples, since their time is proportional to
+/// them.
 [[nodiscard]] std::vector<DialPoint>
-makeDefaults(const std::vector<const game::MethodInfo*>& methods);
+makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
 
 } // namespace shutter::bench

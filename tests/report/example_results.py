@@ -156,7 +156,8 @@ def measurement(method, dial, case, index, keep_pictures):
         "method": name, "dial": dial, "isDefault": dial == default, "repeats": 7,
         "metrics": {"psnr": round(psnr, 3), "ssim": round(1 - 0.9 * 10 ** (-psnr / 18), 5),
                     "flip": round(0.9 * 10 ** (-psnr / 20), 5)},
-        "milliseconds": {"frame": quartiles(frame), "effect": quartiles(max(0.0, frame - 95))},
+        "milliseconds": {"frame": quartiles(frame), "effect": quartiles(max(0.0, frame - 95)),
+                         "wall": quartiles(frame + 7)},
         "passes": passes_of(name, frame),
         "counters": {"rays traced": int(6720 * (1 + 0.1 * index))} if name == "hybrid" else {},
     }
@@ -209,10 +210,13 @@ def scaling_axis(axis, title, unit, values, labels, exponents):
         for value, label in zip(values, labels):
             grown = (value / values[-1]) ** exponent if exponent else 1 + value / 100
             points.append({"value": value, "label": label,
-                           "milliseconds": quartiles(factor * grown, 0.05)})
+                           "milliseconds": {"frame": quartiles(factor * grown, 0.05),
+                                            "effect": quartiles(0.4 * factor * grown, 0.05),
+                                            "wall": quartiles(1.1 * factor * grown, 0.05)}})
         entry = {"method": name, "points": points}
         if exponent:
-            entry["fit"] = {"exponent": exponent, "r2": 0.999, "from": values[1], "to": values[-1]}
+            fit = {"exponent": exponent, "r2": 0.999, "from": values[1], "to": values[-1]}
+            entry["fit"] = {"frame": fit, "effect": {**fit, "r2": 0.998}}
         series.append(entry)
     return {"axis": axis, "title": title, "unit": unit, "series": series}
 
@@ -249,7 +253,7 @@ def make(suite):
         "machine": {"cpu": "synthetic CPU", "cores": 2, "memoryBytes": 8 << 30,
                     "os": "synthetic OS"},
         "device": {"name": "synthetic device", "driver": "none",
-                   "driverInfo": "no driver </script>", "api": "1.3.0", "software": True},
+                   "rays": "no rays </script>", "api": "1.3.0", "software": True},
         "settings": {"width": WIDTH, "height": HEIGHT, "repeats": 7, "pixel": "centre",
                      "tonemap": "neutral"},
         "metrics": [

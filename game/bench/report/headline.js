@@ -51,9 +51,9 @@ function writeScalingSentence() {
     if (!series) return null;
     const first = series.points[0];
     const last = series.points.at(-1);
-    const growth = last.milliseconds.median / first.milliseconds.median;
-    const fit = series.fit
-        ? `, as ${axis.unit} to the power of ${formatNumber(series.fit.exponent, 2)}` : "";
+    const growth = last.milliseconds.frame.median / first.milliseconds.frame.median;
+    const fit = series.fit?.frame
+        ? `, as ${axis.unit} to the power of ${formatNumber(series.fit.frame.exponent, 2)}` : "";
     return `From ${first.label} to ${last.label}, the time of ${series.method} grows ` +
         `${formatRatio(growth)}${fit}.`;
 }
@@ -106,8 +106,14 @@ function writeEqualTimeSentence(metric) {
     const [{reference, row}] = entries;
     const value = median(entries.map((entry) => metricOf(entry.row, metric)));
     const dial = nameDial(row.method, median(entries.map((entry) => entry.row.dial)));
-    return ` In the time of ${reference.method}, truth traces ${dial} a pixel and reaches ` +
-        `${formatShort(metric, value)}.`;
+    const ratio = median(entries.map((entry) =>
+        entry.row.milliseconds / entry.reference.milliseconds));
+    const reached = formatShort(metric, value);
+    return ratio > 1.25
+        ? ` Even ${dial} a pixel of truth takes ${formatRatio(ratio)} the time of ` +
+            `${reference.method}, and reaches ${reached}.`
+        : ` In the time of ${reference.method}, truth traces ${dial} a pixel and reaches ` +
+            `${reached}.`;
 }
 
 function drawHeadline() {

@@ -7,7 +7,8 @@ function fillToolbar() {
     fillSelect(byId("metric"), results.metrics.map((m) => ({value: m.id, label: m.name})),
         chosen.metric?.id);
     byId("case-choice").hidden = results.cases.length < 2;
-    byId("toolbar").hidden = results.cases.length === 0;
+    byId("metric-choice").hidden = results.cases.length === 0;
+    byId("toolbar").hidden = results.cases.length === 0 && (results.scaling ?? []).length === 0;
     byId("toolbar").addEventListener("submit", (event) => event.preventDefault());
     byId("case").addEventListener("change", (event) =>
         choose({case: results.cases.find((c) => c.name === event.target.value)}));
@@ -37,13 +38,13 @@ function drawChosen() {
     drawPictures();
     drawSlider();
     drawEqualTime();
+    drawScaling();
     fillContents();
 }
 
 fillToolbar();
 drawHeadline();
 drawTables();
-drawScaling();
 drawAbout();
 drawChosen();
 onChoice(drawChosen);

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/case_stage.h"
+
+#include "engine/image/flip.h"
+#include "engine/image/magma.h"
+#include "engine/image/metrics.h"
+#include "engine/io/content_hash.h"
+#include "engine/io/image_file.h"
+#include "game/bench/case_setup.h"
+
+#include <fmt/format.h>
+
+namespace shutter::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using core::Status;
+
+constexpr uint32_t kCropSidePx = 96;
+
+} // namespace
+
+core::Result<std::unique_ptr<CaseStage>> CaseStage::create(
+    gpu::Device& device, const Case& shot, const MeasureOptions& options, core::Progress& progress
+) {
+    auto setup = setUpCase(shot, device.info(), options.folder);
+    if (!setup)
+        return setup.error();
+    std::unique_ptr<CaseStage> stage(
+        new CaseStage(device, shot, options, progress, setup.value().scene, setup.value().hash)
+    );
+    if (Status loaded = stage->load(); !loaded)
+        return loaded.error();
+    return stage;
+}
+
+CaseStage::CaseStage(
+    gpu::Device& device,
+    const Case& shot,
+    const MeasureOptions& options,
+    core::Progress& progress,
+    fs::path scene,
+    const std::string& hash
+)
+    : mDevice(device), mCase(shot), mOptions(options), mProgress(progress),
+      mScene(std::move(scene)),
+      mTruthHash(io::computeContentHash(fmt::format("{} truth {}", hash, options.truthSamples))),
+      mJournal(options.folder / "journal" / (shot.name + ".json"), hash) {}
+
+Status CaseStage::load() {
+    auto options = makeOptions(*game::findMethod("sharp").value(), 0);
+    if (!options)
+        return options.error();
+    auto loaded = game::loadShot(options.value());
+    if (!loaded)
+        return loaded.error();
+    mShot = std::move(loaded.value());
+    mRenderer = std::make_unique<render::Renderer>(mDevice, mShot.world.assets);
+    return {};
+}
+
+core::Result<game::RenderOptions>
+CaseStage::makeOptions(const game::MethodInfo& method, uint32_t samples) const {
+    game::RenderArguments arguments = mCase.shot;
+    arguments.scene = mScene.string();
+    arguments.method = method.name;
+    arguments.samples = samples;
+    arguments.out = "picture.png"; // a display-encoded picture; nothing is written there
+    return game::interpret(arguments);
+}
+
+Status CaseStage::provideTruth() {
+    mTruthImage = fmt::format("images/{}.truth.png", mCase.name);
+    const fs::path file = mOptions.folder / mTruthImage;
+    const fs::path cached =
+        mOptions.truthCache.empty() ? fs::path() : mOptions.truthCache / (mTruthHash + ".png");
+    std::error_code missing;
+    const bool isCached = !cached.empty() && fs::exists(cached, missing);
+    if (isCached)
+        mProgress.advance(mOptions.truthSamples);
+    else if (Status drawn = drawTruth(file); !drawn)
+        return drawn;
+    // What is compared is what the file holds: 8 bits a channel.
+    auto read = io::readImage(isCached ? cached : file);
+    if (!read)
+        return read.error();
+    mTruth = std::move(read.value());
+    if (isCached)
+        return io::writeImage(file, mTruth);
+    return cached.empty() ? Status() : io::writeImage(cached, mTruth);
+}
+
+Status CaseStage::drawTruth(const fs::path& file) {
+    DrawnPoint truth{{game::findMethod("accumulate").value(), mOptions.truthSamples, true}};
+    auto drawn = draw(truth);
+    return drawn ? io::writeImage(file, drawn.value().display) : Status(drawn.error());
+}
+
+core::Result<render::FrameResult>
+CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
+    if (!drawn.renderer) {
+        auto options = makeOptions(*drawn.point.method, drawn.point.samples);
+        if (!options)
+            return options.error();
+        drawn.options = std::move(options.value());
+        auto created = game::MethodRenderer::create(mDevice, *mRenderer, mShot, drawn.options);
+        if (!created)
+            return created.error();
+        drawn.renderer = std::move(created.value());
+    }
+    return drawn.renderer->renderPicture(
+        drawn.options.frameTimes.front(), [&] { mProgress.advance(); }, checkpoints
+    );
+}
+
+bool CaseStage::isKnown(const DialPoint& point, uint32_t repeats) const {
+    const Record& record = mJournal.find(makeKey(point));
+    return record.samples.size() >= repeats && (record.hasPicture || mTruth.width == 0);
+}
+
+Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult& drawn) {
+    const std::string key = makeKey(point);
+    if (mTruth.width == 0 || mJournal.find(key).hasPicture)
+        return {};
+    PictureFacts facts;
+    facts.image = pictureFile(mCase.name, point.method->name, point.samples);
+    facts.errorMap = fs::path(facts.image).replace_extension(".flip.png").string();
+    const fs::path file = mOptions.folder / facts.image;
+    if (Status written = io::writeImage(file, drawn.display); !written)
+        return written;
+    auto picture = io::readImage(file);
+    if (!picture)
+        return picture.error();
+    const image::FlipResult flip = image::computeFlip(picture.value(), mTruth);
+    facts.metrics = {
+        {"psnr", image::computePsnr(picture.value(), mTruth)},
+        {"ssim", image::computeSsim(picture.value(), mTruth)},
+        {"flip", flip.mean}};
+    const fs::path map = mOptions.folder / facts.errorMap;
+    if (Status written = io::writeImage(map, image::colorWithMagma(flip.errorMap)); !written)
+        return written;
+    facts.counters = drawn.statistics.counters;
+    return mJournal.setPicture(key, std::move(facts));
+}
+
+Status CaseStage::keepSample(const DialPoint& point, const render::FrameResult& drawn) {
+    Sample sample;
+    for (const gpu::PassTime& pass : drawn.statistics.passes)
+        sample.passes.push_back({pass.name, pass.gpuMilliseconds});
+    sample.wallMilliseconds = drawn.statistics.wallMilliseconds;
+    return mJournal.addSample(makeKey(point), std::move(sample));
+}
+
+/// The picture of a method at its default; one without pixels where it was not measured.
+core::Result<image::Image> CaseStage::readDefault(std::string_view method) const {
+    const game::MethodInfo& info = *game::findMethod(method).value();
+    const Record& record = mJournal.find(makeKey({&info, info.defaultSamples, true}));
+    return record.hasPicture ? io::readImage(mOptions.folder / record.picture.image)
+                             : core::Result<image::Image>(image::Image());
+}
+
+core::Result<std::vector<Crop>> CaseStage::chooseCrops() const {
+    auto gather = readDefault("gather");
+    auto hybrid = readDefault("hybrid");
+    auto sharp = readDefault("sharp");
+    for (const auto* picture : {&gather, &hybrid, &sharp})
+        if (!*picture)
+            return picture->error();
+    std::vector<Crop> crops;
+    const auto add = [&](const image::Image& a, const image::Image& b, const char* label) {
+        if (a.width != b.width || a.width == 0)
+            return;
+        for (Crop& crop : findLargestDifference(a, b, kCropSidePx, label, crops))
+            crops.push_back(std::move(crop));
+    };
+    add(gather.value(), hybrid.value(), "where rays change the picture most");
+    add(gather.value(), hybrid.value(), "where rays change it second most");
+    add(sharp.value(), mTruth, "where the shutter changes it most");
+    return crops;
+}
+
+} // namespace shutter::bench

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// One case ready to be drawn: its scene on the device, its truth, its journal.
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/gpu/device.h"
+#include "engine/image/image.h"
+#include "game/bench/crops.h"
+#include "game/bench/journal.h"
+#include "game/bench/measure.h"
+#include "game/bench/suite.h"
+#include "game/method_renderer.h"
+#include "game/shot.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace shutter::bench {
+
+/// A method at one position of its dial, drawn again and again.
+struct DrawnPoint {
+    DialPoint point;
+    game::RenderOptions options{};                    ///< the renderer keeps a reference
+    std::unique_ptr<game::MethodRenderer> renderer{}; ///< made when it is drawn first
+};
+
+class CaseStage {
+  public:
+    /// Loads the scene. Error: it cannot be written or read.
+    [[nodiscard]] static core::Result<std::unique_ptr<CaseStage>> create(
+        gpu::Device& device,
+        const Case& shot,
+        const MeasureOptions& options,
+        core::Progress& progress
+    );
+
+    /// Draws the truth, or takes it from the cache, and writes it into the report's folder.
+    [[nodiscard]] core::Status provideTruth();
+
+    [[nodiscard]] core::Result<render::FrameResult>
+    draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints = {});
+
+    /// Writes the picture and its error map, unless there is no truth or the journal has them.
+    [[nodiscard]] core::Status
+    keepPicture(const DialPoint& point, const render::FrameResult& drawn);
+    /// Adds the picture's times to the journal.
+    [[nodiscard]] core::Status keepSample(const DialPoint& point, const render::FrameResult& drawn);
+
+    /// Where rays change the picture most, and where motion blur does.
+    [[nodiscard]] core::Result<std::vector<Crop>> chooseCrops() const;
+
+    [[nodiscard]] Journal& journal() { return mJournal; }
+
+    /// Nothing more is to be measured here.
+    [[nodiscard]] bool isKnown(const DialPoint& point, uint32_t repeats) const;
+
+    [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }
+
+    [[nodiscard]] const std::string& truthHash() const { return mTruthHash; }
+
+  private:
+    CaseStage(
+        gpu::Device& device,
+        const Case& shot,
+        const MeasureOptions& options,
+        core::Progress& progress,
+        std::filesystem::path scene,
+        const std::string& hash
+    );
+    core::Status load();
+    core::Status drawTruth(const std::filesystem::path& file);
+    [[nodiscard]] core::Result<game::RenderOptions>
+    makeOptions(const game::MethodInfo& method, uint32_t samples) const;
+    [[nodiscard]] core::Result<image::Image> readDefault(std::string_view method) const;
+
+    gpu::Device& mDevice;
+    const Case& mCase;
+    const MeasureOptions& mOptions;
+    core::Progress& mProgress;
+    std::filesystem::path mScene;
+    std::string mTruthHash;
+    std::string mTruthImage; ///< empty until there is one
+    Journal mJournal;
+    game::Shot mShot;
+    std::unique_ptr<render::Renderer> mRenderer;
+    image::Image mTruth;
+};
+
+} // namespace shutter::bench
