@@ -225,7 +225,9 @@ TEST_F(Cli, InfoNeedsToKnowWhatAbout) {
 
 TEST_F(Cli, InfoListsTheMethodsOneALine) {
     EXPECT_EQ(
-        expectSuccess({"info", "--methods"}).out, "sharp\ngather\nhybrid\naccumulate\ntruth\n"
+        expectSuccess({"info", "--methods"}).out,
+        "sharp\nown_velocity\nmcguire2012\nguertin2014\njimenez2014\ngather\nhybrid\ndenoised\n"
+        "accumulate\ntruth\n"
     );
 }
 

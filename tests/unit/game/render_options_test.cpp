@@ -181,7 +181,7 @@ TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
 TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     for (const char* name : {"", "Hybrid", "nosuch"})
         refuse("--method", [&](auto& a) { a.method = name; });
-    refuse("gather, hybrid, accumulate, truth", [](auto& a) { a.method = "nosuch"; });
+    refuse("gather, hybrid, denoised, accumulate, truth", [](auto& a) { a.method = "nosuch"; });
 }
 
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
@@ -300,7 +300,7 @@ TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
 }
 
 TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
-    // Each name is some method's, and each method but the hybrid lacks some.
+    // Each name is some method's, and each method lacks some.
     for (const MethodInfo& method : listMethods()) {
         const bool blurs = method.family == MethodFamily::MotionBlur;
         const char* foreign =
@@ -309,7 +309,8 @@ TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
             a.method = method.name;
             a.settings = {foreign};
         });
-        if (blurs)
+        const bool jitters = blurs && method.blur != motion_blur::Method::Denoised;
+        if (jitters)
             accept([&](auto& a) {
                 a.method = method.name;
                 a.settings = {"jitter=0.5"};

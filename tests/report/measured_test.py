@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""What the program itself measures, against the schema that its page is made for."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: the package python3-jsonschema is missing")
+    sys.exit(77)
+
+SCHEMA = pathlib.Path(__file__).parents[2] / "game/bench/results.schema.json"
+SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
+ON_SOFTWARE = ["--device", "llvmpipe"]
+
+devices = subprocess.run([SHUTTER, "info", "--devices"], capture_output=True, text=True)
+if "llvmpipe" not in devices.stdout:
+    print("skipped: there is no lavapipe to draw on")
+    sys.exit(77)
+
+
+class Measured(unittest.TestCase):
+    def measure(self, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(
+                [SHUTTER, "bench", "--out", folder, "--size", "32x18", "--repeats", "1",
+                 "--truth-samples", "2", *options, *ON_SOFTWARE], check=True)
+            return json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
+
+    def validate(self, results):
+        schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+        jsonschema.Draft202012Validator(schema).validate(results)
+        self.assertTrue(results["complete"])
+
+    def test_the_paper_suite(self):
+        results = self.measure("--suite", "paper", "--methods", "sharp,gather,hybrid,truth")
+        self.validate(results)
+        case = results["cases"][0]
+        dials = {m["method"]: [] for m in case["measurements"]}
+        for m in case["measurements"]:
+            dials[m["method"]].append(m["dial"])
+        self.assertEqual(dials["sharp"], [None])
+        self.assertEqual(dials["hybrid"], [4, 8, 15, 16, 32, 64])
+        self.assertEqual(dials["truth"], [1 << i for i in range(9)])
+        self.assertEqual(results["equalTime"][0]["reference"]["method"], "hybrid")
+
+    def test_a_hard_case(self):
+        results = self.measure("--suite", "hard", "--case", "spin", "--methods", "sharp,denoised")
+        self.validate(results)
+        self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
+        self.assertEqual(results["equalTime"], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
