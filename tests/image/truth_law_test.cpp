@@ -4,6 +4,7 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
+#include "tests/support/trapezoid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,33 +73,8 @@ TEST_F(TruthLaw, WithoutAnExposureAMoverIsSharpToo) {
 }
 
 TEST_F(TruthLaw, AQuadAtConstantSpeedIsTheExactTrapezoidInEachPhase) {
-    constexpr double kWidth = 20.3;
-    constexpr double kMotion = 31.7;
-    SceneBuilder scene;
-    scene.setPixelView(8);
-    scene.add(
-        test::makeQuad(kWidth, 20, scene.addColor({1, 1, 1})),
-        {.position = {0.4, 0, -10}, .velocity = {kMotion, 0, 0}}
-    );
-    Stage stage(device(), scene);
-    for (auto phase :
-         {scene::ShutterPhase::Start, scene::ShutterPhase::Centre, scene::ShutterPhase::End}) {
-        const auto interval = scene::computeExposure({1.0, phase}, 0.0);
-        const double left = 48.0 + 0.4 + kMotion * interval.open - kWidth / 2.0;
-        const auto result =
-            stage.render({.method = Method::Truth, .height = 8, .phase = phase, .instants = 512});
-        double highest = 0.0;
-        for (uint32_t x = 0; x < 96; ++x) {
-            const double enters = (x + 0.5 - left - kWidth) / kMotion;
-            const double leaves = (x + 0.5 - left) / kMotion;
-            const double covered = std::clamp(leaves, 0.0, 1.0) - std::clamp(enters, 0.0, 1.0);
-            // Each end of the interval of s is met to a stratum of the 256 of each set.
-            ASSERT_NEAR(result.color.at(x, 4, 1), covered, 2.0 / 256.0)
-                << x << " phase " << int(phase);
-            highest = std::max(highest, covered);
-        }
-        EXPECT_NEAR(highest, kWidth / kMotion, 1e-9) << "the trapezoid's top is in the picture";
-    }
+    // Each end of the interval of s is met to a stratum of the 256 of each set.
+    test::expectTrapezoidInEachPhase(device(), Method::Truth, 512, 2.0 / 256.0);
 }
 
 TEST_F(TruthLaw, AnyNumberOfRaysHasTheTrapezoidForItsMean) {
