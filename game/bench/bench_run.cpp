@@ -32,6 +32,10 @@ class BenchRun {
     }
 
     Status run() {
+        // Hours of measuring are worth their figures even without a page.
+        const Status page = checkReportPageCanBeMade();
+        if (!page)
+            core::logWarning("{}; results.json is written alone", page.error().message);
         describeRun();
         core::Progress progress("measuring", countAllSteps());
         for (const Case& shot : mSuite.cases) {
@@ -50,7 +54,7 @@ class BenchRun {
         mRoot["complete"] = true;
         if (Status written = writeResults(); !written)
             return written;
-        return writeReportPage(mRoot, mOptions.folder);
+        return page ? writeReportPage(mRoot, mOptions.folder) : Status();
     }
 
   private:

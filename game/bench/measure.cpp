@@ -28,6 +28,10 @@ uint64_t stepsOf(const DialPoint& point) {
     }
 }
 
+bool isProgressive(const DialPoint& point) {
+    return point.method->family == game::MethodFamily::Truth;
+}
+
 double secondsOf(const render::FrameResult& drawn) {
     return drawn.statistics.wallMilliseconds / 1e3;
 }
@@ -44,10 +48,8 @@ class Rounds {
         const StopQuestion& stop
     )
         : mDevice(device), mStage(stage), mOptions(options), mProgress(progress), mStop(stop) {
-        for (const DialPoint& point : sweep) {
-            const bool isProgressive = point.method->family == game::MethodFamily::Truth;
-            (isProgressive ? mProgressive : mEntries).push_back({{point}});
-        }
+        for (const DialPoint& point : sweep)
+            (isProgressive(point) ? mProgressive : mEntries).push_back({{point}});
     }
 
     Status run() {
@@ -220,9 +222,14 @@ class Rounds {
 
 uint64_t countSteps(const std::vector<DialPoint>& sweep, const MeasureOptions& options) {
     uint64_t steps = options.comparePictures ? options.truthSamples : 0;
-    for (const DialPoint& point : sweep)
-        steps += stepsOf(point) * (options.repeats + 1);
-    return steps;
+    uint64_t progressive = 0; // one run passes all dials
+    for (const DialPoint& point : sweep) {
+        if (isProgressive(point))
+            progressive = std::max(progressive, stepsOf(point));
+        else
+            steps += stepsOf(point) * (options.repeats + 1);
+    }
+    return steps + progressive;
 }
 
 std::string pictureFile(const std::string& caseName, const std::string& method, uint32_t samples) {
