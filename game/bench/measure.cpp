@@ -109,10 +109,13 @@ class Rounds {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
             return refuse(entry, describeLimit(predicted));
         }
-        if (mStage.isKnown(point, mOptions.repeats)) {
+        const std::vector<Sample>& samples = mStage.journal().find(makeKey(point)).samples;
+        const double known = samples.empty() ? 0.0 : samples.front().wallMilliseconds / 1e3;
+        // A dear point is done before it has all repeats.
+        const bool isDone = double(samples.size()) * known >= kSecondsAPoint;
+        if (mStage.isKnown(point, isDone ? 1 : mOptions.repeats)) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
-            const Record& known = mStage.journal().find(makeKey(point));
-            entry.seconds = known.samples.front().wallMilliseconds / 1e3;
+            entry.seconds = known;
             return {};
         }
         // A method's first picture compiles its shaders, which is no part of its time.
@@ -126,7 +129,7 @@ class Rounds {
         if (Status kept = mStage.keepPicture(point, drawn.value()); !kept)
             return kept;
         // A dear picture is drawn once: it is its own measurement.
-        const bool isDear = entry.seconds > kSecondsAPoint / 2;
+        const bool isDear = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
         return isDear ? mStage.keepSample(point, drawn.value()) : Status();
     }
 
