@@ -112,7 +112,7 @@ core::Result<render::FrameResult> MethodRenderer::renderAccumulated(
         const bool last = i + 1 == count;
         render::FrameRequest instant = request;
         instant.view = accumulate::makeInstant(
-            request.view, request.view.exposure, i, count, mOptions.pixel, mOptions.seed
+            request.view, i, count, mOptions.pixel, mOptions.seed
         );
         instant.wantColor = last && request.wantColor;
         instant.wantDisplay = last && request.wantDisplay;

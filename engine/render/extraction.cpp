@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/math/projection.h"
 #include "engine/render/poses.h"
+#include "engine/scene/exposure_motion.h"
 
 #include <algorithm>
 #include <array>
@@ -33,11 +34,8 @@ dmat4 makeProjection(const scene::Camera& camera, double aspect) {
     );
 }
 
-CameraPose poseCamera(
-    const scene::World& world, ecs::Entity entity, const dmat4& clipFromView, double seconds
-) {
-    const dmat4 worldFromView =
-        computeWorldFromView(scene::worldFromEntity(world, entity, seconds));
+CameraPose poseCamera(const scene::ExposureMotion& motion, const dmat4& clipFromView, double s) {
+    const dmat4 worldFromView = computeWorldFromView(motion.worldFromCamera(s));
     CameraPose pose;
     pose.viewFromWorld = glm::inverse(worldFromView);
     pose.clipFromWorld = clipFromView * pose.viewFromWorld;
@@ -49,6 +47,19 @@ CameraPose poseCamera(
 struct Poses {
     CameraPose open, raster, close;
 };
+
+/// Shutter times of the three poses.
+struct PoseTimes {
+    double open = 0.0;
+    double raster = 1.0;
+    double close = 1.0;
+};
+
+PoseTimes findPoseTimes(const ViewRequest& request) {
+    if (request.instant)
+        return {*request.instant, *request.instant, *request.instant};
+    return {0.0, request.exposure.rasterShare, 1.0};
+}
 
 /// True when the box lies wholly beyond one of the side planes or behind the near plane.
 bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
@@ -74,11 +85,11 @@ class Extractor {
     Extractor(const scene::World& world, const SceneLayout& layout, const ViewRequest& request)
         : mWorld(world), mLayout(layout), mRequest(request),
           mCamera(world.registry.get<scene::Camera>(request.camera)),
+          mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)),
           mClipFromView(makeProjection(mCamera, double(request.width) / request.height)) {
-        const scene::ExposureInterval& exposure = request.exposure;
-        mPoses.open = poseCamera(world, request.camera, mClipFromView, exposure.open);
-        mPoses.raster = poseCamera(world, request.camera, mClipFromView, exposure.raster);
-        mPoses.close = poseCamera(world, request.camera, mClipFromView, exposure.close);
+        mPoses.open = poseCamera(mMotion, mClipFromView, mTimes.open);
+        mPoses.raster = poseCamera(mMotion, mClipFromView, mTimes.raster);
+        mPoses.close = poseCamera(mMotion, mClipFromView, mTimes.close);
     }
 
     core::Result<ExtractedFrame> run() {
@@ -146,7 +157,7 @@ class Extractor {
 
     /// A light that is nowhere lights nothing; its NaN would blacken the picture.
     void addLight(ecs::Entity entity, const scene::Light& light) {
-        const dmat4 world = scene::worldFromEntity(mWorld, entity, mRequest.exposure.raster);
+        const dmat4 world = mMotion.worldFromEntity(entity, mTimes.raster);
         if (!math::isFinite(world))
             return;
         mFrame.lights.push_back(makeLight(light, world, mPoses.raster.position));
@@ -158,10 +169,9 @@ class Extractor {
         const uint32_t endGeometry = mLayout.firstGeometry[mesh + 1];
         if (mLayout.bounds[mesh].isEmpty() || firstGeometry == endGeometry)
             return;
-        const scene::ExposureInterval& exposure = mRequest.exposure;
-        const dmat4 open = scene::worldFromEntity(mWorld, entity, exposure.open);
-        const dmat4 raster = scene::worldFromEntity(mWorld, entity, exposure.raster);
-        const dmat4 close = scene::worldFromEntity(mWorld, entity, exposure.close);
+        const dmat4 open = mMotion.worldFromObject(entity, mTimes.open);
+        const dmat4 raster = mMotion.worldFromObject(entity, mTimes.raster);
+        const dmat4 close = mMotion.worldFromObject(entity, mTimes.close);
         if (!isDrawable(raster) || !math::isFinite(open) || !math::isFinite(close))
             return;
 
@@ -199,6 +209,8 @@ class Extractor {
     const SceneLayout& mLayout;
     const ViewRequest& mRequest;
     const scene::Camera& mCamera;
+    scene::ExposureMotion mMotion;
+    PoseTimes mTimes;
     dmat4 mClipFromView;
     Poses mPoses;
     ExtractedFrame mFrame;

@@ -10,6 +10,7 @@
 #include "shaders/render/scene_shared.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace shutter::render {
@@ -20,6 +21,9 @@ inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
 struct ViewRequest {
     ecs::Entity camera;
     scene::ExposureInterval exposure;
+    /// Shutter time of a sharp picture of one instant of the exposure; nothing: the raster instant,
+    /// with the motion over the exposure.
+    std::optional<double> instant;
     uint32_t width = 1280;       ///< pixels, above 0
     uint32_t height = 720;       ///< pixels, above 0
     math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]

@@ -3,6 +3,7 @@
 
 #include "engine/math/transform.h"
 #include "engine/render/poses.h"
+#include "engine/scene/exposure_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +47,9 @@ class Builder {
         ExtractedFrame& frame
     )
         : mWorld(world), mLayout(layout), mRequest(request), mFrame(frame),
-          mCamera(world.registry.get<scene::Camera>(request.camera)) {
-        mOrigin = dvec3(viewAt(request.exposure.raster)[3]);
+          mCamera(world.registry.get<scene::Camera>(request.camera)),
+          mMotion(world, request.camera, request.exposure) {
+        mOrigin = dvec3(viewAt(request.exposure.rasterShare)[3]);
     }
 
     core::Result<MovingTables> run() {
@@ -62,17 +64,15 @@ class Builder {
     }
 
   private:
-    dmat4 viewAt(double seconds) const {
-        return computeWorldFromView(scene::worldFromEntity(mWorld, mRequest.camera, seconds));
-    }
+    dmat4 viewAt(double s) const { return computeWorldFromView(mMotion.worldFromCamera(s)); }
 
     dmat4 toEye(dmat4 world) const {
         world[3] -= math::dvec4(mOrigin, 0.0);
         return world;
     }
 
-    dmat4 entityAt(ecs::Entity entity, double s) const {
-        return toEye(scene::worldFromEntity(mWorld, entity, mRequest.exposure.at(s)));
+    dmat4 objectAt(ecs::Entity entity, double s) const {
+        return toEye(mMotion.worldFromObject(entity, s));
     }
 
     void describeView() {
@@ -86,12 +86,12 @@ class Builder {
         mTolerance.near = perspective ? mCamera.near : 0.0;
         (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
 
-        const auto eyeFromView = [&](double s) { return toEye(viewAt(mRequest.exposure.at(s))); };
+        const auto eyeFromView = [&](double s) { return toEye(viewAt(s)); };
         auto keys = computeCameraKeys(eyeFromView, half, mTolerance);
         if (keys)
             mTables.camera = std::move(*keys);
         else // a camera that is nowhere for a while sees what it sees at the raster instant
-            mTables.camera.keys = {makeKey(toEye(viewAt(mRequest.exposure.raster)))};
+            mTables.camera.keys = {makeKey(toEye(viewAt(mRequest.exposure.rasterShare)))};
         for (uint32_t i = 0; i <= kPathIntervals; ++i)
             mTolerance.cameraPath.push_back(
                 dvec3(interpolateKeys(mTables.camera.keys, double(i) / kPathIntervals)[3])
@@ -101,7 +101,7 @@ class Builder {
     MotionKeys computeRow(size_t row) const {
         const ecs::Entity entity = mFrame.entityHandles[row];
         const Bounds& bounds = mLayout.bounds[mFrame.entityMeshes[row]];
-        if (scene::mayMove(mWorld, entity))
+        if (mMotion.mayObjectMove(entity))
             if (auto keys = computeKeys(entity, bounds))
                 return std::move(*keys);
         MotionKeys still;
@@ -112,7 +112,7 @@ class Builder {
     }
 
     std::optional<MotionKeys> computeKeys(ecs::Entity entity, const Bounds& bounds) const {
-        return computeMotionKeys([&](double s) { return entityAt(entity, s); }, bounds, mTolerance);
+        return computeMotionKeys([&](double s) { return objectAt(entity, s); }, bounds, mTolerance);
     }
 
     core::Status addHiddenEntities() {
@@ -126,7 +126,7 @@ class Builder {
             const Bounds& bounds = mLayout.bounds[instance.mesh];
             const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];
             if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1] ||
-                !scene::mayMove(mWorld, entity))
+                !mMotion.mayObjectMove(entity))
                 continue;
             auto keys = computeKeys(entity, bounds);
             if (!keys || keys->keys.size() == 1)
@@ -149,7 +149,7 @@ class Builder {
 
     shader::LightRow lightAt(size_t index, double s) const {
         const ecs::Entity entity = mFrame.lightEntities[index];
-        const dmat4 world = scene::worldFromEntity(mWorld, entity, mRequest.exposure.at(s));
+        const dmat4 world = mMotion.worldFromEntity(entity, s);
         if (math::isFinite(world))
             return makeLight(mWorld.registry.get<scene::Light>(entity), world, mOrigin);
         shader::LightRow dark = mFrame.lights[index];
@@ -159,7 +159,7 @@ class Builder {
 
     /// Intervals after which the light is where linear interpolation says, to the tolerance.
     uint32_t countLightIntervals(size_t index) const {
-        if (!scene::mayMove(mWorld, mFrame.lightEntities[index]))
+        if (!mMotion.mayMove(mFrame.lightEntities[index]))
             return 0;
         const auto far = [](const math::vec4& a, const math::vec4& b) {
             return double(glm::length(math::vec3(a - b)));
@@ -236,6 +236,7 @@ class Builder {
     const ViewRequest& mRequest;
     ExtractedFrame& mFrame;
     const scene::Camera& mCamera;
+    scene::ExposureMotion mMotion;
     dvec3 mOrigin{0.0};
     KeyTolerance mTolerance;
     MovingTables mTables;

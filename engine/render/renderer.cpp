@@ -28,7 +28,8 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays
     facts.width = request.view.width;
     facts.height = request.view.height;
     facts.moves = moves;
-    facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
+    if (!request.view.instant)
+        facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
     facts.rasterShare = request.view.exposure.rasterShare;
     facts.deviceHasRays = deviceHasRays;
     facts.displayWanted = request.wantDisplay;

@@ -47,20 +47,19 @@ dvec4 sampleLinear(const AnimationChannel& channel, size_t key, double share) {
     return toVec4(glm::slerp(glm::normalize(toQuat(from)), glm::normalize(toQuat(to)), share));
 }
 
-/// Hermite spline of glTF 2.0, appendix C.5; tangents are per second.
+/// Tangents of the file are per second.
 dvec4 sampleCubic(const AnimationChannel& channel, size_t key, double share, double interval) {
-    const dvec4 from = valueOfKey(channel, key);
-    const dvec4 to = valueOfKey(channel, key + 1);
-    const dvec4 outTangent = interval * dvec4(channel.values[3 * key + 2]);
-    const dvec4 inTangent = interval * dvec4(channel.values[3 * (key + 1)]);
-    const double s = share;
-    const double s2 = s * s;
-    const double s3 = s2 * s;
-    return (2.0 * s3 - 3.0 * s2 + 1.0) * from + (s3 - 2.0 * s2 + s) * outTangent +
-           (3.0 * s2 - 2.0 * s3) * to + (s3 - s2) * inTangent;
+    return interpolateHermite<dvec4>(
+        {valueOfKey(channel, key),
+         interval * dvec4(channel.values[3 * key + 2]),
+         valueOfKey(channel, key + 1),
+         interval * dvec4(channel.values[3 * (key + 1)])},
+        share
+    );
 }
 
-/// Time within the clip: wrapped into [0, duration) when looping, else as it is.
+} // namespace
+
 double clipSeconds(const AnimationClip& clip, bool loop, double seconds) {
     if (!loop || !(clip.duration > 0.0))
         return seconds;
@@ -71,8 +70,6 @@ double clipSeconds(const AnimationClip& clip, bool loop, double seconds) {
 bool isActive(const Playback& playback, uint32_t clip) {
     return clip >= playback.activeClips.size() || playback.activeClips[clip];
 }
-
-} // namespace
 
 dvec4 sampleChannel(const AnimationChannel& channel, double seconds) {
     const size_t keyCount = channel.times.size();

@@ -54,7 +54,22 @@ struct Animated {
         uint32_t clip = 0;    ///< index into Assets::clips
         uint32_t channel = 0; ///< index into AnimationClip::channels
     };
+
     std::vector<Channel> channels;
+};
+
+/// The mesh of this entity is bent by joints (linear blend skinning). Its own transform has no
+/// meaning then (glTF 2.0, 3.7.3.3): the joints' do.
+struct Skinned {
+    AssetIndex skin = kNone;
+    std::vector<ecs::Entity> joints; ///< one a joint of the skin, alive
+};
+
+/// Weights of the morph targets of this entity's mesh.
+struct MorphWeights {
+    std::vector<float> weights; ///< at rest, one a morph target
+    std::vector<Animated::Channel>
+        channels; ///< into AnimationClip::weightChannels; later clips win
 };
 
 enum class CameraKind : uint8_t { Perspective, Orthographic };
@@ -63,11 +78,11 @@ enum class CameraKind : uint8_t { Perspective, Orthographic };
 struct Camera {
     std::string name; ///< of the camera itself; its entity has a Name of its own; may be empty
     CameraKind kind = CameraKind::Perspective;
-    double yFov = 0.8;    ///< perspective: vertical field of view, radians, (0, pi)
-    double xMag = 1.0;    ///< orthographic: half width, metres
-    double yMag = 1.0;    ///< orthographic: half height, metres; the picture's shape decides the width
-    double near = 0.05;   ///< metres, above 0
-    double far = 1000.0;  ///< metres; orthographic only, perspective reaches to infinity
+    double yFov = 0.8; ///< perspective: vertical field of view, radians, (0, pi)
+    double xMag = 1.0; ///< orthographic: half width, metres
+    double yMag = 1.0; ///< orthographic: half height, metres; the picture's shape decides the width
+    double near = 0.05;  ///< metres, above 0
+    double far = 1000.0; ///< metres; orthographic only, perspective reaches to infinity
 };
 
 /// Where in the exposure the raster image lies (`motion-blur` README, "Shutter").
@@ -88,11 +103,11 @@ enum class LightKind : uint8_t { Directional, Point, Spot };
 /// KHR_lights_punctual; shines down its entity's -Z.
 struct Light {
     LightKind kind = LightKind::Point;
-    math::vec3 color{1.0f};  ///< linear
-    float intensity = 1.0f;  ///< directional: lux; point and spot: candela
+    math::vec3 color{1.0f}; ///< linear
+    float intensity = 1.0f; ///< directional: lux; point and spot: candela
     float range = std::numeric_limits<float>::infinity(); ///< metres; no light beyond
-    float innerConeAngle = 0.0f;      ///< radians, spot only
-    float outerConeAngle = 0.7853982f; ///< radians, spot only
+    float innerConeAngle = 0.0f;                          ///< radians, spot only
+    float outerConeAngle = 0.7853982f;                    ///< radians, spot only
 };
 
 } // namespace shutter::scene

@@ -46,17 +46,11 @@ double wrap(double x) {
 } // namespace
 
 render::ViewRequest makeInstant(
-    const render::ViewRequest& view,
-    const scene::ExposureInterval& exposure,
-    uint32_t index,
-    uint32_t count,
-    PixelModel pixel,
-    uint32_t seed
+    const render::ViewRequest& view, uint32_t index, uint32_t count, PixelModel pixel, uint32_t seed
 ) {
     SHUTTER_CHECK(index < count, "{} of {}", index, count);
     render::ViewRequest instant = view;
-    const double seconds = exposure.at((index + 0.5) / count);
-    instant.exposure = {seconds, seconds, seconds, exposure.rasterShare};
+    instant.instant = (index + 0.5) / count;
     if (pixel == PixelModel::Centre)
         return instant;
     instant.jitterPx = {

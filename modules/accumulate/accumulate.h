@@ -26,12 +26,7 @@ enum class PixelModel : uint8_t {
 /// Box also sharpens textures to what `count` samples can resolve.
 /// \param seed another seed gives another set of places
 [[nodiscard]] render::ViewRequest makeInstant(
-    const render::ViewRequest& view,
-    const scene::ExposureInterval& exposure,
-    uint32_t index,
-    uint32_t count,
-    PixelModel pixel,
-    uint32_t seed
+    const render::ViewRequest& view, uint32_t index, uint32_t count, PixelModel pixel, uint32_t seed
 );
 
 /// Adds each frame's colour to a sum. Call setInstant() before each frame; in the last one the

@@ -121,7 +121,7 @@ Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) 
         const bool last = i + 1 == shot.instants;
         render::FrameRequest instant = request;
         instant.view = accumulate::makeInstant(
-            request.view, request.view.exposure, i, shot.instants, shot.pixel, 0
+            request.view, i, shot.instants, shot.pixel, 0
         );
         instant.wantColor = last;
         instant.wantDisplay = last && shot.wantDisplay;

@@ -13,12 +13,10 @@ namespace {
 
 using math::dvec2;
 
-const scene::ExposureInterval kExposure{2.0, 4.0, 4.0, 1.0};
-
 std::vector<render::ViewRequest> makeAll(uint32_t count, PixelModel pixel, uint32_t seed) {
     std::vector<render::ViewRequest> instants;
     for (uint32_t i = 0; i < count; ++i)
-        instants.push_back(makeInstant({}, kExposure, i, count, pixel, seed));
+        instants.push_back(makeInstant({}, i, count, pixel, seed));
     return instants;
 }
 
@@ -28,28 +26,15 @@ TEST(MakeInstant, EveryStratumOfTheExposureIsSeenInItsMiddle) {
     for (const uint32_t count : {1u, 2u, 7u, 64u}) {
         const auto instants = makeAll(count, PixelModel::Centre, 0);
         for (uint32_t i = 0; i < count; ++i)
-            EXPECT_NEAR(instants[i].exposure.raster, 2.0 + 2.0 * (i + 0.5) / count, 1e-12);
+            EXPECT_NEAR(instants[i].instant.value(), (i + 0.5) / count, 1e-12);
     }
-}
-
-TEST(MakeInstant, AnInstantHasNoExposureOfItsOwn) {
-    for (const render::ViewRequest& instant : makeAll(5, PixelModel::Box, 1)) {
-        EXPECT_EQ(instant.exposure.open, instant.exposure.raster);
-        EXPECT_EQ(instant.exposure.close, instant.exposure.raster);
-    }
-}
-
-TEST(MakeInstant, NoExposureIsTheSameInstantEachTime) {
-    const scene::ExposureInterval sharp{3.0, 3.0, 3.0, 1.0};
-    for (uint32_t i = 0; i < 4; ++i)
-        EXPECT_EQ(makeInstant({}, sharp, i, 4, PixelModel::Centre, 0).exposure.raster, 3.0);
 }
 
 TEST(MakeInstant, TheCentreIsNotJitteredAndKeepsTheTexturesLevel) {
     render::ViewRequest view;
     view.lodBias = 0.5f;
     for (uint32_t i = 0; i < 16; ++i) {
-        const auto instant = makeInstant(view, kExposure, i, 16, PixelModel::Centre, 9);
+        const auto instant = makeInstant(view, i, 16, PixelModel::Centre, 9);
         EXPECT_EQ(instant.jitterPx, dvec2(0.0));
         EXPECT_EQ(instant.lodBias, 0.5f);
     }
@@ -87,21 +72,21 @@ TEST(MakeInstant, EachHalfOfTheExposureCoversThePixelToo) {
 }
 
 TEST(MakeInstant, OneBoxSampleLiesInTheMiddle) {
-    const auto instant = makeInstant({}, kExposure, 0, 1, PixelModel::Box, 0);
+    const auto instant = makeInstant({}, 0, 1, PixelModel::Box, 0);
     EXPECT_EQ(instant.jitterPx, dvec2(0.0));
     EXPECT_EQ(instant.lodBias, 0.0f);
 }
 
 TEST(MakeInstant, ManyBoxSamplesResolveFinerTextures) {
-    EXPECT_FLOAT_EQ(makeInstant({}, kExposure, 0, 16, PixelModel::Box, 0).lodBias, -2.0f);
+    EXPECT_FLOAT_EQ(makeInstant({}, 0, 16, PixelModel::Box, 0).lodBias, -2.0f);
 }
 
 TEST(MakeInstant, AnotherSeedGivesOtherPlacesAndTheSameSeedTheSame) {
     std::set<std::pair<double, double>> firsts;
     for (uint32_t seed = 0; seed < 50; ++seed) {
-        const dvec2 place = makeInstant({}, kExposure, 3, 16, PixelModel::Box, seed).jitterPx;
+        const dvec2 place = makeInstant({}, 3, 16, PixelModel::Box, seed).jitterPx;
         firsts.insert({place.x, place.y});
-        EXPECT_EQ(place, makeInstant({}, kExposure, 3, 16, PixelModel::Box, seed).jitterPx);
+        EXPECT_EQ(place, makeInstant({}, 3, 16, PixelModel::Box, seed).jitterPx);
     }
     EXPECT_EQ(firsts.size(), 50u);
 }
@@ -112,11 +97,14 @@ TEST(MakeInstant, TheRestOfTheViewStaysAsAskedFor) {
     view.height = 5;
     view.background = {1.0f, 2.0f, 3.0f};
     view.unlit = true;
-    const auto instant = makeInstant(view, kExposure, 1, 2, PixelModel::Box, 0);
+    view.exposure = {2.0, 4.0, 4.0, 1.0};
+    const auto instant = makeInstant(view, 1, 2, PixelModel::Box, 0);
     EXPECT_EQ(instant.width, 7u);
     EXPECT_EQ(instant.height, 5u);
     EXPECT_EQ(instant.background, view.background);
     EXPECT_TRUE(instant.unlit);
+    EXPECT_EQ(instant.exposure.open, 2.0);
+    EXPECT_EQ(instant.exposure.close, 4.0);
 }
 
 } // namespace shutter::accumulate

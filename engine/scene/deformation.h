@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Skinned and morphed meshes: their shape at any time, and where the space of their vertices is.
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/math/math.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/world.h"
+
+#include <vector>
+
+namespace shutter::scene {
+
+/// The shape of a mesh at one instant. A vertex is first morphed, then skinned (glTF 2.0, 3.7.2.2):
+/// p' = sum over its joints of weight * objectFromBind[joint] * (p + sum over targets of weight *
+/// d).
+struct Deformation {
+    std::vector<math::dmat4> objectFromBind; ///< one a joint; empty: not skinned
+    std::vector<double> morphWeights;        ///< one a target; empty: not morphed
+};
+
+/// True when the entity's mesh is skinned or morphed.
+[[nodiscard]] bool isDeformable(const World& world, ecs::Entity entity);
+
+/// False when the shape (not the place, see mayMove) is the same at every time.
+[[nodiscard]] bool mayDeform(const World& world, ecs::Entity entity);
+
+/// Where the space is in which deformed vertices are given: worldFromEntity, or, for a skinned
+/// entity, the world's axes at its first joint, so that numbers stay small wherever the skeleton
+/// is.
+[[nodiscard]] math::dmat4 worldFromObject(const World& world, ecs::Entity entity, double seconds);
+
+/// False when worldFromObject answers the same at every time.
+[[nodiscard]] bool mayObjectMove(const World& world, ecs::Entity entity);
+
+/// \param seconds finite, any time, in any order
+[[nodiscard]] Deformation deformationAt(const World& world, ecs::Entity entity, double seconds);
+
+/// The channel's weights at `seconds`, clamped to its keys; targetCount values.
+[[nodiscard]] std::vector<double> sampleWeights(const WeightChannel& channel, double seconds);
+
+} // namespace shutter::scene
