@@ -37,6 +37,7 @@ struct RayScene {
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
     VkDescriptorSet textures = VK_NULL_HANDLE;
     VkDeviceAddress frameConstants = 0;
+    bool hasBlended = false; ///< blended surfaces may be in the picture
 };
 
 /// What rays that each have their own time need (moving_scene.h); handles of this frame.

@@ -175,6 +175,7 @@ Renderer::Tickets Renderer::declareFrame(
     RayScene rays;
     rays.frameConstants = uploadTables(frame);
     rays.textures = mScene.textureSet();
+    rays.hasBlended = !frame.blended.empty();
     const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
         return effect->needsRays();
     });

@@ -4,10 +4,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "motion_blur/motion_blur_shared.h"
-#include "render/shade_hit.glsl"
+#include "render/blended_layers.glsl"
 #include "render/sky.glsl"
-#include "render/trace.glsl"
 #include "render/view_ray.glsl"
+
+layout(constant_id = 0) const uint kBlended = 0u; // 1: blended surfaces may be in the picture
 
 layout(local_size_x = kRevealThreads) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
@@ -79,11 +80,13 @@ void main() {
         // A new origin rather than a longer tMin: builders' boxes in front of it are then skipped.
         float start = t + t * kPastHit;
         RayHit hit = traceRay(
-            uScene, frame, ray.origin + start * ray.direction, ray.direction, 0.0f, 1.0e30f
+            uScene, frame, ray.origin + start * ray.direction, ray.direction, 0.0f, 1.0e30f,
+            kSolidMask
         );
         ++rays;
         if (!hit.found) {
             revealed = revealSky(frame, centre, ray.direction);
+            t = 1.0e30f;
             break;
         }
         t = start + hit.t;
@@ -97,6 +100,11 @@ void main() {
     }
     atomicAdd(header.raysTraced, rays);
     if (rays == 0u) return; // a limit of one level reveals nothing
+    // The raster's colour has the blended surfaces in it, the revealed one has to as well.
+    if (kBlended != 0u)
+        revealed.color = seenThroughBlended(
+            uScene, frame, ray.origin, ray.direction, t, frontId, revealed.color
+        );
     imageStore(uRevealColor, pixel, vec4(revealed.color, 1.0f));
     imageStore(uRevealMotionDepth, pixel, revealed.motionDepth);
     imageStore(uRevealMeshId, pixel, uvec4(revealed.meshId, 0u, 0u, 0u));

@@ -7,9 +7,6 @@
 #include "render/moving_trace.glsl"
 #include "render/shade_hit.glsl"
 
-/// Blended surfaces that a ray goes through before it takes the next for opaque.
-const uint kMaxLayers = 16u;
-
 struct DistributedSample {
     vec3 radiance;       // linear, blended surfaces composited over what is behind them
     uint entity;         // row of the entity table, or kNoEntity. This and all below: of the first
@@ -49,6 +46,7 @@ DistributedSample traceDistributed(
         Placement placement = placeAt(moving, rayHit.id.entity, s);
         ShadedHit shaded =
             shadeHit(frame, placement, rayHit.id, ray.direction, ray.eye, lights);
+        // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;
         float share = last ? 1.0f : shaded.alpha;
         result.radiance += transmitted * share * shaded.color;

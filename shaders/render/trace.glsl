@@ -7,6 +7,9 @@
 
 #include "render/hit.glsl"
 
+/// Blended surfaces along a ray that are told apart.
+const uint kMaxLayers = 16u;
+
 struct RayHit {
     bool found;
     float t;
@@ -25,7 +28,8 @@ bool isDrawn(
     uint index = GeometryTable(frame.value.geometries).rows[geometry].material;
     MaterialTable materials = MaterialTable(frame.value.materials);
     uint flags = materials.rows[index].flags;
-    if ((flags & kMaterialBlend) != 0u && (mask & kBlendedMask) == 0u) return false;
+    uint kind = (flags & kMaterialBlend) != 0u ? kBlendedMask : kSolidMask;
+    if ((mask & kind) == 0u) return false;
     if ((flags & kMaterialDoubleSided) == 0u && !frontFace) return false;
     if ((flags & kMaterialMask) == 0u) return true;
     Hit hit = fetchHit(frame, placement, id);
@@ -33,18 +37,18 @@ bool isDrawn(
     return isCovered(frame, materials.rows[index], hit.point, direction);
 }
 
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn; blended ones are
-/// passed.
+/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
 /// \param direction unit
+/// \param mask what is met: kSolidMask, kBlendedMask or both
 RayHit traceRay(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
-    float tMax
+    float tMax, uint mask
 ) {
+    uint flags = gl_RayFlagsCullBackFacingTrianglesEXT;
+    // A mesh may have solid parts besides blended ones; those that need no look are kept out here.
+    if ((mask & kSolidMask) == 0u) flags |= gl_RayFlagsCullOpaqueEXT;
     rayQueryEXT query;
-    rayQueryInitializeEXT(
-        query, scene, gl_RayFlagsCullBackFacingTrianglesEXT, kSolidMask, origin, tMin, direction,
-        tMax
-    );
+    rayQueryInitializeEXT(query, scene, flags, mask, origin, tMin, direction, tMax);
     while (rayQueryProceedEXT(query)) {
         if (rayQueryGetIntersectionTypeEXT(query, false) !=
             gl_RayQueryCandidateIntersectionTriangleEXT)
@@ -57,7 +61,7 @@ RayHit traceRay(
         );
         bool frontFace = rayQueryGetIntersectionFrontFaceEXT(query, false);
         Placement placement = placeAtRaster(frame, id.entity);
-        if (isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), kSolidMask))
+        if (isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask))
             rayQueryConfirmIntersectionEXT(query);
     }
     RayHit result;

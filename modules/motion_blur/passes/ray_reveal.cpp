@@ -11,7 +11,7 @@ namespace shutter::motion_blur {
 
 namespace {
 
-gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout) {
+gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout, bool hasBlended) {
     gpu::ComputePipelineDesc desc = describePass(
         "ray reveal",
         motion_blur_reveal_comp,
@@ -25,6 +25,7 @@ gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout) {
          kBuffer}
     );
     desc.interface.sceneLayout = sceneLayout;
+    desc.specialization = {hasBlended ? 1u : 0u};
     return desc;
 }
 
@@ -47,10 +48,19 @@ void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Im
 } // namespace
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-    : mSampler(device.nearestSampler()), mReveal(device, describeReveal(sceneLayout)),
+    : mDevice(device), mSceneLayout(sceneLayout), mSampler(device.nearestSampler()),
+      mReveal(device, describeReveal(sceneLayout, false)),
       mHeader(
           device, "ray mask counters", sizeof(shader::MaskHeader), 0, gpu::MemoryUse::Readback
       ) {}
+
+const gpu::Pipeline& RayReveal::findPipeline(bool hasBlended) {
+    if (!hasBlended)
+        return mReveal;
+    if (!mRevealBlended)
+        mRevealBlended.emplace(mDevice, describeReveal(mSceneLayout, true));
+    return *mRevealBlended;
+}
 
 RayRevealOutputs RayReveal::copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const {
     using graph::Access;
@@ -90,6 +100,7 @@ RayRevealOutputs RayReveal::add(
 ) {
     using graph::Access;
     RayRevealOutputs outputs = copyLayer(graph, inputs);
+    const gpu::Pipeline& pipeline = findPipeline(inputs.rays.hasBlended);
 
     struct RevealData {
         RayRevealInputs in;
@@ -112,7 +123,7 @@ RayRevealOutputs RayReveal::add(
             data.list = builder.write(inputs.list, Access::StorageWrite);
             builder.read(inputs.arguments, Access::IndirectRead);
         },
-        [this, params](const RevealData& data, graph::PassContext& context) {
+        [this, params, &pipeline](const RevealData& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings;
             bindings.accelerationStructure(data.in.rays.topLevel)
@@ -123,7 +134,7 @@ RayRevealOutputs RayReveal::add(
                 .storage(resources.view(data.out.motionDepth))
                 .storage(resources.view(data.out.meshId))
                 .buffer(resources.buffer(data.list));
-            context.frame.bind(mReveal, bindings, &params, sizeof(params), data.in.rays.scene);
+            context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.scene);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
         }
     );

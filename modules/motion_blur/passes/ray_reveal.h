@@ -7,6 +7,8 @@
 #include "engine/graph/graph.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
+#include <optional>
+
 namespace shutter::motion_blur {
 
 /// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
@@ -15,6 +17,7 @@ struct RayInputs {
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE; ///< custom index: row of the entity table
     VkDescriptorSet scene = VK_NULL_HANDLE;               ///< set 1: bindless textures
     glm::uvec2 frame{0u};                                 ///< address of FrameConstants
+    bool hasBlended = false; ///< blended surfaces lie over what is revealed, as over the raster's
 };
 
 struct RayRevealInputs {
@@ -43,9 +46,13 @@ class RayReveal {
 
   private:
     RayRevealOutputs copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const;
+    const gpu::Pipeline& findPipeline(bool hasBlended);
 
+    gpu::Device& mDevice;
+    VkDescriptorSetLayout mSceneLayout;
     VkSampler mSampler;
     gpu::Pipeline mReveal;
+    std::optional<gpu::Pipeline> mRevealBlended; ///< made for the first frame that needs it
     gpu::Buffer mHeader;
 };
 

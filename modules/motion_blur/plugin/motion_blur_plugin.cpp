@@ -29,7 +29,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.rays->topLevelBuffer,
             context.rays->topLevel,
             context.rays->textures,
-            render::splitAddress(context.rays->frameConstants)};
+            render::splitAddress(context.rays->frameConstants),
+            context.rays->hasBlended};
     if (context.movingRays)
         inputs.movingRays = MovingRayInputs{
             context.movingRays->topLevelBuffer,

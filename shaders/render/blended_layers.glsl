@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Blended surfaces before one that a ray has found, at the raster instant.
+#ifndef SHUTTER_BLENDED_LAYERS_GLSL
+#define SHUTTER_BLENDED_LAYERS_GLSL
+
+#include "render/shade_hit.glsl"
+#include "render/trace.glsl"
+
+/// `color` of what lies at distance `t` of the ray, as it is seen through the blended surfaces before
+/// it: what raster makes of them when it draws them far to near.
+/// \param direction unit, from the camera
+/// \param absent entity that is taken to be away, its blended parts too; kNoEntity: none
+vec3 seenThroughBlended(
+    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float t, uint absent,
+    vec3 color
+) {
+    vec3 sum = vec3(0.0f);
+    float transmitted = 1.0f;
+    float tMin = 0.0f;
+    for (uint layer = 0u; layer < kMaxLayers; ++layer) {
+        RayHit hit = traceRay(scene, frame, origin, direction, tMin, t, kBlendedMask);
+        if (!hit.found) break;
+        tMin = hit.t; // the surface itself is excluded: the interval is open
+        if (hit.id.entity == absent) continue;
+        ShadedHit shaded = shadeHit(
+            frame, placeAtRaster(frame, hit.id.entity), hit.id, direction, vec3(0.0f),
+            lightsAtRaster(frame)
+        );
+        sum += transmitted * shaded.alpha * shaded.color;
+        transmitted *= 1.0f - shaded.alpha;
+    }
+    return sum + transmitted * color;
+}
+
+#endif
