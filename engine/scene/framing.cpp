@@ -3,10 +3,12 @@
 
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
-#include "engine/scene/motion.h"
+#include "engine/scene/deformation.h"
+#include "engine/scene/posed_bounds.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace shutter::scene {
@@ -37,6 +39,26 @@ math::Bounds chooseSubject(const math::Bounds& bounds) {
     return result;
 }
 
+/// Boxes of meshes at a time, in the space of worldFromObject.
+class MeshBounds {
+  public:
+    explicit MeshBounds(const World& world) : mWorld(world) {}
+
+    math::Bounds find(ecs::Entity entity, AssetIndex index, double seconds) {
+        const Mesh& mesh = mWorld.assets.meshes[index];
+        if (!isDeformable(mWorld, entity))
+            return mesh.bounds;
+        const auto [entry, isNew] = mReaches.try_emplace(index);
+        if (isNew)
+            entry->second = computePoseReach(mesh.primitives);
+        return computePosedBounds(entry->second, deformationAt(mWorld, entity, seconds));
+    }
+
+  private:
+    const World& mWorld;
+    std::map<AssetIndex, PoseReach> mReaches; // many entities may share a mesh
+};
+
 /// Smallest distance from the subject's centre at which all eight corners are in the picture.
 double computeDistance(const math::Bounds& subject, const dquat& rotation, double aspect) {
     const double slopeY = std::tan(kYFov / 2.0);
@@ -57,14 +79,16 @@ double computeDistance(const math::Bounds& subject, const dquat& rotation, doubl
 
 math::Bounds computeWorldBounds(const World& world, double seconds) {
     math::Bounds result;
+    MeshBounds meshBounds(world);
     for (auto [entity, instance] : world.registry.view<MeshInstance>()) {
         if (instance.mesh == kNone)
             continue;
         SHUTTER_CHECK(instance.mesh < world.assets.meshes.size(), "no mesh {}", instance.mesh);
-        const dmat4 worldFromMesh = worldFromEntity(world, entity, seconds);
+        const dmat4 worldFromMesh = worldFromObject(world, entity, seconds);
         if (!math::isFinite(worldFromMesh))
             continue; // draws nothing
-        result.add(math::transformBounds(worldFromMesh, world.assets.meshes[instance.mesh].bounds));
+        const math::Bounds bounds = meshBounds.find(entity, instance.mesh, seconds);
+        result.add(math::transformBounds(worldFromMesh, bounds));
     }
     return result;
 }

@@ -83,6 +83,37 @@ TEST(ComputeWorldBounds, LeaveOutWhatIsNowhere) {
     EXPECT_EQ(computeWorldBounds(world, 0.0).max, dvec3(1.0));
 }
 
+TEST(ComputeWorldBounds, HoldASkinnedMeshWhereItsJointsPutIt) {
+    World world;
+    const ecs::Entity entity = addBox(world, dvec3(-1.0), dvec3(1.0));
+    Mesh& mesh = world.assets.meshes[0];
+    mesh.primitives.emplace_back();
+    mesh.primitives[0].positions = {math::vec3(-1.0f), math::vec3(1.0f)};
+    mesh.primitives[0].influenceCount = 4;
+    mesh.primitives[0].joints.assign(8, 0);
+    mesh.primitives[0].weights = {1, 0, 0, 0, 1, 0, 0, 0};
+    world.assets.skins.push_back({"", {dmat4(1.0)}});
+    const ecs::Entity joint = world.registry.create();
+    world.registry.add(joint, LinearVelocity{{10.0, 0.0, 0.0}});
+    world.registry.add(entity, Skinned{0, {joint}});
+    world.registry.add(entity, LocalTransform{{dvec3(0.0, 500.0, 0.0)}});
+    const math::Bounds bounds = computeWorldBounds(world, 2.0);
+    EXPECT_NEAR(bounds.min.x, 19.0, 1e-4);
+    EXPECT_NEAR(bounds.max.x, 21.0, 1e-4);
+    EXPECT_NEAR(bounds.max.y, 1.0, 1e-4) << "its own transform has no meaning";
+}
+
+TEST(ComputeWorldBounds, HoldAMorphedMeshAtItsWeights) {
+    World world;
+    const ecs::Entity entity = addBox(world, dvec3(0.0), dvec3(1.0));
+    Mesh& mesh = world.assets.meshes[0];
+    mesh.primitives.emplace_back();
+    mesh.primitives[0].positions = {math::vec3(0.0f), math::vec3(1.0f)};
+    mesh.primitives[0].morphTargets = {{{math::vec3(0.0f), math::vec3(0.0f, 4.0f, 0.0f)}, {}, {}}};
+    world.registry.add(entity, MorphWeights{{0.5f}, {}});
+    EXPECT_NEAR(computeWorldBounds(world, 0.0).max.y, 3.0, 1e-4);
+}
+
 TEST(ComputeWorldBoundsDeathTest, AMeshIndexPastTheEndIsAProgrammersMistake) {
     World world;
     world.registry.add(world.registry.create(), MeshInstance{3});

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/deformation.h"
+#include "engine/scene/motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace shutter::scene {
+namespace {
+
+using math::dmat4;
+using math::dquat;
+using math::dvec3;
+using math::dvec4;
+using math::vec4;
+
+const dvec3 kUnitZ(0.0, 0.0, 1.0);
+constexpr double kQuarter = std::numbers::pi / 2.0;
+
+void expectNear(const dvec3& actual, const dvec3& expected, double tolerance = 1e-12) {
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(actual[i], expected[i], tolerance) << "axis " << i;
+}
+
+dvec3 transformPoint(const dmat4& matrix, const dvec3& point) {
+    return dvec3(matrix * dvec4(point, 1.0));
+}
+
+/// Like SimpleSkin of the sample models: joint 0 at the origin, joint 1 at (0, 1, 0) below it,
+/// bound there; joint 1 turns about z by a clip, a quarter turn a second.
+class SkinChain : public testing::Test {
+  protected:
+    SkinChain() {
+        mRoot = add({});
+        mTip = add({{0.0, 1.0, 0.0}});
+        mWorld.registry.add(mTip, Parent{mRoot});
+        mBody = add({});
+        Skin skin;
+        skin.jointFromBind = {dmat4(1.0), glm::translate(dmat4(1.0), dvec3(0.0, -1.0, 0.0))};
+        mWorld.assets.skins.push_back(skin);
+        mWorld.registry.add(mBody, Skinned{0, {mRoot, mTip}});
+    }
+
+    ecs::Entity add(const math::Transform& transform) {
+        const ecs::Entity entity = mWorld.registry.create();
+        mWorld.registry.add(entity, LocalTransform{transform});
+        return entity;
+    }
+
+    void turnTip() {
+        AnimationChannel channel;
+        channel.path = AnimationPath::Rotation;
+        channel.times = {0.0f, 1.0f};
+        const float half = float(std::sqrt(0.5));
+        channel.values = {vec4(0.0f, 0.0f, 0.0f, 1.0f), vec4(0.0f, 0.0f, half, half)};
+        AnimationClip clip;
+        clip.duration = 1.0;
+        clip.channels = {channel};
+        mWorld.assets.clips.push_back(clip);
+        mWorld.registry.add(mTip, Animated{{{0, 0}}});
+    }
+
+    /// Where a vertex is that one joint bends.
+    [[nodiscard]] dvec3 pointAt(size_t joint, const dvec3& bind, double seconds) const {
+        const Deformation pose = deformationAt(mWorld, mBody, seconds);
+        const dmat4 worldFromBind =
+            worldFromObject(mWorld, mBody, seconds) * pose.objectFromBind[joint];
+        return transformPoint(worldFromBind, bind);
+    }
+
+    World mWorld;
+    ecs::Entity mRoot, mTip, mBody;
+};
+
+TEST_F(SkinChain, InTheBindPoseMovesNothing) {
+    EXPECT_TRUE(isDeformable(mWorld, mBody));
+    EXPECT_FALSE(mayDeform(mWorld, mBody));
+    EXPECT_FALSE(mayObjectMove(mWorld, mBody));
+    const Deformation pose = deformationAt(mWorld, mBody, 3.0);
+    ASSERT_EQ(pose.objectFromBind.size(), 2u);
+    EXPECT_EQ(pose.objectFromBind[0], dmat4(1.0));
+    EXPECT_EQ(pose.objectFromBind[1], dmat4(1.0));
+    EXPECT_TRUE(pose.morphWeights.empty());
+}
+
+TEST_F(SkinChain, BendsAboutItsJoint) {
+    turnTip();
+    EXPECT_TRUE(mayDeform(mWorld, mBody));
+    EXPECT_FALSE(mayObjectMove(mWorld, mBody)) << "the first joint stands";
+    for (const double seconds : {0.0, 0.25, 0.5, 1.0}) {
+        const double angle = kQuarter * seconds;
+        expectNear(pointAt(0, {0.5, 2.0, 0.0}, seconds), {0.5, 2.0, 0.0});
+        // (0, 1) above the joint, turned; slerp keeps the angle in step with time.
+        expectNear(
+            pointAt(1, {0.0, 2.0, 0.0}, seconds),
+            {-std::sin(angle), 1.0 + std::cos(angle), 0.0},
+            1e-7
+        );
+    }
+}
+
+TEST_F(SkinChain, FollowsItsJointsAndNotItsOwnTransform) {
+    mWorld.registry.add(mBody, LocalTransform{{dvec3(100.0), {1.0, 0.0, 0.0, 0.0}, dvec3(7.0)}});
+    mWorld.registry.add(mBody, LinearVelocity{dvec3(50.0)});
+    EXPECT_FALSE(mayObjectMove(mWorld, mBody));
+    expectNear(pointAt(1, {0.0, 2.0, 0.0}, 1.0), {0.0, 2.0, 0.0});
+    mWorld.registry.add(mRoot, LinearVelocity{{3.0, 0.0, 0.0}});
+    EXPECT_TRUE(mayObjectMove(mWorld, mBody));
+    expectNear(pointAt(1, {0.0, 2.0, 0.0}, 2.0), {6.0, 2.0, 0.0});
+}
+
+TEST_F(SkinChain, HasItsOriginAtTheFirstJointWithTheAxesOfTheWorld) {
+    mWorld.registry.add(
+        mRoot, LocalTransform{{dvec3(5.0, 6.0, 7.0), glm::angleAxis(1.0, kUnitZ), dvec3(2.0)}}
+    );
+    const dmat4 expected = glm::translate(dmat4(1.0), dvec3(5.0, 6.0, 7.0));
+    EXPECT_EQ(worldFromObject(mWorld, mBody, 0.0), expected);
+    mWorld.registry.remove<Skinned>(mBody);
+    EXPECT_EQ(worldFromObject(mWorld, mBody, 0.0), dmat4(1.0)) << "its own transform counts again";
+}
+
+TEST_F(SkinChain, KeepsItsNumbersSmallFarFromTheOrigin) {
+    turnTip();
+    const Deformation near = deformationAt(mWorld, mBody, 0.4);
+    mWorld.registry.add(mRoot, LocalTransform{{dvec3(1e6, -1e6, 1e6)}});
+    const Deformation far = deformationAt(mWorld, mBody, 0.4);
+    for (size_t joint = 0; joint < 2; ++joint) {
+        for (int column = 0; column < 4; ++column) {
+            // Doubles near 1e6 are 1.2e-10 apart; floats 0.06.
+            expectNear(
+                dvec3(far.objectFromBind[joint][column]),
+                dvec3(near.objectFromBind[joint][column]),
+                1e-9
+            );
+        }
+    }
+}
+
+WeightChannel makeChannel(Interpolation interpolation) {
+    WeightChannel channel;
+    channel.interpolation = interpolation;
+    channel.targetCount = 2;
+    channel.times = {1.0f, 3.0f};
+    channel.values = {0.0f, 10.0f, 1.0f, -10.0f};
+    return channel;
+}
+
+std::vector<double> pair(double a, double b) {
+    return {a, b};
+}
+
+TEST(SampleWeights, LinearMixesAllTargetsAndHoldsTheEnds) {
+    const WeightChannel channel = makeChannel(Interpolation::Linear);
+    EXPECT_EQ(sampleWeights(channel, 0.0), pair(0.0, 10.0));
+    EXPECT_EQ(sampleWeights(channel, 1.0), pair(0.0, 10.0));
+    EXPECT_EQ(sampleWeights(channel, 1.5), pair(0.25, 5.0));
+    EXPECT_EQ(sampleWeights(channel, 2.0), pair(0.5, 0.0));
+    EXPECT_EQ(sampleWeights(channel, 3.0), pair(1.0, -10.0));
+    EXPECT_EQ(sampleWeights(channel, 99.0), pair(1.0, -10.0));
+    EXPECT_EQ(sampleWeights(channel, std::nan("")), pair(0.0, 10.0));
+}
+
+TEST(SampleWeights, StepHoldsTheKeyBefore) {
+    const WeightChannel channel = makeChannel(Interpolation::Step);
+    EXPECT_EQ(sampleWeights(channel, 2.999), pair(0.0, 10.0));
+    EXPECT_EQ(sampleWeights(channel, 3.0), pair(1.0, -10.0));
+}
+
+TEST(SampleWeights, CubicSplineFollowsItsTangents) {
+    WeightChannel channel = makeChannel(Interpolation::CubicSpline);
+    // In-tangents, values, out-tangents of both targets, a key after the other. Per second; the
+    // interval has two.
+    channel.values = {9, 9, 0, 1, 0.5f, 0, 0.5f, 2, 1, 1, 9, 9};
+    EXPECT_EQ(sampleWeights(channel, 1.0), pair(0.0, 1.0));
+    EXPECT_EQ(sampleWeights(channel, 3.0), pair(1.0, 1.0));
+    // The first is the straight line; the second at half time 1 - in-tangent * 2 / 8.
+    const std::vector<double> middle = sampleWeights(channel, 2.0);
+    EXPECT_NEAR(middle[0], 0.5, 1e-12);
+    EXPECT_NEAR(middle[1], 0.5, 1e-12);
+    EXPECT_NEAR(sampleWeights(channel, 1.5)[0], 0.25, 1e-12);
+}
+
+TEST(SampleWeights, OneKeyIsForEver) {
+    for (const Interpolation interpolation : {Interpolation::Step, Interpolation::Linear}) {
+        WeightChannel channel = makeChannel(interpolation);
+        channel.times = {1.0f};
+        channel.values = {3.0f, 4.0f};
+        for (const double seconds : {-1e9, 1.0, 1e9})
+            EXPECT_EQ(sampleWeights(channel, seconds), pair(3.0, 4.0));
+    }
+}
+
+/// One entity, two targets, clips that hold 1, 2, ... of all targets after their first second.
+class Morphed : public testing::Test {
+  protected:
+    Morphed() {
+        mEntity = mWorld.registry.create();
+        mWorld.registry.add(mEntity, MorphWeights{{0.25f, -0.5f}, {}});
+    }
+
+    void addClip() {
+        const float height = float(mWorld.assets.clips.size()) + 1.0f;
+        WeightChannel channel;
+        channel.targetCount = 2;
+        channel.times = {0.0f, 1.0f, 2.0f};
+        channel.values = {0.0f, 0.0f, height, height, height, height};
+        AnimationClip clip;
+        clip.duration = 2.0;
+        clip.weightChannels = {channel};
+        mWorld.assets.clips.push_back(clip);
+        mWorld.playback.activeClips.push_back(true);
+        const auto index = static_cast<uint32_t>(mWorld.assets.clips.size() - 1);
+        mWorld.registry.get<MorphWeights>(mEntity).channels.push_back({index, 0});
+    }
+
+    [[nodiscard]] std::vector<double> weightsAt(double seconds) const {
+        return deformationAt(mWorld, mEntity, seconds).morphWeights;
+    }
+
+    World mWorld;
+    ecs::Entity mEntity;
+};
+
+TEST_F(Morphed, WithoutAClipKeepsItsWeights) {
+    EXPECT_TRUE(isDeformable(mWorld, mEntity));
+    EXPECT_FALSE(mayDeform(mWorld, mEntity));
+    EXPECT_EQ(weightsAt(7.0), pair(0.25, -0.5));
+    EXPECT_TRUE(deformationAt(mWorld, mEntity, 7.0).objectFromBind.empty());
+}
+
+TEST_F(Morphed, TheLatestActiveClipWins) {
+    addClip();
+    addClip();
+    addClip();
+    EXPECT_TRUE(mayDeform(mWorld, mEntity));
+    EXPECT_EQ(weightsAt(1.0), pair(3.0, 3.0));
+    mWorld.playback.activeClips[2] = false;
+    EXPECT_EQ(weightsAt(1.0), pair(2.0, 2.0));
+    mWorld.playback.activeClips = {false, false, false};
+    EXPECT_EQ(weightsAt(1.0), pair(0.25, -0.5));
+    EXPECT_FALSE(mayDeform(mWorld, mEntity));
+}
+
+TEST_F(Morphed, TheOrderOfItsChannelsDoesNotMatter) {
+    addClip();
+    addClip();
+    auto& channels = mWorld.registry.get<MorphWeights>(mEntity).channels;
+    std::swap(channels[0], channels[1]);
+    EXPECT_EQ(weightsAt(1.0), pair(2.0, 2.0));
+}
+
+TEST_F(Morphed, AClipHoldsItsEndOrStartsAgain) {
+    addClip();
+    EXPECT_EQ(weightsAt(2.5), pair(1.0, 1.0));
+    mWorld.playback.loop = true;
+    EXPECT_EQ(weightsAt(2.5), pair(0.5, 0.5));
+    EXPECT_EQ(weightsAt(-1.5), pair(0.5, 0.5));
+}
+
+TEST_F(Morphed, KeepsItsOwnPlace) {
+    mWorld.registry.add(mEntity, LinearVelocity{{2.0, 0.0, 0.0}});
+    EXPECT_TRUE(mayObjectMove(mWorld, mEntity));
+    EXPECT_EQ(dvec3(worldFromObject(mWorld, mEntity, 3.0)[3]), dvec3(6.0, 0.0, 0.0));
+}
+
+TEST_F(Morphed, WeightsOfAnotherCountAreAProgrammersMistake) {
+    addClip();
+    mWorld.assets.clips[0].weightChannels[0].targetCount = 1;
+    EXPECT_DEATH((void)weightsAt(0.0), "targetCount");
+}
+
+} // namespace
+} // namespace shutter::scene
