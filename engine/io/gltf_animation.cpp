@@ -2,6 +2,7 @@
 #include "engine/io/gltf_animation.h"
 
 #include "engine/io/gltf_accessor.h"
+#include "engine/io/gltf_attribute.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,13 +48,13 @@ std::vector<float> readTimes(GltfContext& context, int accessor, const std::stri
     return times;
 }
 
-/// Rotations come as x, y, z, w; the fourth component of the others stays 0.
-std::vector<math::vec4>
-readValues(GltfContext& context, int accessor, bool isRotation, const std::string& path) {
+/// The output of a sampler, every number finite.
+std::vector<float>
+readNumbers(GltfContext& context, int accessor, int type, const std::string& path) {
     const std::string use = path + ".output";
-    // Integers are for rotations alone in glTF 2.0 (3.11), but a decoder that knows one knows all.
-    const int type = isRotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
-    const std::vector<float> numbers = readFloats(
+    // Integers are for rotations and weights alone in glTF 2.0 (3.11), but a decoder that knows
+    // one knows all.
+    std::vector<float> numbers = readFloats(
         context,
         size_t(accessor),
         {use,
@@ -65,21 +66,33 @@ readValues(GltfContext& context, int accessor, bool isRotation, const std::strin
           TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
          true}
     );
-    const size_t components = isRotation ? 4 : 3;
-    std::vector<math::vec4> values(numbers.size() / components, math::vec4(0.0f));
+    const size_t components = componentCount(context.model.accessors[size_t(accessor)]);
     constexpr float kMaxMagnitude = 1e30f;
     for (size_t i = 0; i < numbers.size(); ++i) {
         if (!(std::abs(numbers[i]) <= kMaxMagnitude)) {
             failGltf("{} holds {} in key value {}", use, numbers[i], i / components);
         }
-        values[i / components][glm::length_t(i % components)] = numbers[i];
     }
+    return numbers;
+}
+
+/// Rotations come as x, y, z, w; the fourth component of the others stays 0.
+std::vector<math::vec4>
+readValues(GltfContext& context, int accessor, bool isRotation, const std::string& path) {
+    const int type = isRotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
+    const std::vector<float> numbers = readNumbers(context, accessor, type, path);
+    if (isRotation)
+        return toVectors<math::vec4>(numbers);
+    std::vector<math::vec4> values;
+    for (const math::vec3& value : toVectors<math::vec3>(numbers))
+        values.emplace_back(value, 0.0f);
     return values;
 }
 
 /// Of keys at the same time, which glTF does not allow but exporters write, the last one stays: it
 /// is the one that the time after them starts from. Returns whether there were any.
-bool removeEqualTimes(scene::AnimationChannel& channel) {
+/// \param channel AnimationChannel or WeightChannel
+template <class Channel> bool removeEqualTimes(Channel& channel) {
     const size_t step = channel.values.size() / channel.times.size();
     size_t kept = 0;
     for (size_t i = 0; i < channel.times.size(); ++i) {
@@ -115,8 +128,8 @@ void normalizeRotations(scene::AnimationChannel& channel, const std::string& pat
 
 class ClipReader {
   public:
-    ClipReader(GltfContext& context, size_t index)
-        : mContext(context), mSource(context.model.animations[index]),
+    ClipReader(GltfContext& context, const scene::Assets& assets, size_t index)
+        : mContext(context), mAssets(assets), mSource(context.model.animations[index]),
           mPath(fmt::format("animations[{}]", index)) {}
 
     scene::AnimationClip read() {
@@ -139,34 +152,69 @@ class ClipReader {
             );
         }
         const std::optional<scene::AnimationPath> path = readPath(source.target_path);
-        if (!path) {
+        const bool isWeights = source.target_path == "weights";
+        if (!path && !isWeights) {
             mContext.warnings.add(
-                source.target_path == "weights"
-                    ? "morph targets are not applied yet: drawn in the rest pose"
-                    : fmt::format("the animation path '{}' is ignored", source.target_path)
+                fmt::format("the animation path '{}' is ignored", source.target_path)
             );
             return;
         }
         if (source.target_node < 0)
             return; // glTF 2.0, 3.11: to be ignored
-        const auto sampler = size_t(source.sampler);
-        scene::AnimationChannel channel =
-            readSampler(sampler, *path == scene::AnimationPath::Rotation);
+        if (isWeights)
+            readWeights(source);
+        else
+            readTransform(source, *path);
+    }
+
+    void readTransform(const tinygltf::AnimationChannel& source, scene::AnimationPath path) {
+        const bool isRotation = path == scene::AnimationPath::Rotation;
+        const tinygltf::AnimationSampler& sampler = mSource.samplers[size_t(source.sampler)];
+        const std::string at = samplerPath(source);
+        scene::AnimationChannel channel;
         channel.node = uint32_t(source.target_node);
-        channel.path = *path;
-        mClip.duration = std::max(mClip.duration, double(channel.times.back()));
+        channel.path = path;
+        channel.interpolation = readInterpolation(sampler.interpolation, at);
+        channel.times = readTimes(mContext, sampler.input, at);
+        channel.values = readValues(mContext, sampler.output, isRotation, at);
+        finishKeys(channel, 1, at);
+        if (isRotation)
+            normalizeRotations(channel, at);
         mClip.channels.push_back(std::move(channel));
     }
 
-    scene::AnimationChannel readSampler(size_t index, bool isRotation) {
-        const tinygltf::AnimationSampler& source = mSource.samplers[index];
-        const std::string path = fmt::format("{}.samplers[{}]", mPath, index);
-        scene::AnimationChannel channel;
-        channel.interpolation = readInterpolation(source.interpolation, path);
-        channel.times = readTimes(mContext, source.input, path);
-        channel.values = readValues(mContext, source.output, isRotation, path);
+    void readWeights(const tinygltf::AnimationChannel& source) {
+        const int mesh = mContext.model.nodes[size_t(source.target_node)].mesh;
+        const size_t targetCount = mesh < 0 ? 0 : mAssets.meshes[size_t(mesh)].morphWeights.size();
+        if (targetCount == 0) {
+            mContext.warnings.add(fmt::format(
+                "{} drives the weights of nodes[{}], which has no morph targets: ignored",
+                mPath,
+                source.target_node
+            ));
+            return;
+        }
+        const tinygltf::AnimationSampler& sampler = mSource.samplers[size_t(source.sampler)];
+        const std::string at = samplerPath(source);
+        scene::WeightChannel channel;
+        channel.node = uint32_t(source.target_node);
+        channel.targetCount = uint32_t(targetCount);
+        channel.interpolation = readInterpolation(sampler.interpolation, at);
+        channel.times = readTimes(mContext, sampler.input, at);
+        channel.values = readNumbers(mContext, sampler.output, TINYGLTF_TYPE_SCALAR, at);
+        finishKeys(channel, targetCount, at);
+        mClip.weightChannels.push_back(std::move(channel));
+    }
+
+    [[nodiscard]] std::string samplerPath(const tinygltf::AnimationChannel& source) const {
+        return fmt::format("{}.samplers[{}]", mPath, source.sampler);
+    }
+
+    /// \param valueCount of a key, without tangents
+    template <class Channel>
+    void finishKeys(Channel& channel, size_t valueCount, const std::string& path) {
         const bool isCubic = channel.interpolation == scene::Interpolation::CubicSpline;
-        const size_t expected = channel.times.size() * (isCubic ? 3 : 1);
+        const size_t expected = channel.times.size() * valueCount * (isCubic ? 3 : 1);
         if (channel.values.size() != expected) {
             failGltf(
                 "{} has {} values for {} keys, {} are needed",
@@ -179,12 +227,11 @@ class ClipReader {
         if (removeEqualTimes(channel)) {
             mContext.warnings.add(path + " has keys at equal times: the last of each is used");
         }
-        if (isRotation)
-            normalizeRotations(channel, path);
-        return channel;
+        mClip.duration = std::max(mClip.duration, double(channel.times.back()));
     }
 
     GltfContext& mContext;
+    const scene::Assets& mAssets;
     const tinygltf::Animation& mSource;
     std::string mPath;
     scene::AnimationClip mClip;
@@ -215,14 +262,27 @@ void addAnimated(
     }
 }
 
+/// The entity of a node outside the scene, also of a joint there, draws nothing to morph.
+void addMorphed(scene::World& world, uint32_t clip, const std::vector<ecs::Entity>& entities) {
+    const std::vector<scene::WeightChannel>& channels = world.assets.clips[clip].weightChannels;
+    for (size_t c = 0; c < channels.size(); ++c) {
+        const ecs::Entity entity = entities[channels[c].node];
+        auto* morph =
+            entity == ecs::kNullEntity ? nullptr : world.registry.find<scene::MorphWeights>(entity);
+        if (morph)
+            morph->channels.push_back({clip, uint32_t(c)});
+    }
+}
+
 } // namespace
 
 void loadAnimations(
     GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
 ) {
     for (size_t a = 0; a < context.model.animations.size(); ++a) {
-        world.assets.clips.push_back(ClipReader(context, a).read());
+        world.assets.clips.push_back(ClipReader(context, world.assets, a).read());
         addAnimated(context, world, uint32_t(a), entities);
+        addMorphed(world, uint32_t(a), entities);
     }
     world.playback.activeClips.assign(world.assets.clips.size(), true);
 }

@@ -9,9 +9,9 @@
 
 namespace shutter::io {
 
-/// Fills Assets::clips with the translation, rotation and scale channels, puts Animated on the
-/// entities they drive and makes every clip active. `entities` is what loadNodes returned. Throws
-/// GltfError.
+/// Fills Assets::clips with the translation, rotation, scale and weights channels, puts Animated on
+/// the entities they drive, adds to their MorphWeights, and makes every clip active. `entities` is
+/// what loadNodes returned; the meshes tell how many weights a node has. Throws GltfError.
 void loadAnimations(
     GltfContext& context, scene::World& world, const std::vector<ecs::Entity>& entities
 );

@@ -80,6 +80,21 @@ gatherVertices(const scene::Primitive& primitive, std::span<const uint32_t> sour
     gathered.uv0 = gather(primitive.uv0, sources);
     gathered.uv1 = gather(primitive.uv1, sources);
     gathered.colors = gather(primitive.colors, sources);
+    gathered.influenceCount = primitive.influenceCount;
+    for (const uint32_t source : sources) {
+        const size_t begin = size_t{source} * primitive.influenceCount;
+        for (size_t i = begin; i < begin + primitive.influenceCount; ++i) {
+            gathered.joints.push_back(primitive.joints[i]);
+            gathered.weights.push_back(primitive.weights[i]);
+        }
+    }
+    for (const scene::MorphTarget& target : primitive.morphTargets) {
+        gathered.morphTargets.push_back(
+            {gather(target.positions, sources),
+             gather(target.normals, sources),
+             gather(target.tangents, sources)}
+        );
+    }
     gathered.material = primitive.material;
     return gathered;
 }

@@ -47,8 +47,10 @@ LoadedScene buildScene(const std::filesystem::path& folder, std::span<const uint
     warnIgnoredExtensions(context);
     loadMaterials(context, loaded.world.assets);
     loadMeshes(context, loaded.world.assets);
-    checkSkinnedNodes(context);
+    loadSkins(context, loaded.world.assets);
+    bindMeshes(context, loaded.world.assets);
     const std::vector<ecs::Entity> entities = loadNodes(context, loaded.world);
+    addSkins(context, loaded.world, entities);
     loadAnimations(context, loaded.world, entities);
     loaded.warnings = warnings.take();
     return loaded;

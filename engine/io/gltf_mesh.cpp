@@ -2,7 +2,10 @@
 #include "engine/io/gltf_mesh.h"
 
 #include "engine/io/gltf_accessor.h"
+#include "engine/io/gltf_attribute.h"
 #include "engine/io/gltf_geometry.h"
+#include "engine/io/gltf_morph.h"
+#include "engine/io/gltf_skin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,17 +42,6 @@ std::optional<TriangleMode> readMode(int mode, const std::string& path) {
     }
 }
 
-template <class Vector> std::vector<Vector> toVectors(const std::vector<float>& values) {
-    constexpr size_t kLength = size_t(Vector::length());
-    std::vector<Vector> vectors(values.size() / kLength);
-    for (size_t i = 0; i < vectors.size(); ++i) {
-        for (size_t c = 0; c < kLength; ++c) {
-            vectors[i][glm::length_t(c)] = values[i * kLength + c];
-        }
-    }
-    return vectors;
-}
-
 class PrimitiveReader {
   public:
     PrimitiveReader(
@@ -58,12 +50,10 @@ class PrimitiveReader {
         const tinygltf::Primitive& source,
         std::string path
     )
-        : mContext(context), mAssets(assets), mSource(source), mPath(std::move(path)),
-          mIsQuantized(uses("KHR_mesh_quantization")) {}
+        : mContext(context), mAssets(assets), mSource(source), mPath(std::move(path)) {}
 
     /// Nothing where there is nothing to draw.
     std::optional<scene::Primitive> read() {
-        checkMorphTargets();
         const std::optional<TriangleMode> mode = readMode(mSource.mode, mPath);
         if (!mode) {
             mContext.warnings.add("points and lines are not drawn");
@@ -87,11 +77,6 @@ class PrimitiveReader {
     }
 
   private:
-    [[nodiscard]] bool uses(const std::string& extension) const {
-        const std::vector<std::string>& used = mContext.model.extensionsUsed;
-        return std::find(used.begin(), used.end(), extension) != used.end();
-    }
-
     [[nodiscard]] std::string attributePath(const std::string& name) const {
         return fmt::format("{} {}", mPath, name);
     }
@@ -119,33 +104,24 @@ class PrimitiveReader {
     void readAttributes() {
         mPrimitive.material =
             mSource.material < 0 ? scene::kNone : scene::AssetIndex(mSource.material);
-        mPrimitive.positions = toVectors<math::vec3>(readVectors("POSITION", TINYGLTF_TYPE_VEC3));
-        mPrimitive.normals = toVectors<math::vec3>(readVectors("NORMAL", TINYGLTF_TYPE_VEC3));
+        mPrimitive.positions = toVectors<math::vec3>(readAttribute("POSITION", TINYGLTF_TYPE_VEC3));
+        mPrimitive.normals = toVectors<math::vec3>(readAttribute("NORMAL", TINYGLTF_TYPE_VEC3));
         // A tangent without a normal means nothing (glTF 2.0, 3.7.2.1).
         if (!mPrimitive.normals.empty()) {
-            mPrimitive.tangents = toVectors<math::vec4>(readVectors("TANGENT", TINYGLTF_TYPE_VEC4));
+            mPrimitive.tangents =
+                toVectors<math::vec4>(readAttribute("TANGENT", TINYGLTF_TYPE_VEC4));
         }
         mPrimitive.uv0 = readUv("TEXCOORD_0");
         mPrimitive.uv1 = readUv("TEXCOORD_1");
         mPrimitive.colors = readColors();
+        readInfluences(mContext, mSource, mPath, mPrimitive);
+        readMorphTargets(mContext, mSource, mPath, mPrimitive);
     }
 
-    /// POSITION, NORMAL and TANGENT: floats, or with KHR_mesh_quantization small integers.
-    std::vector<float> readVectors(const std::string& name, int type) {
+    std::vector<float> readAttribute(const std::string& name, int type) {
         const std::optional<size_t> index = findAttribute(name);
-        if (!index)
-            return {};
-        const std::string path = attributePath(name);
-        if (!mIsQuantized)
-            return readFloats(mContext, *index, {path, {type}, {kFloat}});
-        if (name == "POSITION") {
-            return readFloats(
-                mContext,
-                *index,
-                {path, {type}, {kFloat, kByte, kUnsignedByte, kShort, kUnsignedShort}}
-            );
-        }
-        return readFloats(mContext, *index, {path, {type}, {kFloat, kByte, kShort}, true});
+        return index ? readVectors(mContext, *index, name, type, attributePath(name))
+                     : std::vector<float>();
     }
 
     std::vector<math::vec2> readUv(const std::string& name) {
@@ -154,7 +130,7 @@ class PrimitiveReader {
             return {};
         const std::string path = attributePath(name);
         AccessorUse use{path, {TINYGLTF_TYPE_VEC2}, {kFloat, kUnsignedByte, kUnsignedShort}, true};
-        if (mIsQuantized) {
+        if (isQuantized(mContext)) {
             use = {
                 path, {TINYGLTF_TYPE_VEC2}, {kFloat, kByte, kUnsignedByte, kShort, kUnsignedShort}};
         }
@@ -244,7 +220,10 @@ class PrimitiveReader {
         if (mPrimitive.normals.empty()) {
             constexpr uint64_t kVertexBytes = sizeof(math::vec3) * 2 + sizeof(math::vec2) * 2 +
                                               sizeof(math::vec4) + sizeof(uint32_t);
-            mContext.spendVertexBytes(mPrimitive.indices.size() * kVertexBytes);
+            constexpr uint64_t kInfluenceBytes = sizeof(uint16_t) + sizeof(float);
+            const uint64_t bytes = kVertexBytes + mPrimitive.influenceCount * kInfluenceBytes +
+                                   mPrimitive.morphTargets.size() * sizeof(math::vec3);
+            mContext.spendVertexBytes(mPrimitive.indices.size() * bytes);
             makeFlatNormals(mPrimitive);
         } else if (const size_t repaired = repairNormals(mPrimitive); repaired != 0) {
             mContext.warnings.add(fmt::format(
@@ -272,6 +251,8 @@ class PrimitiveReader {
             );
         }
         mPrimitive.tangents.clear();
+        for (scene::MorphTarget& target : mPrimitive.morphTargets)
+            target.tangents.clear(); // they were meant for others
         if (!isNeeded)
             return;
         const std::vector<math::vec2>& uv =
@@ -305,34 +286,10 @@ class PrimitiveReader {
         }
     }
 
-    /// Targets are not drawn, but a file whose targets do not fit its mesh is damaged.
-    void checkMorphTargets() {
-        if (mSource.targets.empty())
-            return;
-        mContext.warnings.add("morph targets are not applied yet: drawn in the rest pose");
-        const size_t expected = positionCount();
-        for (size_t t = 0; t < mSource.targets.size(); ++t) {
-            for (const auto& [name, index] : mSource.targets[t]) {
-                const size_t count = mContext.model.accessors[size_t(index)].count;
-                if (expected == 0 || count == expected)
-                    continue;
-                failGltf(
-                    "{}.targets[{}].{} has {} elements, POSITION has {}",
-                    mPath,
-                    t,
-                    name,
-                    count,
-                    expected
-                );
-            }
-        }
-    }
-
     GltfContext& mContext;
     const scene::Assets& mAssets;
     const tinygltf::Primitive& mSource;
     std::string mPath;
-    bool mIsQuantized;
     scene::Primitive mPrimitive;
 };
 
@@ -341,10 +298,13 @@ class PrimitiveReader {
 void loadMeshes(GltfContext& context, scene::Assets& assets) {
     for (size_t m = 0; m < context.model.meshes.size(); ++m) {
         const tinygltf::Mesh& source = context.model.meshes[m];
+        const std::string meshPath = fmt::format("meshes[{}]", m);
         scene::Mesh mesh;
         mesh.name = source.name;
+        const std::vector<float> zeros(countMorphTargets(source, meshPath), 0.0f);
+        mesh.morphWeights = readMorphWeights(source.weights, zeros, meshPath + ".weights");
         for (size_t p = 0; p < source.primitives.size(); ++p) {
-            const std::string path = fmt::format("meshes[{}].primitives[{}]", m, p);
+            const std::string path = fmt::format("{}.primitives[{}]", meshPath, p);
             std::optional<scene::Primitive> primitive =
                 PrimitiveReader(context, assets, source.primitives[p], path).read();
             if (!primitive)

@@ -2,6 +2,7 @@
 #include "engine/io/gltf_node.h"
 
 #include "engine/io/gltf_camera_light.h"
+#include "engine/io/gltf_morph.h"
 #include "engine/io/gltf_value.h"
 
 #include <algorithm>
@@ -104,14 +105,20 @@ std::vector<int> findParents(const tinygltf::Model& model) {
     return parents;
 }
 
+enum class NodeUse : uint8_t {
+    None,
+    Joint, ///< outside of the scene, but a joint of a mesh in it, or above one
+    Scene,
+};
+
 /// Marks the nodes of the default scene.
-std::vector<uint8_t> findSceneNodes(GltfContext& context, const std::vector<int>& parents) {
+std::vector<NodeUse> findSceneNodes(GltfContext& context, const std::vector<int>& parents) {
     const tinygltf::Model& model = context.model;
-    std::vector<uint8_t> isInScene(model.nodes.size(), 0);
+    std::vector<NodeUse> uses(model.nodes.size(), NodeUse::None);
     if (model.scenes.empty()) {
         if (!model.nodes.empty())
             context.warnings.add("the file holds no scene: nothing is drawn");
-        return isInScene;
+        return uses;
     }
     const size_t sceneIndex = model.defaultScene < 0 ? 0 : size_t(model.defaultScene);
     std::vector<size_t> open;
@@ -124,20 +131,38 @@ std::vector<uint8_t> findSceneNodes(GltfContext& context, const std::vector<int>
                 parents[size_t(root)]
             );
         }
-        if (isInScene[size_t(root)])
+        if (uses[size_t(root)] == NodeUse::Scene)
             failGltf("scenes[{}] lists nodes[{}] twice", sceneIndex, root);
-        isInScene[size_t(root)] = 1;
+        uses[size_t(root)] = NodeUse::Scene;
         open.push_back(size_t(root));
     }
     while (!open.empty()) {
         const size_t node = open.back();
         open.pop_back();
         for (const int child : model.nodes[node].children) {
-            isInScene[size_t(child)] = 1;
+            uses[size_t(child)] = NodeUse::Scene;
             open.push_back(size_t(child));
         }
     }
-    return isInScene;
+    return uses;
+}
+
+/// Marks what moves the joints of the scene's meshes without being in the scene itself.
+void addJointNodes(
+    const tinygltf::Model& model, const std::vector<int>& parents, std::vector<NodeUse>& uses
+) {
+    std::vector<uint8_t> isDone(model.skins.size(), 0); // many nodes may share one skin
+    for (size_t n = 0; n < model.nodes.size(); ++n) {
+        const tinygltf::Node& node = model.nodes[n];
+        if (uses[n] != NodeUse::Scene || node.mesh < 0 || node.skin < 0 ||
+            isDone[size_t(node.skin)])
+            continue;
+        isDone[size_t(node.skin)] = 1;
+        for (int at : model.skins[size_t(node.skin)].joints) {
+            for (; at != kNoParent && uses[size_t(at)] == NodeUse::None; at = parents[size_t(at)])
+                uses[size_t(at)] = NodeUse::Joint;
+        }
+    }
 }
 
 class NodeLoader {
@@ -147,18 +172,18 @@ class NodeLoader {
           mNode(context.model.nodes[index]), mPath(fmt::format("nodes[{}]", index)),
           mEntity(entity) {}
 
-    void load() {
+    void load(NodeUse use) {
         addTransform();
         addMotion();
-        if (mNode.mesh >= 0) {
-            mRegistry.add<scene::MeshInstance>(mEntity, {scene::AssetIndex(mNode.mesh)});
-        }
+        addName();
+        if (use != NodeUse::Scene)
+            return;
+        addMesh();
         if (mNode.camera >= 0) {
             mRegistry.add<scene::Camera>(mEntity, readCamera(mContext, size_t(mNode.camera)));
             mWorld.cameras.push_back(mEntity);
         }
         addLight();
-        addName();
         if (findExtension(mNode.extensions, "EXT_mesh_gpu_instancing")) {
             mContext.warnings.add("EXT_mesh_gpu_instancing is not supported: one instance is drawn"
             );
@@ -202,6 +227,18 @@ class NodeLoader {
         if (const std::optional<dvec3> angular = findVec3(motion, "angularVelocity", at)) {
             mRegistry.add<scene::AngularVelocity>(mEntity, {mRotation * *angular});
         }
+    }
+
+    void addMesh() {
+        if (mNode.mesh < 0)
+            return;
+        mRegistry.add<scene::MeshInstance>(mEntity, {scene::AssetIndex(mNode.mesh)});
+        const std::vector<float>& atRest = mWorld.assets.meshes[size_t(mNode.mesh)].morphWeights;
+        mContext.spendVertexBytes(atRest.size() * sizeof(float));
+        scene::MorphWeights morph;
+        morph.weights = readMorphWeights(mNode.weights, atRest, mPath + ".weights");
+        if (!morph.weights.empty())
+            mRegistry.add(mEntity, std::move(morph));
     }
 
     void addLight() {
@@ -267,16 +304,17 @@ std::optional<math::Transform> decomposeMatrix(const dmat4& matrix) {
 std::vector<ecs::Entity> loadNodes(GltfContext& context, scene::World& world) {
     const std::vector<tinygltf::Node>& nodes = context.model.nodes;
     const std::vector<int> parents = findParents(context.model);
-    const std::vector<uint8_t> isInScene = findSceneNodes(context, parents);
+    std::vector<NodeUse> uses = findSceneNodes(context, parents);
+    addJointNodes(context.model, parents, uses);
     std::vector<ecs::Entity> entities(nodes.size(), ecs::kNullEntity);
     for (size_t n = 0; n < nodes.size(); ++n) {
-        if (isInScene[n])
+        if (uses[n] != NodeUse::None)
             entities[n] = world.registry.create();
     }
     for (size_t n = 0; n < nodes.size(); ++n) {
-        if (!isInScene[n])
+        if (uses[n] == NodeUse::None)
             continue;
-        NodeLoader(context, world, n, entities[n]).load();
+        NodeLoader(context, world, n, entities[n]).load(uses[n]);
         if (parents[n] != kNoParent) {
             world.registry.add<scene::Parent>(entities[n], {entities[size_t(parents[n])]});
         }

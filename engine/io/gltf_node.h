@@ -17,8 +17,10 @@ namespace shutter::io {
 [[nodiscard]] std::optional<math::Transform> decomposeMatrix(const math::dmat4& matrix);
 
 /// Makes an entity, in the order of the file, of every node of the default scene and fills
-/// World::cameras. Returns the entity of every node of the file: the null entity outside the scene.
-/// Throws GltfError for graphs that are no forest and values nothing can be drawn with.
+/// World::cameras. Joints that lie outside of the scene, and what is above them, become entities
+/// that draw nothing. Returns the entity of every node of the file: the null entity for the others.
+/// Needs the meshes, whose morph weights are those of nodes that give none. Throws GltfError for
+/// graphs that are no forest and values nothing can be drawn with.
 [[nodiscard]] std::vector<ecs::Entity> loadNodes(GltfContext& context, scene::World& world);
 
 } // namespace shutter::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every input of shared/gltf-malformed through the loader; see the README there for the classes.
 #include "engine/io/gltf_loader.h"
+#include "engine/scene/posed_bounds.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,53 @@ bool isFinite(const math::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Joints, weights and morph targets.
+void expectSoundDeformation(const scene::Primitive& primitive) {
+    const size_t count = primitive.positions.size();
+    EXPECT_EQ(primitive.influenceCount % 4, 0u);
+    EXPECT_EQ(primitive.joints.size(), count * primitive.influenceCount);
+    ASSERT_EQ(primitive.weights.size(), count * primitive.influenceCount);
+    for (size_t begin = 0; begin < primitive.weights.size(); begin += primitive.influenceCount) {
+        double sum = 0.0;
+        for (size_t i = begin; i < begin + primitive.influenceCount; ++i) {
+            ASSERT_TRUE(primitive.weights[i] >= 0.0f && primitive.weights[i] <= 1.0f);
+            sum += double{primitive.weights[i]};
+        }
+        ASSERT_NEAR(sum, 1.0, 1e-6);
+    }
+    for (const scene::MorphTarget& target : primitive.morphTargets) {
+        for (const std::vector<math::vec3>* deltas :
+             {&target.positions, &target.normals, &target.tangents}) {
+            EXPECT_TRUE(deltas->empty() || deltas->size() == count);
+            for (const math::vec3& delta : *deltas)
+                ASSERT_TRUE(isFinite(delta));
+        }
+        EXPECT_TRUE(target.tangents.empty() || !primitive.tangents.empty());
+    }
+}
+
+/// Every time is safe to ask for.
+void expectSoundEntity(const scene::World& world, ecs::Entity entity) {
+    const scene::Mesh& mesh =
+        world.assets.meshes[world.registry.get<scene::MeshInstance>(entity).mesh];
+    if (const auto* morph = world.registry.find<scene::MorphWeights>(entity)) {
+        EXPECT_EQ(morph->weights.size(), mesh.morphWeights.size());
+    }
+    if (const auto* skinned = world.registry.find<scene::Skinned>(entity)) {
+        ASSERT_LT(skinned->skin, world.assets.skins.size());
+        ASSERT_EQ(skinned->joints.size(), world.assets.skins[skinned->skin].jointFromBind.size());
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            ASSERT_GT(primitive.influenceCount, 0u);
+            for (const uint16_t joint : primitive.joints)
+                ASSERT_LT(joint, skinned->joints.size());
+        }
+    }
+    for (const double seconds : {-1.0, 0.0, 0.3, 1e6}) {
+        const scene::Deformation pose = scene::deformationAt(world, entity, seconds);
+        (void)scene::computePosedBounds(scene::computePoseReach(mesh.primitives), pose);
+    }
+}
+
 void expectSoundPrimitive(const scene::Primitive& primitive, const scene::Assets& assets) {
     const size_t count = primitive.positions.size();
     EXPECT_EQ(primitive.normals.size(), count);
@@ -79,6 +127,7 @@ void expectSoundPrimitive(const scene::Primitive& primitive, const scene::Assets
     if (primitive.material != scene::kNone) {
         EXPECT_LT(primitive.material, assets.materials.size());
     }
+    expectSoundDeformation(primitive);
 }
 
 void expectSoundMaterial(const scene::Material& material, const scene::Assets& assets) {
@@ -105,13 +154,16 @@ void expectSound(const scene::World& world) {
     for (const scene::Mesh& mesh : world.assets.meshes) {
         for (const scene::Primitive& primitive : mesh.primitives) {
             expectSoundPrimitive(primitive, world.assets);
+            EXPECT_EQ(primitive.morphTargets.size(), mesh.morphWeights.size());
         }
     }
     for (const scene::Material& material : world.assets.materials) {
         expectSoundMaterial(material, world.assets);
     }
     for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>()) {
-        EXPECT_LT(instance.mesh, world.assets.meshes.size());
+        ASSERT_LT(instance.mesh, world.assets.meshes.size());
+        if (scene::isDeformable(world, entity))
+            expectSoundEntity(world, entity);
     }
     EXPECT_EQ(world.playback.activeClips.size(), world.assets.clips.size());
 }

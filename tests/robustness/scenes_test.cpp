@@ -92,15 +92,62 @@ TEST(Scenes, EveryCorrectSceneLoads) {
     }
 }
 
-TEST(Scenes, ASkinnedModelLoadsWithOneWarningThatNamesSkins) {
-    const fs::path path = kFolder / "gltf-samples/CesiumMan/CesiumMan.glb";
+struct Moving {
+    const char* file;
+    size_t joints;         ///< of all skins
+    size_t morphTargets;   ///< of all meshes
+    size_t weightChannels; ///< of all clips
+    size_t drawn;
+};
+
+void PrintTo(const Moving& moving, std::ostream* stream) {
+    *stream << moving.file;
+}
+
+class DeformingScene : public testing::TestWithParam<Moving> {};
+
+TEST_P(DeformingScene, LoadsWithoutWarningsAndHoldsWhatTheFileSays) {
+    const Moving& expected = GetParam();
+    const fs::path path = kFolder / expected.file;
     if (!fs::exists(path))
         GTEST_SKIP() << path << " is missing";
     const core::Result<LoadedScene> loaded = loadGltf(path);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    ASSERT_EQ(loaded.value().warnings.size(), 1u);
-    EXPECT_NE(loaded.value().warnings[0].find("skins"), std::string::npos);
+    for (const std::string& warning : loaded.value().warnings)
+        ADD_FAILURE() << warning;
+    const scene::World& world = loaded.value().world;
+    size_t joints = 0;
+    for (const scene::Skin& skin : world.assets.skins)
+        joints += skin.jointFromBind.size();
+    EXPECT_EQ(joints, expected.joints);
+    size_t targets = 0;
+    for (const scene::Mesh& mesh : world.assets.meshes)
+        targets += mesh.morphWeights.size();
+    EXPECT_EQ(targets, expected.morphTargets);
+    size_t channels = 0;
+    for (const scene::AnimationClip& clip : world.assets.clips)
+        channels += clip.weightChannels.size();
+    EXPECT_EQ(channels, expected.weightChannels);
+    size_t drawn = 0;
+    for (const auto& [entity, instance] : world.registry.view<const scene::MeshInstance>())
+        drawn += instance.mesh == scene::kNone ? 0 : 1;
+    EXPECT_EQ(drawn, expected.drawn);
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes,
+    DeformingScene,
+    testing::Values(
+        Moving{"gltf-samples/CesiumMan/CesiumMan.glb", 19, 0, 0, 1},
+        Moving{"gltf-samples/Fox/Fox.gltf", 24, 0, 0, 1},
+        Moving{"gltf-samples/SimpleSkin/SimpleSkin.gltf", 2, 0, 0, 1},
+        Moving{"gltf-samples/SimpleMorph/SimpleMorph.gltf", 0, 2, 1, 1},
+        Moving{"gltf-samples/MorphStressTest/MorphStressTest.glb", 0, 8, 3, 1},
+        Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_04.gltf", 2, 0, 0, 1},
+        Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_06.gltf", 2, 0, 0, 2},
+        Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_11.gltf", 4, 0, 0, 1}
+    )
+);
 
 } // namespace
 

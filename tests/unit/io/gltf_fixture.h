@@ -62,7 +62,10 @@ class GltfFile {
     /// Appends a buffer view with `values` and an accessor over all of it; returns its index.
     template <class T>
     int add(const std::vector<T>& values, int componentType, const char* type, bool norm = false) {
-        const size_t components = std::string_view(type) == "SCALAR" ? 1 : size_t(type[3] - '0');
+        const std::string_view name = type;
+        const size_t components = name == "SCALAR" ? 1
+                                  : name == "MAT4" ? 16
+                                                   : size_t(type[3] - '0');
         const int view = addView(values);
         return addAccessor(fmt::format(
             R"({{"bufferView":{},"componentType":{},"count":{},"type":"{}","normalized":{}}})",

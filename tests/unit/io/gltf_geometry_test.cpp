@@ -94,6 +94,27 @@ TEST(RepairNormals, GoodOnesAreNormalizedAndBadOnesTakeTheirFaces) {
     EXPECT_EQ(repairNormals(primitive), 0u);
 }
 
+TEST(GatherVertices, InfluencesAndMorphTargetsFollowTheirVertices) {
+    scene::Primitive primitive;
+    primitive.positions = {vec3(0), vec3(1), vec3(2)};
+    primitive.influenceCount = 4;
+    primitive.joints = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    primitive.weights.assign(12, 0.25f);
+    primitive.weights[11] = 0.5f;
+    primitive.morphTargets = {{{vec3(3), vec3(4), vec3(5)}, {}, {vec3(6), vec3(7), vec3(8)}}, {}};
+    const Indices sources = {2, 0, 2};
+    const scene::Primitive gathered = gatherVertices(primitive, sources);
+    EXPECT_EQ(gathered.influenceCount, 4u);
+    EXPECT_EQ(gathered.joints, (std::vector<uint16_t>{8, 9, 10, 11, 0, 1, 2, 3, 8, 9, 10, 11}));
+    EXPECT_EQ(gathered.weights[3], 0.5f);
+    EXPECT_EQ(gathered.weights[7], 0.25f);
+    ASSERT_EQ(gathered.morphTargets.size(), 2u);
+    EXPECT_EQ(gathered.morphTargets[0].positions, (std::vector<vec3>{vec3(5), vec3(3), vec3(5)}));
+    EXPECT_TRUE(gathered.morphTargets[0].normals.empty());
+    EXPECT_EQ(gathered.morphTargets[0].tangents[0], vec3(8));
+    EXPECT_TRUE(gathered.morphTargets[1].positions.empty());
+}
+
 TEST(RemoveNonFinite, OnlyTheTrianglesThatHoldTheVertexGo) {
     for (const float bad : {std::nanf(""), std::numeric_limits<float>::infinity()}) {
         scene::Primitive primitive;

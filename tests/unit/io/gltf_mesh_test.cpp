@@ -368,38 +368,6 @@ TEST(GltfMesh, GivenNormalsAreNormalizedAndZeroOnesReplaced) {
     EXPECT_TRUE(hasWarning(scene, "NORMAL holds 1 vectors"));
 }
 
-TEST(GltfMesh, MorphTargetsLoadWithOneWarningAndHaveToFit) {
-    GltfFile file;
-    file.add(kTriangle, kFloat, "VEC3");
-    file.add(std::vector<float>{0, 0, 1}, kFloat, "VEC3");
-    const LoadedScene scene =
-        expectLoads(loadMesh(file, kPosition + R"(,"targets":[{"POSITION":0},{"POSITION":0}])"));
-    EXPECT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(hasWarning(scene, "morph targets"));
-    expectRefused(
-        loadMesh(file, kPosition + R"(,"targets":[{"POSITION":1}])"), "targets[0].POSITION has 1"
-    );
-    expectRefused(
-        loadMesh(file, kPosition + R"(,"targets":[{"POSITION":9}])"), "targets[0].POSITION is 9"
-    );
-}
-
-TEST(GltfMesh, SkinsLoadWithOneWarningAndTheirJointsHaveToFit) {
-    GltfFile file;
-    file.add(kTriangle, kFloat, "VEC3");
-    std::vector<uint8_t> joints(12, 0);
-    joints[5] = 1;
-    file.add(joints, kUnsignedByte, "VEC4");
-    file.add(std::vector<float>(12, 0.25f), kFloat, "VEC4");
-    const std::string rest =
-        mesh(R"("attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2})") +
-        R"(,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0},{"mesh":0,"skin":0}],)";
-    const LoadedScene scene = expectLoads(file.load(rest + R"("skins":[{"joints":[0,1]}])"));
-    EXPECT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(hasWarning(scene, "skins are not deformed yet"));
-    expectRefused(file.load(rest + R"("skins":[{"joints":[0]}])"), "names joint 1");
-}
-
 } // namespace
 
 } // namespace shutter::io
