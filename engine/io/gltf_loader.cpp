@@ -5,6 +5,7 @@
 #include "engine/io/gltf_accessor.h"
 #include "engine/io/gltf_animation.h"
 #include "engine/io/gltf_document.h"
+#include "engine/io/gltf_instancing.h"
 #include "engine/io/gltf_material.h"
 #include "engine/io/gltf_mesh.h"
 #include "engine/io/gltf_node.h"
@@ -23,8 +24,6 @@ constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
 
 void warnIgnoredExtensions(GltfContext& context) {
     for (const std::string& name : context.model.extensionsUsed) {
-        if (name == "EXT_mesh_gpu_instancing")
-            continue; // told where it changes the picture
         if (!isSupportedExtension(name)) {
             context.warnings.add(fmt::format("the extension {} is ignored", name));
         }
@@ -52,6 +51,7 @@ LoadedScene buildScene(const std::filesystem::path& folder, std::span<const uint
     const std::vector<ecs::Entity> entities = loadNodes(context, loaded.world);
     addSkins(context, loaded.world, entities);
     loadAnimations(context, loaded.world, entities);
+    expandInstances(context, loaded.world, entities);
     loaded.warnings = warnings.take();
     return loaded;
 }

@@ -184,10 +184,6 @@ class NodeLoader {
             mWorld.cameras.push_back(mEntity);
         }
         addLight();
-        if (findExtension(mNode.extensions, "EXT_mesh_gpu_instancing")) {
-            mContext.warnings.add("EXT_mesh_gpu_instancing is not supported: one instance is drawn"
-            );
-        }
     }
 
   private:

@@ -143,6 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         Moving{"gltf-samples/SimpleSkin/SimpleSkin.gltf", 2, 0, 0, 1},
         Moving{"gltf-samples/SimpleMorph/SimpleMorph.gltf", 0, 2, 1, 1},
         Moving{"gltf-samples/MorphStressTest/MorphStressTest.glb", 0, 8, 3, 1},
+        Moving{"gltf-samples/SimpleInstancing/SimpleInstancing.gltf", 0, 0, 0, 125},
         Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_04.gltf", 2, 0, 0, 1},
         Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_06.gltf", 2, 0, 0, 2},
         Moving{"conformance/asset-generator/Animation_Skin/Animation_Skin_11.gltf", 4, 0, 0, 1}
