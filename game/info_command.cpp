@@ -95,8 +95,16 @@ core::Status printScene(const std::string& path) {
     }
     for (const auto& clip : world.assets.clips)
         fmt::print(
-            "clip {}: {:.4g} s, {} channels\n", clip.name, clip.duration, clip.channels.size()
+            "clip {}: {:.4g} s, {} channels\n",
+            clip.name,
+            clip.duration,
+            clip.channels.size() + clip.weightChannels.size()
         );
+    for (const auto& skin : world.assets.skins)
+        fmt::print("skin {}: {} joints\n", skin.name, skin.jointFromBind.size());
+    for (const auto& mesh : world.assets.meshes)
+        if (!mesh.morphWeights.empty())
+            fmt::print("mesh {}: {} morph targets\n", mesh.name, mesh.morphWeights.size());
     for (const std::string& warning : loaded.value().warnings)
         fmt::print("warning: {}\n", warning);
     return {};

@@ -249,9 +249,15 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
             "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [4, 0, 0]},
                       {"camera": 0, "name": "eye"}],
             "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "meshes": [{"name": "face", "primitives": [{"attributes": {"POSITION": 0},
+                        "targets": [{"POSITION": 0}]}]}],
+            "skins": [{"name": "rig", "joints": [0, 1]}],
+            "animations": [{"name": "nod", "samplers": [{"input": 1, "output": 1}], "channels":
+                            [{"sampler": 0, "target": {"node": 0, "path": "weights"}}]}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                           "min": [0, 0, 0], "max": [0, 0, 0]}],
+                           "min": [0, 0, 0], "max": [0, 0, 0]},
+                          {"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR",
+                           "min": [0], "max": [0]}],
             "bufferViews": [{"buffer": 0, "byteLength": 36}],
             "buffers": [{"byteLength": 36, "uri": "points.bin"}]})"
     );
@@ -264,7 +270,10 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
           "lights 0",
           "bounds 0 0 0 to 4 0 0 m",
           "camera 0: ",
-          "eye"})
+          "eye",
+          "clip nod: 0 s, 1 channels",
+          "skin rig: 2 joints",
+          "mesh face: 1 morph targets"})
         EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
 }
 
