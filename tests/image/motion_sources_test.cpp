@@ -32,6 +32,9 @@ struct Model {
     const char* file; ///< below scenes/gltf-samples
     double seconds;   ///< of the raster instant, inside of the clip
     double exposureSeconds;
+    double yaw = 0.0;      ///< of the camera round the model, radians; 0: from +Z
+    dvec3 velocity{0.0};   ///< of the whole model besides its clips, m/s
+    double mostLost = 1.0; ///< dB below the rigid mover
 };
 
 void PrintTo(const Model& model, std::ostream* out) {
@@ -43,11 +46,57 @@ const Model kModels[] = {
     {"FastSkin", "Fox/Fox.gltf", 0.35, 0.06},
     {"Morph", "MorphStressTest/MorphStressTest.glb", 0.7, 0.1},
     {"Interpolation", "InterpolationTest/InterpolationTest.glb", 1.3, 0.08},
-    {"ParentedWheels", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08},
+    {"SpinningWheels", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08, 1.3},
+    // Rolls without slipping. Wheels and body move differently inside of one tile, which knows one
+    // dominant motion: what the paper's gather costs there is its own, 1.3 to 1.4 dB.
+    {"RollingTruck", "CesiumMilkTruck/CesiumMilkTruck.glb", 0.5, 0.08, 1.3, {0, 0, 2.15}, 1.5},
 };
 
 constexpr uint32_t kWidth = 320;
 constexpr uint32_t kHeight = 180;
+
+/// Stops every clip in its pose at `seconds`.
+void freeze(scene::World& world, double seconds) {
+    std::vector<ecs::Entity> entities;
+    for (const ecs::Entity entity : world.registry.entities())
+        entities.push_back(entity);
+    for (const ecs::Entity entity : entities) {
+        if (auto* morph = world.registry.find<scene::MorphWeights>(entity)) {
+            const auto weights = scene::deformationAt(world, entity, seconds).morphWeights;
+            morph->weights.assign(weights.begin(), weights.end());
+            morph->channels.clear();
+        }
+        if (const auto* animated = world.registry.find<scene::Animated>(entity)) {
+            auto& local = world.registry.get<scene::LocalTransform>(entity);
+            local.transform = scene::sampleAnimated(
+                world.assets, world.playback, *animated, local.transform, seconds
+            );
+            world.registry.remove<scene::Animated>(entity);
+        }
+    }
+}
+
+/// All that is drawn slides, each entity through its own place at `seconds`.
+void slide(scene::World& world, double seconds, const dvec3& metresPerSecond) {
+    std::vector<ecs::Entity> roots;
+    for (const ecs::Entity entity : world.registry.entities())
+        if (!world.registry.has<scene::Parent>(entity) &&
+            !world.registry.has<scene::Camera>(entity) && !world.registry.has<scene::Light>(entity))
+            roots.push_back(entity);
+    for (const ecs::Entity root : roots) {
+        const auto* before = world.registry.find<scene::LinearVelocity>(root);
+        const dvec3 faster = metresPerSecond - (before ? before->metresPerSecond : dvec3(0.0));
+        world.registry.add(root, scene::LinearVelocity{metresPerSecond});
+        if (auto* matrix = world.registry.find<scene::LocalMatrix>(root)) {
+            matrix->matrix[3] -= math::dvec4(faster * seconds, 0.0);
+            continue;
+        }
+        auto* local = world.registry.find<scene::LocalTransform>(root);
+        if (!local)
+            local = &world.registry.add<scene::LocalTransform>(root);
+        local->transform.translation -= faster * seconds;
+    }
+}
 
 class MotionSources : public test::GpuTest, public ::testing::WithParamInterface<Model> {
   protected:
@@ -63,7 +112,18 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         mScene.world = std::move(loaded.value().world);
         mScene.camera =
             scene::addFramingCamera(mScene.world, double(kWidth) / kHeight, GetParam().seconds);
+        walkRound(GetParam().yaw);
+        slide(mScene.world, GetParam().seconds, GetParam().velocity);
         mScene.addSun({-0.3, -1.0, -0.5}, 2.0f);
+    }
+
+    void walkRound(double yaw) {
+        const dvec3 centre = scene::computeWorldBounds(mScene.world, GetParam().seconds).centre();
+        const math::dquat turn = glm::angleAxis(yaw, dvec3(0, 1, 0));
+        math::Transform& camera =
+            mScene.world.registry.get<scene::LocalTransform>(mScene.camera).transform;
+        camera.translation = centre + turn * (camera.translation - centre);
+        camera.rotation = turn * camera.rotation;
     }
 
     [[nodiscard]] static Shot makeShot(Method method) {
@@ -167,49 +227,6 @@ double measureSpeed(const image::Image& motion) {
     return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
-/// Stops every clip in its pose at `seconds`.
-void freeze(scene::World& world, double seconds) {
-    std::vector<ecs::Entity> entities;
-    for (const ecs::Entity entity : world.registry.entities())
-        entities.push_back(entity);
-    for (const ecs::Entity entity : entities) {
-        if (auto* morph = world.registry.find<scene::MorphWeights>(entity)) {
-            const auto weights = scene::deformationAt(world, entity, seconds).morphWeights;
-            morph->weights.assign(weights.begin(), weights.end());
-            morph->channels.clear();
-        }
-        if (const auto* animated = world.registry.find<scene::Animated>(entity)) {
-            auto& local = world.registry.get<scene::LocalTransform>(entity);
-            local.transform = scene::sampleAnimated(
-                world.assets, world.playback, *animated, local.transform, seconds
-            );
-            world.registry.remove<scene::Animated>(entity);
-        }
-    }
-}
-
-/// All that is drawn slides, each entity through its own place at `seconds`.
-void slide(scene::World& world, double seconds, const dvec3& metresPerSecond) {
-    std::vector<ecs::Entity> roots;
-    for (const ecs::Entity entity : world.registry.entities())
-        if (!world.registry.has<scene::Parent>(entity) &&
-            !world.registry.has<scene::Camera>(entity) && !world.registry.has<scene::Light>(entity))
-            roots.push_back(entity);
-    for (const ecs::Entity root : roots) {
-        const auto* before = world.registry.find<scene::LinearVelocity>(root);
-        const dvec3 faster = metresPerSecond - (before ? before->metresPerSecond : dvec3(0.0));
-        world.registry.add(root, scene::LinearVelocity{metresPerSecond});
-        if (auto* matrix = world.registry.find<scene::LocalMatrix>(root)) {
-            matrix->matrix[3] -= math::dvec4(faster * seconds, 0.0);
-            continue;
-        }
-        auto* local = world.registry.find<scene::LocalTransform>(root);
-        if (!local)
-            local = &world.registry.add<scene::LocalTransform>(root);
-        local->transform.translation -= faster * seconds;
-    }
-}
-
 TEST_P(MotionSources, BlurIsAsNearToTruthAsOnARigidMoverOfTheSameSpeed) {
     if (!device().hasRays())
         GTEST_SKIP() << device().info().name << " has no ray queries";
@@ -260,8 +277,8 @@ TEST_P(MotionSources, BlurIsAsNearToTruthAsOnARigidMoverOfTheSameSpeed) {
         rigid.hybrid
     );
     EXPECT_NEAR(rigid.speed, moving.speed, 0.1 * moving.speed);
-    EXPECT_GE(moving.gather, rigid.gather - 1.0);
-    EXPECT_GE(moving.hybrid, rigid.hybrid - 1.0);
+    EXPECT_GE(moving.gather, rigid.gather - GetParam().mostLost);
+    EXPECT_GE(moving.hybrid, rigid.hybrid - GetParam().mostLost);
 }
 
 INSTANTIATE_TEST_SUITE_P(
