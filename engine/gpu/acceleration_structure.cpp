@@ -2,6 +2,7 @@
 #include "engine/gpu/acceleration_structure.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/acceleration_build.h"
 #include "engine/gpu/upload.h"
 
 #include <algorithm>
@@ -10,56 +11,6 @@
 namespace shutter::gpu {
 
 namespace {
-
-constexpr VkBufferUsageFlags kInputUsage =
-    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
-
-VkDeviceAddress alignUp(VkDeviceAddress value, VkDeviceSize alignment) {
-    return (value + alignment - 1) / alignment * alignment;
-}
-
-VkAccelerationStructureGeometryKHR describeTriangles(const TriangleGeometry& triangles) {
-    VkAccelerationStructureGeometryKHR geometry{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
-    geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-    geometry.flags = triangles.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR
-                                      : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
-    auto& data = geometry.geometry.triangles;
-    data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
-    data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
-    data.vertexData.deviceAddress = triangles.vertices;
-    data.vertexStride = triangles.vertexStride;
-    data.maxVertex = triangles.vertexCount > 0 ? triangles.vertexCount - 1 : 0;
-    data.indexType = VK_INDEX_TYPE_UINT32;
-    data.indexData.deviceAddress = triangles.indices;
-    return geometry;
-}
-
-VkDeviceAddress alignScratch(const Device& device, const Buffer& scratch) {
-    return alignUp(scratch.address(), device.minScratchAlignment());
-}
-
-Buffer makeScratch(Device& device, const char* name, VkDeviceSize bytes) {
-    return Buffer(
-        device,
-        name,
-        bytes + device.minScratchAlignment(),
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-        MemoryUse::Device
-    );
-}
-
-VkAccelerationStructureInstanceKHR makeRecord(const Instance& instance) {
-    SHUTTER_CHECK(instance.customIndex < (1u << 24), "{}", instance.customIndex);
-    VkAccelerationStructureInstanceKHR record{};
-    std::memcpy(&record.transform, instance.worldFromObject, sizeof(record.transform));
-    record.instanceCustomIndex = instance.customIndex & 0xFFFFFFu;
-    record.mask = instance.mask & 0xFFu;
-    record.flags =
-        instance.cullDisabled ? VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR : 0;
-    record.accelerationStructureReference = instance.bottomLevel;
-    return record;
-}
 
 /// A build of one geometry; `info` points into it, so it does not move.
 struct SingleBuild {
@@ -107,26 +58,16 @@ struct SingleBuild {
 struct InstanceBuild : SingleBuild {
     explicit InstanceBuild(VkDeviceAddress instances)
         : SingleBuild(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR) {
-        geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
-        auto& data = geometry.geometry.instances;
-        data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
-        data.data.deviceAddress = instances;
+        geometry = describeInstances(instances);
     }
 };
 
 struct BoxBuild : SingleBuild {
     explicit BoxBuild(VkDeviceAddress boxes)
         : SingleBuild(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR) {
-        geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
-        geometry.flags = VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
-        auto& data = geometry.geometry.aabbs;
-        data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
-        data.data.deviceAddress = boxes;
-        data.stride = sizeof(BoxGeometry);
+        geometry = describeBoxes(boxes);
     }
 };
-
-static_assert(sizeof(BoxGeometry) == sizeof(VkAabbPositionsKHR));
 
 /// Everything one BLAS build needs; addresses into `geometries` stay valid while it lives.
 struct BottomLevelBuild {
@@ -254,7 +195,7 @@ void TopLevel::prepare(Device& device, std::span<const Instance> instances) {
             device,
             "TLAS instances",
             mCapacity * sizeof(VkAccelerationStructureInstanceKHR),
-            kInputUsage,
+            kBuildInputUsage,
             MemoryUse::Upload
         );
     std::vector<VkAccelerationStructureInstanceKHR> records;
@@ -289,7 +230,7 @@ buildTopLevels(Device& device, std::span<const Instance> instances) {
         device,
         "TLAS instances",
         records.size() * sizeof(VkAccelerationStructureInstanceKHR),
-        kInputUsage,
+        kBuildInputUsage,
         MemoryUse::Upload
     );
     buffer.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
@@ -318,7 +259,11 @@ void BoxLevel::prepare(Device& device, std::span<const BoxGeometry> boxes) {
     if (grow) {
         mCapacity = std::max(mCount + mCount / 2, 16u);
         mBoxes = Buffer(
-            device, "moving boxes", mCapacity * sizeof(BoxGeometry), kInputUsage, MemoryUse::Upload
+            device,
+            "moving boxes",
+            mCapacity * sizeof(BoxGeometry),
+            kBuildInputUsage,
+            MemoryUse::Upload
         );
     }
     mBoxes.write(boxes);

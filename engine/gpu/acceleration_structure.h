@@ -59,6 +59,7 @@ struct Instance {
     float worldFromObject[3][4]; ///< row-major, rows x y z
     uint32_t customIndex = 0;    ///< < 2^24
     bool cullDisabled = true;    ///< double sided
+    bool flipFacing = false;     ///< front faces run clockwise: their vertices were mirrored
     uint32_t mask = 0xFF;        ///< rays whose cull mask shares a bit meet it
     VkDeviceAddress bottomLevel = 0;
 };
