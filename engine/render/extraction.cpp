@@ -48,14 +48,7 @@ struct Poses {
     CameraPose open, raster, close;
 };
 
-/// Shutter times of the three poses.
-struct PoseTimes {
-    double open = 0.0;
-    double raster = 1.0;
-    double close = 1.0;
-};
-
-PoseTimes findPoseTimes(const ViewRequest& request) {
+ShapeTimes findPoseTimes(const ViewRequest& request) {
     if (request.instant)
         return {*request.instant, *request.instant, *request.instant};
     return {0.0, request.exposure.rasterShare, 1.0};
@@ -86,6 +79,7 @@ class Extractor {
         : mWorld(world), mLayout(layout), mRequest(request),
           mCamera(world.registry.get<scene::Camera>(request.camera)),
           mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)),
+          mNextDeformedGeometry(static_cast<uint32_t>(layout.geometries.size())),
           mClipFromView(makeProjection(mCamera, double(request.width) / request.height)) {
         mPoses.open = poseCamera(mMotion, mClipFromView, mTimes.open);
         mPoses.raster = poseCamera(mMotion, mClipFromView, mTimes.raster);
@@ -174,6 +168,13 @@ class Extractor {
         const dmat4 close = mMotion.worldFromObject(entity, mTimes.close);
         if (!isDrawable(raster) || !math::isFinite(open) || !math::isFinite(close))
             return;
+        std::optional<DeformedEntity> shape;
+        if (scene::isDeformable(mWorld, entity)) {
+            shape = poseEntity(mMotion, entity, mLayout.reaches.at(mesh), mTimes);
+            if (!shape)
+                return;
+        }
+        const math::Bounds& bounds = shape ? shape->bounds : mLayout.bounds[mesh];
 
         const dmat4 clipRaster = jitterClip() * mPoses.raster.clipFromWorld * raster;
         shader::EntityRow row{};
@@ -183,24 +184,44 @@ class Extractor {
         const dmat4 eye = glm::translate(dmat4(1.0), -mPoses.raster.position) * raster;
         for (int i = 0; i < 3; ++i)
             row.eyeFromObject[i] = math::vec4(eye[0][i], eye[1][i], eye[2][i], eye[3][i]);
-        row.firstGeometry = firstGeometry;
-        const bool mirrored = glm::determinant(math::dmat3(raster)) < 0.0;
+        row.firstGeometry = shape ? mNextDeformedGeometry : firstGeometry;
+        const bool mirrored =
+            (glm::determinant(math::dmat3(raster)) < 0.0) != (shape && shape->mirrored);
         row.handedness = mirrored ? -1.0f : 1.0f;
 
         const auto index = static_cast<uint32_t>(mFrame.entities.size());
         mFrame.entities.push_back(row);
         mFrame.entityMeshes.push_back(mesh);
         mFrame.entityHandles.push_back(entity);
-        if (isOutside(clipRaster, mLayout.bounds[mesh]))
+        const bool changes = shape && shape->changes;
+        if (!isOutside(clipRaster, bounds)) {
+            mFrame.moves =
+                mFrame.moves || changes || row.clipFromObjectOpen != row.clipFromObjectClose;
+            const dvec3 centre(eye * dvec4(bounds.centre(), 1.0));
+            addDraws(index, mesh, mirrored, float(glm::length(centre)));
+        }
+        if (!shape)
             return;
-        mFrame.moves = mFrame.moves || row.clipFromObjectOpen != row.clipFromObjectClose;
-        const double distance = glm::length(dvec3(eye * dvec4(mLayout.bounds[mesh].centre(), 1.0)));
-        for (uint32_t geometry = firstGeometry; geometry < endGeometry; ++geometry) {
+        shape->row = index;
+        shape->mesh = mesh;
+        mFrame.deformed.push_back(std::move(*shape));
+        mNextDeformedGeometry += endGeometry - firstGeometry;
+    }
+
+    void addDraws(uint32_t row, uint32_t mesh, bool mirrored, float distance) {
+        const uint32_t first = mLayout.firstGeometry[mesh];
+        for (uint32_t geometry = first; geometry < mLayout.firstGeometry[mesh + 1]; ++geometry) {
             const SceneLayout::GeometryInfo& info = mLayout.geometries[geometry];
             const bool blended = info.alphaMode == scene::AlphaMode::Blend;
             (blended ? mFrame.blended : mFrame.opaque)
                 .push_back(
-                    {index, geometry, info.alphaMode, info.doubleSided, mirrored, float(distance)}
+                    {row,
+                     geometry,
+                     mFrame.entities[row].firstGeometry + geometry - first,
+                     info.alphaMode,
+                     info.doubleSided,
+                     mirrored,
+                     distance}
                 );
         }
     }
@@ -210,7 +231,8 @@ class Extractor {
     const ViewRequest& mRequest;
     const scene::Camera& mCamera;
     scene::ExposureMotion mMotion;
-    PoseTimes mTimes;
+    ShapeTimes mTimes;
+    uint32_t mNextDeformedGeometry; ///< row of the frame's geometry table
     dmat4 mClipFromView;
     Poses mPoses;
     ExtractedFrame mFrame;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/render/deformed_entity.h"
 #include "engine/render/gpu_scene.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/world.h"
@@ -35,10 +36,12 @@ struct ViewRequest {
 
 struct DrawItem {
     uint32_t entity = 0;   ///< row of the entity table
-    uint32_t geometry = 0; ///< row of the geometry table
+    uint32_t geometry = 0; ///< index into SceneLayout::geometries
+    /// Row of the frame's geometry table: `geometry`, unless the entity's mesh is bent.
+    uint32_t geometryRow = 0;
     scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
     bool doubleSided = false;
-    bool mirrored = false; ///< the transform turns the winding round
+    bool mirrored = false; ///< the transform or the skeleton turns the winding round
     float distance = 0.0f; ///< of the bounds' centre from the camera, metres
 };
 
@@ -46,15 +49,19 @@ struct ExtractedFrame {
     std::vector<shader::EntityRow> entities;
     std::vector<uint32_t> entityMeshes;     ///< one a row: index into Assets::meshes
     std::vector<ecs::Entity> entityHandles; ///< one a row: whose it is
-    std::vector<DrawItem> opaque;           ///< opaque and masked, near to far
-    std::vector<DrawItem> blended;          ///< far to near
+    /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
+    /// frame's geometry table stand behind the scene's own, one entity's behind the other's.
+    std::vector<DeformedEntity> deformed;
+    std::vector<DrawItem> opaque;  ///< opaque and masked, near to far
+    std::vector<DrawItem> blended; ///< far to near
     std::vector<shader::LightRow> lights;
     std::vector<ecs::Entity> lightEntities; ///< one a light: whose it is
     shader::FrameConstants constants{};     ///< without the tables' addresses
     bool moves = false;                     ///< something in the picture, or the camera, moves
 };
 
-/// Entities whose transform is singular or not finite, or whose mesh has no triangles, get no row.
+/// Entities whose transform or shape is singular or not finite, or whose mesh has no triangles, get
+/// no row.
 /// Error: the world has more entities than the table can hold.
 [[nodiscard]] core::Result<ExtractedFrame>
 extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);

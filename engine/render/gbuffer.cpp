@@ -67,7 +67,7 @@ struct Recorder {
     void draw(const gpu::Pipeline& pipeline, const DrawItem& item) const {
         const SceneLayout::GeometryInfo& info = scene.layout().geometries[item.geometry];
         const VkCommandBuffer commands = frame.commands();
-        push(pipeline, item.entity, item.geometry);
+        push(pipeline, item.entity, item.geometryRow);
         vkCmdSetCullMode(commands, item.doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(
             commands, item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE
@@ -88,6 +88,7 @@ GBuffer GBufferPass::declare(
     graph::Graph& graph,
     const ExtractedFrame& frame,
     const GpuScene& scene,
+    graph::BufferHandle shapes,
     VkDeviceAddress frameConstants
 ) const {
     const auto width = static_cast<uint32_t>(frame.constants.sizePx.x);
@@ -105,6 +106,8 @@ GBuffer GBufferPass::declare(
         "G-buffer",
         graph::PassKind::Raster,
         [&](graph::PassBuilder& builder, Data&) {
+            if (shapes.isValid())
+                builder.read(shapes, graph::Access::ShaderRead);
             const auto zero = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f);
             targets.color = builder.colorTarget(targets.color, zero);
             targets.normal = builder.colorTarget(targets.normal, zero);

@@ -24,10 +24,12 @@ class GBufferPass {
     GBufferPass(gpu::Device& device, const GpuScene& scene);
 
     /// Declares the pass. `frame` and `scene` must live until it has been recorded.
+    /// \param shapes vertices of bent meshes; invalid: there are none
     [[nodiscard]] GBuffer declare(
         graph::Graph& graph,
         const ExtractedFrame& frame,
         const GpuScene& scene,
+        graph::BufferHandle shapes,
         VkDeviceAddress frameConstants
     ) const;
 

@@ -89,7 +89,8 @@ shader::MaterialRow packMaterial(const scene::Material& material) {
 
 } // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const scene::Assets& assets) : mDevice(device) {
+GpuScene::GpuScene(gpu::Device& device, const scene::Assets& assets)
+    : mDevice(device), mDeformSources(device, assets) {
     uploadMeshes(assets);
     uploadMaterials(assets);
     uploadTextures(assets);
@@ -116,6 +117,7 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
     for (const scene::Mesh& mesh : assets.meshes) {
         mLayout.firstGeometry.push_back(static_cast<uint32_t>(rows.size()));
         mLayout.bounds.push_back(mesh.bounds);
+        mLayout.reaches.push_back(scene::computePoseReach(mesh.primitives));
         for (const scene::Primitive& primitive : mesh.primitives) {
             const bool hasMaterial = primitive.material < assets.materials.size();
             const scene::Material material =
@@ -126,12 +128,16 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
             row.material = hasMaterial ? primitive.material : defaultMaterial;
             row.firstIndex = static_cast<uint32_t>(indices.size());
             row.indexCount = static_cast<uint32_t>(sorted.size());
+            row.vertexCount = static_cast<uint32_t>(primitive.positions.size());
             rows.push_back(row);
             mLayout.geometries.push_back(
-                {row.firstIndex, row.indexCount, material.alphaMode, material.doubleSided}
+                {row.firstIndex,
+                 row.indexCount,
+                 material.alphaMode,
+                 material.doubleSided,
+                 row.vertexCount}
             );
             mFirstVertex.push_back(static_cast<uint32_t>(vertices.size()));
-            mVertexCounts.push_back(static_cast<uint32_t>(primitive.positions.size()));
             for (size_t i = 0; i < primitive.positions.size(); ++i)
                 vertices.push_back(packVertex(primitive, i));
             indices.insert(indices.end(), sorted.begin(), sorted.end());
@@ -168,6 +174,7 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
     gpu::uploadBuffer(mDevice, mVertices, std::as_bytes(std::span(vertices)));
     gpu::uploadBuffer(mDevice, mIndices, std::as_bytes(std::span(indices)));
     gpu::uploadBuffer(mDevice, mGeometries, std::as_bytes(std::span(rows)));
+    mGeometryRows = std::move(rows);
 }
 
 void GpuScene::uploadMaterials(const scene::Assets& assets) {
@@ -281,34 +288,39 @@ void GpuScene::createTextureSet(uint32_t count) {
     );
 }
 
+std::vector<gpu::TriangleGeometry> GpuScene::describeTriangles(uint32_t mesh) const {
+    const uint32_t first = mLayout.firstGeometry[mesh];
+    const uint32_t end = mLayout.firstGeometry[mesh + 1];
+    bool anySingleSided = false;
+    bool anyDoubleSided = false;
+    for (uint32_t i = first; i < end; ++i)
+        (mLayout.geometries[i].doubleSided ? anyDoubleSided : anySingleSided) = true;
+    std::vector<gpu::TriangleGeometry> result;
+    for (uint32_t i = first; i < end; ++i) {
+        const SceneLayout::GeometryInfo& info = mLayout.geometries[i];
+        gpu::TriangleGeometry triangles;
+        triangles.vertices =
+            mVertices.address() + uint64_t(mFirstVertex[i]) * sizeof(shader::Vertex);
+        triangles.vertexStride = sizeof(shader::Vertex);
+        triangles.vertexCount = info.vertexCount;
+        triangles.indices = mIndices.address() + uint64_t(info.firstIndex) * 4;
+        triangles.triangleCount = info.indexCount / 3;
+        // Culling is per instance in Vulkan. Where a mesh mixes sides, the shader must see the
+        // single-sided candidates to drop their backs (trace.glsl).
+        const bool shaderCulls = anyDoubleSided && anySingleSided && !info.doubleSided;
+        triangles.opaque = info.alphaMode == AlphaMode::Opaque && !shaderCulls;
+        result.push_back(triangles);
+    }
+    return result;
+}
+
 void GpuScene::buildBottomLevels() {
     if (mBottomLevelsBuilt)
         return;
     mBottomLevelsBuilt = true;
     std::vector<std::vector<gpu::TriangleGeometry>> meshes(mLayout.firstGeometry.size() - 1);
-    for (size_t mesh = 0; mesh < meshes.size(); ++mesh) {
-        const uint32_t first = mLayout.firstGeometry[mesh];
-        const uint32_t end = mLayout.firstGeometry[mesh + 1];
-        bool anySingleSided = false;
-        bool anyDoubleSided = false;
-        for (uint32_t i = first; i < end; ++i)
-            (mLayout.geometries[i].doubleSided ? anyDoubleSided : anySingleSided) = true;
-        for (uint32_t i = first; i < end; ++i) {
-            const SceneLayout::GeometryInfo& info = mLayout.geometries[i];
-            gpu::TriangleGeometry triangles;
-            triangles.vertices =
-                mVertices.address() + uint64_t(mFirstVertex[i]) * sizeof(shader::Vertex);
-            triangles.vertexStride = sizeof(shader::Vertex);
-            triangles.vertexCount = mVertexCounts[i];
-            triangles.indices = mIndices.address() + uint64_t(info.firstIndex) * 4;
-            triangles.triangleCount = info.indexCount / 3;
-            // Culling is per instance in Vulkan. Where a mesh mixes sides, the shader must see the
-            // single-sided candidates to drop their backs (trace.glsl).
-            const bool shaderCulls = anyDoubleSided && anySingleSided && !info.doubleSided;
-            triangles.opaque = info.alphaMode == AlphaMode::Opaque && !shaderCulls;
-            meshes[mesh].push_back(triangles);
-        }
-    }
+    for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh)
+        meshes[mesh] = describeTriangles(mesh);
     mBottomLevels = gpu::buildBottomLevel(mDevice, meshes);
     mMeshScenes.resize(mBottomLevels.size());
 }

@@ -4,7 +4,9 @@
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"
+#include "engine/render/deform_sources.h"
 #include "engine/scene/assets.h"
+#include "engine/scene/posed_bounds.h"
 #include "shaders/render/scene_shared.h"
 
 #include <cstdint>
@@ -13,11 +15,6 @@
 
 namespace shutter::render {
 
-/// A device address as the two words shaders make a reference of.
-[[nodiscard]] inline math::uvec2 splitAddress(VkDeviceAddress address) {
-    return {static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)};
-}
-
 /// Where a mesh's triangles are, as extraction needs it.
 struct SceneLayout {
     struct GeometryInfo {
@@ -25,11 +22,13 @@ struct SceneLayout {
         uint32_t indexCount = 0;
         scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
         bool doubleSided = false;
+        uint32_t vertexCount = 0;
     };
 
-    std::vector<uint32_t> firstGeometry;  ///< one a mesh, and one past the last
-    std::vector<GeometryInfo> geometries; ///< all meshes' primitives in order
-    std::vector<math::Bounds> bounds;     ///< one a mesh, object space
+    std::vector<uint32_t> firstGeometry;   ///< one a mesh, and one past the last
+    std::vector<GeometryInfo> geometries;  ///< all meshes' primitives in order
+    std::vector<math::Bounds> bounds;      ///< one a mesh, object space, undeformed
+    std::vector<scene::PoseReach> reaches; ///< one a mesh
 };
 
 /// The assets of a scene on the device: one vertex and one index buffer, tables of geometries and
@@ -47,11 +46,22 @@ class GpuScene {
 
     [[nodiscard]] VkDeviceAddress geometryTable() const { return mGeometries.address(); }
 
+    /// What geometryTable() holds.
+    [[nodiscard]] std::span<const shader::Geometry> geometryRows() const { return mGeometryRows; }
+
+    /// What bends the geometry.
+    [[nodiscard]] const DeformSource& deformSource(uint32_t geometry) const {
+        return mDeformSources[geometry];
+    }
+
     [[nodiscard]] VkDeviceAddress materialTable() const { return mMaterials.address(); }
 
     [[nodiscard]] VkDescriptorSetLayout textureLayout() const { return mTextureLayout; }
 
     [[nodiscard]] VkDescriptorSet textureSet() const { return mTextureSet; }
+
+    /// The mesh's triangles for a BLAS, undeformed.
+    [[nodiscard]] std::vector<gpu::TriangleGeometry> describeTriangles(uint32_t mesh) const;
 
     /// Builds every mesh's BLAS the first time. Candidates of blended geometries are shown to the
     /// shader, which passes or takes them.
@@ -82,6 +92,8 @@ class GpuScene {
     gpu::Buffer mVertices;
     gpu::Buffer mIndices;
     gpu::Buffer mGeometries;
+    std::vector<shader::Geometry> mGeometryRows;
+    DeformSources mDeformSources;
     gpu::Buffer mMaterials;
     std::vector<gpu::Image> mTextures;
     std::vector<VkSampler> mSamplers;
@@ -90,8 +102,7 @@ class GpuScene {
     VkDescriptorSet mTextureSet = VK_NULL_HANDLE;
     std::vector<gpu::AccelerationStructure> mBottomLevels;
     std::vector<gpu::AccelerationStructure> mMeshScenes;
-    std::vector<uint32_t> mFirstVertex;  ///< one a geometry
-    std::vector<uint32_t> mVertexCounts; ///< one a geometry
+    std::vector<uint32_t> mFirstVertex; ///< one a geometry
     bool mBottomLevelsBuilt = false;
 };
 

@@ -23,11 +23,32 @@ gpu::Instance describeInstance(const GpuScene& scene, uint32_t mesh) {
     return instance;
 }
 
+gpu::Instance describeInstance(const GpuScene& scene, const BentInstance& bent) {
+    gpu::Instance instance = describeInstance(scene, bent.mesh);
+    instance.bottomLevel = bent.bottomLevel;
+    instance.flipFacing = bent.mirrored;
+    return instance;
+}
+
 void InstanceList::add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3]) {
     if (!mScene.bottomLevel(mesh))
         return;
     gpu::Instance instance = describeInstance(mScene, mesh);
     instance.customIndex = row;
+    place(instance, mScene.layout().bounds[mesh], eyeFromObject);
+}
+
+void InstanceList::add(const BentInstance& bent, const math::vec4 (&eyeFromObject)[3]) {
+    if (bent.bottomLevel == 0)
+        return;
+    gpu::Instance instance = describeInstance(mScene, bent);
+    instance.customIndex = bent.row;
+    place(instance, bent.bounds, eyeFromObject);
+}
+
+void InstanceList::place(
+    gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]
+) {
     math::dmat4 matrix(1.0);
     for (int r = 0; r < 3; ++r)
         for (int column = 0; column < 4; ++column) {
@@ -36,8 +57,8 @@ void InstanceList::add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromOb
         }
     if (!isDrawable(matrix))
         return;
-    const math::Bounds bounds = math::transformBounds(matrix, mScene.layout().bounds[mesh]);
-    add(instance, {math::vec3(bounds.min), math::vec3(bounds.max)});
+    const math::Bounds placed = math::transformBounds(matrix, bounds);
+    add(instance, {math::vec3(placed.min), math::vec3(placed.max)});
 }
 
 void InstanceList::add(const gpu::Instance& instance, const Box& box) {

@@ -14,6 +14,15 @@
 
 namespace shutter::render {
 
+/// An entity whose mesh is bent.
+struct BentInstance {
+    uint32_t row = 0;
+    uint32_t mesh = 0;
+    bool mirrored = false;           ///< its vertices' winding is turned round
+    VkDeviceAddress bottomLevel = 0; ///< of its shape; 0: left out
+    math::Bounds bounds;             ///< object space
+};
+
 /// Instances and the boxes to order them by.
 class InstanceList {
   public:
@@ -22,12 +31,16 @@ class InstanceList {
     /// Leaves out meshes that no ray can meet and matrices that are singular or not finite.
     /// \param eyeFromObject rows of a 3x4 matrix
     void add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3]);
+    void add(const BentInstance& bent, const math::vec4 (&eyeFromObject)[3]);
     void add(const gpu::Instance& instance, const Box& box);
 
     /// In an order that builders which keep it make a good tree of.
     [[nodiscard]] std::vector<gpu::Instance> order() const;
 
   private:
+    void
+    place(gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]);
+
     const GpuScene& mScene;
     std::vector<gpu::Instance> mInstances;
     std::vector<Box> mBoxes;
@@ -35,5 +48,6 @@ class InstanceList {
 
 /// Culling and mask of a mesh's instances; placed at the origin.
 [[nodiscard]] gpu::Instance describeInstance(const GpuScene& scene, uint32_t mesh);
+[[nodiscard]] gpu::Instance describeInstance(const GpuScene& scene, const BentInstance& bent);
 
 } // namespace shutter::render

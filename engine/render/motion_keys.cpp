@@ -18,10 +18,6 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-constexpr uint32_t kProbeIntervals = 16;
-/// Share of an interval, next to no simple fraction (the golden section): there a motion shows
-/// whose period fits the other places.
-constexpr double kOddPlace = 0.381966011250105;
 /// Of single precision, relative: a few roundings of a matrix product.
 constexpr double kFloatNoise = 4.0 * std::numeric_limits<float>::epsilon();
 
@@ -38,22 +34,6 @@ double measureDistance(const dvec3& point, const Bounds& bounds) {
 
 dmat4 mix(const dmat4& a, const dmat4& b, double t) {
     return a * (1.0 - t) + b * t;
-}
-
-/// Largest distance between the corners of `bounds` under two affine maps.
-double measureDeviation(const dmat4& a, const dmat4& b, const Bounds& bounds) {
-    const dmat4 difference = a - b; // w is 0: the maps are affine
-    double largest = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const dvec4 point(
-            corner & 1 ? bounds.max.x : bounds.min.x,
-            corner & 2 ? bounds.max.y : bounds.min.y,
-            corner & 4 ? bounds.max.z : bounds.min.z,
-            1.0
-        );
-        largest = std::max(largest, glm::length(dvec3(difference * point)));
-    }
-    return largest;
 }
 
 std::vector<shader::MotionKey> sampleKeys(const MatrixAt& matrixAt, uint32_t intervals) {
@@ -89,6 +69,21 @@ bool follows(
 }
 
 } // namespace
+
+double measureDeviation(const dmat4& a, const dmat4& b, const Bounds& bounds) {
+    const dmat4 difference = a - b; // w is 0: the maps are affine
+    double largest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec4 point(
+            corner & 1 ? bounds.max.x : bounds.min.x,
+            corner & 2 ? bounds.max.y : bounds.min.y,
+            corner & 4 ? bounds.max.z : bounds.min.z,
+            1.0
+        );
+        largest = std::max(largest, glm::length(dvec3(difference * point)));
+    }
+    return largest;
+}
 
 shader::MotionKey makeKey(const dmat4& matrix) {
     shader::MotionKey key;

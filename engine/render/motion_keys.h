@@ -23,6 +23,12 @@ inline constexpr uint32_t kMaxKeyIntervals = 1024;
 /// Deviations up to this share of a pixel are let be.
 inline constexpr double kKeyTolerancePx = 1.0 / 64.0;
 
+/// Motion is looked at at both ends of so many intervals, and at an odd place of each.
+inline constexpr uint32_t kProbeIntervals = 16;
+/// Share of an interval, next to no simple fraction (the golden section): there a motion shows
+/// whose period fits the other places.
+inline constexpr double kOddPlace = 0.381966011250105;
+
 /// eyeFromObject at shutter time s in [0, 1].
 using MatrixAt = std::function<math::dmat4(double s)>;
 
@@ -61,6 +67,10 @@ struct KeyTolerance {
 
 /// The matrix a shader interpolates at s in [0, 1].
 [[nodiscard]] math::dmat4 interpolateKeys(std::span<const shader::MotionKey> keys, double s);
+
+/// Largest distance between the corners of `bounds` under two affine maps.
+[[nodiscard]] double
+measureDeviation(const math::dmat4& a, const math::dmat4& b, const math::Bounds& bounds);
 
 [[nodiscard]] shader::MotionKey makeKey(const math::dmat4& matrix);
 [[nodiscard]] math::dmat4 expandKey(const shader::MotionKey& key);

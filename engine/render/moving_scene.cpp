@@ -29,9 +29,39 @@ class TableLayout {
 
 } // namespace
 
-VkDeviceAddress MovingScene::upload(
-    const MovingTables& tables, const ExtractedFrame& frame, const GpuScene& scene
-) {
+const std::vector<shader::Geometry>&
+MovingScene::prepareShapes(const MovingTables& tables, const GpuScene& scene) {
+    mShapes.update(tables.shapes, scene);
+    return mShapes.rows();
+}
+
+std::vector<shader::MovingRow> MovingScene::makeRows(
+    const MovingTables& tables,
+    const ExtractedFrame& frame,
+    const GpuScene& scene,
+    uint32_t firstShapeGeometry
+) const {
+    std::vector<shader::MovingRow> rows(tables.rows.size());
+    for (size_t i = 0; i < rows.size(); ++i) {
+        rows[i].keyCount = static_cast<uint32_t>(tables.rows[i].keys.size());
+        rows[i].firstGeometry = frame.entities[i].firstGeometry;
+        rows[i].shapeKeyCount = 1;
+        rows[i].handedness = 1.0f;
+    }
+    for (const uint32_t row : tables.moving)
+        rows[row].meshScene = splitAddress(scene.meshScene(frame.entityMeshes[row]).address());
+    for (size_t i = 0; i < tables.shapes.size(); ++i) {
+        shader::MovingRow& row = rows[tables.shapes[i].row];
+        row.firstGeometry = firstShapeGeometry + mShapes[i].firstRow;
+        row.shapeKeyCount = mShapes[i].keyCount;
+        row.meshScene = splitAddress(mShapes[i].scene);
+        row.handedness = tables.shapes[i].mirrored ? -1.0f : 1.0f;
+    }
+    return rows;
+}
+
+VkDeviceAddress
+MovingScene::upload(const MovingTables& tables, std::vector<shader::MovingRow> rows) {
     std::vector<shader::MotionKey> keys = tables.camera.keys;
     std::vector<size_t> firstKey;
     for (const MotionKeys& row : tables.rows) {
@@ -54,14 +84,8 @@ VkDeviceAddress MovingScene::upload(
         );
     const VkDeviceAddress base = mTables.address();
 
-    std::vector<shader::MovingRow> rows(tables.rows.size());
-    for (size_t i = 0; i < rows.size(); ++i) {
+    for (size_t i = 0; i < rows.size(); ++i)
         rows[i].keys = splitAddress(base + keysAt + firstKey[i] * sizeof(shader::MotionKey));
-        rows[i].keyCount = static_cast<uint32_t>(tables.rows[i].keys.size());
-        rows[i].firstGeometry = frame.entities[i].firstGeometry;
-    }
-    for (const uint32_t row : tables.moving)
-        rows[row].meshScene = splitAddress(scene.meshScene(frame.entityMeshes[row]).address());
 
     shader::MovingConstants constants{};
     constants.view = tables.view;
@@ -116,47 +140,72 @@ void MovingScene::declareBuilds(graph::Graph& graph, bool anyMoves, MovingRays& 
     rays.boxesBuffer = boxes;
 }
 
+std::vector<gpu::Instance> MovingScene::listInstances(
+    const MovingTables& tables, const ExtractedFrame& frame, const GpuScene& scene
+) {
+    InstanceList instances(scene);
+    size_t nextShape = 0;
+    for (uint32_t row = 0; row < tables.rows.size(); ++row) {
+        const std::vector<shader::MotionKey>& keys = tables.rows[row].keys;
+        const bool bent = nextShape < tables.shapes.size() && tables.shapes[nextShape].row == row;
+        const size_t shape = nextShape;
+        nextShape += bent;
+        if (keys.size() > 1)
+            continue;
+        if (!bent) {
+            instances.add(row, frame.entityMeshes[row], keys[0].rows);
+        } else if (!tables.shapes[shape].changes()) {
+            const MovingShape& still = tables.shapes[shape];
+            instances.add(
+                BentInstance{row, still.mesh, still.mirrored, mShapes[shape].level, still.bounds},
+                keys[0].rows
+            );
+        }
+    }
+    if (tables.moving.empty())
+        return instances.order();
+
+    std::vector<gpu::BoxGeometry> boxes;
+    Box all = tables.boxes.front();
+    for (const Box& box : tables.boxes) {
+        boxes.push_back({{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
+        all.min = glm::min(all.min, box.min);
+        all.max = glm::max(all.max, box.max);
+    }
+    mBoxes.prepare(mDevice, boxes);
+    gpu::Instance instance{};
+    for (int i = 0; i < 3; ++i)
+        instance.worldFromObject[i][i] = 1.0f;
+    instance.bottomLevel = mBoxes.structure().address();
+    instances.add(instance, all);
+    return instances.order();
+}
+
 MovingRays MovingScene::declare(
     graph::Graph& graph,
     const MovingTables& tables,
     const ExtractedFrame& frame,
     GpuScene& scene,
+    uint32_t firstShapeGeometry,
     VkDeviceAddress frameConstants
 ) {
     scene.buildBottomLevels();
+    std::vector<bool> bent(tables.rows.size(), false);
+    for (const MovingShape& shape : tables.shapes)
+        bent[shape.row] = true;
     std::vector<uint32_t> meshes;
     for (const uint32_t row : tables.moving)
-        meshes.push_back(frame.entityMeshes[row]);
+        if (!bent[row])
+            meshes.push_back(frame.entityMeshes[row]);
     scene.buildMeshScenes(meshes);
-
-    InstanceList instances(scene);
-    for (uint32_t row = 0; row < tables.rows.size(); ++row)
-        if (tables.rows[row].keys.size() == 1)
-            instances.add(row, frame.entityMeshes[row], tables.rows[row].keys[0].rows);
-    const bool anyMoves = !tables.moving.empty();
-    if (anyMoves) {
-        std::vector<gpu::BoxGeometry> boxes;
-        Box all = tables.boxes.front();
-        for (const Box& box : tables.boxes) {
-            boxes.push_back({{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
-            all.min = glm::min(all.min, box.min);
-            all.max = glm::max(all.max, box.max);
-        }
-        mBoxes.prepare(mDevice, boxes);
-        gpu::Instance instance{};
-        for (int i = 0; i < 3; ++i)
-            instance.worldFromObject[i][i] = 1.0f;
-        instance.bottomLevel = mBoxes.structure().address();
-        instances.add(instance, all);
-    }
-    mTopLevel.prepare(mDevice, instances.order());
+    mTopLevel.prepare(mDevice, listInstances(tables, frame, scene));
 
     MovingRays rays;
     rays.topLevel = mTopLevel.structure().handle();
     rays.textures = scene.textureSet();
     rays.frameConstants = frameConstants;
-    rays.movingConstants = upload(tables, frame, scene);
-    declareBuilds(graph, anyMoves, rays);
+    rays.movingConstants = upload(tables, makeRows(tables, frame, scene, firstShapeGeometry));
+    declareBuilds(graph, !tables.moving.empty(), rays);
     return rays;
 }
 

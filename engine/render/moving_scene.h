@@ -8,32 +8,51 @@
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/graph/graph.h"
 #include "engine/render/gpu_scene.h"
+#include "engine/render/moving_shapes.h"
 #include "engine/render/moving_tables.h"
 #include "engine/render/post_effect.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace shutter::render {
 
 class MovingScene {
   public:
-    explicit MovingScene(gpu::Device& device) : mDevice(device) {}
+    explicit MovingScene(gpu::Device& device) : mDevice(device), mShapes(device) {}
+
+    /// Bends what bends; to be called before declare(). The GPU must be done with the last frame's.
+    /// \return rows for the frame's geometry table, to stand one behind the other
+    [[nodiscard]] const std::vector<shader::Geometry>&
+    prepareShapes(const MovingTables& tables, const GpuScene& scene);
 
     /// Uploads the tables and declares the builds. The GPU must be done with the last frame's.
     /// \param tables computed with `frame`
+    /// \param firstShapeGeometry where the rows of prepareShapes() stand in the geometry table
     [[nodiscard]] MovingRays declare(
         graph::Graph& graph,
         const MovingTables& tables,
         const ExtractedFrame& frame,
         GpuScene& scene,
+        uint32_t firstShapeGeometry,
         VkDeviceAddress frameConstants
     );
 
   private:
-    VkDeviceAddress
-    upload(const MovingTables& tables, const ExtractedFrame& frame, const GpuScene& scene);
+    [[nodiscard]] std::vector<shader::MovingRow> makeRows(
+        const MovingTables& tables,
+        const ExtractedFrame& frame,
+        const GpuScene& scene,
+        uint32_t firstShapeGeometry
+    ) const;
+    VkDeviceAddress upload(const MovingTables& tables, std::vector<shader::MovingRow> rows);
+    [[nodiscard]] std::vector<gpu::Instance>
+    listInstances(const MovingTables& tables, const ExtractedFrame& frame, const GpuScene& scene);
     void declareBuilds(graph::Graph& graph, bool anyMoves, MovingRays& rays);
 
     gpu::Device& mDevice;
     gpu::Buffer mTables; ///< constants, rows, keys, lights of the frame, mapped
+    MovingShapes mShapes;
     gpu::BoxLevel mBoxes;
     gpu::TopLevel mTopLevel;
 };

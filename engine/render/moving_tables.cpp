@@ -21,6 +21,8 @@ constexpr uint32_t kPathIntervals = 16;
 /// Boxes grow by this much of their largest coordinate: rounding of keys and of the ray's way into
 /// object space must not leave a surface outside of its box.
 constexpr double kBoxGrowth = 1.0e-5;
+/// Of a triangle between two keys: its box, its place in an acceleration structure, and scratch.
+constexpr uint64_t kBytesPerBox = 24 + 200;
 /// Deviation of a light's place, of the length of its way, and of its direction, radians.
 constexpr double kLightTolerance = 1.0e-3;
 
@@ -59,6 +61,8 @@ class Builder {
         if (core::Status added = addHiddenEntities(); !added)
             return added.error();
         addLights();
+        if (core::Status fits = checkShapes(); !fits)
+            return fits.error();
         collectMoving();
         return std::move(mTables);
     }
@@ -98,17 +102,71 @@ class Builder {
             );
     }
 
-    MotionKeys computeRow(size_t row) const {
+    MotionKeys computeRow(size_t row) {
+        if (mNextDeformed < mFrame.deformed.size() && mFrame.deformed[mNextDeformed].row == row)
+            return computeBentRow(mFrame.deformed[mNextDeformed++]);
         const ecs::Entity entity = mFrame.entityHandles[row];
         const Bounds& bounds = mLayout.bounds[mFrame.entityMeshes[row]];
         if (mMotion.mayObjectMove(entity))
             if (auto keys = computeKeys(entity, bounds))
                 return std::move(*keys);
+        return holdStill(row, bounds);
+    }
+
+    MotionKeys holdStill(size_t row, const Bounds& bounds) const {
         MotionKeys still;
         const auto& matrix = mFrame.entities[row].eyeFromObject;
         still.keys = {{{matrix[0], matrix[1], matrix[2]}}};
         still.swept = math::transformBounds(expandKey(still.keys[0]), bounds);
         return still;
+    }
+
+    MotionKeys computeBentRow(const DeformedEntity& drawn) {
+        const ecs::Entity entity = mFrame.entityHandles[drawn.row];
+        auto bent = computeBentKeys(entity, drawn.mesh);
+        if (!bent) {
+            addShape(drawn.row, drawn.mesh, {{drawn.raster}, drawn.bounds, true});
+            return holdStill(drawn.row, drawn.bounds);
+        }
+        const Bounds bounds = bent->shape.swept;
+        addShape(drawn.row, drawn.mesh, std::move(bent->shape));
+        return mMotion.mayObjectMove(entity) ? std::move(bent->object)
+                                             : holdStill(drawn.row, bounds);
+    }
+
+    std::optional<BentMotion> computeBentKeys(ecs::Entity entity, uint32_t mesh) const {
+        ShapeAt shapeAt = [&, entity](double s) { return mMotion.deformationAt(entity, s); };
+        if (!mMotion.mayDeform(entity)) {
+            const auto still = mMotion.deformationAt(entity, mMotion.exposure().rasterShare);
+            shapeAt = [still](double) { return still; };
+        }
+        return computeBentMotion(
+            [&](double s) { return objectAt(entity, s); },
+            shapeAt,
+            mLayout.reaches.at(mesh),
+            mTolerance
+        );
+    }
+
+    void addShape(uint32_t row, uint32_t mesh, ShapeKeys shape) {
+        const bool mirrored = isMirrored(shape.keys.front());
+        mTables.shapes.push_back({row, mesh, std::move(shape.keys), shape.swept, mirrored});
+    }
+
+    /// Nothing where it is nowhere to be met, or the same at all times.
+    std::optional<MotionKeys> computeHiddenRow(ecs::Entity entity, uint32_t row, uint32_t mesh) {
+        const bool deformable = scene::isDeformable(mWorld, entity);
+        if (!mMotion.mayObjectMove(entity) && !(deformable && mMotion.mayDeform(entity)))
+            return std::nullopt;
+        if (!deformable) {
+            auto keys = computeKeys(entity, mLayout.bounds[mesh]);
+            return keys && keys->keys.size() > 1 ? std::move(keys) : std::nullopt;
+        }
+        auto bent = computeBentKeys(entity, mesh);
+        if (!bent || (bent->object.keys.size() == 1 && bent->shape.keys.size() == 1))
+            return std::nullopt;
+        addShape(row, mesh, std::move(bent->shape));
+        return std::move(bent->object);
     }
 
     std::optional<MotionKeys> computeKeys(ecs::Entity entity, const Bounds& bounds) const {
@@ -125,11 +183,11 @@ class Builder {
             }
             const Bounds& bounds = mLayout.bounds[instance.mesh];
             const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];
-            if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1] ||
-                !mMotion.mayObjectMove(entity))
+            if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1])
                 continue;
-            auto keys = computeKeys(entity, bounds);
-            if (!keys || keys->keys.size() == 1)
+            const auto index = static_cast<uint32_t>(mFrame.entities.size());
+            auto keys = computeHiddenRow(entity, index, instance.mesh);
+            if (!keys)
                 continue;
             if (mFrame.entities.size() >= kMaxEntities)
                 return core::makeError(
@@ -205,6 +263,32 @@ class Builder {
                 mTables.lights.push_back(lightAt(i, double(key) / intervals));
     }
 
+    core::Status checkShapes() const {
+        uint64_t bytes = 0;
+        size_t mostKeys = 0;
+        for (const MovingShape& shape : mTables.shapes) {
+            mostKeys = std::max(mostKeys, shape.keys.size());
+            for (uint32_t geometry = mLayout.firstGeometry[shape.mesh];
+                 geometry < mLayout.firstGeometry[shape.mesh + 1];
+                 ++geometry) {
+                const SceneLayout::GeometryInfo& info = mLayout.geometries[geometry];
+                bytes += shape.keys.size() * info.vertexCount * sizeof(shader::Vertex);
+                bytes += (shape.keys.size() - 1) * (info.indexCount / 3) * kBytesPerBox;
+            }
+        }
+        if (bytes > kMaxShapeBytes)
+            return core::makeError(
+                "{} skinned or morphed entities with up to {} shapes each need {} MiB for rays "
+                "that "
+                "each have their own time, more than the {} MiB there may be: shorten the exposure",
+                mTables.shapes.size(),
+                mostKeys,
+                bytes >> 20,
+                kMaxShapeBytes >> 20
+            );
+        return {};
+    }
+
     bool hasTriangles(uint32_t row) const {
         const uint32_t mesh = mFrame.entityMeshes[row];
         const auto begin = mLayout.geometries.begin();
@@ -218,9 +302,13 @@ class Builder {
     void collectMoving() {
         std::vector<uint32_t> rows;
         std::vector<Box> boxes;
+        std::vector<bool> bends(mTables.rows.size(), false);
+        for (const MovingShape& shape : mTables.shapes)
+            bends[shape.row] = shape.changes();
         for (uint32_t row = 0; row < mTables.rows.size(); ++row) {
             const MotionKeys& keys = mTables.rows[row];
-            if (keys.keys.size() == 1 || !isFiniteBox(keys.swept) || !hasTriangles(row))
+            if ((keys.keys.size() == 1 && !bends[row]) || !isFiniteBox(keys.swept) ||
+                !hasTriangles(row))
                 continue;
             rows.push_back(row);
             boxes.push_back(growBox(keys.swept));
@@ -240,6 +328,7 @@ class Builder {
     dvec3 mOrigin{0.0};
     KeyTolerance mTolerance;
     MovingTables mTables;
+    size_t mNextDeformed = 0; ///< of ExtractedFrame::deformed
 };
 
 } // namespace

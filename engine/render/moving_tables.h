@@ -5,6 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/render/extraction.h"
 #include "engine/render/motion_keys.h"
+#include "engine/render/shape_keys.h"
 #include "engine/render/spatial_order.h"
 
 #include <cstdint>
@@ -15,8 +16,23 @@ namespace shutter::render {
 /// Most intervals between two tables of lights.
 inline constexpr uint32_t kMaxLightIntervals = 256;
 
+/// Most memory that the shapes of a frame may take on the device, bytes.
+inline constexpr uint64_t kMaxShapeBytes = uint64_t{1} << 30;
+
+/// A bent mesh over the exposure.
+struct MovingShape {
+    uint32_t row = 0;
+    uint32_t mesh = 0;
+    std::vector<scene::Deformation> keys; ///< as ShapeKeys::keys
+    math::Bounds bounds;                  ///< object space, over the whole exposure
+    bool mirrored = false;                ///< the joints turn the winding round
+
+    [[nodiscard]] bool changes() const { return keys.size() > 1; }
+};
+
 struct MovingTables {
     std::vector<MotionKeys> rows;         ///< beside ExtractedFrame::entities
+    std::vector<MovingShape> shapes;      ///< of the rows whose mesh is bent, in their order
     MotionKeys camera;                    ///< eyeFromView
     math::vec4 view{0.0f};                ///< MovingConstants::view
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
@@ -28,7 +44,7 @@ struct MovingTables {
 /// Keys of all that `frame` was extracted from. An entity that cannot be drawn at the raster
 /// instant but can at another (scaled to nothing for a while, say) gets a row of its own behind the
 /// others: no pixel of the raster image has its id, rays may meet it. Error: the world has more
-/// entities than the table can hold.
+/// entities than the table can hold, or the shapes need more than kMaxShapeBytes.
 [[nodiscard]] core::Result<MovingTables> computeMovingTables(
     const scene::World& world,
     const SceneLayout& layout,

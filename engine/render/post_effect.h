@@ -34,6 +34,10 @@ struct Decision {
 /// What rays need; handles of this frame.
 struct RayScene {
     graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
+    /// Levels of bent meshes, read with AccelerationRead, and their vertices, read with ShaderRead;
+    /// invalid where nothing is bent.
+    graph::BufferHandle shapeLevelsBuffer;
+    graph::BufferHandle shapesBuffer;
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
     VkDescriptorSet textures = VK_NULL_HANDLE;
     VkDeviceAddress frameConstants = 0;
@@ -44,6 +48,9 @@ struct RayScene {
 struct MovingRays {
     graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
     graph::BufferHandle boxesBuffer;    ///< the same, unless it is invalid: then nothing moves
+    /// Vertices of bent meshes at the raster instant, open and close (where their motion is told
+    /// from); read it with Access::ShaderRead, unless it is invalid: then nothing is bent.
+    graph::BufferHandle shapesBuffer;
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
     VkDescriptorSet textures = VK_NULL_HANDLE;
     VkDeviceAddress frameConstants = 0;

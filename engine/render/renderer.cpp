@@ -59,13 +59,20 @@ std::vector<PostEffect*> askEffects(
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
-      mPool(device), mReadback(device), mMovingScene(device) {}
+      mPool(device), mReadback(device), mDeformation(device), mShapeLevels(device),
+      mMovingScene(device) {}
 
-VkDeviceAddress Renderer::uploadTables(ExtractedFrame& frame) {
+VkDeviceAddress
+Renderer::uploadTables(ExtractedFrame& frame, std::span<const shader::Geometry> bent) {
+    const std::span<const shader::Geometry> own = mScene.geometryRows();
     const VkDeviceSize entitiesAt = alignTable(sizeof(shader::FrameConstants));
     const VkDeviceSize entityBytes = frame.entities.size() * sizeof(shader::EntityRow);
     const VkDeviceSize lightsAt = entitiesAt + alignTable(entityBytes);
-    const VkDeviceSize total = lightsAt + frame.lights.size() * sizeof(shader::LightRow);
+    const VkDeviceSize geometriesAt =
+        lightsAt + alignTable(frame.lights.size() * sizeof(shader::LightRow));
+    const VkDeviceSize total =
+        bent.empty() ? geometriesAt
+                     : geometriesAt + (own.size() + bent.size()) * sizeof(shader::Geometry);
     if (mTables.bytes() < total)
         mTables = gpu::Buffer(
             mDevice,
@@ -76,19 +83,39 @@ VkDeviceAddress Renderer::uploadTables(ExtractedFrame& frame) {
         );
     frame.constants.entities = splitAddress(mTables.address() + entitiesAt);
     frame.constants.lights = splitAddress(mTables.address() + lightsAt);
-    frame.constants.geometries = splitAddress(mScene.geometryTable());
+    frame.constants.geometries =
+        splitAddress(bent.empty() ? mScene.geometryTable() : mTables.address() + geometriesAt);
     frame.constants.materials = splitAddress(mScene.materialTable());
     mTables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
     mTables.write(std::span<const shader::EntityRow>(frame.entities), entitiesAt);
     mTables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    if (!bent.empty()) {
+        mTables.write(own, geometriesAt);
+        mTables.write(bent, geometriesAt + own.size_bytes());
+    }
     return mTables.address();
 }
 
-void Renderer::declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays) {
+void Renderer::declareTopLevel(
+    graph::Graph& graph, const ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
+) {
     mScene.buildBottomLevels();
+    rays.shapesBuffer = shapes.buffer;
+    rays.shapeLevelsBuffer = mShapeLevels.declare(graph, frame, mScene, shapes);
     InstanceList instances(mScene);
-    for (uint32_t row = 0; row < frame.entities.size(); ++row)
-        instances.add(row, frame.entityMeshes[row], frame.entities[row].eyeFromObject);
+    size_t nextDeformed = 0;
+    for (uint32_t row = 0; row < frame.entities.size(); ++row) {
+        const auto& eyeFromObject = frame.entities[row].eyeFromObject;
+        if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
+            instances.add(row, frame.entityMeshes[row], eyeFromObject);
+            continue;
+        }
+        const DeformedEntity& bent = frame.deformed[nextDeformed];
+        const VkDeviceAddress level = mShapeLevels.address(nextDeformed++);
+        instances.add(
+            BentInstance{row, bent.mesh, bent.mirrored, level, bent.bounds}, eyeFromObject
+        );
+    }
     mTopLevel.prepare(mDevice, instances.order());
     rays.topLevel = mTopLevel.structure().handle();
     const auto imported =
@@ -100,6 +127,8 @@ void Renderer::declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame,
         "build top level",
         graph::PassKind::Build,
         [&](graph::PassBuilder& builder, Data&) {
+            if (rays.shapeLevelsBuffer.isValid())
+                builder.read(rays.shapeLevelsBuffer, graph::Access::AccelerationRead);
             rays.topLevelBuffer = builder.write(imported, graph::Access::AccelerationBuild);
         },
         [this](const Data&, graph::PassContext& context) {
@@ -172,19 +201,36 @@ Renderer::Tickets Renderer::declareFrame(
     const MovingTables* moving,
     std::span<PostEffect* const> running
 ) {
+    const DeformedShapes shapes = mDeformation.declare(graph, frame, mScene);
+    std::vector<shader::Geometry> bent = shapes.rows;
+    const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
+    if (moving) {
+        const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
+        bent.insert(bent.end(), keyed.begin(), keyed.end());
+    }
     RayScene rays;
-    rays.frameConstants = uploadTables(frame);
+    rays.frameConstants = uploadTables(frame, bent);
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
     const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
         return effect->needsRays();
     });
     if (raysWanted)
-        declareTopLevel(graph, frame, rays);
+        declareTopLevel(graph, frame, shapes, rays);
     MovingRays movingRays;
-    if (moving)
-        movingRays = mMovingScene.declare(graph, *moving, frame, mScene, rays.frameConstants);
-    const GBuffer gbuffer = mGBufferPass.declare(graph, frame, mScene, rays.frameConstants);
+    if (moving) {
+        movingRays = mMovingScene.declare(
+            graph,
+            *moving,
+            frame,
+            mScene,
+            static_cast<uint32_t>(firstShapeGeometry),
+            rays.frameConstants
+        );
+        movingRays.shapesBuffer = shapes.buffer;
+    }
+    const GBuffer gbuffer =
+        mGBufferPass.declare(graph, frame, mScene, shapes.buffer, rays.frameConstants);
     Intermediates intermediates(request.intermediates);
     publishGBuffer(gbuffer, intermediates);
     PostContext context{

@@ -6,12 +6,14 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/transient_pool.h"
 #include "engine/image/image.h"
+#include "engine/render/deformation_pass.h"
 #include "engine/render/extraction.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/gpu_scene.h"
 #include "engine/render/moving_scene.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
+#include "engine/render/shape_levels.h"
 
 #include <map>
 #include <memory>
@@ -78,8 +80,14 @@ class Renderer {
         const MovingTables* moving,
         std::span<PostEffect* const> running
     );
-    VkDeviceAddress uploadTables(ExtractedFrame& frame);
-    void declareTopLevel(graph::Graph& graph, const ExtractedFrame& frame, RayScene& rays);
+    /// \param bent geometries that stand behind the scene's own
+    VkDeviceAddress uploadTables(ExtractedFrame& frame, std::span<const shader::Geometry> bent);
+    void declareTopLevel(
+        graph::Graph& graph,
+        const ExtractedFrame& frame,
+        const DeformedShapes& shapes,
+        RayScene& rays
+    );
     void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
 
     gpu::Device& mDevice;
@@ -88,7 +96,10 @@ class Renderer {
     gpu::Frame mFrame;
     graph::TransientPool mPool;
     Readback mReadback;
-    gpu::Buffer mTables; ///< constants, entities and lights of the frame, mapped
+    /// Constants, entities, lights and, where meshes are bent, geometries of the frame, mapped.
+    gpu::Buffer mTables;
+    DeformationPass mDeformation;
+    ShapeLevels mShapeLevels;
     gpu::TopLevel mTopLevel;
     MovingScene mMovingScene;
 };

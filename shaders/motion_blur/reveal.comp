@@ -46,10 +46,10 @@ Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
     ShadedHit shaded =
         shadeHit(frame, placement, rayHit.id, direction, vec3(0.0f), lightsAtRaster(frame));
     EntityTable entities = EntityTable(frame.value.entities);
-    vec4 position = vec4(shaded.objectPosition, 1.0f);
-    vec4 open = entities.rows[rayHit.id.entity].clipFromObjectOpen * position;
-    vec4 visible = entities.rows[rayHit.id.entity].clipFromObjectRaster * position;
-    vec4 close = entities.rows[rayHit.id.entity].clipFromObjectClose * position;
+    PointPath path = fetchPath(frame, rayHit.id, shaded.objectPosition);
+    vec4 open = entities.rows[rayHit.id.entity].clipFromObjectOpen * vec4(path.open, 1.0f);
+    vec4 visible = entities.rows[rayHit.id.entity].clipFromObjectRaster * vec4(path.raster, 1.0f);
+    vec4 close = entities.rows[rayHit.id.entity].clipFromObjectClose * vec4(path.close, 1.0f);
     vec2 motion = motionFromClip(
         open.xyw, close.xyw, visible.xyw, frame.value.forward.w, frame.value.sizePx
     );

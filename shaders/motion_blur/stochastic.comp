@@ -18,13 +18,13 @@ layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D uNoisy;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D uMotionDepth;
 
 vec2 motionOf(FrameRef frame, DistributedSample seen, vec2 centre) {
-    if (seen.entity == kNoEntity)
+    if (seen.id.entity == kNoEntity)
         return skyMotion(frame, centre, makeViewRay(frame, centre).direction);
     EntityTable entities = EntityTable(frame.value.entities);
-    vec4 position = vec4(seen.objectPosition, 1.0f);
-    vec4 open = entities.rows[seen.entity].clipFromObjectOpen * position;
-    vec4 raster = entities.rows[seen.entity].clipFromObjectRaster * position;
-    vec4 close = entities.rows[seen.entity].clipFromObjectClose * position;
+    PointPath path = fetchPath(frame, seen.id, seen.objectPosition);
+    vec4 open = entities.rows[seen.id.entity].clipFromObjectOpen * vec4(path.open, 1.0f);
+    vec4 raster = entities.rows[seen.id.entity].clipFromObjectRaster * vec4(path.raster, 1.0f);
+    vec4 close = entities.rows[seen.id.entity].clipFromObjectClose * vec4(path.close, 1.0f);
     return motionFromClip(
         open.xyw, close.xyw, raster.xyw, frame.value.forward.w, frame.value.sizePx
     );

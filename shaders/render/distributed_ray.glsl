@@ -9,8 +9,8 @@
 
 struct DistributedSample {
     vec3 radiance;       // linear, blended surfaces composited over what is behind them
-    uint entity;         // row of the entity table, or kNoEntity. This and all below: of the first
-                         // surface that is not blended
+    HitId id;            // its entity is kNoEntity where nothing was met. This and all below: of the
+                         // first surface that is not blended
     float depth;         // metres along the view direction of that time; kSkyDepth: nothing
     vec3 normal;         // world axes, unit; 0: nothing
     vec3 objectPosition; // where on the entity, its own space
@@ -27,7 +27,7 @@ DistributedSample traceDistributed(
     LightSet lights = lightsAt(moving, s);
     DistributedSample result;
     result.radiance = vec3(0.0f);
-    result.entity = kNoEntity;
+    result.id = HitId(kNoEntity, 0u, 0u, vec2(0.0f));
     result.depth = kSkyDepth;
     result.normal = vec3(0.0f);
     result.objectPosition = vec3(0.0f);
@@ -51,7 +51,7 @@ DistributedSample traceDistributed(
         float share = last ? 1.0f : shaded.alpha;
         result.radiance += transmitted * share * shaded.color;
         if (last) {
-            result.entity = rayHit.id.entity;
+            result.id = rayHit.id;
             result.depth = dot(shaded.eyePosition - ray.eye, ray.forward);
             result.normal = shaded.normal;
             result.objectPosition = shaded.objectPosition;

@@ -21,8 +21,14 @@ void main() {
 
     vec4 position = vec4(vertex.positionU0.xyz, 1.0f);
     gl_Position = row.clipFromObjectRaster * position;
-    vec4 open = row.clipFromObjectOpen * position;
-    vec4 close = row.clipFromObjectClose * position;
+    vec4 positionOpen = position;
+    vec4 positionClose = position;
+    if ((geometry.openPositions.x | geometry.openPositions.y) != 0u) {
+        positionOpen = PositionArray(geometry.openPositions).values[gl_VertexIndex];
+        positionClose = PositionArray(geometry.closePositions).values[gl_VertexIndex];
+    }
+    vec4 open = row.clipFromObjectOpen * positionOpen;
+    vec4 close = row.clipFromObjectClose * positionClose;
     outClipOpen = open.xyw;
     outClipClose = close.xyw;
     Placement placement = placeAtRaster(frame, draw.entity);

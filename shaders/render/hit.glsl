@@ -24,6 +24,9 @@ struct Placement {
     vec4 eyeFromObject[3]; // rows of the 3x4 matrix
     float handedness;      // -1 where it mirrors, else 1
     uint firstGeometry;
+    bool bends;            // its shape changes: its vertices lie between two keys
+    uint firstKey;         // the earlier of them
+    float keyBlend;        // how far towards the later one, [0, 1]
 };
 
 Placement placeAtRaster(FrameRef frame, uint entity) {
@@ -32,6 +35,9 @@ Placement placeAtRaster(FrameRef frame, uint entity) {
     placement.eyeFromObject = entities.rows[entity].eyeFromObject;
     placement.handedness = entities.rows[entity].handedness;
     placement.firstGeometry = entities.rows[entity].firstGeometry;
+    placement.bends = false;
+    placement.firstKey = 0u;
+    placement.keyBlend = 0.0f;
     return placement;
 }
 
@@ -54,14 +60,69 @@ vec3 transformNormal(Placement placement, vec3 n) {
     return (cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z) * placement.handedness;
 }
 
+/// Where the vertex is that a ray meets.
+vec3 fetchPosition(Geometry geometry, Placement placement, uint index) {
+    VertexArray vertices = VertexArray(geometry.vertices);
+    if (!placement.bends) return vertices.values[index].positionU0.xyz;
+    uint near = placement.firstKey * geometry.vertexCount + index;
+    return mix(vertices.values[near].positionU0.xyz,
+               vertices.values[near + geometry.vertexCount].positionU0.xyz, placement.keyBlend);
+}
+
+Vertex fetchVertex(Geometry geometry, Placement placement, uint index) {
+    VertexArray vertices = VertexArray(geometry.vertices);
+    if (!placement.bends) return vertices.values[index];
+    uint near = placement.firstKey * geometry.vertexCount + index;
+    Vertex vertex = vertices.values[near];
+    Vertex next = vertices.values[near + geometry.vertexCount];
+    vertex.positionU0 = mix(vertex.positionU0, next.positionU0, placement.keyBlend);
+    vertex.normalV0 = mix(vertex.normalV0, next.normalV0, placement.keyBlend);
+    vertex.tangent = mix(vertex.tangent, next.tangent, placement.keyBlend);
+    return vertex;
+}
+
+/// Where a point of a triangle is in object space at shutter open, raster instant and close.
+struct PointPath {
+    vec3 open;
+    vec3 raster;
+    vec3 close;
+};
+
+vec3 interpolatePosition(uvec2 positions, uvec3 corners, vec3 w) {
+    PositionArray array = PositionArray(positions);
+    return array.values[corners.x].xyz * w.x + array.values[corners.y].xyz * w.y +
+           array.values[corners.z].xyz * w.z;
+}
+
+/// \param objectPosition of the point, where its shape stands still
+PointPath fetchPath(FrameRef frame, HitId id, vec3 objectPosition) {
+    uint first = EntityTable(frame.value.entities).rows[id.entity].firstGeometry;
+    Geometry geometry = GeometryTable(frame.value.geometries).rows[first + id.geometry];
+    if ((geometry.openPositions.x | geometry.openPositions.y) == 0u)
+        return PointPath(objectPosition, objectPosition, objectPosition);
+    IndexArray indices = IndexArray(geometry.indices);
+    uvec3 corners = uvec3(
+        indices.values[3u * id.primitive], indices.values[3u * id.primitive + 1u],
+        indices.values[3u * id.primitive + 2u]
+    );
+    vec3 w = vec3(1.0f - id.barycentrics.x - id.barycentrics.y, id.barycentrics);
+    VertexArray vertices = VertexArray(geometry.vertices);
+    PointPath path;
+    path.open = interpolatePosition(geometry.openPositions, corners, w);
+    path.raster = vertices.values[corners.x].positionU0.xyz * w.x +
+                  vertices.values[corners.y].positionU0.xyz * w.y +
+                  vertices.values[corners.z].positionU0.xyz * w.z;
+    path.close = interpolatePosition(geometry.closePositions, corners, w);
+    return path;
+}
+
 Hit fetchHit(FrameRef frame, Placement placement, HitId id) {
     GeometryTable geometries = GeometryTable(frame.value.geometries);
     Geometry geometry = geometries.rows[placement.firstGeometry + id.geometry];
     IndexArray indices = IndexArray(geometry.indices);
-    VertexArray vertices = VertexArray(geometry.vertices);
-    Vertex a = vertices.values[indices.values[3u * id.primitive]];
-    Vertex b = vertices.values[indices.values[3u * id.primitive + 1u]];
-    Vertex c = vertices.values[indices.values[3u * id.primitive + 2u]];
+    Vertex a = fetchVertex(geometry, placement, indices.values[3u * id.primitive]);
+    Vertex b = fetchVertex(geometry, placement, indices.values[3u * id.primitive + 1u]);
+    Vertex c = fetchVertex(geometry, placement, indices.values[3u * id.primitive + 2u]);
     vec3 w = vec3(1.0f - id.barycentrics.x - id.barycentrics.y, id.barycentrics);
 
     Hit hit;

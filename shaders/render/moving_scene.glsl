@@ -19,6 +19,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Ke
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BoxTable {
     uint rows[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShapeSceneTable {
+    uvec2 addresses[];
+};
 
 /// Which two of `count` uniform keys s lies between, and how far.
 void findKeys(uint count, float s, out uint first, out float blend) {
@@ -49,7 +52,11 @@ Placement placeAt(MovingRef moving, uint entity, float s) {
     Placement placement;
     placement.firstGeometry = table.rows[entity].firstGeometry;
     interpolate(table.rows[entity].keys, table.rows[entity].keyCount, s, placement.eyeFromObject);
-    placement.handedness = determinantOf(placement.eyeFromObject) < 0.0f ? -1.0f : 1.0f;
+    placement.handedness = table.rows[entity].handedness;
+    if (determinantOf(placement.eyeFromObject) < 0.0f) placement.handedness *= -1.0f;
+    uint shapeKeyCount = table.rows[entity].shapeKeyCount;
+    placement.bends = shapeKeyCount > 1u;
+    findKeys(shapeKeyCount, s, placement.firstKey, placement.keyBlend);
     return placement;
 }
 

@@ -19,8 +19,10 @@ struct MovingRow {
     uint keyCount;      // 1: it stands still; else uniform over s, both ends included
     uint firstGeometry; // as EntityRow's
     uvec2 meshScene;    // address of the mesh's own top level, object space; 0 where it stands still
-    uint padding0;
-    uint padding1;
+    uint shapeKeyCount; // 1: the shape stands still; else uniform over s, both ends included: then
+                        // meshScene is the address of uvec2[], a top level for each two keys, and
+                        // the geometries' Vertex[] hold one key's vertices behind the other's
+    float handedness;   // -1 where a mirrored skeleton turns the winding round, else 1
 };
 
 struct MovingConstants {

@@ -4,6 +4,7 @@
 #define SHUTTER_MOVING_TRACE_GLSL
 
 #include "render/moving_scene.glsl"
+#include "render/ray_triangle.glsl"
 #include "render/trace.glsl"
 
 /// What of the moving scene a ray is asked for.
@@ -15,51 +16,88 @@ struct MovingQuery {
     float tMax;
 };
 
-/// Nearest hit within one moving entity; `best` is replaced where there is one before it.
-void traceEntity(
-    FrameRef frame, MovingRef moving, uint entity, vec3 origin, vec3 direction, MovingQuery query,
-    inout RayHit best
-) {
-    Placement placement = placeAt(moving, entity, query.s);
+/// A ray in the space of one entity at the ray's own time.
+struct ObjectRay {
+    bool exists; // false: scaled to nothing at this instant, or NaN: the entity is not there
+    vec3 origin;
+    vec3 direction; // of any length: t means the same in both spaces
+};
+
+ObjectRay makeObjectRay(Placement placement, vec3 origin, vec3 direction) {
     vec4 rows[3] = placement.eyeFromObject;
     // Columns of the inverse are cross products of the rows over the determinant.
     vec3 c0 = cross(rows[1].xyz, rows[2].xyz);
     vec3 c1 = cross(rows[2].xyz, rows[0].xyz);
     vec3 c2 = cross(rows[0].xyz, rows[1].xyz);
     float determinant = dot(rows[0].xyz, c0);
-    // Scaled to nothing at this instant, or NaN: not there.
-    if (!(abs(determinant) > 0.0f)) return;
     float scale = 1.0f / determinant;
     vec3 from = origin - vec3(rows[0].w, rows[1].w, rows[2].w);
-    vec3 objectOrigin = (c0 * from.x + c1 * from.y + c2 * from.z) * scale;
-    // Its length is left as it comes, so that t means the same in both spaces.
-    vec3 objectDirection = (c0 * direction.x + c1 * direction.y + c2 * direction.z) * scale;
-    if (!isFinite(dot(objectOrigin, objectOrigin)) ||
-        !isFinite(dot(objectDirection, objectDirection)))
-        return;
+    ObjectRay ray;
+    ray.origin = (c0 * from.x + c1 * from.y + c2 * from.z) * scale;
+    ray.direction = (c0 * direction.x + c1 * direction.y + c2 * direction.z) * scale;
+    ray.exists = abs(determinant) > 0.0f && isFinite(dot(ray.origin, ray.origin)) &&
+                 isFinite(dot(ray.direction, ray.direction));
+    return ray;
+}
 
-    uvec2 address = MovingTable(moving.value.rows).rows[entity].meshScene;
+/// The triangle as it is at the ray's own time.
+TriangleHit meetTriangle(FrameRef frame, Placement placement, HitId id, ObjectRay ray) {
+    GeometryTable geometries = GeometryTable(frame.value.geometries);
+    Geometry geometry = geometries.rows[placement.firstGeometry + id.geometry];
+    IndexArray indices = IndexArray(geometry.indices);
+    return intersectTriangle(
+        ray.origin, ray.direction,
+        fetchPosition(geometry, placement, indices.values[3u * id.primitive]),
+        fetchPosition(geometry, placement, indices.values[3u * id.primitive + 1u]),
+        fetchPosition(geometry, placement, indices.values[3u * id.primitive + 2u])
+    );
+}
+
+/// Nearest hit within one moving entity; `best` is replaced where there is one before it.
+void traceEntity(
+    FrameRef frame, MovingRef moving, uint entity, vec3 origin, vec3 direction, MovingQuery query,
+    inout RayHit best
+) {
+    Placement placement = placeAt(moving, entity, query.s);
+    ObjectRay ray = makeObjectRay(placement, origin, direction);
+    if (!ray.exists) return;
+    MovingTable table = MovingTable(moving.value.rows);
+    uvec2 address = table.rows[entity].meshScene;
+    if (placement.bends) address = ShapeSceneTable(address).addresses[placement.firstKey];
+    // What bends is met in boxes: its triangles' facing is found here, not by the query.
+    bool mirrored = table.rows[entity].handedness < 0.0f;
+    HitId bent = HitId(entity, 0u, 0u, vec2(0.0f));
     rayQueryEXT inner;
     rayQueryInitializeEXT(
         inner, accelerationStructureEXT(address), gl_RayFlagsCullBackFacingTrianglesEXT, query.mask,
-        objectOrigin, query.tMin, objectDirection, best.t
+        ray.origin, query.tMin, ray.direction, best.t
     );
     while (rayQueryProceedEXT(inner)) {
-        if (rayQueryGetIntersectionTypeEXT(inner, false) !=
-            gl_RayQueryCandidateIntersectionTriangleEXT)
-            continue;
         HitId id = HitId(
             entity, uint(rayQueryGetIntersectionGeometryIndexEXT(inner, false)),
-            uint(rayQueryGetIntersectionPrimitiveIndexEXT(inner, false)),
-            rayQueryGetIntersectionBarycentricsEXT(inner, false)
+            uint(rayQueryGetIntersectionPrimitiveIndexEXT(inner, false)), vec2(0.0f)
         );
-        bool frontFace = rayQueryGetIntersectionFrontFaceEXT(inner, false);
-        if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
-            rayQueryConfirmIntersectionEXT(inner);
+        if (rayQueryGetIntersectionTypeEXT(inner, false) ==
+            gl_RayQueryCandidateIntersectionTriangleEXT) {
+            id.barycentrics = rayQueryGetIntersectionBarycentricsEXT(inner, false);
+            bool frontFace = rayQueryGetIntersectionFrontFaceEXT(inner, false);
+            if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
+                rayQueryConfirmIntersectionEXT(inner);
+            continue;
+        }
+        TriangleHit hit = meetTriangle(frame, placement, id, ray);
+        if (!hit.found || !(hit.t > query.tMin) || !(hit.t < best.t)) continue;
+        id.barycentrics = hit.barycentrics;
+        bool frontFace = hit.frontFace != mirrored;
+        if (!isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask)) continue;
+        best.found = true;
+        best.t = hit.t;
+        bent = id;
+        rayQueryGenerateIntersectionEXT(inner, hit.t);
     }
-    if (rayQueryGetIntersectionTypeEXT(inner, true) !=
-        gl_RayQueryCommittedIntersectionTriangleEXT)
-        return;
+    uint committed = rayQueryGetIntersectionTypeEXT(inner, true);
+    if (committed == gl_RayQueryCommittedIntersectionGeneratedEXT) best.id = bent;
+    if (committed != gl_RayQueryCommittedIntersectionTriangleEXT) return;
     best.found = true;
     best.t = rayQueryGetIntersectionTEXT(inner, true);
     best.id = HitId(

@@ -28,6 +28,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Li
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VertexArray {
     Vertex values[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PositionArray {
+    vec4 values[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer IndexArray {
     uint values[];
 };

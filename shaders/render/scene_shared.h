@@ -29,19 +29,23 @@ struct EntityRow {
     mat4 clipFromObjectClose;  // with the camera at shutter close
     vec4 eyeFromObject[3];     // rows of the 3x4 matrix, raster instant
     uint firstGeometry;        // index into the geometry table
-    float handedness;          // -1 where eyeFromObject mirrors, else 1
+    float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
+                               // mirrored skeleton, else 1
     uint padding1;
     uint padding2;
 };
 
 /// Triangles with one material.
 struct Geometry {
-    uvec2 vertices; // address of Vertex[]
-    uvec2 indices;  // address of uint[]
+    uvec2 vertices;       // address of Vertex[]
+    uvec2 indices;        // address of uint[]
+    uvec2 openPositions;  // address of vec4[]: xyz object space at shutter open, w 1, one a vertex;
+                          // 0: the shape stands still
+    uvec2 closePositions; // the same at shutter close
     uint material;
     uint firstIndex; // in the scene's index buffer
     uint indexCount;
-    uint padding0;
+    uint vertexCount;
 };
 
 /// A texture with its coordinates' affine map: uv' = axes * uv + offset.
@@ -124,7 +128,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::Vertex) == 64);
 static_assert(sizeof(shutter::shader::EntityRow) == 256);
-static_assert(sizeof(shutter::shader::Geometry) == 32);
+static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);

@@ -3,10 +3,12 @@
 // meet what was built is for the reveal's laws (tests/image) to show.
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu/structure_set.h"
 #include "engine/gpu/upload.h"
 #include "engine/math/math.h"
 #include "tests/support/gpu_fixture.h"
 
+#include <array>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -145,6 +147,69 @@ TEST_F(AccelerationStructure, OneTopLevelAnInstance) {
         EXPECT_NE(top.address(), 0u);
     EXPECT_NE(tops[0].address(), tops[1].address());
     EXPECT_TRUE(gpu::buildTopLevels(device(), {}).empty());
+}
+
+TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const Triangles two = makeTriangles(
+        device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0), vec3(0, 1, 0), vec3(0, 0, 1)}
+    );
+    using gpu::BuildAction;
+    gpu::StructureSet levels;
+    EXPECT_FALSE(
+        levels.prepareBottomLevels(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true)
+    );
+    ASSERT_EQ(levels.count(), 2u);
+    EXPECT_NE(levels.address(0), levels.address(1));
+    const VkDeviceAddress first = levels.address(0);
+    gpu::runOnce(device(), [&](VkCommandBuffer commands) {
+        levels.record(device(), commands);
+        gpu::fullBarrier(commands);
+        levels.record(device(), commands, std::array{BuildAction::Refit, BuildAction::Keep});
+    });
+    EXPECT_TRUE(
+        levels.prepareBottomLevels(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true)
+    );
+    EXPECT_EQ(levels.address(0), first);
+    // Another order, other flags, and no refits: new ones.
+    EXPECT_FALSE(
+        levels.prepareBottomLevels(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}}, true)
+    );
+    EXPECT_FALSE(levels.prepareBottomLevels(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}})
+    );
+    gpu::TriangleGeometry masked = two.geometry;
+    masked.opaque = false;
+    EXPECT_FALSE(levels.prepareBottomLevels(device(), {{{masked}, {}}, {{one.geometry}, {}}}));
+    EXPECT_FALSE(levels.prepareBottomLevels(device(), {}));
+    EXPECT_EQ(levels.count(), 0u);
+}
+
+TEST_F(AccelerationStructure, ASetOfTopLevelsHasOneAnInstance) {
+    const std::vector<gpu::BoxGeometry> geometry(3, {{-1, -1, -1}, {1, 1, 1}});
+    gpu::Buffer boxes(
+        device(),
+        "boxes",
+        geometry.size() * sizeof(gpu::BoxGeometry),
+        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR,
+        gpu::MemoryUse::Upload
+    );
+    boxes.write(std::span<const gpu::BoxGeometry>(geometry));
+    gpu::StructureSet levels;
+    EXPECT_FALSE(
+        levels.prepareBottomLevels(device(), {{{}, {{boxes.address(), 3}, {boxes.address(), 0}}}})
+    );
+    gpu::Instance instance = makeInstance(gpu::AccelerationStructure());
+    instance.bottomLevel = levels.address(0);
+    instance.flipFacing = true;
+    gpu::StructureSet tops;
+    tops.prepareTopLevels(device(), std::vector(5, instance));
+    ASSERT_EQ(tops.count(), 5u);
+    EXPECT_NE(tops.address(0), tops.address(4));
+    gpu::runOnce(device(), [&](VkCommandBuffer commands) {
+        levels.record(device(), commands);
+        gpu::fullBarrier(commands);
+        tops.record(device(), commands);
+    });
 }
 
 TEST_F(AccelerationStructure, BoxesGrowAndKeepTheirRoomWhenTheyShrink) {

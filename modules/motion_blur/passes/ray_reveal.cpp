@@ -114,6 +114,10 @@ RayRevealOutputs RayReveal::add(
         [&](graph::PassBuilder& builder, RevealData& data) {
             data.in = inputs;
             builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
+            if (inputs.rays.shapeLevelsBuffer.isValid())
+                builder.read(inputs.rays.shapeLevelsBuffer, Access::AccelerationRead);
+            if (inputs.rays.shapesBuffer.isValid())
+                builder.read(inputs.rays.shapesBuffer, Access::ShaderRead);
             builder.read(inputs.color, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
             builder.read(inputs.meshId, Access::SampledCompute);

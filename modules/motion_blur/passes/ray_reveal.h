@@ -14,6 +14,8 @@ namespace shutter::motion_blur {
 /// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
 struct RayInputs {
     graph::BufferHandle topLevelBuffer;                   ///< read with Access::AccelerationRead
+    graph::BufferHandle shapeLevelsBuffer; ///< likewise, unless it is invalid: nothing is bent
+    graph::BufferHandle shapesBuffer;      ///< read with Access::ShaderRead, unless it is invalid
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE; ///< custom index: row of the entity table
     VkDescriptorSet scene = VK_NULL_HANDLE;               ///< set 1: bindless textures
     glm::uvec2 frame{0u};                                 ///< address of FrameConstants

@@ -39,6 +39,8 @@ StochasticRaysOutputs StochasticRays::add(
             builder.read(rays.topLevelBuffer, Access::AccelerationRead);
             if (rays.boxesBuffer.isValid())
                 builder.read(rays.boxesBuffer, Access::AccelerationRead);
+            if (rays.shapesBuffer.isValid())
+                builder.read(rays.shapesBuffer, Access::ShaderRead);
             data.color = builder.write(color, Access::StorageWrite);
             data.motionDepth = builder.write(motionDepth, Access::StorageWrite);
         },

@@ -12,6 +12,7 @@ namespace shutter::motion_blur {
 struct MovingRayInputs {
     graph::BufferHandle topLevelBuffer; ///< read with Access::AccelerationRead
     graph::BufferHandle boxesBuffer;    ///< likewise, unless it is invalid: then nothing moves
+    graph::BufferHandle shapesBuffer;   ///< read with Access::ShaderRead, unless it is invalid
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
     VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
     glm::uvec2 frame{0u};                   ///< address of FrameConstants

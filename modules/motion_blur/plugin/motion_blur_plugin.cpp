@@ -27,6 +27,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     if (context.rays)
         inputs.rays = RayInputs{
             context.rays->topLevelBuffer,
+            context.rays->shapeLevelsBuffer,
+            context.rays->shapesBuffer,
             context.rays->topLevel,
             context.rays->textures,
             render::splitAddress(context.rays->frameConstants),
@@ -35,6 +37,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         inputs.movingRays = MovingRayInputs{
             context.movingRays->topLevelBuffer,
             context.movingRays->boxesBuffer,
+            context.movingRays->shapesBuffer,
             context.movingRays->topLevel,
             context.movingRays->textures,
             render::splitAddress(context.movingRays->frameConstants),
@@ -47,6 +50,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         {"edge", outputs.edge},
         {"mask", outputs.mask},
         {"reveal", outputs.revealColor},
+        {"reveal_motion", outputs.revealMotionDepth},
         {"noisy", outputs.noisy}};
     for (const auto& [name, image] : views)
         if (image.isValid())

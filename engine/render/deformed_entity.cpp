@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/deformed_entity.h"
+
+#include "engine/math/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace shutter::render {
+
+namespace {
+
+/// Metres from the object's origin: builders of acceleration structures lose themselves beyond.
+constexpr double kFarthest = 1.0e18;
+
+} // namespace
+
+bool isFinite(const scene::Deformation& pose, const scene::PoseReach& reach) {
+    const size_t bending = std::min(reach.joints.size(), pose.objectFromBind.size());
+    for (size_t joint = 0; joint < bending; ++joint)
+        if (!reach.joints[joint].isEmpty() && !math::isFinite(pose.objectFromBind[joint]))
+            return false;
+    return std::all_of(pose.morphWeights.begin(), pose.morphWeights.end(), [](double weight) {
+        return std::isfinite(weight);
+    });
+}
+
+bool isMirrored(const scene::Deformation& pose) {
+    int64_t mirrored = 0;
+    for (const math::dmat4& matrix : pose.objectFromBind) {
+        const double determinant = glm::determinant(math::dmat3(matrix));
+        mirrored += (determinant < 0.0) - (determinant > 0.0);
+    }
+    return mirrored > 0;
+}
+
+bool isSame(const scene::Deformation& a, const scene::Deformation& b) {
+    return a.objectFromBind == b.objectFromBind && a.morphWeights == b.morphWeights;
+}
+
+std::optional<DeformedEntity> poseEntity(
+    const scene::ExposureMotion& motion,
+    ecs::Entity entity,
+    const scene::PoseReach& reach,
+    const ShapeTimes& times
+) {
+    DeformedEntity result;
+    result.raster = motion.deformationAt(entity, times.raster);
+    if (!isFinite(result.raster, reach))
+        return std::nullopt;
+    if (motion.mayDeform(entity)) {
+        result.open = motion.deformationAt(entity, times.open);
+        result.close = motion.deformationAt(entity, times.close);
+        if (!isFinite(result.open, reach) || !isFinite(result.close, reach))
+            return std::nullopt;
+    } else {
+        result.open = result.close = result.raster;
+    }
+    result.changes = !isSame(result.open, result.raster) || !isSame(result.close, result.raster);
+    result.mirrored = isMirrored(result.raster);
+    result.bounds = scene::computePosedBounds(reach, result.raster);
+    for (int axis = 0; axis < 3; ++axis)
+        // Written so that NaN is not drawn.
+        if (!(result.bounds.min[axis] > -kFarthest) || !(result.bounds.max[axis] < kFarthest))
+            return std::nullopt;
+    if (result.bounds.isEmpty())
+        return std::nullopt;
+    return result;
+}
+
+} // namespace shutter::render

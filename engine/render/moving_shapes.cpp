@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/moving_shapes.h"
+
+#include "engine/gpu/upload.h"
+#include "engine/render/deformed_entity.h"
+#include "engine/render/instances.h"
+
+#include <algorithm>
+
+namespace shutter::render {
+
+namespace {
+
+bool isSameShape(const MovingShape& a, const MovingShape& b) {
+    return a.mesh == b.mesh && a.mirrored == b.mirrored &&
+           std::equal(a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(), isSame);
+}
+
+uint32_t countTriangles(const SceneLayout& layout, uint32_t mesh) {
+    uint32_t count = 0;
+    for (uint32_t g = layout.firstGeometry[mesh]; g < layout.firstGeometry[mesh + 1]; ++g)
+        count += layout.geometries[g].indexCount / 3;
+    return count;
+}
+
+uint64_t countVertices(const SceneLayout& layout, uint32_t mesh) {
+    uint64_t count = 0;
+    for (uint32_t g = layout.firstGeometry[mesh]; g < layout.firstGeometry[mesh + 1]; ++g)
+        count += layout.geometries[g].vertexCount;
+    return count;
+}
+
+} // namespace
+
+/// Everything to record once.
+struct MovingShapes::Work {
+    struct Bend {
+        shader::DeformJob job;
+        uint32_t keyCount;
+    };
+
+    struct Bound {
+        shader::ShapeBoxJob job;
+        uint32_t intervalCount;
+    };
+
+    PoseTable poses;
+    std::vector<PoseTable::Place> places; ///< one a shape, of its first key
+    std::vector<Bend> bends;
+    std::vector<Bound> bounds;
+    std::vector<gpu::BottomLevelDesc> levels;
+    VkDeviceAddress nextVertex = 0;
+    VkDeviceAddress nextBox = 0;
+};
+
+void MovingShapes::planShape(
+    const MovingShape& shape, size_t index, const GpuScene& scene, Work& work
+) const {
+    const SceneLayout& layout = scene.layout();
+    const auto keyCount = static_cast<uint32_t>(shape.keys.size());
+    const uint32_t triangles = countTriangles(layout, shape.mesh);
+    const uint32_t intervals = triangles > 0 ? keyCount - 1 : 0;
+    std::vector<gpu::BottomLevelDesc> levels(shape.changes() ? intervals : triangles > 0);
+    if (!shape.changes() && triangles > 0)
+        levels[0].triangles = scene.describeTriangles(shape.mesh);
+    const uint32_t first = layout.firstGeometry[shape.mesh];
+    VkDeviceAddress boxes = work.nextBox;
+    for (uint32_t g = first; g < layout.firstGeometry[shape.mesh + 1]; ++g) {
+        const shader::Geometry& row = scene.geometryRows()[g];
+        shader::DeformJob bend = work.poses.makeJob(scene, g, work.places[index]);
+        bend.output_ = splitAddress(work.nextVertex);
+        work.bends.push_back({bend, keyCount});
+        if (!levels.empty() && !shape.changes())
+            levels[0].triangles[g - first].vertices = work.nextVertex;
+        if (intervals > 0) {
+            shader::ShapeBoxJob bound{};
+            bound.vertices = bend.output_;
+            bound.indices = row.indices;
+            bound.boxes = splitAddress(boxes);
+            bound.boxStride = triangles;
+            bound.vertexCount = row.vertexCount;
+            bound.triangleCount = row.indexCount / 3;
+            work.bounds.push_back({bound, intervals});
+            const uint64_t stride = uint64_t{triangles} * sizeof(gpu::BoxGeometry);
+            for (uint32_t i = 0; i < intervals; ++i)
+                levels[i].boxes.push_back({boxes + i * stride, bound.triangleCount});
+            boxes += uint64_t{bound.triangleCount} * sizeof(gpu::BoxGeometry);
+        }
+        work.nextVertex += uint64_t{keyCount} * row.vertexCount * sizeof(shader::Vertex);
+    }
+    work.nextBox += uint64_t{intervals} * triangles * sizeof(gpu::BoxGeometry);
+    for (gpu::BottomLevelDesc& level : levels)
+        work.levels.push_back(std::move(level));
+}
+
+MovingShapes::Work MovingShapes::plan(std::span<const MovingShape> shapes, const GpuScene& scene) {
+    const SceneLayout& layout = scene.layout();
+    Work work;
+    uint64_t vertices = 0;
+    uint64_t boxes = 0;
+    for (const MovingShape& shape : shapes) {
+        work.places.push_back(work.poses.add(shape.keys.front()));
+        for (size_t key = 1; key < shape.keys.size(); ++key)
+            (void)work.poses.add(shape.keys[key]);
+        vertices += shape.keys.size() * countVertices(layout, shape.mesh);
+        boxes += (shape.keys.size() - 1) * countTriangles(layout, shape.mesh);
+    }
+    work.poses.upload(mDevice, mPoses);
+    constexpr VkBufferUsageFlags kUsage =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    mVertices = gpu::Buffer(
+        mDevice,
+        "vertices at the keys of shapes",
+        vertices * sizeof(shader::Vertex),
+        kUsage,
+        gpu::MemoryUse::Device
+    );
+    mBoxes = gpu::Buffer(
+        mDevice,
+        "boxes of bent triangles",
+        boxes * sizeof(gpu::BoxGeometry),
+        kUsage,
+        gpu::MemoryUse::Device
+    );
+    work.nextVertex = mVertices.address();
+    work.nextBox = mBoxes.address();
+    mRows.clear();
+    mEntries.clear();
+    mFirstLevel.clear();
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        mEntries.push_back(
+            {static_cast<uint32_t>(mRows.size()),
+             static_cast<uint32_t>(shapes[i].keys.size()),
+             0,
+             0}
+        );
+        mFirstLevel.push_back(work.levels.size());
+        const size_t firstBend = work.bends.size();
+        planShape(shapes[i], i, scene, work);
+        for (size_t bend = firstBend; bend < work.bends.size(); ++bend) {
+            const uint32_t geometry =
+                layout.firstGeometry[shapes[i].mesh] + static_cast<uint32_t>(bend - firstBend);
+            mRows.push_back(scene.geometryRows()[geometry]);
+            mRows.back().vertices = work.bends[bend].job.output_;
+        }
+    }
+    mFirstLevel.push_back(work.levels.size());
+    return work;
+}
+
+void MovingShapes::linkScenes(std::span<const MovingShape> shapes, const GpuScene& scene) {
+    std::vector<gpu::Instance> instances;
+    for (size_t i = 0; i < shapes.size(); ++i)
+        for (size_t level = mFirstLevel[i]; level < mFirstLevel[i + 1]; ++level)
+            instances.push_back(describeInstance(
+                scene,
+                BentInstance{
+                    shapes[i].row,
+                    shapes[i].mesh,
+                    shapes[i].mirrored,
+                    mLevels.address(level),
+                    shapes[i].bounds}
+            ));
+    mScenes.prepareTopLevels(mDevice, instances);
+    mAddresses = gpu::Buffer(
+        mDevice,
+        "scenes of shapes",
+        mScenes.count() * sizeof(math::uvec2),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        gpu::MemoryUse::Upload
+    );
+    std::vector<math::uvec2> addresses;
+    for (size_t level = 0; level < mScenes.count(); ++level)
+        addresses.push_back(splitAddress(mScenes.address(level)));
+    mAddresses.write(std::span<const math::uvec2>(addresses));
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        const size_t first = mFirstLevel[i];
+        if (first == mFirstLevel[i + 1])
+            continue;
+        Entry& entry = mEntries[i];
+        entry.scene = mScenes.address(first);
+        if (shapes[i].changes())
+            entry.scene = mAddresses.address() + first * sizeof(math::uvec2);
+        else
+            entry.level = mLevels.address(first);
+    }
+}
+
+void MovingShapes::update(std::span<const MovingShape> shapes, const GpuScene& scene) {
+    if (std::equal(shapes.begin(), shapes.end(), mShapes.begin(), mShapes.end(), isSameShape))
+        return;
+    mShapes.assign(shapes.begin(), shapes.end());
+    if (shapes.empty()) {
+        mRows.clear();
+        mEntries.clear();
+        return;
+    }
+    Work work = plan(shapes, scene);
+    (void)mLevels.prepareBottomLevels(mDevice, std::move(work.levels));
+    linkScenes(shapes, scene);
+    gpu::runOnce(mDevice, [&](VkCommandBuffer commands) {
+        for (const Work::Bend& bend : work.bends)
+            mDeformer.deform(commands, bend.job, bend.keyCount);
+        gpu::fullBarrier(commands);
+        for (const Work::Bound& bound : work.bounds)
+            mDeformer.boundTriangles(commands, bound.job, bound.intervalCount);
+        gpu::fullBarrier(commands);
+        mLevels.record(mDevice, commands);
+        gpu::fullBarrier(commands);
+        mScenes.record(mDevice, commands);
+        gpu::fullBarrier(commands);
+    });
+}
+
+} // namespace shutter::render

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Bent meshes for rays that each have their own time. A shape that changes has its vertices at each
+// key, and for each two keys next to each other a structure of boxes, one a triangle over its
+// straight way from one key to the other: a ray that meets a box meets the triangle as it is at the
+// ray's own time. A shape that stands still is a mesh like any other.
+#pragma once
+
+#include "engine/gpu/structure_set.h"
+#include "engine/render/deformer.h"
+#include "engine/render/gpu_scene.h"
+#include "engine/render/moving_tables.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::render {
+
+class MovingShapes {
+  public:
+    explicit MovingShapes(gpu::Device& device) : mDevice(device), mDeformer(device) {}
+
+    /// What rays need of one shape.
+    struct Entry {
+        uint32_t firstRow = 0;     ///< index into rows()
+        uint32_t keyCount = 1;     ///< shader::MovingRow::shapeKeyCount
+        VkDeviceAddress level = 0; ///< its bottom level; 0: it changes, or has no triangles
+        VkDeviceAddress scene = 0; ///< shader::MovingRow::meshScene; 0: it has no triangles
+    };
+
+    /// Bends, builds and waits, unless the shapes are those of the last call. The GPU must be done
+    /// with those.
+    void update(std::span<const MovingShape> shapes, const GpuScene& scene);
+
+    /// Geometries of all shapes, one shape's behind the other's.
+    [[nodiscard]] const std::vector<shader::Geometry>& rows() const { return mRows; }
+
+    [[nodiscard]] const Entry& operator[](size_t shape) const { return mEntries[shape]; }
+
+  private:
+    struct Work;
+
+    [[nodiscard]] Work plan(std::span<const MovingShape> shapes, const GpuScene& scene);
+    void planShape(const MovingShape& shape, size_t index, const GpuScene& scene, Work& work) const;
+    void linkScenes(std::span<const MovingShape> shapes, const GpuScene& scene);
+
+    gpu::Device& mDevice;
+    Deformer mDeformer;
+    std::vector<MovingShape> mShapes; ///< of the last call
+    std::vector<shader::Geometry> mRows;
+    std::vector<Entry> mEntries;
+    std::vector<size_t> mFirstLevel; ///< one a shape, and one past the last: into mLevels
+    gpu::Buffer mPoses;
+    gpu::Buffer mVertices;
+    gpu::Buffer mBoxes;
+    gpu::Buffer mAddresses; ///< uvec2[]: scenes of the shapes that change
+    gpu::StructureSet mLevels;
+    gpu::StructureSet mScenes; ///< one a level
+};
+
+} // namespace shutter::render

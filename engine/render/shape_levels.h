@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Bottom levels of a frame's bent meshes, for rays at the raster instant.
+#pragma once
+
+#include "engine/gpu/structure_set.h"
+#include "engine/graph/graph.h"
+#include "engine/render/deformation_pass.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::render {
+
+/// Refits between two builds: each lets the tree grow a little worse.
+inline constexpr uint32_t kRefitsPerBuild = 15;
+
+/// One bottom level an entity of ExtractedFrame::deformed. What keeps its shape from one frame to
+/// the next is kept; what changes it is refitted, and built anew now and then.
+class ShapeLevels {
+  public:
+    explicit ShapeLevels(gpu::Device& device) : mDevice(device) {}
+
+    /// Declares the builds. The GPU must be done with the last frame's.
+    /// \return read it with Access::AccelerationRead; invalid: nothing is bent
+    [[nodiscard]] graph::BufferHandle declare(
+        graph::Graph& graph,
+        const ExtractedFrame& frame,
+        const GpuScene& scene,
+        const DeformedShapes& shapes
+    );
+
+    /// Of ExtractedFrame::deformed[index]; 0: it has no triangles.
+    [[nodiscard]] VkDeviceAddress address(size_t index) const { return mAddresses[index]; }
+
+  private:
+    /// What a level was built of last.
+    struct Built {
+        ecs::Entity entity;
+        uint32_t mesh = 0;
+        scene::Deformation pose;
+        uint32_t refits = 0; ///< since it was built from nothing
+    };
+
+    gpu::BuildAction choose(Built& built, const DeformedEntity& entity, ecs::Entity handle) const;
+
+    gpu::Device& mDevice;
+    gpu::StructureSet mLevels;
+    std::vector<Built> mBuilt; ///< beside mLevels
+    std::vector<VkDeviceAddress> mAddresses;
+};
+
+} // namespace shutter::render

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Morph targets and linear blend skinning of one vertex (glTF 2.0, 3.7.2.2 and 3.7.3.3): first
+// morphed, then skinned.
+#ifndef SHUTTER_DEFORM_GLSL
+#define SHUTTER_DEFORM_GLSL
+
+#include "common/numeric.glsl"
+#include "render/deform_shared.h"
+#include "render/moving_scene_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// What of a vertex its deformation changes.
+struct ShapedVertex {
+    vec3 position; // object space
+    vec3 normal;   // unit, or 0 where there is none
+    vec3 tangent;  // likewise
+};
+
+/// 0 for what has no direction: zero, NaN and infinity.
+SHUTTER_INLINE vec3 unitOrZero(vec3 v) {
+    // Scaled first: squares of small and large numbers leave single precision.
+    float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    if (!(largest > 0.0f) || !isFinite(largest)) return vec3(0.0f);
+    vec3 scaled = v / largest;
+    float size = length(scaled);
+    // NaN of one component hides from max.
+    return isFinite(size) ? scaled / size : vec3(0.0f);
+}
+
+/// Normal and tangent are left as long as they come; finishVertex() makes them unit.
+SHUTTER_INLINE ShapedVertex morphVertex(ShapedVertex vertex, MorphDelta delta, float weight) {
+    ShapedVertex result = vertex;
+    result.position += weight * vec3(delta.position);
+    result.normal += weight * vec3(delta.normal);
+    result.tangent += weight * vec3(delta.tangent);
+    return result;
+}
+
+/// The sum of a vertex's joint matrices so far, and one more.
+SHUTTER_INLINE MotionKey addJoint(MotionKey sum, MotionKey objectFromBind, float weight) {
+    MotionKey result = sum;
+    for (int i = 0; i < 3; ++i) result.rows[i] += weight * objectFromBind.rows[i];
+    return result;
+}
+
+SHUTTER_INLINE MotionKey noJoint() {
+    MotionKey zero;
+    for (int i = 0; i < 3; ++i) zero.rows[i] = vec4(0.0f);
+    return zero;
+}
+
+/// The normal goes with the cofactor matrix: right for any scale. Where the matrix mirrors, it points
+/// to the back of the winding, which is turned round too (EntityRow::handedness rights both).
+SHUTTER_INLINE ShapedVertex skinVertex(ShapedVertex vertex, MotionKey blended) {
+    vec3 x = vec3(blended.rows[0]);
+    vec3 y = vec3(blended.rows[1]);
+    vec3 z = vec3(blended.rows[2]);
+    vec4 p = vec4(vertex.position, 1.0f);
+    ShapedVertex result;
+    result.position = vec3(dot(blended.rows[0], p), dot(blended.rows[1], p), dot(blended.rows[2], p));
+    result.normal = vec3(
+        dot(cross(y, z), vertex.normal), dot(cross(z, x), vertex.normal), dot(cross(x, y), vertex.normal)
+    );
+    result.tangent = vec3(dot(x, vertex.tangent), dot(y, vertex.tangent), dot(z, vertex.tangent));
+    return result;
+}
+
+/// Unit directions, and a position that builders of acceleration structures can bear: one that is
+/// not finite is at the origin.
+SHUTTER_INLINE ShapedVertex finishVertex(ShapedVertex vertex) {
+    ShapedVertex result = vertex;
+    if (!isFinite(vertex.position.x) || !isFinite(vertex.position.y) || !isFinite(vertex.position.z))
+        result.position = vec3(0.0f);
+    result.normal = unitOrZero(vertex.normal);
+    result.tangent = unitOrZero(vertex.tangent);
+    return result;
+}
+
+/// Which joint a group's entry 0 ... 3 names.
+SHUTTER_INLINE uint unpackJoint(uvec2 packed_, uint entry) {
+    uint pair = entry < 2u ? packed_.x : packed_.y;
+    return (entry & 1u) == 0u ? pair & 0xFFFFu : pair >> 16u;
+}
+
+SHUTTER_SHADER_END
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What bends meshes: the vertices' joints and morph targets, and the work of one dispatch.
+#ifndef SHUTTER_DEFORM_SHARED_H
+#define SHUTTER_DEFORM_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_CONST uint kDeformThreads = 64u; // vertices or triangles a group
+
+/// Four joints of one vertex.
+struct JointInfluences {
+    uvec2 joints; // 16 bits each, the first in the low half of x
+    vec4 weights; // of a vertex's groups together the sum is 1
+};
+
+/// What one morph target adds to one vertex at weight 1.
+struct MorphDelta {
+    vec4 position; // xyz metres
+    vec4 normal;   // xyz, added before normalising
+    vec4 tangent;  // xyz, the same
+};
+
+/// Push constants: the vertices of one geometry at a number of instants (the dispatch's y).
+struct DeformJob {
+    uvec2 vertices;       // address of Vertex[], undeformed
+    uvec2 influences;     // address of JointInfluences[]: influenceCount / 4 a vertex
+    uvec2 deltas;         // address of MorphDelta[]: all vertices of the first target, then the next
+    uvec2 joints;         // address of MotionKey[]: objectFromBind of all joints at the first instant,
+                          // then at the next
+    uvec2 weights;        // address of float[]: all targets' at the first instant, then at the next
+    uvec2 output_;        // address of Vertex[] or vec4[]: all vertices at the first instant, ...
+    uint vertexCount;
+    uint influenceCount;  // a multiple of 4; 0: all vertices are bent by joint 0
+    uint jointCount;      // 0: not skinned
+    uint targetCount;     // 0: not morphed
+    uint weightStride;    // weights an instant has, targetCount or more
+    uint positionsOnly;   // 1: output_ is vec4[], xyz and w 1; 0: it is Vertex[]
+};
+
+/// Push constants: boxes over what triangles sweep between two keys of their shape (the dispatch's
+/// y is the interval).
+struct ShapeBoxJob {
+    uvec2 vertices; // address of Vertex[]: all vertices at the first key, then at the next
+    uvec2 indices;  // address of uint[]
+    uvec2 boxes;    // address of float[]: six a triangle, min and max, in the order of indices
+    uint boxStride; // triangles from one interval's boxes to the next one's
+    uint vertexCount;
+    uint triangleCount;
+    uint padding0;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::JointInfluences) == 24);
+static_assert(sizeof(shutter::shader::MorphDelta) == 48);
+static_assert(sizeof(shutter::shader::DeformJob) == 72);
+static_assert(sizeof(shutter::shader::ShapeBoxJob) == 40);
+#endif
+
+#endif

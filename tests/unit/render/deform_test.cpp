@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The shader's skinning and morphing against double precision.
+#include "engine/math/math.h"
+#include "engine/render/motion_keys.h"
+#include "shaders/render/deform.glsl"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace shutter::shader {
+
+namespace {
+
+using math::dmat3;
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+class Random {
+  public:
+    double operator()() { return mValue(mEngine); }
+
+    dvec3 vector() { return {(*this)(), (*this)(), (*this)()}; }
+
+    dmat4 matrix() {
+        dmat4 result(1.0);
+        for (int column = 0; column < 4; ++column)
+            result[column] = dvec4(vector(), column == 3 ? 1.0 : 0.0);
+        return result;
+    }
+
+  private:
+    std::mt19937 mEngine{7};
+    std::uniform_real_distribution<double> mValue{-1.0, 1.0};
+};
+
+ShapedVertex makeVertex(const dvec3& position, const dvec3& normal, const dvec3& tangent) {
+    return {vec3(position), vec3(normal), vec3(tangent)};
+}
+
+double distance(const vec3& a, const dvec3& b) {
+    return glm::length(dvec3(a) - b);
+}
+
+bool isFiniteVector(const vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+} // namespace
+
+TEST(Deform, SkinningIsTheWeightedSumOfWhatEachJointDoes) {
+    Random random;
+    for (int round = 0; round < 200; ++round) {
+        const std::array joints{random.matrix(), random.matrix(), random.matrix()};
+        const std::array weights{0.5, 0.375, 0.125};
+        const ShapedVertex rest = makeVertex(
+            random.vector(), glm::normalize(random.vector()), glm::normalize(random.vector())
+        );
+        MotionKey blended = noJoint();
+        dmat4 exact(0.0);
+        for (size_t i = 0; i < joints.size(); ++i) {
+            blended = addJoint(blended, render::makeKey(joints[i]), float(weights[i]));
+            exact += joints[i] * weights[i];
+        }
+        const ShapedVertex skinned = finishVertex(skinVertex(rest, blended));
+        EXPECT_LT(
+            distance(skinned.position, dvec3(exact * dvec4(dvec3(rest.position), 1.0))), 1e-6
+        );
+        const dmat3 linear(exact);
+        const dvec3 normal =
+            glm::determinant(linear) * (glm::transpose(glm::inverse(linear)) * dvec3(rest.normal));
+        EXPECT_LT(distance(skinned.normal, glm::normalize(normal)), 1e-4);
+        EXPECT_LT(distance(skinned.tangent, glm::normalize(linear * dvec3(rest.tangent))), 1e-4);
+    }
+}
+
+TEST(Deform, AMirroringMatrixTurnsTheNormalAsItTurnsTheWinding) {
+    const MotionKey mirror = render::makeKey(glm::scale(dmat4(1.0), dvec3(-2.0, 1.0, 1.0)));
+    const ShapedVertex rest = makeVertex({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    const ShapedVertex mirrored = finishVertex(skinVertex(rest, mirror));
+    EXPECT_EQ(mirrored.position, vec3(-2, 0, 0));
+    EXPECT_EQ(mirrored.normal, vec3(0, 0, -1));
+    EXPECT_EQ(mirrored.tangent, vec3(-1, 0, 0));
+}
+
+TEST(Deform, MorphTargetsAddUpBeforeTheSkin) {
+    const ShapedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+    const MorphDelta first{vec4(1, 0, 0, 9), vec4(0, 1, 0, 9), vec4(0, 0, 1, 9)};
+    const MorphDelta second{vec4(0, -2, 0, 9), vec4(0, 0, -1, 9), vec4(0, 0, 0, 9)};
+    const ShapedVertex morphed = morphVertex(morphVertex(rest, first, 0.5f), second, 0.25f);
+    EXPECT_EQ(morphed.position, vec3(1.5, 1.5, 3));
+    EXPECT_EQ(morphed.normal, vec3(0, 0.5, 0.75));
+    EXPECT_EQ(morphed.tangent, vec3(1, 0, 0.5));
+    const dmat4 turn = glm::rotate(dmat4(1.0), 1.0, dvec3(0, 0, 1));
+    const ShapedVertex skinned = finishVertex(skinVertex(morphed, render::makeKey(turn)));
+    EXPECT_LT(distance(skinned.position, dvec3(turn * dvec4(1.5, 1.5, 3, 1))), 1e-6);
+    EXPECT_NEAR(glm::length(skinned.normal), 1.0f, 1e-6f);
+}
+
+TEST(Deform, WhatHasNoDirectionIsZero) {
+    for (const vec3& nothing :
+         {vec3(0.0f),
+          vec3(kNaN, 1, 1),
+          vec3(1, kNaN, 1),
+          vec3(1, 1, kNaN),
+          vec3(kInfinity, 0, 0),
+          vec3(0, -kInfinity, 1)})
+        EXPECT_EQ(unitOrZero(nothing), vec3(0.0f));
+    for (const float size : {1e-38f, 1e-20f, 1.0f, 1e20f, 3e38f}) {
+        const vec3 unit = unitOrZero(vec3(0, size, 0));
+        EXPECT_NEAR(unit.y, 1.0f, 1e-6f) << size;
+    }
+}
+
+TEST(Deform, ACollapsedJointLeavesFiniteVertices) {
+    const ShapedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+    const ShapedVertex point = finishVertex(skinVertex(rest, noJoint()));
+    EXPECT_EQ(point.position, vec3(0.0f));
+    EXPECT_EQ(point.normal, vec3(0.0f));
+    EXPECT_EQ(point.tangent, vec3(0.0f));
+    const ShapedVertex flat =
+        finishVertex(skinVertex(rest, render::makeKey(glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 0.0))))
+        );
+    EXPECT_EQ(flat.position, vec3(1, 2, 0));
+    EXPECT_EQ(flat.normal, vec3(0, 0, 1));
+}
+
+TEST(Deform, APositionThatIsNotFiniteIsAtTheOrigin) {
+    for (const float bad : {kNaN, kInfinity, -kInfinity})
+        for (int axis = 0; axis < 3; ++axis) {
+            ShapedVertex vertex = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+            vertex.position[axis] = bad;
+            const ShapedVertex finished = finishVertex(vertex);
+            EXPECT_TRUE(isFiniteVector(finished.position));
+            EXPECT_EQ(finished.position, vec3(0.0f));
+            EXPECT_EQ(finished.normal, vec3(0, 0, 1));
+        }
+}
+
+TEST(Deform, JointsAreUnpackedInTheirOrder) {
+    const uvec2 packed_(0xFFFFu | 2u << 16u, 3u | 65534u << 16u);
+    EXPECT_EQ(unpackJoint(packed_, 0), 0xFFFFu);
+    EXPECT_EQ(unpackJoint(packed_, 1), 2u);
+    EXPECT_EQ(unpackJoint(packed_, 2), 3u);
+    EXPECT_EQ(unpackJoint(packed_, 3), 65534u);
+}
+
+} // namespace shutter::shader
