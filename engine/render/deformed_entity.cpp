@@ -50,14 +50,14 @@ std::optional<DeformedEntity> poseEntity(
     result.raster = motion.deformationAt(entity, times.raster);
     if (!isFinite(result.raster, reach))
         return std::nullopt;
-    if (motion.mayDeform(entity)) {
-        result.open = motion.deformationAt(entity, times.open);
-        result.close = motion.deformationAt(entity, times.close);
-        if (!isFinite(result.open, reach) || !isFinite(result.close, reach))
-            return std::nullopt;
-    } else {
-        result.open = result.close = result.raster;
-    }
+    const bool mayDeform = motion.mayDeform(entity);
+    const auto poseAt = [&](double s) {
+        return mayDeform && s != times.raster ? motion.deformationAt(entity, s) : result.raster;
+    };
+    result.open = poseAt(times.open);
+    result.close = poseAt(times.close);
+    if (!isFinite(result.open, reach) || !isFinite(result.close, reach))
+        return std::nullopt;
     result.changes = !isSame(result.open, result.raster) || !isSame(result.close, result.raster);
     result.mirrored = isMirrored(result.raster);
     result.bounds = scene::computePosedBounds(reach, result.raster);

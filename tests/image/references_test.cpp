@@ -125,6 +125,22 @@ TEST_F(References, TheCheckerUnderAMovingCameraIsCyclesChecker) {
     expectReference("camera_checker", "");
 }
 
+TEST_F(References, TheStillStripIsCyclesStrip) {
+    expectReference("skinned_strip", ".still");
+}
+
+TEST_F(References, TheBendingStripIsCyclesStrip) {
+    expectReference("skinned_strip", "");
+}
+
+TEST_F(References, TheStillStarIsCyclesStar) {
+    expectReference("morph_star", ".still");
+}
+
+TEST_F(References, TheMorphingStarIsCyclesStar) {
+    expectReference("morph_star", "");
+}
+
 class TruthReferences : public References {
   protected:
     void SetUp() override {
@@ -156,6 +172,14 @@ TEST_F(TruthReferences, RaysMeetCyclesCheckerUnderAMovingCamera) {
 
 TEST_F(TruthReferences, RaysMeetCyclesStillChecker) {
     expectReference("camera_checker", ".still", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesBendingStrip) {
+    expectReference("skinned_strip", "", "truth");
+}
+
+TEST_F(TruthReferences, RaysMeetCyclesMorphingStar) {
+    expectReference("morph_star", "", "truth");
 }
 
 } // namespace
