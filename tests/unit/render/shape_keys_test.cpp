@@ -113,7 +113,7 @@ TEST(ShapeKeys, AShapeThatStandsStillHasOneKey) {
 TEST(ShapeKeys, ABendStaysWithinTheTolerance) {
     for (const double scale : {1.0, 0.05, 20.0})
         for (const double swing : {0.0, 0.4})
-            for (const double radians : {0.05, 1.5, 6.0}) {
+            for (const double radians : {0.05, 1.5, 3.0}) {
                 const auto shape = [&](double s) { return shapeAt(s, radians, swing); };
                 const BentMotion motion = compute(shape, scale);
                 ASSERT_TRUE(motion.shape.followsExactly);
