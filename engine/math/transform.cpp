@@ -21,6 +21,20 @@ dquat integrateRotation(const dvec3& angularVelocity, double seconds) {
     return glm::angleAxis(speed * seconds, angularVelocity / speed);
 }
 
+dmat4 removeScale(const dmat4& matrix) {
+    const double determinant = glm::determinant(dmat3(matrix));
+    dmat4 result(1.0);
+    result[3] = dvec4(dvec3(matrix[3]), 1.0);
+    if (!isFinite(matrix) || !std::isfinite(determinant) || determinant == 0.0)
+        return result;
+    for (int axis = 0; axis < 3; ++axis) {
+        const dvec3 column(matrix[axis]);
+        const double size = glm::length(column);
+        result[axis] = dvec4(size > 0.0 ? column / size : column, 0.0);
+    }
+    return result;
+}
+
 bool isFinite(const dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)

@@ -19,6 +19,10 @@ struct Transform {
 /// Exact at zero velocity: returns the identity.
 [[nodiscard]] dquat integrateRotation(const dvec3& angularVelocity, double seconds);
 
+/// The matrix with axes of length 1: where it stands and how it is turned. One that is not finite
+/// or is scaled to nothing keeps its place only and is turned as the space around it.
+[[nodiscard]] dmat4 removeScale(const dmat4& matrix);
+
 /// True when every element is finite.
 [[nodiscard]] bool isFinite(const dmat4& matrix);
 

@@ -10,7 +10,6 @@ namespace shutter::render {
 
 using math::dmat4;
 using math::dvec3;
-using math::dvec4;
 
 bool isDrawable(const dmat4& matrix) {
     const double determinant = glm::determinant(math::dmat3(matrix));
@@ -18,15 +17,7 @@ bool isDrawable(const dmat4& matrix) {
 }
 
 dmat4 computeWorldFromView(const dmat4& worldFromCamera) {
-    if (!isDrawable(worldFromCamera))
-        return glm::translate(dmat4(1.0), dvec3(worldFromCamera[3]));
-    dmat4 rigid = worldFromCamera;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double size = glm::length(dvec3(worldFromCamera[axis]));
-        if (size > 0.0)
-            rigid[axis] = dvec4(dvec3(worldFromCamera[axis]) / size, 0.0);
-    }
-    return rigid;
+    return math::removeScale(worldFromCamera);
 }
 
 shader::LightRow makeLight(const scene::Light& light, const dmat4& world, const dvec3& origin) {

@@ -25,6 +25,27 @@ dquat quarterTurnZ() {
     return glm::angleAxis(kPi / 2.0, dvec3(0.0, 0.0, 1.0));
 }
 
+TEST(RemoveScale, LeavesPlaceAndDirections) {
+    Transform transform;
+    transform.translation = {1.0, -2.0, 3.0};
+    transform.rotation = glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0)));
+    const dmat4 rigid = computeMatrix(transform);
+    transform.scale = {5.0, 0.001, 7e8};
+    const dmat4 found = removeScale(computeMatrix(transform));
+    for (int column = 0; column < 4; ++column)
+        expectNear(dvec3(found[column]), dvec3(rigid[column]));
+}
+
+TEST(RemoveScale, WhatHasNoDirectionsKeepsItsPlace) {
+    dmat4 flat(1.0);
+    flat[0][0] = 0.0;
+    flat[3] = dvec4(1.0, 2.0, 3.0, 1.0);
+    EXPECT_EQ(removeScale(flat), glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0)));
+    dmat4 bad = flat;
+    bad[0][0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(removeScale(bad), glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0)));
+}
+
 TEST(Transform, TheDefaultIsExactlyTheIdentity) {
     EXPECT_EQ(computeMatrix(Transform{}), dmat4(1.0));
 }
