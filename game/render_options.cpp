@@ -25,17 +25,6 @@ using core::Status;
 constexpr uint32_t kMaxSize = 16384;
 constexpr uint32_t kMaxSamples = 65536;
 constexpr int kMaxFrames = 1000000;
-/// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
-constexpr double kMaxSeconds = 1.0e9;
-
-std::vector<std::string> splitAt(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    size_t start = 0;
-    for (size_t at; (at = text.find(separator, start)) != std::string::npos; start = at + 1)
-        parts.push_back(text.substr(start, at - start));
-    parts.push_back(text.substr(start));
-    return parts;
-}
 
 Result<math::vec3> parseColor(const char* option, const std::string& text) {
     const auto parts = splitAt(text, ',');
@@ -100,27 +89,11 @@ Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
 }
 
 Status parseShutter(const RenderArguments& arguments, RenderOptions& options) {
-    if (arguments.exposureSeconds && arguments.shutterAngle)
-        return makeError("--exposure and --shutter-angle exclude each other");
-    double exposure = arguments.exposureSeconds.value_or(kDefaultExposureSeconds);
-    if (arguments.shutterAngle)
-        exposure = *arguments.shutterAngle / 360.0 / arguments.fps;
-    if (!(exposure >= 0.0 && exposure <= kMaxSeconds))
-        return makeError(
-            "{} must be 0 or more and at most {} seconds",
-            arguments.shutterAngle ? "--shutter-angle" : "--exposure",
-            kMaxSeconds
-        );
-    options.shutter.exposureSeconds = exposure;
-    using scene::ShutterPhase;
-    if (arguments.phase == "start")
-        options.shutter.phase = ShutterPhase::Start;
-    else if (arguments.phase == "centre")
-        options.shutter.phase = ShutterPhase::Centre;
-    else if (arguments.phase == "end")
-        options.shutter.phase = ShutterPhase::End;
-    else
-        return makeError("--phase '{}' is not one of start, centre, end", arguments.phase);
+    options.frameSeconds = 1.0 / arguments.fps;
+    auto shutter = interpretShutter(arguments, options.frameSeconds);
+    if (!shutter)
+        return shutter.error();
+    options.shutter = std::move(shutter).value();
     return {};
 }
 
@@ -235,9 +208,7 @@ void defineShotOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--fps", a.fps, "F, frames a second; default 24");
     command.add_option("--clip", a.clips, "clip to play (repeatable), or none; default: all");
     command.add_flag("--loop", a.loop, "clips start again at their ends; default: hold");
-    command.add_option("--exposure", a.exposureSeconds, "seconds; default 1/60");
-    command.add_option("--shutter-angle", a.shutterAngle, "degrees of a frame at F");
-    command.add_option("--phase", a.phase, "raster instant: start, centre or end (default)");
+    defineShutterOptions(command, a);
     command.add_option("--pixel", a.pixel, "centre (default) or box");
     command.add_option("--seed", a.seed, "of the times (truth) and of --pixel box's places");
     command.add_flag("--unlit", a.unlit, "base colour only");

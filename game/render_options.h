@@ -5,7 +5,9 @@
 #include "engine/core/result.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
+#include "engine/scene/shutter.h"
 #include "game/methods.h"
+#include "game/shutter_options.h"
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/settings.h"
 #include "modules/tonemap/tonemap.h"
@@ -22,11 +24,8 @@ class App;
 
 namespace shutter::game {
 
-/// Without --exposure and --shutter-angle.
-inline constexpr double kDefaultExposureSeconds = 1.0 / 60.0;
-
 /// As typed.
-struct RenderArguments {
+struct RenderArguments : ShutterArguments {
     std::string scene;
     std::string camera;
     double time = 0.0;
@@ -34,9 +33,6 @@ struct RenderArguments {
     double fps = 24.0;
     std::vector<std::string> clips;
     bool loop = false;
-    std::optional<double> exposureSeconds;
-    std::optional<double> shutterAngle;
-    std::string phase = "end";
     std::string method = "hybrid";
     uint32_t samples = 0;
     std::string pixel = "centre";
@@ -67,6 +63,7 @@ struct RenderOptions {
     bool isSequence = false;        ///< --frames was given
     std::vector<std::string> clips;
     bool loop = false;
+    double frameSeconds = scene::kStillFrameSeconds; ///< a frame's duration, at --fps
     scene::CameraShutter shutter;
     const MethodInfo* method = nullptr;
     uint32_t samples = 0;

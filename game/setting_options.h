@@ -8,8 +8,15 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace shutter::game {
+
+/// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
+inline constexpr double kMaxSeconds = 1.0e9;
+
+/// The parts between separators: one more than there are, empty ones too.
+[[nodiscard]] std::vector<std::string> splitAt(const std::string& text, char separator);
 
 /// A whole string as a finite number.
 [[nodiscard]] std::optional<double> parseNumber(const std::string& text);

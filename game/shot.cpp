@@ -122,7 +122,7 @@ render::ViewRequest makeView(const Shot& shot, const RenderOptions& options, dou
     render::ViewRequest view;
     view.camera = shot.camera;
     const auto& shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
-    view.exposure = scene::computeExposure(shutter, seconds);
+    view.exposure = scene::computeExposure(shutter, seconds, options.frameSeconds);
     view.width = options.width;
     view.height = options.height;
     view.background = options.background;

@@ -2,6 +2,7 @@
 #include "game/statistics.h"
 
 #include "engine/io/file_bytes.h"
+#include "engine/scene/shutter.h"
 #include "game/quartiles.h"
 
 #include <nlohmann/json.hpp>
@@ -97,7 +98,7 @@ core::Status writeStatistics(
         {"samples", options.samples},
         {"width", options.width},
         {"height", options.height},
-        {"exposure_s", options.shutter.exposureSeconds},
+        {"exposure_s", scene::computeExposureSeconds(options.shutter, options.frameSeconds)},
         {"device", device.name},
         {"driver", device.driver},
         {"repeat", options.repeat},

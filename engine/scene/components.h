@@ -92,10 +92,44 @@ enum class ShutterPhase : uint8_t {
     End,    ///< [t - E, t]
 };
 
+/// What the length of the exposure follows.
+enum class ShutterMode : uint8_t {
+    Physical, ///< seconds, whatever the frame rate
+    Angle,    ///< a share of the frame's duration, as a rotating disc's opening
+    Capped,   ///< Angle, but never longer than at the reference rate: a hitch does not smear
+};
+
+enum class ResponseShape : uint8_t { Box, Triangle, Trapezoid, Sampled };
+
+/// How sensitive the sensor is over the exposure; only its shape counts, not its height.
+struct ShutterResponse {
+    ResponseShape shape = ResponseShape::Box;
+    double openShare = 0.0;      ///< Trapezoid: share of the exposure that opening takes, [0, 1]
+    double closeShare = 0.0;     ///< Trapezoid: that closing takes; the two together at most 1
+    std::vector<double> samples; ///< Sampled: 2 to 64 at equal distances from open to close, 0 or
+                                 ///< more, one of them above 0; linear between them
+};
+
+/// When a camera that jumps during the exposure counts as cut: nothing then moves in that frame. A
+/// jump stays as large however short the interval, so no smooth motion is one, however fast.
+struct CutDetection {
+    bool enabled = true;
+    double degrees = 10.0; ///< smallest turn that is a cut, above 0; stepped shake is far below it
+    double metres = 0.5;   ///< smallest displacement that is one, above 0
+};
+
 /// Sits on the camera's entity. Without it, or with exposure 0, the picture is sharp.
 struct CameraShutter {
-    double exposureSeconds = 0.0; ///< [0, inf)
+    double exposureSeconds = 0.0; ///< Physical: [0, inf)
     ShutterPhase phase = ShutterPhase::End;
+    ShutterMode mode = ShutterMode::Physical;
+    double angleDegrees = 180.0; ///< Angle, Capped: 360 is the whole frame; 0 or more
+    double referenceFps = 24.0;  ///< Capped: frames a second, above 0
+    ShutterResponse response{};
+    double cameraRotationScale = 1.0;    ///< of the blur by the camera's turning, [0, 2]
+    double cameraTranslationScale = 1.0; ///< of the blur by its displacement, [0, 2]
+    double objectScale = 1.0;            ///< of the blur by what moves in the world, [0, 2]
+    CutDetection cuts{};
 };
 
 enum class LightKind : uint8_t { Directional, Point, Spot };

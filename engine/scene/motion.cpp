@@ -86,25 +86,4 @@ bool mayMove(const World& world, ecs::Entity entity) {
     return false;
 }
 
-ExposureInterval computeExposure(const CameraShutter& shutter, double frameSeconds) {
-    const double asked = shutter.exposureSeconds;
-    const double exposure = asked > 0.0 && std::isfinite(asked) ? asked : 0.0;
-    ExposureInterval interval;
-    switch (shutter.phase) {
-    case ShutterPhase::Start:
-        interval.rasterShare = 0.0;
-        break;
-    case ShutterPhase::Centre:
-        interval.rasterShare = 0.5;
-        break;
-    case ShutterPhase::End:
-        interval.rasterShare = 1.0;
-        break;
-    }
-    interval.open = frameSeconds - exposure * interval.rasterShare;
-    interval.raster = frameSeconds;
-    interval.close = frameSeconds + exposure * (1.0 - interval.rasterShare);
-    return interval;
-}
-
 } // namespace shutter::scene

@@ -49,16 +49,14 @@ core::Result<std::string> hashScene(const fs::path& scene) {
 /// Every option that changes a picture; the order is part of the hash.
 std::string describeShot(const game::RenderArguments& shot) {
     return fmt::format(
-        "camera {} time {} clips {} loop {} exposure {} angle {} fps {} phase {} pixel {} seed {} "
-        "size {} unlit {} background {} ambient {} ev {} tonemap {} set {}",
+        "camera {} time {} clips {} loop {} shutter {} fps {} pixel {} seed {} size {} unlit {} "
+        "background {} ambient {} ev {} tonemap {} set {}",
         shot.camera,
         shot.time,
         fmt::join(shot.clips, ","),
         shot.loop,
-        shot.exposureSeconds.value_or(-1.0),
-        shot.shutterAngle.value_or(-1.0),
+        game::describeShutter(shot),
         shot.fps,
-        shot.phase,
         shot.pixel,
         shot.seed,
         shot.size,

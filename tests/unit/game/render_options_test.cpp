@@ -141,7 +141,8 @@ TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
 
 TEST_F(RenderOptionsTest, AShutterAngleIsAShareOfAFrame) {
     const auto exposure = [&](const Change& change) {
-        return accept(change).shutter.exposureSeconds;
+        const RenderOptions options = accept(change);
+        return scene::computeExposureSeconds(options.shutter, options.frameSeconds);
     };
     EXPECT_DOUBLE_EQ(exposure([](auto& a) { a.shutterAngle = 180.0; }), 1.0 / 48.0);
     EXPECT_DOUBLE_EQ(

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/shutter.h"
+
+#include "engine/core/check.h"
+#include "shaders/common/shutter_response.glsl"
+
+#include <algorithm>
+#include <vector>
+
+namespace shutter::scene {
+
+namespace {
+
+/// Of a trapezoid's flanks and top: shorter ones would be of no length in single precision.
+constexpr double kShortestShare = 1.0e-6;
+
+/// Where the piecewise linear response bends.
+struct Bend {
+    double s = 0.0;
+    double height = 0.0;
+};
+
+std::vector<Bend> listBends(const ShutterResponse& response) {
+    switch (response.shape) {
+    case ResponseShape::Box:
+        break;
+    case ResponseShape::Triangle:
+        return {{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}};
+    case ResponseShape::Trapezoid: {
+        const bool opens = response.openShare > kShortestShare;
+        const bool closes = response.closeShare > kShortestShare;
+        const double from = opens ? response.openShare : 0.0;
+        const double to = closes ? 1.0 - response.closeShare : 1.0;
+        std::vector<Bend> bends;
+        if (opens)
+            bends.push_back({0.0, 0.0});
+        bends.push_back({from, 1.0});
+        if (to > from + kShortestShare)
+            bends.push_back({to, 1.0});
+        if (closes)
+            bends.push_back({1.0, 0.0});
+        else
+            bends.back().s = 1.0;
+        return bends;
+    }
+    case ResponseShape::Sampled: {
+        // Relative to the largest, so that no sum overflows.
+        const double largest = *std::max_element(response.samples.begin(), response.samples.end());
+        const double intervals = double(response.samples.size() - 1);
+        std::vector<Bend> bends;
+        for (const double sample : response.samples)
+            bends.push_back({double(bends.size()) / intervals, sample / largest});
+        return bends;
+    }
+    }
+    return {{0.0, 1.0}, {1.0, 1.0}};
+}
+
+/// Written so that NaN is outside.
+bool isShare(double value) {
+    return value >= 0.0 && value <= 1.0;
+}
+
+core::Status validateSamples(const std::vector<double>& samples) {
+    const auto most = size_t{shader::kMaxResponseKnots};
+    if (samples.size() < 2 || samples.size() > most)
+        return core::makeError("samples holds {}, it needs 2 to {}", samples.size(), most);
+    for (const double sample : samples)
+        if (!(sample >= 0.0 && std::isfinite(sample)))
+            return core::makeError("samples holds {}, each must be 0 or more", sample);
+    if (std::all_of(samples.begin(), samples.end(), [](double sample) { return sample == 0.0; }))
+        return core::makeError("samples are all 0: no light is taken");
+    return {};
+}
+
+double orZero(double value) {
+    return value > 0.0 && std::isfinite(value) ? value : 0.0;
+}
+
+} // namespace
+
+double computeExposureSeconds(const CameraShutter& shutter, double frameSeconds) {
+    if (!(frameSeconds > 0.0))
+        return 0.0;
+    const double share = shutter.angleDegrees / 360.0;
+    switch (shutter.mode) {
+    case ShutterMode::Physical:
+        return orZero(shutter.exposureSeconds);
+    case ShutterMode::Angle:
+        return orZero(share * frameSeconds);
+    case ShutterMode::Capped:
+        return orZero(share * std::min(frameSeconds, orZero(1.0 / shutter.referenceFps)));
+    }
+    SHUTTER_CHECK(false, "there is no shutter mode {}", static_cast<int>(shutter.mode));
+    return 0.0;
+}
+
+ExposureInterval computeExposure(const CameraShutter& shutter, double raster, double frameSeconds) {
+    const double exposure = computeExposureSeconds(shutter, frameSeconds);
+    ExposureInterval interval;
+    switch (shutter.phase) {
+    case ShutterPhase::Start:
+        interval.rasterShare = 0.0;
+        break;
+    case ShutterPhase::Centre:
+        interval.rasterShare = 0.5;
+        break;
+    case ShutterPhase::End:
+        interval.rasterShare = 1.0;
+        break;
+    }
+    interval.open = raster - exposure * interval.rasterShare;
+    interval.raster = raster;
+    interval.close = raster + exposure * (1.0 - interval.rasterShare);
+    interval.frameSeconds = orZero(frameSeconds);
+    interval.shutter = shutter;
+    return interval;
+}
+
+core::Status validateResponse(const ShutterResponse& response) {
+    if (response.shape == ResponseShape::Sampled)
+        return validateSamples(response.samples);
+    if (response.shape != ResponseShape::Trapezoid)
+        return {};
+    if (!isShare(response.openShare) || !isShare(response.closeShare))
+        return core::makeError(
+            "the trapezoid's shares are {} and {}, each must lie in [0, 1]",
+            response.openShare,
+            response.closeShare
+        );
+    if (response.openShare + response.closeShare > 1.0)
+        return core::makeError(
+            "the trapezoid's shares {} and {} are more than the exposure",
+            response.openShare,
+            response.closeShare
+        );
+    return {};
+}
+
+std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse& response) {
+    const core::Status valid = validateResponse(response);
+    SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
+    const std::vector<Bend> bends = listBends(response);
+    const bool isConstant = std::all_of(bends.begin(), bends.end(), [&](const Bend& bend) {
+        return bend.height == bends.front().height;
+    });
+    if (isConstant)
+        return std::nullopt;
+    std::vector<double> taken{0.0};
+    for (size_t i = 1; i < bends.size(); ++i)
+        taken.push_back(
+            taken.back() +
+            (bends[i].s - bends[i - 1].s) * 0.5 * (bends[i].height + bends[i - 1].height)
+        );
+    shader::ResponseTable table{};
+    table.knotCount = static_cast<uint32_t>(bends.size());
+    for (size_t i = 0; i < bends.size(); ++i)
+        table.knots[i] = {
+            static_cast<float>(bends[i].s),
+            static_cast<float>(bends[i].height / taken.back()),
+            static_cast<float>(taken[i] / taken.back()),
+            0.0f};
+    return table;
+}
+
+double invertResponse(const ShutterResponse& response, double u) {
+    const auto table = computeResponseTable(response);
+    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
+}
+
+} // namespace shutter::scene

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// When light is taken: shutter times whose density is the shutter's response, from numbers that are
+// uniform in [0, 1], by the inverse of its distribution. All methods place their samples by it, each
+// sample then counts alike.
+#ifndef SHUTTER_SHUTTER_RESPONSE_GLSL
+#define SHUTTER_SHUTTER_RESPONSE_GLSL
+
+#ifndef __cplusplus
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_scalar_block_layout : require
+#endif
+
+#include "common/shutter_response_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+#ifdef __cplusplus
+struct ResponseRef {
+    const ResponseTable& value;
+};
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ResponseRef {
+    ResponseTable value;
+};
+#endif
+
+/// Shutter time before which the share u of the light is taken, [0, 1]; u is clamped to [0, 1].
+///
+/// Between two knots the density is d + g x at x after the first, so the light since then is
+/// L = d x + g x^2 / 2. Of the quadratic's roots this is the one that rises from 0, in the form that
+/// neither divides by g (0: constant) nor subtracts near-equals: x = 2 L / (d + sqrt(d^2 + 2 g L)).
+SHUTTER_INLINE float inverseResponse(ResponseRef response, float u) {
+    uint first = 0u;
+    uint last = response.value.knotCount - 1u;
+    while (last - first > 1u) {
+        uint middle = (first + last) >> 1u;
+        if (response.value.knots[middle].cumulative <= u)
+            first = middle;
+        else
+            last = middle;
+    }
+    ResponseKnot a = response.value.knots[first];
+    ResponseKnot b = response.value.knots[last];
+    float light = max(u - a.cumulative, 0.0f);
+    float slope = (b.density - a.density) / (b.s - a.s);
+    float root = sqrt(max(a.density * a.density + 2.0f * slope * light, 0.0f));
+    // Nothing is taken in a dark segment, nor yet at its start: 0 over 0.
+    float x = 2.0f * light / max(a.density + root, 1.0e-20f);
+    return min(a.s + x, b.s);
+}
+
+/// The other way round: share of the light that is taken before s.
+SHUTTER_INLINE float cumulativeResponse(ResponseRef response, float s) {
+    uint last = 1u;
+    while (last < response.value.knotCount - 1u && response.value.knots[last].s < s) ++last;
+    ResponseKnot a = response.value.knots[last - 1u];
+    ResponseKnot b = response.value.knots[last];
+    float x = clamp(s - a.s, 0.0f, b.s - a.s);
+    float slope = (b.density - a.density) / (b.s - a.s);
+    return min(a.cumulative + x * (a.density + 0.5f * slope * x), 1.0f);
+}
+
+#ifndef __cplusplus
+/// inverseResponse() of the table at an address; a box (0) leaves u as it is, bit for bit.
+float respondAt(uvec2 response, float u) {
+    if ((response.x | response.y) == 0u) return u;
+    return inverseResponse(ResponseRef(response), u);
+}
+#endif
+
+SHUTTER_SHADER_END
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The sensor's sensitivity over the exposure, piecewise linear, as shaders read it.
+#ifndef SHUTTER_SHUTTER_RESPONSE_SHARED_H
+#define SHUTTER_SHUTTER_RESPONSE_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_CONST uint kMaxResponseKnots = 64u;
+
+struct ResponseKnot {
+    float s;          // shutter time, [0, 1], rising from knot to knot
+    float density;    // sensitivity there over its mean, 0 or more; linear to the next knot
+    float cumulative; // share of the light that is taken before s, [0, 1]
+    float padding0;
+};
+
+/// By address; address 0 stands for a box, which needs none.
+struct ResponseTable {
+    uint knotCount; // 2 to kMaxResponseKnots; the first at s 0, the last at 1
+    uint padding0;
+    uint padding1;
+    uint padding2;
+    ResponseKnot knots[kMaxResponseKnots];
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::ResponseKnot) == 16);
+static_assert(sizeof(shutter::shader::ResponseTable) == 16 + 64 * 16);
+#endif
+
+#endif

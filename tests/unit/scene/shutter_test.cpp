@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/shutter.h"
+#include "shaders/common/shutter_response.glsl"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace shutter::scene {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+CameraShutter makeShutter(ShutterMode mode) {
+    CameraShutter shutter;
+    shutter.mode = mode;
+    shutter.exposureSeconds = 0.01;
+    shutter.angleDegrees = 180.0;
+    shutter.referenceFps = 24.0;
+    return shutter;
+}
+
+ShutterResponse trapezoid(double open, double close) {
+    ShutterResponse response;
+    response.shape = ResponseShape::Trapezoid;
+    response.openShare = open;
+    response.closeShare = close;
+    return response;
+}
+
+ShutterResponse sampled(std::vector<double> samples) {
+    ShutterResponse response;
+    response.shape = ResponseShape::Sampled;
+    response.samples = std::move(samples);
+    return response;
+}
+
+ShutterResponse triangle() {
+    ShutterResponse response;
+    response.shape = ResponseShape::Triangle;
+    return response;
+}
+
+/// The light before s over all light, by adding up thin slices of the response's own definition.
+double integrate(const std::function<double(double)>& height, double s) {
+    constexpr int kSlices = 200000;
+    double before = 0.0;
+    double all = 0.0;
+    for (int i = 0; i < kSlices; ++i) {
+        const double at = (i + 0.5) / kSlices;
+        all += height(at);
+        before += at < s ? height(at) : 0.0;
+    }
+    return before / all;
+}
+
+TEST(ExposureSeconds, PhysicalIsTheSameAtEveryFrameRate) {
+    for (const double frame : {1.0 / 240.0, 1.0 / 24.0, 10.0})
+        EXPECT_EQ(computeExposureSeconds(makeShutter(ShutterMode::Physical), frame), 0.01);
+}
+
+TEST(ExposureSeconds, AnAngleIsAShareOfTheFrame) {
+    CameraShutter shutter = makeShutter(ShutterMode::Angle);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 24.0), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 120.0), 1.0 / 240.0);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 10.0), 5.0) << "a hitch smears";
+    shutter.angleDegrees = 720.0;
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 0.1), 0.2) << "longer than a frame";
+}
+
+TEST(ExposureSeconds, ACapHoldsThroughAHitchAndLetsFastFramesBe) {
+    const CameraShutter shutter = makeShutter(ShutterMode::Capped);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 10.0), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, kInfinity), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 12.0), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(computeExposureSeconds(shutter, 1.0 / 60.0), 1.0 / 120.0);
+}
+
+TEST(ExposureSeconds, APausedFrameHasNone) {
+    for (const ShutterMode mode : {ShutterMode::Physical, ShutterMode::Angle, ShutterMode::Capped})
+        for (const double frame : {0.0, -1.0, kNan})
+            EXPECT_EQ(computeExposureSeconds(makeShutter(mode), frame), 0.0);
+}
+
+TEST(ExposureSeconds, WhatIsNoNumberIsNoExposure) {
+    for (const double bad : {kNan, kInfinity, -1.0}) {
+        CameraShutter shutter = makeShutter(ShutterMode::Physical);
+        shutter.exposureSeconds = bad;
+        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
+        shutter = makeShutter(ShutterMode::Angle);
+        shutter.angleDegrees = bad;
+        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
+    }
+    EXPECT_EQ(computeExposureSeconds(makeShutter(ShutterMode::Angle), kInfinity), 0.0);
+    for (const double bad : {kNan, 0.0, -24.0}) {
+        CameraShutter shutter = makeShutter(ShutterMode::Capped);
+        shutter.referenceFps = bad;
+        EXPECT_EQ(computeExposureSeconds(shutter, 0.1), 0.0);
+    }
+}
+
+TEST(ComputeExposure, ItCarriesItsFrameAndItsShutter) {
+    CameraShutter shutter = makeShutter(ShutterMode::Angle);
+    shutter.phase = ShutterPhase::Centre;
+    shutter.objectScale = 0.5;
+    const ExposureInterval interval = computeExposure(shutter, 2.0, 0.1);
+    EXPECT_DOUBLE_EQ(interval.open, 1.975);
+    EXPECT_DOUBLE_EQ(interval.close, 2.025);
+    EXPECT_EQ(interval.frameSeconds, 0.1);
+    EXPECT_EQ(interval.shutter.objectScale, 0.5);
+    EXPECT_EQ(computeExposure(shutter, 2.0, kNan).frameSeconds, 0.0);
+}
+
+TEST(Response, WhatIsConstantNeedsNoTable) {
+    EXPECT_FALSE(computeResponseTable({}));
+    EXPECT_FALSE(computeResponseTable(trapezoid(0.0, 0.0)));
+    EXPECT_FALSE(computeResponseTable(trapezoid(1e-9, 1e-9))) << "no flank in single precision";
+    EXPECT_FALSE(computeResponseTable(sampled({3.0, 3.0, 3.0})));
+    for (const double u : {0.0, 0.1, 0.7, 1.0})
+        EXPECT_EQ(invertResponse({}, u), u);
+}
+
+TEST(Response, TheTrianglesInverseIsTheClosedForm) {
+    for (double u = 0.0; u <= 1.0; u += 1.0 / 64.0) {
+        const double expected = u < 0.5 ? std::sqrt(u / 2.0) : 1.0 - std::sqrt((1.0 - u) / 2.0);
+        // Near the end 1 - u is known to 2^-24, its root to 2^-12.
+        EXPECT_NEAR(invertResponse(triangle(), u), expected, u > 0.99 ? 3e-4 : 1e-6) << u;
+    }
+    EXPECT_EQ(invertResponse(triangle(), 0.0), 0.0);
+    EXPECT_NEAR(invertResponse(triangle(), 0.5), 0.5, 1e-7);
+}
+
+TEST(Response, TheInverseGoesBackToTheLightOfTheDefinition) {
+    struct Case {
+        ShutterResponse response;
+        std::function<double(double)> height;
+    };
+
+    const auto samples = std::vector<double>{0.0, 5.0, 5.0, 0.0, 0.0, 2.0, 1.0};
+    const Case cases[] = {
+        {triangle(), [](double s) { return s < 0.5 ? s : 1.0 - s; }},
+        {trapezoid(0.25, 0.5),
+         [](double s) {
+             return std::min({s / 0.25, 1.0, (1.0 - s) / 0.5});
+         }},
+        {trapezoid(0.0, 1.0), [](double s) { return 1.0 - s; }},
+        {trapezoid(1.0, 0.0), [](double s) { return s; }},
+        {sampled(samples), [&](double s) {
+             const double at = s * double(samples.size() - 1);
+             const auto i = std::min(static_cast<size_t>(at), samples.size() - 2);
+             return std::lerp(samples[i], samples[i + 1], at - double(i));
+         }}};
+    for (const Case& each : cases)
+        for (const double u : {0.01, 0.1, 0.25, 0.4, 0.5, 0.62, 0.75, 0.9, 0.99}) {
+            const double s = invertResponse(each.response, u);
+            EXPECT_NEAR(integrate(each.height, s), u, 2e-5) << u;
+            const auto table = computeResponseTable(each.response);
+            EXPECT_NEAR(shader::cumulativeResponse({*table}, float(s)), u, 1e-6) << u;
+        }
+}
+
+TEST(Response, TimesRiseFromOpenToCloseAndStayThere) {
+    std::vector<double> most(64);
+    for (size_t i = 0; i < most.size(); ++i)
+        most[i] = double((i * 7) % 5);
+    for (const ShutterResponse& response :
+         {triangle(),
+          trapezoid(0.5, 0.5),
+          trapezoid(0.1, 0.0),
+          sampled({0.0, 1.0}),
+          sampled({1.0, 0.0}),
+          sampled(most)}) {
+        double last = 0.0;
+        for (int i = 0; i <= 1000; ++i) {
+            const double s = invertResponse(response, i / 1000.0);
+            ASSERT_GE(s, last);
+            ASSERT_LE(s, 1.0);
+            last = s;
+        }
+        EXPECT_GT(last, 0.98);
+        EXPECT_EQ(invertResponse(response, -0.1), invertResponse(response, 0.0));
+        EXPECT_LE(invertResponse(response, 1.1), 1.0);
+    }
+}
+
+TEST(Response, DarkStretchesAreSkipped) {
+    // Light in the middle fifth alone, flanks included.
+    const ShutterResponse response = sampled({0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
+    for (int i = 1; i < 100; ++i) {
+        const double s = invertResponse(response, i / 100.0);
+        EXPECT_GT(s, 0.4);
+        EXPECT_LT(s, 0.6);
+    }
+    EXPECT_NEAR(invertResponse(response, 0.0), 0.4, 1e-6) << "no light is taken at 0";
+}
+
+TEST(Response, OnlyTheShapeCounts) {
+    for (const double height : {1e-300, 1.0, 1e300})
+        EXPECT_NEAR(
+            invertResponse(sampled({0.0, height, height}), 0.3),
+            invertResponse(sampled({0.0, 1.0, 1.0}), 0.3),
+            1e-7
+        );
+}
+
+TEST(Response, BadOnesAreRefused) {
+    EXPECT_TRUE(validateResponse(triangle()).ok());
+    EXPECT_TRUE(validateResponse(trapezoid(0.5, 0.5)).ok());
+    EXPECT_TRUE(validateResponse(sampled({0.0, 1.0})).ok());
+    EXPECT_TRUE(validateResponse(sampled(std::vector<double>(64, 1.0))).ok());
+    for (const auto& [open, close] :
+         {std::pair{-0.1, 0.0}, {0.0, 1.1}, {kNan, 0.0}, {0.0, kNan}, {0.6, 0.5}})
+        EXPECT_FALSE(validateResponse(trapezoid(open, close)).ok()) << open << ", " << close;
+    const std::vector<double> bad[] = {
+        {},
+        {1.0},
+        std::vector<double>(65, 1.0),
+        {0.0, 0.0},
+        {1.0, -0.5},
+        {1.0, kNan},
+        {1.0, kInfinity}};
+    for (const auto& samples : bad)
+        EXPECT_FALSE(validateResponse(sampled(samples)).ok()) << samples.size();
+}
+
+} // namespace
+} // namespace shutter::scene
