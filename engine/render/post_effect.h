@@ -88,6 +88,7 @@ struct PostContext {
     graph::ImageHandle color;     ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display;   ///< display-encoded, once somebody made it
     Intermediates& intermediates;
+    VkDeviceAddress response = 0; ///< shader::ResponseTable of the shutter; 0: a box
 };
 
 /// Numbers an effect reports about a frame, e.g. "rays traced".

@@ -4,6 +4,7 @@
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
 #include "engine/render/instances.h"
+#include "engine/scene/shutter.h"
 
 #include <algorithm>
 #include <chrono>
@@ -62,17 +63,20 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
       mPool(device), mReadback(device), mDeformation(device), mShapeLevels(device),
       mMovingScene(device) {}
 
-VkDeviceAddress
-Renderer::uploadTables(ExtractedFrame& frame, std::span<const shader::Geometry> bent) {
+Renderer::TableAddresses Renderer::uploadTables(
+    ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
+) {
     const std::span<const shader::Geometry> own = mScene.geometryRows();
     const VkDeviceSize entitiesAt = alignTable(sizeof(shader::FrameConstants));
     const VkDeviceSize entityBytes = frame.entities.size() * sizeof(shader::EntityRow);
     const VkDeviceSize lightsAt = entitiesAt + alignTable(entityBytes);
-    const VkDeviceSize geometriesAt =
-        lightsAt + alignTable(frame.lights.size() * sizeof(shader::LightRow));
+    const VkDeviceSize lightBytes = frame.lights.size() * sizeof(shader::LightRow);
+    const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
+    const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
     const VkDeviceSize total =
         bent.empty() ? geometriesAt
                      : geometriesAt + (own.size() + bent.size()) * sizeof(shader::Geometry);
+    const auto response = scene::computeResponseTable(view.exposure.shutter.response);
     if (mTables.bytes() < total)
         mTables = gpu::Buffer(
             mDevice,
@@ -89,11 +93,13 @@ Renderer::uploadTables(ExtractedFrame& frame, std::span<const shader::Geometry> 
     mTables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
     mTables.write(std::span<const shader::EntityRow>(frame.entities), entitiesAt);
     mTables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    if (response)
+        mTables.writeBytes(&*response, sizeof(*response), responseAt);
     if (!bent.empty()) {
         mTables.write(own, geometriesAt);
         mTables.write(bent, geometriesAt + own.size_bytes());
     }
-    return mTables.address();
+    return {mTables.address(), response ? mTables.address() + responseAt : 0};
 }
 
 void Renderer::declareTopLevel(
@@ -209,7 +215,8 @@ Renderer::Tickets Renderer::declareFrame(
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
     RayScene rays;
-    rays.frameConstants = uploadTables(frame, bent);
+    const TableAddresses tables = uploadTables(frame, request.view, bent);
+    rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
     const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
@@ -241,7 +248,8 @@ Renderer::Tickets Renderer::declareFrame(
         moving ? &movingRays : nullptr,
         gbuffer.color,
         {},
-        intermediates};
+        intermediates,
+        tables.response};
     for (PostEffect* effect : running)
         effect->declare(context);
 

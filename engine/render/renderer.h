@@ -80,8 +80,17 @@ class Renderer {
         const MovingTables* moving,
         std::span<PostEffect* const> running
     );
+
+    /// Where the frame's tables are.
+    struct TableAddresses {
+        VkDeviceAddress constants = 0;
+        VkDeviceAddress response = 0; ///< 0: the shutter's response is a box
+    };
+
     /// \param bent geometries that stand behind the scene's own
-    VkDeviceAddress uploadTables(ExtractedFrame& frame, std::span<const shader::Geometry> bent);
+    TableAddresses uploadTables(
+        ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
+    );
     void declareTopLevel(
         graph::Graph& graph,
         const ExtractedFrame& frame,

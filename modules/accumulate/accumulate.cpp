@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
+#include "engine/scene/shutter.h"
 #include "shaders/accumulate/accumulate_shared.h"
 
 #include <cmath>
@@ -50,7 +51,7 @@ render::ViewRequest makeInstant(
 ) {
     SHUTTER_CHECK(index < count, "{} of {}", index, count);
     render::ViewRequest instant = view;
-    instant.instant = (index + 0.5) / count;
+    instant.instant = scene::invertResponse(view.exposure.shutter.response, (index + 0.5) / count);
     if (pixel == PixelModel::Centre)
         return instant;
     instant.jitterPx = {

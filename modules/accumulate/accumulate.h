@@ -7,7 +7,6 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/render/extraction.h"
 #include "engine/render/post_effect.h"
-#include "engine/scene/motion.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,10 +20,10 @@ enum class PixelModel : uint8_t {
     Box,    ///< anywhere, evenly: a box filter one pixel wide
 };
 
-/// The i-th of `count` sharp views: time stratified over the exposure (the middle of each stratum),
-/// place in the pixel by a (2, 3)-Halton sequence, so that the two together are a Hammersley set.
-/// Box also sharpens textures to what `count` samples can resolve.
-/// \param seed another seed gives another set of places
+/// The i-th of `count` sharp views: time stratified over the exposure's light (the middle of each
+/// stratum; with a box response, of each stretch of time), place in the pixel by a (2, 3)-Halton
+/// sequence, so that the two together are a Hammersley set. Box also sharpens textures to what
+/// `count` samples can resolve. \param seed another seed gives another set of places
 [[nodiscard]] render::ViewRequest makeInstant(
     const render::ViewRequest& view, uint32_t index, uint32_t count, PixelModel pixel, uint32_t seed
 );

@@ -37,7 +37,8 @@ MotionBlurOutputs MotionBlur::add(
     const core::Status valid = validate(settings);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
-    const MotionBlurParams params = resolve(settings, size.width, size.height, inputs.rasterShare);
+    MotionBlurParams params = resolve(settings, size.width, size.height, inputs.rasterShare);
+    params.response = inputs.response;
     switch (settings.method) {
     case Method::Gather:
         return addGather(graph, inputs, params);

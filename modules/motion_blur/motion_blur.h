@@ -29,7 +29,9 @@ struct MotionBlurInputs {
     graph::ImageHandle normal;      ///< RGBA16F: xyz unit; read by the ray mask only
     graph::ImageHandle meshId;      ///< R32_UINT; read by mask and reveal only
     double rasterShare = 1.0;       ///< s of the raster instant: 0 start, 0.5 centre, 1 end
-    std::optional<RayInputs> rays;  ///< Method::Hybrid needs them (CHECKed)
+    glm::uvec2 response{
+        0u}; ///< address of shader::ResponseTable (shutter_response_shared.h); 0: box
+    std::optional<RayInputs> rays;             ///< Method::Hybrid needs them (CHECKed)
     std::optional<MovingRayInputs> movingRays; ///< Method::Denoised needs them (CHECKed)
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
 };

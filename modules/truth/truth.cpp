@@ -119,6 +119,7 @@ void Truth::declare(render::PostContext& context) {
     params.rayCount = mCount;
     params.seed = mSettings.seed;
     params.boxFilter = mSettings.pixel == PixelModel::Box ? 1u : 0u;
+    params.response = render::splitAddress(context.response);
 
     struct Data {
         Images sums;

@@ -33,7 +33,10 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
         // A still pixel's perpendicular has no side of its own: exposures that are not centred would
         // look to one only.
         if (isSecond && speed < kStillPx) side = -side;
-        float u = innerTapPosition(i, jitter, params.sampleCount, params.rasterShare);
+        float u = warpTapAt(
+            params.response, innerTapPosition(i, jitter, params.sampleCount, params.rasterShare),
+            params.rasterShare
+        );
         vec2 offset = direction * (u * range * (isSecond ? side : 1.0f));
         vec2 uv = (centre + offset) * pixelsToUv;
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);

@@ -51,6 +51,8 @@ vec3 gather(vec2 dominant, vec3 target, vec2 centre) {
         uint far = params.rasterShare >= 0.5f ? count - 1u - i : i;
         float farPosition = tapPosition(far, offset, count, params.rasterShare);
         float nearPosition = tapPosition(count - 1u - far, offset, count, params.rasterShare);
+        farPosition = warpTapAt(params.response, farPosition, params.rasterShare);
+        nearPosition = warpTapAt(params.response, nearPosition, params.rasterShare);
         Tap first = takeTap(centre, dominant * farPosition, target, pixelsToTaps);
         Tap second = takeTap(centre, dominant * nearPosition, target, pixelsToTaps);
         vec2 weights = mirrorWeights(

@@ -22,12 +22,13 @@ vec3 gather(vec2 dominant, vec2 centre) {
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (interleavedGradientNoise(floor(centre)) - 0.5f) * params.jitter;
     float halfTap = 0.5f / float(params.sampleCount + 1u);
+    float centreTap = findCentreTapAt(params.response, params.rasterShare);
     for (uint i = 0u; i < params.sampleCount; ++i) {
         // The tap that is the target itself (the middle one of a centred exposure) is counted above.
-        if (abs(innerTapPosition(i, 0.0f, params.sampleCount, params.rasterShare)) < halfTap)
-            continue;
-        vec2 offset =
-            dominant * innerTapPosition(i, jitter, params.sampleCount, params.rasterShare);
+        float even = innerTapPosition(i, 0.0f, params.sampleCount, params.rasterShare);
+        if (abs(even - centreTap) < halfTap) continue;
+        float u = innerTapPosition(i, jitter, params.sampleCount, params.rasterShare);
+        vec2 offset = dominant * warpTapAt(params.response, u, params.rasterShare);
         vec2 uv = (centre + offset) * pixelsToUv;
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);
         float tapWeight = sampleWeight(

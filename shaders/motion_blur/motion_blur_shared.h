@@ -42,6 +42,7 @@ struct MotionBlurParams {
     uvec2 moving;                  // address of the scene's MovingConstants (denoised only)
     float luminanceSigma;          // deviations that count as noise (denoised only)
     float stepPx;                  // between taps of one level (denoised only)
+    uvec2 response;                // address of the shutter's ResponseTable; 0: a box
 };
 
 /// Arguments of the reveal's indirect dispatch (VkDispatchIndirectCommand).
@@ -62,7 +63,7 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 100);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 108);
 static_assert(sizeof(shutter::shader::RevealArguments) == 12);
 static_assert(sizeof(shutter::shader::MaskHeader) == 16);
 #endif

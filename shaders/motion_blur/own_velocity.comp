@@ -35,7 +35,8 @@ void main() {
     if (length(motion) >= kStillPx) {
         float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
         for (uint i = 0u; i < params.sampleCount; ++i) {
-            vec2 along = motion * tapPosition(i, offset, params.sampleCount, params.rasterShare);
+            float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
+            vec2 along = motion * warpTapAt(params.response, u, params.rasterShare);
             vec2 at = centre + along;
             if (params.occluderTest == kOccluderTestVelocity &&
                 !passesOccluderTest(at, along, target.z))

@@ -37,7 +37,10 @@ Gathered gather(sampler2D color, sampler2D motionDepth, vec2 dominant, vec2 cent
 
     float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
+        float u = warpTapAt(
+            params.response, tapPosition(i, offset, params.sampleCount, params.rasterShare),
+            params.rasterShare
+        );
         // A smear reaches this share of its length to this side of the raster instant.
         float reach = u >= 0.0f ? params.rasterShare : 1.0f - params.rasterShare;
         vec2 uv = (centre + dominant * u) * pixelsToUv;

@@ -3,6 +3,7 @@
 // in each pixel (Cook 1984). Motion and depth are those of the surface that moves most in the pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "common/shutter_response.glsl"
 #include "motion_blur/denoise.glsl"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
@@ -42,7 +43,7 @@ void main() {
     float sum2 = 0.0f;
     vec4 motionDepth = vec4(0.0f, 0.0f, kSkyDepth, 0.0f);
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        float s = (float(i) + offset) / float(params.sampleCount);
+        float s = respondAt(params.response, (float(i) + offset) / float(params.sampleCount));
         DistributedSample seen = traceDistributed(uScene, frame, moving, centre, s);
         vec3 color = storableColor(seen.radiance);
         float light = luminance(color);

@@ -4,6 +4,7 @@
 #define SHUTTER_MOTION_BLUR_TAPS_GLSL
 
 #include "common/numeric.glsl"
+#include "common/shutter_response.glsl"
 #include "motion_blur/weights.glsl"
 
 SHUTTER_SHADER_BEGIN
@@ -24,6 +25,32 @@ SHUTTER_INLINE float tapPosition(uint index, float offset, uint count, float ras
 SHUTTER_INLINE float innerTapPosition(uint index, float jitter, uint count, float rasterShare) {
     return (float(index) + 1.0f + jitter) / float(count + 1u) + rasterShare - 1.0f;
 }
+
+/// A tap of the two above, which fill the exposure evenly, where the shutter's response has it: there
+/// taps count alike. What a pixel sees of a surface that moves at constant speed is then weighed as
+/// the response says; how far a smear reaches and how a publication weighs its taps stays as it is.
+SHUTTER_INLINE float warpTap(ResponseRef response, float u, float rasterShare) {
+    return rasterShare - inverseResponse(response, rasterShare - u);
+}
+
+/// The even tap that warpTap() takes to 0, the pixel itself.
+SHUTTER_INLINE float findCentreTap(ResponseRef response, float rasterShare) {
+    return rasterShare - cumulativeResponse(response, rasterShare);
+}
+
+#ifndef __cplusplus
+/// warpTap() of the table at an address; a box (0) leaves u as it is, bit for bit.
+float warpTapAt(uvec2 response, float u, float rasterShare) {
+    if ((response.x | response.y) == 0u) return u;
+    return warpTap(ResponseRef(response), u, rasterShare);
+}
+
+/// findCentreTap() of the table at an address.
+float findCentreTapAt(uvec2 response, float rasterShare) {
+    if ((response.x | response.y) == 0u) return 0.0f;
+    return findCentreTap(ResponseRef(response), rasterShare);
+}
+#endif
 
 /// Share of the exposure that a surface at `offset` from a pixel has to come over it: before the
 /// raster instant where it moves towards offset, after it where it moves away. In a centred exposure

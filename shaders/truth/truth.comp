@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "common/sampling.glsl"
+#include "common/shutter_response.glsl"
 #include "render/distributed_ray.glsl"
 #include "truth/estimate.glsl"
 #include "truth/truth_shared.h"
@@ -33,9 +34,9 @@ vec2 tracePixel(ivec2 pixel) {
         uint set_ = setOfRay(i);
         uint seed = hashPixel(uvec2(pixel), params.seed, set_);
         vec2 place = params.boxFilter != 0u ? pixelPlace(i >> 1u, seed) : vec2(0.5f);
-        DistributedSample sample_ = traceDistributed(
-            uScene, frame, moving, vec2(pixel) + place, shutterTime(i >> 1u, seed)
-        );
+        float s = respondAt(params.response, shutterTime(i >> 1u, seed));
+        DistributedSample sample_ =
+            traceDistributed(uScene, frame, moving, vec2(pixel) + place, s);
         sumA += set_ == 0u ? sample_.radiance : vec3(0.0f);
         sumB += set_ == 0u ? vec3(0.0f) : sample_.radiance;
         rays += sample_.rays;

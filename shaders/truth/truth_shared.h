@@ -16,12 +16,13 @@ struct TruthParams {
     uint rayCount;  // rays a pixel of this batch
     uint seed;
     uint boxFilter; // 1: anywhere in the pixel, 0: its centre
+    uvec2 response; // address of the shutter's ResponseTable; 0: a box
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::TruthParams) == 40);
+static_assert(sizeof(shutter::shader::TruthParams) == 48);
 #endif
 
 #endif

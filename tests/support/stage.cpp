@@ -17,8 +17,11 @@ namespace {
 render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     render::FrameRequest request;
     request.view.camera = scene.camera;
-    request.view.exposure =
-        scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds);
+    scene::CameraShutter shutter = shot.shutter;
+    shutter.exposureSeconds = shot.exposureSeconds;
+    shutter.phase = shot.phase;
+    request.view.exposure = scene::computeExposure(shutter, shot.seconds, shot.frameSeconds);
+    request.view.instant = shot.instant;
     request.view.width = shot.width;
     request.view.height = shot.height;
     request.view.background = shot.background;
@@ -120,9 +123,7 @@ Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) 
     for (uint32_t i = 0; i < shot.instants; ++i) {
         const bool last = i + 1 == shot.instants;
         render::FrameRequest instant = request;
-        instant.view = accumulate::makeInstant(
-            request.view, i, shot.instants, shot.pixel, 0
-        );
+        instant.view = accumulate::makeInstant(request.view, i, shot.instants, shot.pixel, 0);
         instant.wantColor = last;
         instant.wantDisplay = last && shot.wantDisplay;
         sum.setInstant(i, shot.instants);

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -57,6 +58,9 @@ struct Shot {
     double seconds = 0.0;
     double exposureSeconds = 1.0;
     scene::ShutterPhase phase = scene::ShutterPhase::Centre;
+    scene::CameraShutter shutter{}; ///< the rest of it; the two above count
+    double frameSeconds = scene::kStillFrameSeconds;
+    std::optional<double> instant{}; ///< Sharp: shutter time; none: the raster instant
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
     uint32_t instants = 16; ///< Accumulate: instants; Truth: rays a pixel

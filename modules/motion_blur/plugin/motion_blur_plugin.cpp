@@ -23,6 +23,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.normal = context.gbuffer.normal;
     inputs.meshId = context.gbuffer.meshId;
     inputs.rasterShare = context.facts.rasterShare;
+    inputs.response = render::splitAddress(context.response);
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
     if (context.rays)
         inputs.rays = RayInputs{

@@ -30,6 +30,17 @@ TEST(MakeInstant, EveryStratumOfTheExposureIsSeenInItsMiddle) {
     }
 }
 
+TEST(MakeInstant, AResponseHasTheInstantsWhereItsLightIs) {
+    render::ViewRequest view;
+    view.exposure.shutter.response.shape = scene::ResponseShape::Triangle;
+    for (uint32_t i = 0; i < 64; ++i) {
+        const double u = (i + 0.5) / 64.0;
+        const double expected = u < 0.5 ? std::sqrt(u / 2.0) : 1.0 - std::sqrt((1.0 - u) / 2.0);
+        const auto instant = makeInstant(view, i, 64, PixelModel::Centre, 0);
+        EXPECT_NEAR(instant.instant.value(), expected, 1e-5);
+    }
+}
+
 TEST(MakeInstant, TheCentreIsNotJitteredAndKeepsTheTexturesLevel) {
     render::ViewRequest view;
     view.lodBias = 0.5f;

@@ -12,6 +12,15 @@ namespace {
 
 constexpr float kShares[] = {0.0f, 0.5f, 1.0f};
 
+/// Light that rises evenly from none at open: s = sqrt(u).
+ResponseTable risingResponse() {
+    ResponseTable table{};
+    table.knotCount = 2;
+    table.knots[0] = {0.0f, 0.0f, 0.0f, 0.0f};
+    table.knots[1] = {1.0f, 2.0f, 1.0f, 0.0f};
+    return table;
+}
+
 } // namespace
 
 TEST(Taps, TheyFillTheExposureEvenlyInEveryPhase) {
@@ -33,6 +42,24 @@ TEST(Taps, InACentredExposureTheInnerOnesAreThePapers) {
                 const double t = -1.0 + 2.0 * (i + j + 1.0) / (count + 1.0);
                 EXPECT_NEAR(innerTapPosition(i, float(j), count, 0.5f), 0.5 * t, 1e-6);
             }
+}
+
+TEST(Taps, AResponseHasThemAtTheTimesOfItsLight) {
+    const ResponseTable table = risingResponse();
+    for (const float share : kShares)
+        for (uint i = 0; i < 16; ++i) {
+            const float even = tapPosition(i, 0.5f, 16, share);
+            // What is seen at u was there at s = s_r - u.
+            const double s = std::sqrt(double(share) - double(even));
+            EXPECT_NEAR(warpTap({table}, even, share), double(share) - s, 1e-6);
+        }
+}
+
+TEST(Taps, TheCentreTapIsTheOneThatLandsOnThePixel) {
+    const ResponseTable table = risingResponse();
+    for (const float share : kShares)
+        EXPECT_NEAR(warpTap({table}, findCentreTap({table}, share), share), 0.0f, 1e-6f) << share;
+    EXPECT_NEAR(findCentreTap({table}, 0.5f), 0.25f, 1e-6f); // a quarter of the light is before
 }
 
 TEST(Taps, ASmearReachesAsFarAsTheExposureOnItsSide) {

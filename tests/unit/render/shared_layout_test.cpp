@@ -2,6 +2,7 @@
 // The structs of shaders/**_shared.h are compiled twice. Here glslang is asked where it puts every
 // member, and the answer is held against C++'s.
 #include "shaders/accumulate/accumulate_shared.h"
+#include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 #include "shaders/render/deform_shared.h"
 #include "shaders/render/moving_scene_shared.h"
@@ -178,7 +179,8 @@ const std::vector<Struct>& listStructs() {
           MEMBER(TruthParams, firstRay),
           MEMBER(TruthParams, rayCount),
           MEMBER(TruthParams, seed),
-          MEMBER(TruthParams, boxFilter)}},
+          MEMBER(TruthParams, boxFilter),
+          MEMBER(TruthParams, response)}},
         {"DrawConstants",
          sizeof(DrawConstants),
          {MEMBER(DrawConstants, frame),
@@ -206,7 +208,21 @@ const std::vector<Struct>& listStructs() {
           MEMBER(MotionBlurParams, speedThresholdPx),
           MEMBER(MotionBlurParams, moving),
           MEMBER(MotionBlurParams, luminanceSigma),
-          MEMBER(MotionBlurParams, stepPx)}},
+          MEMBER(MotionBlurParams, stepPx),
+          MEMBER(MotionBlurParams, response)}},
+        {"ResponseKnot",
+         sizeof(ResponseKnot),
+         {MEMBER(ResponseKnot, s),
+          MEMBER(ResponseKnot, density),
+          MEMBER(ResponseKnot, cumulative),
+          MEMBER(ResponseKnot, padding0)}},
+        {"ResponseTable",
+         sizeof(ResponseTable),
+         {MEMBER(ResponseTable, knotCount),
+          MEMBER(ResponseTable, padding0),
+          MEMBER(ResponseTable, padding1),
+          MEMBER(ResponseTable, padding2),
+          MEMBER(ResponseTable, knots)}},
         {"RevealArguments",
          sizeof(RevealArguments),
          {MEMBER(RevealArguments, groupsX),
@@ -239,6 +255,8 @@ std::string leafOf(const Struct& type, const Member& member) {
         return name + ".axes";
     if (name == "eyeFromObject")
         return name + "[0]";
+    if (name == "knots")
+        return name + "[0].s";
     return name;
 }
 
@@ -248,7 +266,8 @@ std::string writeShader(const Struct& type) {
                        "#extension GL_GOOGLE_include_directive : require\n"
                        "#extension GL_EXT_scalar_block_layout : require\n";
     for (const char* header :
-         {"render/scene_shared.h",
+         {"common/shutter_response_shared.h",
+          "render/scene_shared.h",
           "render/moving_scene_shared.h",
           "render/deform_shared.h",
           "truth/truth_shared.h",
