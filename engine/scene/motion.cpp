@@ -3,7 +3,9 @@
 
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
+#include "engine/scene/ancestors.h"
 #include "engine/scene/animation.h"
+#include "engine/scene/path.h"
 
 #include <cmath>
 #include <cstddef>
@@ -47,6 +49,8 @@ dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds) {
         pose = local->transform;
     if (const auto* animated = registry.find<Animated>(entity))
         pose = sampleAnimated(world.assets, world.playback, *animated, pose, seconds);
+    if (const auto* path = registry.find<PathMotion>(entity))
+        pose = samplePath(*path, pose, seconds);
     pose.translation += displacement.translation;
     pose.rotation = displacement.rotation * pose.rotation;
     return math::computeMatrix(pose);
@@ -74,16 +78,11 @@ dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
 
 bool mayMove(const World& world, ecs::Entity entity) {
     const ecs::Registry& registry = world.registry;
-    size_t steps = 0;
-    for (ecs::Entity ancestor = entity; ancestor != ecs::kNullEntity; ++steps) {
-        SHUTTER_CHECK(steps < registry.aliveCount(), "the parents of {} form a cycle", entity);
-        if (registry.find<LinearVelocity>(ancestor) || registry.find<AngularVelocity>(ancestor) ||
-            registry.find<Animated>(ancestor))
-            return true;
-        const auto* parent = registry.find<Parent>(ancestor);
-        ancestor = parent ? parent->entity : ecs::kNullEntity;
-    }
-    return false;
+    return findUpwards(world, entity, [&](ecs::Entity at) {
+               const auto* path = registry.find<PathMotion>(at);
+               return registry.has<LinearVelocity>(at) || registry.has<AngularVelocity>(at) ||
+                      registry.has<Animated>(at) || (path && path->keys.size() > 1);
+           }) != ecs::kNullEntity;
 }
 
 } // namespace shutter::scene

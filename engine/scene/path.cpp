@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/path.h"
+
+#include "engine/core/check.h"
+#include "engine/scene/animation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+namespace shutter::scene {
+
+using math::dquat;
+using math::dvec3;
+using math::dvec4;
+
+namespace {
+
+/// Directions closer than this to `up`, sine of the angle, have no upright of their own.
+constexpr double kLeastSine = 1.0e-6;
+
+bool isFinite(const dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Keys [first, last] between two cuts.
+struct Shot {
+    size_t first = 0;
+    size_t last = 0;
+};
+
+/// Where a time lies in its shot.
+struct Place {
+    Shot shot;
+    size_t key = 0;     ///< the key before
+    double share = 0.0; ///< of the way to the next, [0, 1]; 0 where there is none
+};
+
+/// The last key at or before `seconds`, or the first.
+size_t findKey(const std::vector<PathKey>& keys, double seconds) {
+    const auto next =
+        std::upper_bound(keys.begin(), keys.end(), seconds, [](double time, const PathKey& key) {
+            return time < key.seconds;
+        });
+    return next == keys.begin() ? 0 : static_cast<size_t>(next - keys.begin()) - 1;
+}
+
+Shot findShot(const std::vector<PathKey>& keys, size_t key) {
+    Shot shot{key, key};
+    while (shot.first > 0 && !keys[shot.first].cut)
+        --shot.first;
+    while (shot.last + 1 < keys.size() && !keys[shot.last + 1].cut)
+        ++shot.last;
+    return shot;
+}
+
+Place findPlace(const PathMotion& path, double seconds) {
+    const std::vector<PathKey>& keys = path.keys;
+    Place place;
+    place.shot = findShot(keys, findKey(keys, seconds));
+    const double from = keys[place.shot.first].seconds;
+    const double to = keys[place.shot.last].seconds;
+    double time = std::clamp(seconds, from, to);
+    if (path.ease == PathEase::InOut && to > from) {
+        const double x = (time - from) / (to - from);
+        time = std::clamp(from + (to - from) * x * x * (3.0 - 2.0 * x), from, to);
+    }
+    place.key = std::clamp(findKey(keys, time), place.shot.first, place.shot.last);
+    if (place.key < place.shot.last) {
+        const double start = keys[place.key].seconds;
+        place.share = std::clamp((time - start) / (keys[place.key + 1].seconds - start), 0.0, 1.0);
+    }
+    return place;
+}
+
+/// Per second: the slope between a key's neighbours, at the ends of a shot to the only one.
+template <class Value>
+Value computeTangent(
+    const PathMotion& path,
+    const Shot& shot,
+    size_t key,
+    const std::function<Value(size_t)>& valueAt
+) {
+    const size_t before = key > shot.first ? key - 1 : key;
+    const size_t after = key < shot.last ? key + 1 : key;
+    return (valueAt(after) - valueAt(before)) /
+           (path.keys[after].seconds - path.keys[before].seconds);
+}
+
+template <class Value>
+Value interpolate(
+    const PathMotion& path, const Place& place, const std::function<Value(size_t)>& valueAt
+) {
+    const Value from = valueAt(place.key);
+    if (place.share == 0.0)
+        return from;
+    const Value to = valueAt(place.key + 1);
+    if (path.interpolation == PathInterpolation::Linear)
+        return from + (to - from) * place.share;
+    const double interval = path.keys[place.key + 1].seconds - path.keys[place.key].seconds;
+    return interpolateHermite<Value>(
+        {from,
+         interval * computeTangent(path, place.shot, place.key, valueAt),
+         to,
+         interval * computeTangent(path, place.shot, place.key + 1, valueAt)},
+        place.share
+    );
+}
+
+dvec4 toVector(const dquat& q) {
+    return {q.x, q.y, q.z, q.w};
+}
+
+dquat toRotation(const dvec4& v) {
+    return glm::normalize(dquat(v.w, v.x, v.y, v.z));
+}
+
+/// A key's rotation as seen from key `from`: of a rotation's two signs the one nearer to that of
+/// the key before it on the way, so that the curve takes the shorter turns.
+dvec4 alignRotation(const std::vector<PathKey>& keys, size_t from, size_t key) {
+    dvec4 value = toVector(*keys[from].rotation);
+    for (size_t at = from; at != key;) {
+        at = key > at ? at + 1 : at - 1;
+        const dvec4 next = toVector(*keys[at].rotation);
+        value = glm::dot(value, next) < 0.0 ? -next : next;
+    }
+    return value;
+}
+
+/// Looks with -Z along `direction`, +Y towards `up`.
+dquat lookAlong(const dvec3& direction, const dvec3& up) {
+    const double distance = glm::length(direction);
+    if (!(distance > 0.0))
+        return {1.0, 0.0, 0.0, 0.0};
+    const dvec3 back = -direction / distance;
+    dvec3 right = glm::cross(glm::normalize(up), back);
+    if (!(glm::length(right) > kLeastSine)) {
+        // Straight up or down: turned about the axis that `up` is farthest from.
+        const dvec3 other = std::abs(back.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
+        right = glm::cross(other, back);
+    }
+    right = glm::normalize(right);
+    return glm::quat_cast(math::dmat3(right, glm::cross(back, right), back));
+}
+
+dquat sampleRotation(const PathMotion& path, const Place& place) {
+    const std::vector<PathKey>& keys = path.keys;
+    if (path.interpolation == PathInterpolation::Linear && place.share > 0.0)
+        return glm::slerp(*keys[place.key].rotation, *keys[place.key + 1].rotation, place.share);
+    return toRotation(interpolate<dvec4>(path, place, [&](size_t key) {
+        return alignRotation(keys, place.key, key);
+    }));
+}
+
+core::Status validateKey(const PathMotion& path, size_t i) {
+    const PathKey& key = path.keys[i];
+    if (!std::isfinite(key.seconds))
+        return core::makeError("path: the time of key {} is {}", i, key.seconds);
+    if (i > 0 && !(key.seconds > path.keys[i - 1].seconds))
+        return core::makeError(
+            "path: key {} at {} s does not come after the one before, at {} s",
+            i,
+            key.seconds,
+            path.keys[i - 1].seconds
+        );
+    if (!isFinite(key.position))
+        return core::makeError("path: the position of key {} is not finite", i);
+    if (key.rotation && key.lookAt)
+        return core::makeError("path: key {} has a rotation and a place to look at", i);
+    if (key.rotation.has_value() != path.keys[0].rotation.has_value() ||
+        key.lookAt.has_value() != path.keys[0].lookAt.has_value())
+        return core::makeError("path: key {} tells its direction in another way than key 0", i);
+    // Written so that NaN fails.
+    if (key.rotation && !(std::abs(glm::length(*key.rotation) - 1.0) < 1.0e-3))
+        return core::makeError("path: the rotation of key {} is not of length 1", i);
+    if (key.lookAt && !isFinite(*key.lookAt))
+        return core::makeError("path: the place that key {} looks at is not finite", i);
+    return {};
+}
+
+} // namespace
+
+core::Status validatePath(const PathMotion& path) {
+    if (path.keys.empty())
+        return core::makeError("path: it has no keys");
+    for (size_t i = 0; i < path.keys.size(); ++i)
+        if (core::Status valid = validateKey(path, i); !valid)
+            return valid;
+    if (!isFinite(path.up) || !(glm::length(path.up) > 0.0))
+        return core::makeError("path: up has no direction");
+    return {};
+}
+
+math::Transform samplePath(const PathMotion& path, const math::Transform& rest, double seconds) {
+    SHUTTER_CHECK(!path.keys.empty(), "a path without keys");
+    const std::vector<PathKey>& keys = path.keys;
+    const Place place = findPlace(path, seconds);
+    math::Transform pose = rest;
+    pose.translation =
+        interpolate<dvec3>(path, place, [&](size_t key) { return keys[key].position; });
+    if (keys.front().rotation)
+        pose.rotation = sampleRotation(path, place);
+    if (keys.front().lookAt) {
+        const dvec3 target =
+            interpolate<dvec3>(path, place, [&](size_t key) { return *keys[key].lookAt; });
+        pose.rotation = lookAlong(target - pose.translation, path.up);
+    }
+    return pose;
+}
+
+bool hasCutWithin(const PathMotion& path, double from, double to) {
+    return std::any_of(path.keys.begin(), path.keys.end(), [&](const PathKey& key) {
+        return key.cut && key.seconds > from && key.seconds <= to;
+    });
+}
+
+} // namespace shutter::scene

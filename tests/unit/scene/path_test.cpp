@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/motion.h"
+#include "engine/scene/path.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace shutter::scene {
+namespace {
+
+using math::dquat;
+using math::dvec3;
+
+const dvec3 kUp(0.0, 1.0, 0.0);
+
+void expectNear(const dvec3& actual, const dvec3& expected, double tolerance = 1e-9) {
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(actual[i], expected[i], tolerance) << "axis " << i;
+}
+
+PathKey key(double seconds, const dvec3& position) {
+    PathKey made;
+    made.seconds = seconds;
+    made.position = position;
+    return made;
+}
+
+PathKey turned(double seconds, double degrees) {
+    PathKey made = key(seconds, dvec3(0.0));
+    made.rotation = glm::angleAxis(degrees * std::numbers::pi / 180.0, kUp);
+    return made;
+}
+
+PathMotion curve() {
+    PathMotion path;
+    path.keys = {
+        key(0.0, {0, 0, 0}), key(1.0, {1, 2, 0}), key(1.5, {4, 2, 1}), key(4.0, {4, -1, 3})};
+    return path;
+}
+
+dvec3 placeAt(const PathMotion& path, double seconds) {
+    return samplePath(path, {}, seconds).translation;
+}
+
+dvec3 forwardAt(const PathMotion& path, double seconds) {
+    return samplePath(path, {}, seconds).rotation * dvec3(0.0, 0.0, -1.0);
+}
+
+TEST(Path, GoesThroughItsKeysAndStaysAtTheEnds) {
+    for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom})
+        for (const auto ease : {PathEase::None, PathEase::InOut}) {
+            PathMotion path = curve();
+            path.interpolation = interpolation;
+            path.ease = ease;
+            EXPECT_EQ(placeAt(path, -3.0), path.keys.front().position);
+            EXPECT_EQ(placeAt(path, 0.0), path.keys.front().position);
+            EXPECT_EQ(placeAt(path, 4.0), path.keys.back().position);
+            EXPECT_EQ(placeAt(path, 99.0), path.keys.back().position);
+            if (ease == PathEase::InOut)
+                continue;
+            for (const PathKey& each : path.keys)
+                expectNear(placeAt(path, each.seconds), each.position);
+        }
+}
+
+TEST(Path, TheCurveIsContinuousAndSoIsItsVelocity) {
+    for (const auto ease : {PathEase::None, PathEase::InOut}) {
+        PathMotion path = curve();
+        path.ease = ease;
+        constexpr double kStep = 1e-5;
+        for (double t = 0.01; t < 3.99; t += 0.005) {
+            const dvec3 before = (placeAt(path, t) - placeAt(path, t - kStep)) / kStep;
+            const dvec3 after = (placeAt(path, t + kStep) - placeAt(path, t)) / kStep;
+            ASSERT_LT(glm::length(after - before), 1e-2) << t;
+        }
+    }
+}
+
+TEST(Path, StraightAndEvenKeysGiveAStraightAndEvenMotion) {
+    PathMotion path;
+    path.keys = {key(0, {0, 0, 0}), key(1, {2, 0, 0}), key(2, {4, 0, 0}), key(3, {6, 0, 0})};
+    for (double t = 0.0; t <= 3.0; t += 0.1)
+        expectNear(placeAt(path, t), {2.0 * t, 0, 0});
+}
+
+TEST(Path, EaseStartsAndStopsFromRest) {
+    PathMotion path;
+    path.keys = {key(0, {0, 0, 0}), key(2, {1, 0, 0})};
+    path.ease = PathEase::InOut;
+    EXPECT_NEAR(placeAt(path, 1.0).x, 0.5, 1e-12);
+    EXPECT_NEAR(placeAt(path, 0.5).x, 0.15625, 1e-12); // 3 x^2 - 2 x^3 at a quarter
+    EXPECT_LT(placeAt(path, 0.01).x, 1e-4);
+    EXPECT_GT(placeAt(path, 1.99).x, 1.0 - 1e-4);
+}
+
+TEST(Path, OneKeyIsAPlace) {
+    PathMotion path;
+    path.keys = {key(2.0, {1, 2, 3})};
+    for (const double t : {-1.0, 2.0, 5.0})
+        EXPECT_EQ(placeAt(path, t), dvec3(1, 2, 3));
+}
+
+TEST(Path, RotationsPassThroughTheirKeysSmoothlyTheShorterWay) {
+    for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom}) {
+        PathMotion path;
+        path.interpolation = interpolation;
+        path.keys = {turned(0, 0), turned(1, 90), turned(2, 200), turned(3, 350)};
+        // The other sign is the same rotation.
+        path.keys[2].rotation = -*path.keys[2].rotation;
+        for (const PathKey& each : path.keys)
+            expectNear(forwardAt(path, each.seconds), *each.rotation * dvec3(0, 0, -1));
+        const dvec3 half = glm::angleAxis(45.0 * std::numbers::pi / 180.0, kUp) * dvec3(0, 0, -1);
+        EXPECT_GT(glm::dot(forwardAt(path, 0.5), half), 0.99);
+        for (double t = 0.0; t < 3.0; t += 0.01)
+            ASSERT_GT(glm::dot(forwardAt(path, t), forwardAt(path, t + 0.01)), 0.999) << t;
+        if (interpolation == PathInterpolation::Linear)
+            continue;
+        constexpr double kStep = 1e-5;
+        for (double t = 0.01; t < 2.99; t += 0.005) {
+            const dvec3 before = (forwardAt(path, t) - forwardAt(path, t - kStep)) / kStep;
+            const dvec3 after = (forwardAt(path, t + kStep) - forwardAt(path, t)) / kStep;
+            ASSERT_LT(glm::length(after - before), 1e-2) << t;
+        }
+    }
+}
+
+TEST(Path, ItLooksAtItsTargetAndStaysUpright) {
+    PathMotion path = curve();
+    for (PathKey& each : path.keys)
+        each.lookAt = dvec3(1, 0, -5) + 0.5 * each.seconds;
+    for (double t = 0.0; t <= 4.0; t += 0.1) {
+        const math::Transform pose = samplePath(path, {}, t);
+        // The targets lie on a line at even speed, up to what their uneven times bend.
+        const dvec3 target = dvec3(1, 0, -5) + 0.5 * t;
+        const dvec3 forward = pose.rotation * dvec3(0, 0, -1);
+        EXPECT_GT(glm::dot(forward, glm::normalize(target - pose.translation)), 0.9999) << t;
+        EXPECT_NEAR((pose.rotation * dvec3(1, 0, 0)).y, 0.0, 1e-9) << "no roll";
+        EXPECT_GT((pose.rotation * kUp).y, 0.0);
+        EXPECT_NEAR(glm::length(pose.rotation), 1.0, 1e-9);
+    }
+}
+
+TEST(Path, LookingStraightDownOrAtItselfIsADirectionToo) {
+    for (const dvec3& target : {dvec3(0, -5, 0), dvec3(0, 5, 0), dvec3(0, 0, 0)}) {
+        PathMotion path;
+        path.keys = {key(0, dvec3(0.0))};
+        path.keys[0].lookAt = target;
+        const dquat rotation = samplePath(path, {}, 0.0).rotation;
+        EXPECT_NEAR(glm::length(rotation), 1.0, 1e-9);
+        if (target.y != 0.0)
+            expectNear(rotation * dvec3(0, 0, -1), glm::normalize(target), 1e-9);
+    }
+}
+
+TEST(Path, WithoutDirectionsTheRestPosesRotationAndScaleStay) {
+    math::Transform rest;
+    rest.rotation = glm::angleAxis(0.3, kUp);
+    rest.scale = {2, 3, 4};
+    const math::Transform pose = samplePath(curve(), rest, 0.7);
+    EXPECT_EQ(pose.rotation, rest.rotation);
+    EXPECT_EQ(pose.scale, rest.scale);
+}
+
+TEST(Path, UntilACutItStaysAtTheKeyBefore) {
+    PathMotion path;
+    path.keys = {key(0, {0, 0, 0}), key(1, {1, 0, 0}), key(2, {50, 0, 0}), key(3, {51, 0, 0})};
+    path.keys[2].cut = true;
+    EXPECT_EQ(placeAt(path, 1.5), dvec3(1, 0, 0));
+    EXPECT_EQ(placeAt(path, 1.999999), dvec3(1, 0, 0));
+    EXPECT_EQ(placeAt(path, 2.0), dvec3(50, 0, 0));
+    // Each shot is a curve of its own: two keys are a straight line.
+    expectNear(placeAt(path, 0.5), {0.5, 0, 0});
+    expectNear(placeAt(path, 2.5), {50.5, 0, 0});
+    EXPECT_TRUE(hasCutWithin(path, 1.5, 2.5));
+    EXPECT_TRUE(hasCutWithin(path, 1.5, 2.0));
+    EXPECT_FALSE(hasCutWithin(path, 2.0, 2.5)) << "over";
+    EXPECT_FALSE(hasCutWithin(path, 0.0, 1.9));
+}
+
+TEST(Path, MovesItsEntityInTheParentsSpace) {
+    World world;
+    const ecs::Entity parent = world.registry.create();
+    world.registry.add(parent, LocalTransform{{{10, 0, 0}, glm::angleAxis(0.0, kUp), dvec3(2.0)}});
+    const ecs::Entity entity = world.registry.create();
+    world.registry.add(entity, Parent{parent});
+    world.registry.add(entity, LocalTransform{{{9, 9, 9}, glm::angleAxis(0.0, kUp), dvec3(1.0)}});
+    world.registry.add(entity, curve());
+    expectNear(dvec3(worldFromEntity(world, entity, 1.0)[3]), {12, 4, 0});
+    EXPECT_TRUE(mayMove(world, entity));
+    EXPECT_FALSE(mayMove(world, parent));
+    PathMotion still;
+    still.keys = {key(0, {1, 1, 1})};
+    world.registry.add(entity, still);
+    EXPECT_FALSE(mayMove(world, entity)) << "one key";
+    expectNear(dvec3(worldFromEntity(world, entity, 7.0)[3]), {12, 2, 2});
+}
+
+TEST(Path, BadOnesAreRefusedByKey) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(validatePath(curve()).ok());
+    EXPECT_FALSE(validatePath({}).ok()) << "no keys";
+    const auto refuse = [&](const std::function<void(PathMotion&)>& change) {
+        PathMotion path = curve();
+        change(path);
+        const core::Status valid = validatePath(path);
+        ASSERT_FALSE(valid.ok());
+        EXPECT_NE(valid.error().message.find("key 2"), std::string::npos) << valid.error().message;
+    };
+    refuse([](auto& path) { path.keys[2].seconds = path.keys[1].seconds; });
+    refuse([](auto& path) { path.keys[2].seconds = 0.5; });
+    refuse([&](auto& path) { path.keys[2].seconds = nan; });
+    refuse([&](auto& path) { path.keys[2].position.y = nan; });
+    refuse([](auto& path) { path.keys[2].lookAt = dvec3(0.0); });
+    refuse([](auto& path) { path.keys[2].rotation = dquat(1, 0, 0, 0); });
+    refuse([](auto& path) {
+        for (PathKey& each : path.keys)
+            each.rotation = dquat(1, 0, 0, 0);
+        path.keys[2].rotation = dquat(0, 0, 0, 0);
+    });
+    refuse([&](auto& path) {
+        for (PathKey& each : path.keys)
+            each.lookAt = dvec3(9.0);
+        path.keys[2].lookAt->x = nan;
+    });
+    PathMotion path = curve();
+    path.up = dvec3(0.0);
+    EXPECT_FALSE(validatePath(path).ok());
+    path = curve();
+    path.keys[0].rotation = dquat(1, 0, 0, 0);
+    path.keys[0].lookAt = dvec3(1.0);
+    EXPECT_FALSE(validatePath(path).ok()) << "two directions";
+}
+
+} // namespace
+} // namespace shutter::scene
