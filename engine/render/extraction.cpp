@@ -89,6 +89,8 @@ class Extractor {
     core::Result<ExtractedFrame> run() {
         fillConstants();
         for (auto [entity, instance] : mWorld.registry.view<scene::MeshInstance>()) {
+            if (scene::isHidden(mWorld, entity))
+                continue;
             if (mFrame.entities.size() >= kMaxEntities)
                 return core::makeError(
                     "the scene draws more than {} entities, the most the entity table holds",
@@ -97,7 +99,8 @@ class Extractor {
             addEntity(entity, instance.mesh);
         }
         for (auto [entity, light] : mWorld.registry.view<scene::Light>())
-            addLight(entity, light);
+            if (!scene::isHidden(mWorld, entity))
+                addLight(entity, light);
         mFrame.constants.lightCount = static_cast<uint32_t>(mFrame.lights.size());
         std::stable_sort(
             mFrame.opaque.begin(),

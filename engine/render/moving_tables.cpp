@@ -181,6 +181,8 @@ class Builder {
                 ++next;
                 continue;
             }
+            if (scene::isHidden(mWorld, entity))
+                continue;
             const Bounds& bounds = mLayout.bounds[instance.mesh];
             const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];
             if (bounds.isEmpty() || firstGeometry == mLayout.firstGeometry[instance.mesh + 1])

@@ -132,6 +132,30 @@ struct CameraShutter {
     CutDetection cuts{};
 };
 
+/// Artist's say over one entity and its descendants; the nearest one upwards counts.
+struct MotionBlur {
+    double scale = 1.0;   ///< of all its blur on the screen, the camera's part too, [0, 2]
+    bool exclude = false; ///< as scale 0: sharp, although the camera moves
+};
+
+/// Neither the entity nor its descendants are drawn or give light. history.h: hide(), show().
+struct Hidden {};
+
+/// The entity came to be, or came into sight, at this time: it has no past (history.h).
+struct Appeared {
+    double seconds = 0.0;
+};
+
+/// The entity and its descendants were put elsewhere at this time, not moved there (history.h).
+struct Teleported {
+    double seconds = 0.0;
+};
+
+/// On a camera: what it shows from this time on has nothing to do with what it showed before.
+struct CameraCut {
+    double seconds = 0.0;
+};
+
 enum class LightKind : uint8_t { Directional, Point, Spot };
 
 /// KHR_lights_punctual; shines down its entity's -Z.

@@ -1,39 +1,189 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/exposure_motion.h"
 
+#include "engine/math/transform.h"
+#include "engine/scene/ancestors.h"
+#include "engine/scene/camera_cut.h"
+#include "engine/scene/path.h"
+
+#include <algorithm>
+
 namespace shutter::scene {
+
+using math::dmat4;
+using math::dvec3;
+
+namespace {
+
+double scaleOf(const MotionBlur& blur) {
+    return blur.exclude ? 0.0 : blur.scale;
+}
+
+/// Times that the picture depends on: the exposure, and what scales reach beyond it.
+TimeSpan findReach(const World& world, const ExposureInterval& exposure) {
+    double entityScale = 1.0;
+    for (auto [entity, blur] : world.registry.view<MotionBlur>()) {
+        (void)entity;
+        entityScale = std::max(entityScale, scaleOf(blur));
+    }
+    const CameraShutter& shutter = exposure.shutter;
+    const double reach =
+        entityScale *
+        std::max(
+            {1.0, shutter.cameraRotationScale, shutter.cameraTranslationScale, shutter.objectScale}
+        );
+    // No rounding where nothing is scaled: an event at shutter open is over.
+    if (reach == 1.0)
+        return {exposure.open, exposure.close};
+    const double r = exposure.raster;
+    return {r + reach * (exposure.open - r), r + reach * (exposure.close - r)};
+}
+
+template <class Event> bool anyHappened(const World& world, const TimeSpan& span) {
+    for (auto [entity, event] : world.registry.view<Event>()) {
+        (void)entity;
+        if (span.contains(event.seconds))
+            return true;
+    }
+    return false;
+}
+
+bool anyPathCut(const World& world, const TimeSpan& span) {
+    for (auto [entity, path] : world.registry.view<PathMotion>()) {
+        (void)entity;
+        if (hasCutWithin(path, span.after, span.until))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+ExposureMotion::ExposureMotion(
+    const World& world, ecs::Entity camera, const ExposureInterval& exposure
+)
+    : mWorld(world), mCamera(camera), mExposure(exposure) {
+    // A still picture has no past to lose.
+    if (!(exposure.open < exposure.close))
+        return;
+    const TimeSpan reach = findReach(world, exposure);
+    mSpan = {std::min(reach.after, exposure.raster - exposure.frameSeconds), reach.until};
+    mAnyEvents = anyHappened<Appeared>(world, mSpan) || anyHappened<Teleported>(world, mSpan) ||
+                 anyPathCut(world, mSpan);
+    for (auto [entity, blur] : world.registry.view<MotionBlur>()) {
+        (void)entity;
+        mAnyBlurScale = mAnyBlurScale || scaleOf(blur) != 1.0;
+    }
+    mIsCut = scene::isCut(world, camera, mSpan);
+    if (mIsCut || isHeld(camera) || !scene::mayMove(world, camera))
+        return;
+    const auto poseAt = [&](double seconds) {
+        return math::removeScale(scene::worldFromEntity(world, camera, seconds));
+    };
+    mIsCut = findsCameraCut(poseAt, reach.after, reach.until, exposure.shutter.cuts);
+}
 
 double ExposureMotion::secondsAt(double s) const {
     // Not one rounding beside it: the raster image and a still one of the same time are the same.
     return s == mExposure.rasterShare ? mExposure.raster : mExposure.at(s);
 }
 
-math::dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {
-    return scene::worldFromEntity(mWorld, entity, secondsAt(s));
+double ExposureMotion::scaleTime(double seconds, double scale) const {
+    // Not one rounding beside it either: a scale of 1 changes no bit.
+    return scale == 1.0 ? seconds : mExposure.raster + scale * (seconds - mExposure.raster);
 }
 
-math::dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
-    return scene::worldFromObject(mWorld, entity, secondsAt(s));
+bool ExposureMotion::isHeld(ecs::Entity entity) const {
+    return mIsCut || (mAnyEvents && hasNoPast(mWorld, entity, mSpan));
+}
+
+bool ExposureMotion::isObjectHeld(ecs::Entity entity) const {
+    if (isHeld(entity))
+        return true;
+    const auto* skinned = mWorld.registry.find<Skinned>(entity);
+    return mAnyEvents && skinned &&
+           std::any_of(skinned->joints.begin(), skinned->joints.end(), [&](ecs::Entity joint) {
+               return isHeld(joint);
+           });
+}
+
+double ExposureMotion::blurScaleOf(ecs::Entity entity) const {
+    if (!mAnyBlurScale)
+        return 1.0;
+    const ecs::Entity nearest = findUpwards(mWorld, entity, [&](ecs::Entity at) {
+        return mWorld.registry.has<MotionBlur>(at);
+    });
+    return nearest == ecs::kNullEntity ? 1.0 : scaleOf(mWorld.registry.get<MotionBlur>(nearest));
+}
+
+dmat4 ExposureMotion::cameraAt(double seconds) const {
+    if (isHeld(mCamera))
+        return scene::worldFromEntity(mWorld, mCamera, mExposure.raster);
+    const double turned = scaleTime(seconds, mExposure.shutter.cameraRotationScale);
+    const double displaced = scaleTime(seconds, mExposure.shutter.cameraTranslationScale);
+    dmat4 world = scene::worldFromEntity(mWorld, mCamera, turned);
+    if (displaced != turned)
+        world[3] = scene::worldFromEntity(mWorld, mCamera, displaced)[3];
+    return world;
+}
+
+dmat4 ExposureMotion::worldFromCamera(double s) const {
+    return cameraAt(secondsAt(s));
+}
+
+bool ExposureMotion::mayCameraMove() const {
+    const CameraShutter& shutter = mExposure.shutter;
+    return (shutter.cameraRotationScale != 0.0 || shutter.cameraTranslationScale != 0.0) &&
+           scene::mayMove(mWorld, mCamera) && !isHeld(mCamera);
+}
+
+dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {
+    const double seconds =
+        isHeld(entity) ? mExposure.raster : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
+    return scene::worldFromEntity(mWorld, entity, seconds);
+}
+
+double ExposureMotion::objectSeconds(ecs::Entity entity, double seconds, double blurScale) const {
+    if (isObjectHeld(entity))
+        return mExposure.raster;
+    return scaleTime(scaleTime(seconds, blurScale), mExposure.shutter.objectScale);
+}
+
+dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
+    const double seconds = secondsAt(s);
+    const double blurScale = blurScaleOf(entity);
+    const dmat4 object =
+        scene::worldFromObject(mWorld, entity, objectSeconds(entity, seconds, blurScale));
+    const double seen = scaleTime(seconds, blurScale);
+    if (seen == seconds || !mayCameraMove())
+        return object;
+    // On the screen at `seconds` as it would be at `seen`: from there into the view, and out again.
+    return math::removeScale(cameraAt(seconds)) * glm::inverse(math::removeScale(cameraAt(seen))) *
+           object;
 }
 
 Deformation ExposureMotion::deformationAt(ecs::Entity entity, double s) const {
-    return scene::deformationAt(mWorld, entity, secondsAt(s));
-}
-
-math::dmat4 ExposureMotion::worldFromCamera(double s) const {
-    return worldFromEntity(mCamera, s);
+    return scene::deformationAt(
+        mWorld, entity, objectSeconds(entity, secondsAt(s), blurScaleOf(entity))
+    );
 }
 
 bool ExposureMotion::mayMove(ecs::Entity entity) const {
-    return scene::mayMove(mWorld, entity);
+    return mExposure.shutter.objectScale != 0.0 && scene::mayMove(mWorld, entity) &&
+           !isHeld(entity);
 }
 
 bool ExposureMotion::mayObjectMove(ecs::Entity entity) const {
-    return scene::mayObjectMove(mWorld, entity);
+    const double blurScale = blurScaleOf(entity);
+    if (blurScale != 1.0 && mayCameraMove())
+        return true;
+    return blurScale != 0.0 && mExposure.shutter.objectScale != 0.0 &&
+           scene::mayObjectMove(mWorld, entity) && !isObjectHeld(entity);
 }
 
 bool ExposureMotion::mayDeform(ecs::Entity entity) const {
-    return scene::mayDeform(mWorld, entity);
+    return blurScaleOf(entity) != 0.0 && mExposure.shutter.objectScale != 0.0 &&
+           scene::mayDeform(mWorld, entity) && !isObjectHeld(entity);
 }
 
 } // namespace shutter::scene

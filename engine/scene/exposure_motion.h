@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Motion as one exposure of one camera shows it: the one place that motion vectors, rays and ground
-// truth ask where something is at a shutter time.
+// truth ask where something is at a shutter time. It honours the artist's scales (CameraShutter,
+// MotionBlur) and what has no past (history.h).
+//
+// A scale k runs time k times as fast away from the raster instant r: what is scaled is at time t
+// where it would be at r + k (t - r). At the raster instant all is where it is.
 #pragma once
 
 #include "engine/ecs/entity.h"
 #include "engine/math/math.h"
 #include "engine/scene/deformation.h"
+#include "engine/scene/history.h"
 #include "engine/scene/motion.h"
+#include "engine/scene/shutter.h"
 #include "engine/scene/world.h"
 
 namespace shutter::scene {
@@ -14,14 +20,17 @@ namespace shutter::scene {
 class ExposureMotion {
   public:
     /// \param camera alive, with a Camera; `world` must outlive this and stay as it is
-    ExposureMotion(const World& world, ecs::Entity camera, const ExposureInterval& exposure)
-        : mWorld(world), mCamera(camera), mExposure(exposure) {}
+    ExposureMotion(const World& world, ecs::Entity camera, const ExposureInterval& exposure);
 
     [[nodiscard]] const ExposureInterval& exposure() const { return mExposure; }
 
+    /// Nothing has a past in this frame: all stands as at the raster instant.
+    [[nodiscard]] bool isCut() const { return mIsCut; }
+
     /// Shutter time s in [0, 1] below; `entity` and its parents are alive.
     [[nodiscard]] math::dmat4 worldFromEntity(ecs::Entity entity, double s) const;
-    /// Of the space that deformed vertices are given in (deformation.h).
+    /// Of the space that deformed vertices are given in (deformation.h), where the picture has it:
+    /// an entity of its own scale (MotionBlur) rides with the camera for the part that is not its.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
     /// Of the camera's entity; may hold scale.
@@ -36,10 +45,26 @@ class ExposureMotion {
 
   private:
     [[nodiscard]] double secondsAt(double s) const;
+    /// `seconds` run `scale` times as fast away from the raster instant.
+    [[nodiscard]] double scaleTime(double seconds, double scale) const;
+    [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
+    [[nodiscard]] bool mayCameraMove() const;
+    /// Of the nearest MotionBlur upwards, [0, 2].
+    [[nodiscard]] double blurScaleOf(ecs::Entity entity) const;
+    /// True where the entity's own motion is none in this frame.
+    [[nodiscard]] bool isHeld(ecs::Entity entity) const;
+    /// The same, of a mesh: its joints count.
+    [[nodiscard]] bool isObjectHeld(ecs::Entity entity) const;
+    /// When a mesh that is scaled by `blurScale` is seen as it is at `seconds`.
+    [[nodiscard]] double objectSeconds(ecs::Entity entity, double seconds, double blurScale) const;
 
     const World& mWorld;
     ecs::Entity mCamera;
     ExposureInterval mExposure;
+    TimeSpan mSpan;             ///< the frame and all times that scales reach
+    bool mAnyEvents = false;    ///< false: isHeld() needs not look
+    bool mAnyBlurScale = false; ///< false: no entity has a MotionBlur
+    bool mIsCut = false;
 };
 
 } // namespace shutter::scene

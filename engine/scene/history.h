@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Events that end a thing's past. A game tells them with the time at which they happen; what has no
+// past within a frame has no motion of its own in it (exposure_motion.h).
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/math/transform.h"
+#include "engine/scene/world.h"
+
+namespace shutter::scene {
+
+/// Times after `after` and not after `until`, seconds. What happens at `after` itself is over: all
+/// that the span sees comes later.
+struct TimeSpan {
+    double after = 0.0;
+    double until = 0.0;
+
+    [[nodiscard]] bool contains(double seconds) const {
+        return seconds > after && seconds <= until;
+    }
+};
+
+/// Puts the entity at `transform` of its parent's space at `seconds` (finite); its velocities go on
+/// from there. Properties that a clip or a path tells still win: put such an entity under a parent
+/// and teleport that.
+void teleport(World& world, ecs::Entity entity, const math::Transform& transform, double seconds);
+/// As teleport(), of a camera, and everything stands still in that frame.
+void cutTo(World& world, ecs::Entity camera, const math::Transform& transform, double seconds);
+/// The picture changes to this camera, or what it shows is new in another way.
+void cut(World& world, ecs::Entity camera, double seconds);
+/// The entity was made at `seconds`.
+void appear(World& world, ecs::Entity entity, double seconds);
+/// No longer draws the entity and its descendants.
+void hide(World& world, ecs::Entity entity);
+/// Draws them again, from `seconds` on.
+void show(World& world, ecs::Entity entity, double seconds);
+/// Destroys the entity, its descendants and skinned meshes that hang on one of them; cameras leave
+/// World::cameras.
+void despawn(World& world, ecs::Entity entity);
+
+/// True for a hidden entity and for descendants of one.
+[[nodiscard]] bool isHidden(const World& world, ecs::Entity entity);
+
+/// True when the entity or an ancestor appeared, was teleported, or has a path that jumps, in
+/// `span`.
+[[nodiscard]] bool hasNoPast(const World& world, ecs::Entity entity, const TimeSpan& span);
+
+/// True when the picture of `camera` was cut in `span`, by CameraCut, by a cut of its path or its
+/// parents', or because the world began in it or begins later.
+[[nodiscard]] bool isCut(const World& world, ecs::Entity camera, const TimeSpan& span);
+
+} // namespace shutter::scene

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What has no past is sharp, in every method alike.
+#include "engine/scene/history.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using test::Method;
+using test::SceneBuilder;
+using test::Stage;
+
+class HistoryLaw : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+            GTEST_SKIP() << device().info().name << " has no ray queries";
+    }
+
+    /// Frames of 0.1 s at t = 1.
+    static image::Image draw(Stage& stage, Method method, double frameSeconds = 0.1) {
+        return stage
+            .render(
+                {.method = method,
+                 .seconds = 1.0,
+                 .exposureSeconds = 0.08,
+                 .frameSeconds = frameSeconds}
+            )
+            .color;
+    }
+
+    /// With frames of no duration there is no exposure: the sharp picture of the same method.
+    static void expectSharp(Stage& stage, const std::string& what, bool sharp) {
+        for (const Method method : test::kAllMethods)
+            if (method != Method::Sharp) {
+                EXPECT_EQ(test::sameBits(draw(stage, method), draw(stage, method, 0.0)), sharp)
+                    << what << ", " << describe(method);
+            }
+        EXPECT_EQ(
+            test::sameBits(draw(stage, Method::Truth), draw(stage, Method::Truth, 0.0)), sharp
+        ) << what
+          << ", truth";
+    }
+};
+
+struct Scene {
+    SceneBuilder builder;
+    ecs::Entity parent;
+    ecs::Entity mover;
+
+    explicit Scene(const math::dvec3& cameraTurn) {
+        builder.setPerspective(0.9);
+        builder.add(
+            test::makeQuad(9, 7, builder.addTextured(builder.addWaves())), {.position = {0, 0, -5}}
+        );
+        parent = builder.world.registry.create();
+        mover = builder.add(
+            test::makeBox({0.8, 0.8, 0.8}, builder.addColor({0.9f, 0.2f, 0.1f})),
+            {.position = {-2.5, 0, -2.5}, .velocity = {2.5, 0.2, 0}}
+        );
+        builder.world.registry.add(mover, scene::Parent{parent});
+        builder.moveCamera({.angularVelocity = cameraTurn});
+    }
+};
+
+TEST_F(HistoryLaw, WhatAppearedOrWasTeleportedIsSharpForThatFrame) {
+    const std::vector<std::pair<std::string, std::function<void(Scene&)>>> events = {
+        {"appeared", [](Scene& s) { scene::appear(s.builder.world, s.mover, 0.95); }},
+        {"appeared before the shutter opened",
+         [](Scene& s) { scene::appear(s.builder.world, s.mover, 0.91); }},
+        {"its parent was teleported",
+         [](Scene& s) { scene::teleport(s.builder.world, s.parent, {}, 1.0); }},
+        {"shown",
+         [](Scene& s) {
+             scene::hide(s.builder.world, s.mover);
+             scene::show(s.builder.world, s.mover, 0.97);
+         }},
+    };
+    for (const auto& [name, happen] : events) {
+        Scene scene({0, 0, 0});
+        Stage stage(device(), scene.builder);
+        expectSharp(stage, "before " + name, false);
+        happen(scene);
+        expectSharp(stage, name, true);
+    }
+}
+
+TEST_F(HistoryLaw, ACutIsSharpForThatFrameEverywhere) {
+    const std::vector<std::pair<std::string, std::function<void(Scene&)>>> events = {
+        {"cut", [](Scene& s) { scene::cut(s.builder.world, s.builder.camera, 0.95); }},
+        {"the world began", [](Scene& s) { s.builder.world.startSeconds = 1.0; }},
+    };
+    for (const auto& [name, happen] : events) {
+        Scene scene({0, 0.3, 0});
+        Stage stage(device(), scene.builder);
+        expectSharp(stage, "before " + name, false);
+        happen(scene);
+        expectSharp(stage, name, true);
+    }
+}
+
+TEST_F(HistoryLaw, WhatAppearsUnderAMovingCameraKeepsTheCamerasBlur) {
+    Scene scene({0, 0.3, 0});
+    Stage stage(device(), scene.builder);
+    scene::appear(scene.builder.world, scene.mover, 0.95);
+    const auto appeared = draw(stage, Method::Accumulate);
+    // The same picture as of a mover that never moved.
+    const math::dmat4 place = scene::worldFromEntity(scene.builder.world, scene.mover, 1.0);
+    scene.builder.world.registry.remove<scene::LinearVelocity>(scene.mover);
+    scene.builder.world.registry.get<scene::LocalTransform>(scene.mover).transform.translation =
+        math::dvec3(place[3]);
+    EXPECT_TRUE(test::sameBits(appeared, draw(stage, Method::Accumulate)));
+    expectSharp(stage, "the camera moves", false);
+}
+
+TEST_F(HistoryLaw, WhatWasDespawnedOrIsHiddenWasNeverThere) {
+    const auto add = [](SceneBuilder& builder) {
+        return builder.add(
+            test::makeBox({0.8, 0.8, 0.8}, 1), {.position = {-1, 0, -2}, .velocity = {1, 0.2, 0}}
+        );
+    };
+    Scene never({0, 0.1, 0});
+    Stage without(device(), never.builder);
+    for (const bool despawns : {false, true}) {
+        Scene scene({0, 0.1, 0});
+        const ecs::Entity gone = add(scene.builder);
+        Stage stage(device(), scene.builder);
+        EXPECT_FALSE(test::sameBits(draw(stage, Method::Gather), draw(without, Method::Gather)));
+        if (despawns)
+            scene::despawn(scene.builder.world, gone);
+        else
+            scene::hide(scene.builder.world, gone);
+        for (const Method method : test::kAllMethods)
+            EXPECT_TRUE(test::sameBits(draw(stage, method), draw(without, method)))
+                << describe(method) << despawns;
+        EXPECT_TRUE(test::sameBits(draw(stage, Method::Truth), draw(without, Method::Truth)));
+    }
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "engine/scene/path.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace shutter::scene {
+namespace {
+
+using math::dmat4;
+using math::dquat;
+using math::dvec3;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const dvec3 kUp(0.0, 1.0, 0.0);
+
+void expectNear(const dvec3& actual, const dvec3& expected) {
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(actual[i], expected[i], 1e-9) << "axis " << i;
+}
+
+/// Frames of 0.1 s at t = 1, exposed over their last half.
+class History : public testing::Test {
+  protected:
+    History() : mCamera(addMover({0.5, 0, 0})) {
+        mWorld.registry.add(mCamera, Camera{});
+        mShutter.exposureSeconds = 0.05;
+    }
+
+    ecs::Entity addMover(const dvec3& velocity) {
+        const ecs::Entity entity = mWorld.registry.create();
+        mWorld.registry.add(entity, LocalTransform{});
+        mWorld.registry.add(entity, LinearVelocity{velocity});
+        return entity;
+    }
+
+    ecs::Entity addChild(ecs::Entity parent) {
+        const ecs::Entity entity = mWorld.registry.create();
+        mWorld.registry.add(entity, Parent{parent});
+        return entity;
+    }
+
+    [[nodiscard]] ExposureMotion motion(double raster = 1.0) const {
+        return {mWorld, mCamera, computeExposure(mShutter, raster, 0.1)};
+    }
+
+    /// Where it moves, it moves as ever; where it is held, it stands where the raster has it.
+    void expectHeld(ecs::Entity entity, bool held, double raster = 1.0) const {
+        const ExposureMotion now = motion(raster);
+        EXPECT_EQ(now.mayMove(entity), !held);
+        for (const double s : {0.0, 0.3, 1.0}) {
+            const double seconds = held ? raster : now.exposure().at(s);
+            expectNear(
+                dvec3(now.worldFromEntity(entity, s)[3]),
+                dvec3(scene::worldFromEntity(mWorld, entity, seconds)[3])
+            );
+            EXPECT_EQ(now.worldFromObject(entity, s), now.worldFromEntity(entity, s));
+        }
+        EXPECT_EQ(
+            now.worldFromEntity(entity, now.exposure().rasterShare),
+            scene::worldFromEntity(mWorld, entity, raster)
+        );
+    }
+
+    World mWorld;
+    CameraShutter mShutter;
+    ecs::Entity mCamera;
+};
+
+TEST_F(History, WithoutEventsAllMoves) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    expectHeld(mover, false);
+    expectHeld(mCamera, false);
+    EXPECT_FALSE(motion().isCut());
+}
+
+TEST_F(History, WhatAppearsInTheFrameStandsStillInItAlone) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    const ecs::Entity child = addChild(mover);
+    const ecs::Entity other = addMover({2, 0, 0});
+    // In the exposure, at the frame's own time, and in the frame before the shutter opens.
+    for (const double seconds : {0.97, 1.0, 0.95, 0.93}) {
+        appear(mWorld, mover, seconds);
+        expectHeld(mover, true);
+        expectHeld(child, true);
+        expectHeld(other, false);
+        expectHeld(mCamera, false);
+    }
+    // At the frame before, which showed it already; long ago; and in a time to come.
+    for (const double seconds : {0.9, 0.5, -10.0, 1.01}) {
+        appear(mWorld, mover, seconds);
+        expectHeld(mover, false);
+    }
+}
+
+TEST_F(History, AnExposureLongerThanTheFrameSeesFartherBack) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    appear(mWorld, mover, 0.8);
+    expectHeld(mover, false);
+    mShutter.exposureSeconds = 0.3;
+    expectHeld(mover, true);
+    // What happened as the shutter opened is over.
+    appear(mWorld, mover, motion().exposure().open);
+    expectHeld(mover, false);
+}
+
+TEST_F(History, AnEventAfterTheRasterInstantCountsWhereTheShutterIsStillOpen) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    mShutter.phase = ShutterPhase::Start;
+    appear(mWorld, mover, 1.02);
+    expectHeld(mover, true);
+    appear(mWorld, mover, 1.06);
+    expectHeld(mover, false);
+}
+
+TEST_F(History, ATeleportPutsItThereAndItsVelocitiesGoOn) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    mWorld.registry.add(mover, AngularVelocity{{0, 2, 0}});
+    const ecs::Entity child = addChild(mover);
+    math::Transform there;
+    there.translation = {50, 60, 70};
+    there.rotation = glm::angleAxis(0.4, dvec3(1, 0, 0));
+    teleport(mWorld, mover, there, 0.98);
+    const dmat4 at = scene::worldFromEntity(mWorld, mover, 0.98);
+    const dmat4 wanted = math::computeMatrix(there);
+    for (int column = 0; column < 4; ++column)
+        expectNear(dvec3(at[column]), dvec3(wanted[column]));
+    expectNear(dvec3(scene::worldFromEntity(mWorld, mover, 1.98)[3]), {51, 60, 70});
+    expectHeld(mover, true);
+    expectHeld(child, true);
+    expectHeld(mover, false, 1.1);
+}
+
+TEST_F(History, ATeleportReplacesAMatrix) {
+    const ecs::Entity entity = mWorld.registry.create();
+    mWorld.registry.add(entity, LocalMatrix{dmat4(2.0)});
+    math::Transform there;
+    there.translation = {5, 0, 0};
+    teleport(mWorld, entity, there, 1.0);
+    EXPECT_EQ(scene::worldFromEntity(mWorld, entity, 3.0), math::computeMatrix(there));
+}
+
+TEST_F(History, ACutHoldsTheWholeWorld) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    cut(mWorld, mCamera, 0.96);
+    EXPECT_TRUE(motion().isCut());
+    expectHeld(mover, true);
+    expectHeld(mCamera, true);
+    EXPECT_EQ(motion().worldFromCamera(0.0), motion().worldFromCamera(1.0));
+    EXPECT_FALSE(motion(1.1).isCut());
+    expectHeld(mover, false, 1.1);
+    math::Transform there;
+    there.translation = {0, 0, 9};
+    cutTo(mWorld, mCamera, there, 1.15);
+    EXPECT_TRUE(motion(1.2).isCut());
+    expectNear(dvec3(scene::worldFromEntity(mWorld, mCamera, 1.15)[3]), {0, 0, 9});
+}
+
+TEST_F(History, ATeleportedCameraStandsStillAndTheWorldMoves) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    teleport(mWorld, mCamera, {}, 0.97);
+    EXPECT_FALSE(motion().isCut());
+    EXPECT_EQ(motion().worldFromCamera(0.0), motion().worldFromCamera(1.0));
+    expectHeld(mover, false);
+}
+
+TEST_F(History, NothingHasAPastBeforeTheWorldBegan) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    EXPECT_EQ(World().startSeconds, -kInfinity);
+    mWorld.startSeconds = 0.95;
+    EXPECT_TRUE(motion().isCut());
+    expectHeld(mover, true);
+    EXPECT_FALSE(motion(1.1).isCut());
+    mWorld.startSeconds = 5.0;
+    EXPECT_TRUE(motion().isCut()) << "not begun yet";
+}
+
+TEST_F(History, ACutOfAPathIsACutOfTheCameraAndATeleportOfAnyOther) {
+    PathMotion path;
+    for (const double seconds : {0.0, 0.9, 0.98, 2.0}) {
+        PathKey made;
+        made.seconds = seconds;
+        made.position = {seconds, 0, seconds > 0.95 ? 30.0 : 0.0};
+        path.keys.push_back(made);
+    }
+    path.keys[2].cut = true;
+    const ecs::Entity mover = addMover(dvec3(1, 0, 0));
+    mWorld.registry.add(mover, path);
+    expectHeld(mover, true);
+    EXPECT_FALSE(motion().isCut());
+    expectHeld(mover, false, 1.2);
+    mWorld.registry.remove<PathMotion>(mover);
+    expectHeld(mover, false);
+    // On the vehicle that carries the camera.
+    const ecs::Entity vehicle = addMover(dvec3(0.0));
+    mWorld.registry.add(mCamera, Parent{vehicle});
+    mShutter.cuts.enabled = false;
+    mWorld.registry.add(vehicle, path);
+    EXPECT_TRUE(motion().isCut());
+    EXPECT_FALSE(motion(1.2).isCut());
+}
+
+TEST_F(History, ACameraThatJumpsByAStepOfItsClipIsCut) {
+    AnimationChannel channel;
+    channel.path = AnimationPath::Translation;
+    channel.interpolation = Interpolation::Step;
+    channel.times = {0.0f, 0.97f};
+    channel.values = {math::vec4(0.0f), math::vec4(3.0f, 0.0f, 0.0f, 0.0f)};
+    AnimationClip clip;
+    clip.channels = {channel};
+    mWorld.assets.clips.push_back(clip);
+    mWorld.playback.activeClips = {true};
+    mWorld.registry.add(mCamera, Animated{{{0, 0}}});
+    const ecs::Entity mover = addMover({1, 0, 0});
+    EXPECT_TRUE(motion().isCut());
+    expectHeld(mover, true);
+    mShutter.cuts.enabled = false;
+    EXPECT_FALSE(motion().isCut());
+    mShutter.cuts.enabled = true;
+    mShutter.cuts.metres = 3.5;
+    EXPECT_FALSE(motion().isCut());
+}
+
+TEST_F(History, AFastPanIsNoCut) {
+    mWorld.registry.add(mCamera, AngularVelocity{{0, 3.15, 0}}); // 180 degrees a second
+    mShutter.exposureSeconds = 0.1;
+    EXPECT_FALSE(motion().isCut());
+}
+
+TEST_F(History, SkinnedMeshesAreHeldWithTheirJoints) {
+    const ecs::Entity root = addMover({1, 0, 0});
+    const ecs::Entity joint = addChild(root);
+    const ecs::Entity mesh = addMover(dvec3(0.0));
+    Skin skin;
+    skin.jointFromBind = {dmat4(1.0)};
+    mWorld.assets.skins.push_back(skin);
+    mWorld.registry.add(mesh, Skinned{0, {joint}});
+    EXPECT_TRUE(motion().mayObjectMove(mesh));
+    EXPECT_TRUE(motion().mayDeform(mesh));
+    teleport(mWorld, root, {}, 0.97);
+    const ExposureMotion now = motion();
+    EXPECT_FALSE(now.mayObjectMove(mesh));
+    EXPECT_FALSE(now.mayDeform(mesh));
+    EXPECT_EQ(now.worldFromObject(mesh, 0.0), now.worldFromObject(mesh, 1.0));
+    EXPECT_EQ(
+        now.deformationAt(mesh, 0.0).objectFromBind, now.deformationAt(mesh, 1.0).objectFromBind
+    );
+}
+
+TEST_F(History, HiddenIsHiddenWithItsDescendantsAndShowingStamps) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    const ecs::Entity child = addChild(mover);
+    EXPECT_FALSE(isHidden(mWorld, child));
+    hide(mWorld, mover);
+    EXPECT_TRUE(isHidden(mWorld, mover));
+    EXPECT_TRUE(isHidden(mWorld, child));
+    EXPECT_FALSE(isHidden(mWorld, mCamera));
+    show(mWorld, mover, 0.98);
+    EXPECT_FALSE(isHidden(mWorld, child));
+    expectHeld(mover, true);
+    expectHeld(mover, false, 1.1);
+    show(mWorld, mover, 1.05);
+    expectHeld(mover, false, 1.1); // it was in sight all the time
+}
+
+TEST_F(History, DespawningTakesDescendantsAndWhatHangsOnThem) {
+    const ecs::Entity parent = addMover({1, 0, 0});
+    const ecs::Entity child = addChild(addChild(parent));
+    const ecs::Entity mesh = addMover(dvec3(0.0));
+    mWorld.registry.add(mesh, Skinned{0, {child}});
+    const ecs::Entity camera = addChild(parent);
+    mWorld.cameras = {mCamera, camera};
+    const ecs::Entity other = addMover({1, 0, 0});
+    despawn(mWorld, parent);
+    for (const ecs::Entity gone : {parent, child, mesh, camera})
+        EXPECT_FALSE(mWorld.registry.isAlive(gone));
+    EXPECT_TRUE(mWorld.registry.isAlive(other));
+    EXPECT_EQ(mWorld.cameras, std::vector<ecs::Entity>{mCamera});
+}
+
+} // namespace
+} // namespace shutter::scene
