@@ -3,6 +3,7 @@
 
 #include "engine/io/gltf_camera_light.h"
 #include "engine/io/gltf_morph.h"
+#include "engine/io/gltf_motion_blur.h"
 #include "engine/io/gltf_value.h"
 
 #include <algorithm>
@@ -176,6 +177,8 @@ class NodeLoader {
         addTransform();
         addMotion();
         addName();
+        if (const auto blur = readMotionBlur(mNode, mPath))
+            mRegistry.add<scene::MotionBlur>(mEntity, *blur);
         if (use != NodeUse::Scene)
             return;
         addMesh();

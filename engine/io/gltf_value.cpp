@@ -63,6 +63,15 @@ findIndex(const tinygltf::Value& object, const std::string& key, const std::stri
     return uint32_t(*number);
 }
 
+std::optional<bool>
+findBool(const tinygltf::Value& object, const std::string& key, const std::string& path) {
+    if (!object.Has(key))
+        return std::nullopt;
+    if (!object.Get(key).IsBool())
+        failGltf("{}.{} is neither true nor false", path, key);
+    return object.Get(key).Get<bool>();
+}
+
 std::optional<math::dvec2>
 findVec2(const tinygltf::Value& object, const std::string& key, const std::string& path) {
     return findVector<math::dvec2>(object, key, path);

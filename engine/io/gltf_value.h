@@ -23,6 +23,9 @@ findNumber(const tinygltf::Value& object, const std::string& key, const std::str
 [[nodiscard]] std::optional<uint32_t>
 findIndex(const tinygltf::Value& object, const std::string& key, const std::string& path);
 
+[[nodiscard]] std::optional<bool>
+findBool(const tinygltf::Value& object, const std::string& key, const std::string& path);
+
 [[nodiscard]] std::optional<math::dvec2>
 findVec2(const tinygltf::Value& object, const std::string& key, const std::string& path);
 
