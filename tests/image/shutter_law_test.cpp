@@ -175,8 +175,9 @@ TEST_F(ShutterLaw, InsideAMoverTheFiltersSeeItWhenItsLightIsTaken) {
         const double shift = meanShiftPx(method, fallingResponse());
         // The means of these two are plain ones; the others weigh near taps more (a cone over half
         // the motion gives 5/36 for 1/6), and of Guertin's some go across.
-        if (method == Method::OwnVelocity || method == Method::Jimenez2014)
+        if (method == Method::OwnVelocity || method == Method::Jimenez2014) {
             EXPECT_NEAR(shift, expected, 0.25) << describe(method);
+        }
         EXPECT_GT(shift, 0.6 * expected) << describe(method);
         EXPECT_LT(shift, 1.1 * expected) << describe(method);
     }
