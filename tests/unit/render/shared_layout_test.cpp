@@ -339,9 +339,10 @@ TEST_P(SharedLayout, GlslPutsEveryMemberWhereCppDoes) {
     for (const Member& member : type.members) {
         const std::string leaf = leafOf(type, member);
         // Without "[0]" where reflection names an array by its variable.
+        const std::string bare = std::regex_replace(leaf, std::regex(R"(\[0\])"), "");
         const auto find = [&](const std::string& prefix) {
             const auto found = offsets.find(prefix + leaf);
-            return found != offsets.end() ? found : offsets.find(prefix + member.name);
+            return found != offsets.end() ? found : offsets.find(prefix + bare);
         };
         const auto first = find("value.");
         const auto second = find("next.");
