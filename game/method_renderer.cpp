@@ -85,6 +85,10 @@ core::Result<render::FrameResult> MethodRenderer::renderPicture(
 ) {
     render::FrameRequest request;
     request.view = makeView(mShot, mOptions, seconds);
+    auto cap = mRenderer.measureMotionCap(mShot.world, request.view);
+    if (!cap)
+        return cap.error();
+    request.view.exposure.cap = std::move(cap).value();
     request.intermediates = mOptions.aovs;
     request.wantColor = !mOptions.displayOut;
     request.wantDisplay = mOptions.displayOut;

@@ -181,7 +181,10 @@ Status parseScales(const ShutterArguments& arguments, CameraShutter& shutter) {
     for (const auto& [option, value] : scales)
         if (Status valid = requireRange(option, value, 0.0, 2.0); !valid)
             return valid;
-    return {};
+    if (!arguments.maxBlur)
+        return {};
+    shutter.maxBlurPercent = *arguments.maxBlur;
+    return requireRange("--max-blur", shutter.maxBlurPercent, 0.0, 1000.0);
 }
 
 } // namespace
@@ -215,6 +218,9 @@ void defineShutterOptions(CLI::App& command, ShutterArguments& a) {
         "--camera-translation-blur", a.cameraTranslationBlur, "by the camera's displacement, 0 to 2"
     );
     command.add_option("--object-blur", a.objectBlur, "by what moves in the world, 0 to 2");
+    command.add_option(
+        "--max-blur", a.maxBlur, "longest blur, percent of the picture's width; default: no cap"
+    );
 }
 
 core::Result<CameraShutter>
@@ -234,7 +240,7 @@ interpretShutter(const ShutterArguments& arguments, double frameSeconds) {
 std::string describeShutter(const ShutterArguments& a) {
     return fmt::format(
         "exposure {} angle {} mode {} reference {} phase {} response {} cuts {} {} {} blur {} {} "
-        "{}",
+        "{} cap {}",
         a.exposureSeconds.value_or(-1.0),
         a.shutterAngle.value_or(-1.0),
         a.shutterMode,
@@ -246,7 +252,8 @@ std::string describeShutter(const ShutterArguments& a) {
         a.cutDistance.value_or(-1.0),
         a.cameraRotationBlur,
         a.cameraTranslationBlur,
-        a.objectBlur
+        a.objectBlur,
+        a.maxBlur.value_or(-1.0)
     );
 }
 

@@ -31,6 +31,7 @@ struct ShutterArguments {
     double cameraRotationBlur = 1.0;
     double cameraTranslationBlur = 1.0;
     double objectBlur = 1.0;
+    std::optional<double> maxBlur;
 };
 
 void defineShutterOptions(CLI::App& command, ShutterArguments& arguments);

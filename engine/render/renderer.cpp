@@ -4,10 +4,12 @@
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
 #include "engine/render/instances.h"
+#include "engine/render/motion_cap.h"
 #include "engine/scene/shutter.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
 namespace shutter::render {
@@ -197,6 +199,39 @@ core::Result<FrameResult> Renderer::renderFrame(
     for (const auto& [name, ticket] : tickets.intermediates)
         result.intermediates[name] = mReadback.take(ticket);
     return result;
+}
+
+core::Result<scene::MotionCap>
+Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
+    // A turning mover's chord is not proportional to its angle: a second look finds the rest.
+    constexpr int kLooks = 4;
+    const double percent = view.exposure.shutter.maxBlurPercent;
+    scene::MotionCap cap;
+    if (!std::isfinite(percent) || !(view.exposure.open < view.exposure.close))
+        return cap;
+    FrameRequest look;
+    look.view = view;
+    look.view.exposure.cap = {};
+    look.view.instant.reset();
+    look.intermediates = {"motion", "mesh_id"};
+    look.wantColor = false;
+    const scene::ExposureMotion uncapped(world, view.camera, look.view.exposure);
+    const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
+    for (int i = 0; i < kLooks; ++i) {
+        look.view.exposure.cap = cap;
+        auto frame = extractFrame(world, mScene.layout(), look.view);
+        if (!frame)
+            return frame.error();
+        auto seen = renderFrame(world, look, {});
+        if (!seen)
+            return seen.error();
+        const auto& images = seen.value().intermediates;
+        if (!tightenCap(
+                cap, frame.value(), images.at("motion"), images.at("mesh_id"), uncapped, maxPx
+            ))
+            break;
+    }
+    return cap;
 }
 
 Renderer::Tickets Renderer::declareFrame(

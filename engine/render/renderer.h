@@ -62,6 +62,12 @@ class Renderer {
         const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
     );
 
+    /// What the view's cap (CameraShutter::maxBlurPercent) leaves of the motion: give it to
+    /// ExposureInterval::cap of all that is drawn of this exposure. Measured on the raster image,
+    /// which is drawn up to four times for it; nothing is drawn where there is no cap.
+    [[nodiscard]] core::Result<scene::MotionCap>
+    measureMotionCap(const scene::World& world, const ViewRequest& view);
+
     [[nodiscard]] const GpuScene& scene() const { return mScene; }
 
   private:

@@ -116,6 +116,10 @@ double ExposureMotion::blurScaleOf(ecs::Entity entity) const {
     return nearest == ecs::kNullEntity ? 1.0 : scaleOf(mWorld.registry.get<MotionBlur>(nearest));
 }
 
+double ExposureMotion::screenScaleOf(ecs::Entity entity) const {
+    return blurScaleOf(entity) * mExposure.cap.of(entity);
+}
+
 dmat4 ExposureMotion::cameraAt(double seconds) const {
     if (isHeld(mCamera))
         return scene::worldFromEntity(mWorld, mCamera, mExposure.raster);
@@ -128,13 +132,13 @@ dmat4 ExposureMotion::cameraAt(double seconds) const {
 }
 
 dmat4 ExposureMotion::worldFromCamera(double s) const {
-    return cameraAt(secondsAt(s));
+    return cameraAt(scaleTime(secondsAt(s), mExposure.cap.camera));
 }
 
 bool ExposureMotion::mayCameraMove() const {
     const CameraShutter& shutter = mExposure.shutter;
     return (shutter.cameraRotationScale != 0.0 || shutter.cameraTranslationScale != 0.0) &&
-           scene::mayMove(mWorld, mCamera) && !isHeld(mCamera);
+           mExposure.cap.camera != 0.0 && scene::mayMove(mWorld, mCamera) && !isHeld(mCamera);
 }
 
 dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {
@@ -143,28 +147,29 @@ dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {
     return scene::worldFromEntity(mWorld, entity, seconds);
 }
 
-double ExposureMotion::objectSeconds(ecs::Entity entity, double seconds, double blurScale) const {
+double ExposureMotion::objectSeconds(ecs::Entity entity, double seconds, double screenScale) const {
     if (isObjectHeld(entity))
         return mExposure.raster;
-    return scaleTime(scaleTime(seconds, blurScale), mExposure.shutter.objectScale);
+    return scaleTime(scaleTime(seconds, screenScale), mExposure.shutter.objectScale);
 }
 
 dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
     const double seconds = secondsAt(s);
-    const double blurScale = blurScaleOf(entity);
+    const double screenScale = screenScaleOf(entity);
     const dmat4 object =
-        scene::worldFromObject(mWorld, entity, objectSeconds(entity, seconds, blurScale));
-    const double seen = scaleTime(seconds, blurScale);
-    if (seen == seconds || !mayCameraMove())
+        scene::worldFromObject(mWorld, entity, objectSeconds(entity, seconds, screenScale));
+    const double seen = scaleTime(seconds, screenScale);
+    const double cameraSeconds = scaleTime(seconds, mExposure.cap.camera);
+    if (seen == cameraSeconds || !mayCameraMove())
         return object;
-    // On the screen at `seconds` as it would be at `seen`: from there into the view, and out again.
-    return math::removeScale(cameraAt(seconds)) * glm::inverse(math::removeScale(cameraAt(seen))) *
-           object;
+    // On the screen as it would be at `seen`: from there into the view, and out again.
+    return math::removeScale(cameraAt(cameraSeconds)) *
+           glm::inverse(math::removeScale(cameraAt(seen))) * object;
 }
 
 Deformation ExposureMotion::deformationAt(ecs::Entity entity, double s) const {
     return scene::deformationAt(
-        mWorld, entity, objectSeconds(entity, secondsAt(s), blurScaleOf(entity))
+        mWorld, entity, objectSeconds(entity, secondsAt(s), screenScaleOf(entity))
     );
 }
 
@@ -174,15 +179,15 @@ bool ExposureMotion::mayMove(ecs::Entity entity) const {
 }
 
 bool ExposureMotion::mayObjectMove(ecs::Entity entity) const {
-    const double blurScale = blurScaleOf(entity);
-    if (blurScale != 1.0 && mayCameraMove())
+    const double screenScale = screenScaleOf(entity);
+    if (screenScale != mExposure.cap.camera && mayCameraMove())
         return true;
-    return blurScale != 0.0 && mExposure.shutter.objectScale != 0.0 &&
+    return screenScale != 0.0 && mExposure.shutter.objectScale != 0.0 &&
            scene::mayObjectMove(mWorld, entity) && !isObjectHeld(entity);
 }
 
 bool ExposureMotion::mayDeform(ecs::Entity entity) const {
-    return blurScaleOf(entity) != 0.0 && mExposure.shutter.objectScale != 0.0 &&
+    return screenScaleOf(entity) != 0.0 && mExposure.shutter.objectScale != 0.0 &&
            scene::mayDeform(mWorld, entity) && !isObjectHeld(entity);
 }
 

@@ -3,8 +3,9 @@
 // truth ask where something is at a shutter time. It honours the artist's scales (CameraShutter,
 // MotionBlur) and what has no past (history.h).
 //
-// A scale k runs time k times as fast away from the raster instant r: what is scaled is at time t
-// where it would be at r + k (t - r). At the raster instant all is where it is.
+// A scale k (a cap's share is one) runs time k times as fast away from the raster instant r: what
+// is scaled is at time t where it would be at r + k (t - r). At the raster instant all is where it
+// is.
 #pragma once
 
 #include "engine/ecs/entity.h"
@@ -51,12 +52,15 @@ class ExposureMotion {
     [[nodiscard]] bool mayCameraMove() const;
     /// Of the nearest MotionBlur upwards, [0, 2].
     [[nodiscard]] double blurScaleOf(ecs::Entity entity) const;
+    /// The same, and of the frame's cap: of the entity's motion on the screen.
+    [[nodiscard]] double screenScaleOf(ecs::Entity entity) const;
     /// True where the entity's own motion is none in this frame.
     [[nodiscard]] bool isHeld(ecs::Entity entity) const;
     /// The same, of a mesh: its joints count.
     [[nodiscard]] bool isObjectHeld(ecs::Entity entity) const;
-    /// When a mesh that is scaled by `blurScale` is seen as it is at `seconds`.
-    [[nodiscard]] double objectSeconds(ecs::Entity entity, double seconds, double blurScale) const;
+    /// From when the pose is that a mesh, scaled by `screenScale`, shows at `seconds`.
+    [[nodiscard]] double
+    objectSeconds(ecs::Entity entity, double seconds, double screenScale) const;
 
     const World& mWorld;
     ecs::Entity mCamera;

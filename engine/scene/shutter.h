@@ -4,6 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/scene/components.h"
+#include "engine/scene/motion_cap.h"
 #include "shaders/common/shutter_response_shared.h"
 
 #include <cmath>
@@ -26,6 +27,7 @@ struct ExposureInterval {
     double rasterShare = 1.0;
     double frameSeconds = 0.0; ///< since the frame before, 0 or more
     CameraShutter shutter{};
+    MotionCap cap{}; ///< of this frame; render::measureMotionCap() finds it
 };
 
 /// Length of the exposure, 0 or more and finite. A frame of duration 0 is a paused one: nothing

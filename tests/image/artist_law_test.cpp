@@ -39,6 +39,7 @@ std::vector<Control> listControls() {
     add("mover 0.5", [](Control& c) { c.mover.scale = 0.5; });
     add("mover 2", [](Control& c) { c.mover.scale = 2.0; });
     add("mover excluded", [](Control& c) { c.mover.exclude = true; });
+    add("cap of 6 percent", [](Control& c) { c.shutter.maxBlurPercent = 6.0; });
     add("all", [](Control& c) {
         c.shutter.cameraRotationScale = 0.5;
         c.shutter.cameraTranslationScale = 1.5;

@@ -91,7 +91,13 @@ Stage::Stage(gpu::Device& device, const SceneBuilder& scene)
     : mDevice(device), mScene(scene), mRenderer(device, scene.world.assets) {}
 
 render::FrameResult Stage::render(const Shot& shot) {
-    const render::FrameRequest request = makeRequest(mScene, shot);
+    render::FrameRequest request = makeRequest(mScene, shot);
+    auto cap = mRenderer.measureMotionCap(mScene.world, request.view);
+    if (!cap) {
+        ADD_FAILURE() << cap.error().message;
+        return {};
+    }
+    request.view.exposure.cap = std::move(cap).value();
     if (shot.method == Method::Accumulate)
         return renderAccumulated(shot, request);
     if (shot.method == Method::Truth)
