@@ -91,12 +91,9 @@ class Extractor {
         for (auto [entity, instance] : mWorld.registry.view<scene::MeshInstance>()) {
             if (scene::isHidden(mWorld, entity))
                 continue;
-            if (mFrame.entities.size() >= kMaxEntities)
-                return core::makeError(
-                    "the scene draws more than {} entities, the most the entity table holds",
-                    kMaxEntities
-                );
             addEntity(entity, instance.mesh);
+            if (mFrame.entities.size() > mRequest.entityLimit)
+                return describeFullTable(mRequest.entityLimit);
         }
         for (auto [entity, light] : mWorld.registry.view<scene::Light>())
             if (!scene::isHidden(mWorld, entity))
@@ -242,6 +239,12 @@ class Extractor {
 };
 
 } // namespace
+
+core::Error describeFullTable(uint32_t limit) {
+    return {fmt::format(
+        "the scene draws more than {} entities, the most the entity table holds", limit
+    )};
+}
 
 core::Result<ExtractedFrame>
 extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request) {

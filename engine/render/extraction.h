@@ -32,6 +32,7 @@ struct ViewRequest {
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
     bool unlit = false;          ///< base colour only
+    uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities
 };
 
 struct DrawItem {
@@ -60,9 +61,12 @@ struct ExtractedFrame {
     bool moves = false;                     ///< something in the picture, or the camera, moves
 };
 
+/// What is said of a scene with more entities than `limit`.
+[[nodiscard]] core::Error describeFullTable(uint32_t limit);
+
 /// Entities whose transform or shape is singular or not finite, or whose mesh has no triangles, get
 /// no row.
-/// Error: the world has more entities than the table can hold.
+/// Error: the world draws more entities than ViewRequest::entityLimit.
 [[nodiscard]] core::Result<ExtractedFrame>
 extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
 

@@ -191,11 +191,8 @@ class Builder {
             auto keys = computeHiddenRow(entity, index, instance.mesh);
             if (!keys)
                 continue;
-            if (mFrame.entities.size() >= kMaxEntities)
-                return core::makeError(
-                    "the scene draws more than {} entities, the most the entity table holds",
-                    kMaxEntities
-                );
+            if (mFrame.entities.size() >= mRequest.entityLimit)
+                return describeFullTable(mRequest.entityLimit);
             shader::EntityRow row{};
             row.firstGeometry = firstGeometry;
             row.handedness = 1.0f;
