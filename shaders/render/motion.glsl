@@ -20,9 +20,8 @@ SHUTTER_INLINE vec2 screenFromClip(vec3 clip, vec2 sizePx) {
 SHUTTER_INLINE vec3 pullInFront(vec3 clip, vec3 visible, float minW) {
     if (clip.z >= minW) return clip;
     float t = saturate((visible.z - minW) / max(visible.z - clip.z, 1.0e-20f));
-    vec3 pulled = mix(visible, clip, t);
-    pulled.z = max(pulled.z, minW);
-    return pulled;
+    // The cut is where w is minW: the difference of two far larger values would say so badly.
+    return vec3(mix(vec2(visible.x, visible.y), vec2(clip.x, clip.y), t), minW);
 }
 
 /// Displacement over the whole exposure in pixels (right, down), open to close.
