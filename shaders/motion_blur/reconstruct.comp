@@ -28,7 +28,7 @@ struct Gathered {
 Gathered gather(sampler2D color, sampler2D motionDepth, vec2 dominant, vec2 centre) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     vec4 target = textureLod(motionDepth, centre * pixelsToUv, 0.0f);
-    float targetSpeed = length(target.xy);
+    float targetSpeed = finiteSpeed(target.xy);
     Gathered result;
     result.weight = centreWeight(targetSpeed);
     result.sum = textureLod(color, centre * pixelsToUv, 0.0f).rgb * result.weight;
@@ -47,7 +47,7 @@ Gathered gather(sampler2D color, sampler2D motionDepth, vec2 dominant, vec2 cent
         vec4 tap = textureLod(motionDepth, uv, 0.0f);
         float z = (target.z - tap.z) / params.softDepthExtent;
         float weight = sampleWeight(
-            z, range * abs(u), length(tap.xy) * reach, targetSpeed * reach,
+            z, range * abs(u), finiteSpeed(tap.xy) * reach, targetSpeed * reach,
             params.foregroundMagnification
         );
         result.sum += textureLod(color, uv, 0.0f).rgb * weight;

@@ -66,6 +66,12 @@ SHUTTER_INLINE vec2 clampMotion(vec2 motion, float limitPx) {
     return speed > limitPx ? motion * (limitPx / speed) : motion;
 }
 
+/// Length of a motion, 0 where that is not finite: clampMotion() without a limit.
+SHUTTER_INLINE float finiteSpeed(vec2 motion) {
+    float speed = length(motion);
+    return isFinite(speed) ? speed : 0.0f;
+}
+
 SHUTTER_SHADER_END
 
 #endif
