@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/next_surface.glsl"
 #include "render/blended_layers.glsl"
 #include "render/sky.glsl"
 #include "render/view_ray.glsl"
@@ -23,10 +24,6 @@ layout(set = 0, binding = 7, scalar) buffer MaskList {
     MaskHeader header;
     uint pixels[];
 };
-
-/// The next ray starts past the last hit by this share of its distance: 32 float steps, which is
-/// more than the hit's own error and 4 micrometres at a metre.
-const float kPastHit = 3.8e-6f;
 
 struct Revealed {
     vec3 color;
@@ -74,14 +71,16 @@ void main() {
     float along = max(dot(ray.direction, frame.value.forward.xyz), 1.0e-6f);
     float t = (frontDepth - dot(ray.origin, frame.value.forward.xyz)) / along;
 
+    float error = rasterHitError(t, frame.value.pixelFootprint);
+    uint leftId = frontId;
     Revealed revealed;
     uint rays = 0u;
     for (uint level = 1u; level < params.recursionLimit; ++level) {
         // A new origin rather than a longer tMin: builders' boxes in front of it are then skipped.
-        float start = t + t * kPastHit;
+        float start = max(t - error, 0.0f);
         RayHit hit = traceRay(
             uScene, frame, ray.origin + start * ray.direction, ray.direction, 0.0f, 1.0e30f,
-            kSolidMask
+            kSolidMask, LeftSurface(leftId, t + error - start)
         );
         ++rays;
         if (!hit.found) {
@@ -90,6 +89,8 @@ void main() {
             break;
         }
         t = start + hit.t;
+        error = rayHitError(t);
+        leftId = hit.id.entity;
         bool last = level + 1u == params.recursionLimit;
         bool other = hit.id.entity != frontId;
         if (params.objectTest == kObjectTestMeshId && !other && !last) continue;

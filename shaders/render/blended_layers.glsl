@@ -18,10 +18,11 @@ vec3 seenThroughBlended(
     float transmitted = 1.0f;
     float tMin = 0.0f;
     for (uint layer = 0u; layer < kMaxLayers; ++layer) {
-        RayHit hit = traceRay(scene, frame, origin, direction, tMin, t, kBlendedMask);
+        RayHit hit = traceRay(
+            scene, frame, origin, direction, tMin, t, kBlendedMask, LeftSurface(absent, 1.0e30f)
+        );
         if (!hit.found) break;
         tMin = hit.t; // the surface itself is excluded: the interval is open
-        if (hit.id.entity == absent) continue;
         ShadedHit shaded = shadeHit(
             frame, placeAtRaster(frame, hit.id.entity), hit.id, direction, vec3(0.0f),
             lightsAtRaster(frame)

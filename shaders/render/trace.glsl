@@ -37,16 +37,23 @@ bool isDrawn(
     return isCovered(frame, materials.rows[index], hit.point, direction);
 }
 
+/// What a ray goes on from: surfaces of `entity` at t <= `until` are passed.
+struct LeftSurface {
+    uint entity;
+    float until;
+};
+
 /// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
 /// \param direction unit
 /// \param mask what is met: kSolidMask, kBlendedMask or both
 RayHit traceRay(
     accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
-    float tMax, uint mask
+    float tMax, uint mask, LeftSurface left
 ) {
     uint flags = gl_RayFlagsCullBackFacingTrianglesEXT;
-    // A mesh may have solid parts besides blended ones; those that need no look are kept out here.
-    if ((mask & kSolidMask) == 0u) flags |= gl_RayFlagsCullOpaqueEXT;
+    // A mesh may have opaque parts besides blended ones: kept out of rays for these, and shown to
+    // others like any candidate, since they have to be asked whose they are.
+    flags |= (mask & kSolidMask) == 0u ? gl_RayFlagsCullOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
     rayQueryEXT query;
     rayQueryInitializeEXT(query, scene, flags, mask, origin, tMin, direction, tMax);
     while (rayQueryProceedEXT(query)) {
@@ -59,6 +66,8 @@ RayHit traceRay(
             uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)),
             rayQueryGetIntersectionBarycentricsEXT(query, false)
         );
+        if (id.entity == left.entity && rayQueryGetIntersectionTEXT(query, false) <= left.until)
+            continue;
         bool frontFace = rayQueryGetIntersectionFrontFaceEXT(query, false);
         Placement placement = placeAtRaster(frame, id.entity);
         if (isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask))
