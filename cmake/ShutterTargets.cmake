@@ -65,6 +65,28 @@ function(shutter_shaders target)
     target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
 endfunction()
 
+# shutter_double_shaders(<target> <path below shaders/>...)
+# Makes each pure GLSL file a header "double/<path>.h" that holds its functions in double precision,
+# namespace shutter::shader64: what references in tests and benchmarks compute with.
+function(shutter_double_shaders target)
+    foreach(shader ${ARGN})
+        set(source ${SHUTTER_ROOT}/shaders/${shader})
+        set(output ${CMAKE_BINARY_DIR}/generated/double/${shader}.h)
+        get_filename_component(output_dir ${output} DIRECTORY)
+        file(MAKE_DIRECTORY ${output_dir})
+        add_custom_command(
+            OUTPUT ${output}
+            COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DOUTPUT=${output} -P
+                    ${SHUTTER_ROOT}/cmake/DoubleShader.cmake
+            DEPENDS ${source} ${SHUTTER_ROOT}/cmake/DoubleShader.cmake
+            COMMENT "Double precision ${shader}"
+            VERBATIM)
+        list(APPEND outputs ${output})
+    endforeach()
+    target_sources(${target} PRIVATE ${outputs})
+    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endfunction()
+
 # shutter_embed(<target> <header> <symbol> <file>)
 # Makes a file a header, named from the repository root as if it lay there, that defines
 # `constexpr char <symbol>[]`: the file's bytes and a zero. Rebuilt when the file changes.

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/stability/gbuffer_rig.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/upload.h"
+#include "engine/graph/execute.h"
+
+#include <optional>
+#include <vector>
+
+namespace shutter::stability {
+
+using image::Image;
+using motion_blur::Method;
+
+GBufferRig::GBufferRig(gpu::Device& device)
+    : mDevice(device), mFrame(device), mPool(device), mReadback(device) {
+    mFrame.begin();
+}
+
+graph::ImageHandle
+GBufferRig::upload(const Image& picture, VkFormat format, std::span<const std::byte> texels) {
+    gpu::ImageDesc desc;
+    desc.width = picture.width;
+    desc.height = picture.height;
+    desc.format = format;
+    desc.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                 VK_IMAGE_USAGE_SAMPLED_BIT;
+    gpu::Image& image = mUploads.emplace_back(mDevice, "synthetic", desc);
+    gpu::uploadTexture(mDevice, image, texels);
+    return graph.importImage(
+        "synthetic", image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_UNDEFINED
+    );
+}
+
+graph::ImageHandle GBufferRig::upload(const Image& picture) {
+    SHUTTER_CHECK_EQ(picture.channels, 4u);
+    return upload(picture, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(picture.pixels)));
+}
+
+graph::ImageHandle GBufferRig::uploadIds(const Image& ids) {
+    SHUTTER_CHECK_EQ(ids.channels, 1u);
+    std::vector<uint32_t> whole;
+    whole.reserve(ids.pixels.size());
+    for (const float id : ids.pixels)
+        whole.push_back(static_cast<uint32_t>(id));
+    return upload(ids, VK_FORMAT_R32_UINT, std::as_bytes(std::span(whole)));
+}
+
+size_t GBufferRig::want(graph::ImageHandle image) {
+    return mReadback.add(graph, "picture", image);
+}
+
+core::Status GBufferRig::run() {
+    auto plan = graph::execute(graph, mFrame, mPool);
+    mFrame.submit();
+    mFrame.wait();
+    if (!plan)
+        return plan.error();
+    return {};
+}
+
+void GBuffer::setColor(uint32_t x, uint32_t y, float r, float g, float b) {
+    color.at(x, y, 0) = r;
+    color.at(x, y, 1) = g;
+    color.at(x, y, 2) = b;
+    color.at(x, y, 3) = 1.0f;
+}
+
+void GBuffer::setMotion(uint32_t x, uint32_t y, float right, float down, float depth) {
+    motionDepth.at(x, y, 0) = right;
+    motionDepth.at(x, y, 1) = down;
+    motionDepth.at(x, y, 2) = depth;
+}
+
+const char* describe(Method method) {
+    switch (method) {
+    case Method::OwnVelocity:
+        return "own_velocity";
+    case Method::McGuire2012:
+        return "mcguire2012";
+    case Method::Guertin2014:
+        return "guertin2014";
+    case Method::Jimenez2014:
+        return "jimenez2014";
+    case Method::Gather:
+        return "gather";
+    case Method::Hybrid:
+        return "hybrid";
+    case Method::Denoised:
+        return "denoised";
+    }
+    return "?";
+}
+
+core::Result<Blurred> FilterRig::blur(
+    const GBuffer& gbuffer, const motion_blur::MotionBlurSettings& settings, double rasterShare
+) {
+    GBufferRig rig(mDevice);
+    motion_blur::MotionBlurInputs inputs;
+    inputs.color = rig.upload(gbuffer.color);
+    inputs.motionDepth = rig.upload(gbuffer.motionDepth);
+    inputs.rasterShare = rasterShare;
+    const motion_blur::MotionBlurOutputs outputs = mEffect.add(rig.graph, inputs, settings);
+    const size_t color = rig.want(outputs.color);
+    std::optional<size_t> tiles;
+    std::optional<size_t> dominant;
+    if (outputs.tiles.isValid()) {
+        tiles = rig.want(outputs.tiles);
+        dominant = rig.want(outputs.dominant);
+    }
+    if (core::Status ran = rig.run(); !ran)
+        return ran.error();
+    Blurred blurred;
+    blurred.color = rig.take(color);
+    if (tiles) {
+        blurred.tiles = rig.take(*tiles);
+        blurred.dominant = rig.take(*dominant);
+    }
+    return blurred;
+}
+
+} // namespace shutter::stability
