@@ -46,6 +46,29 @@ void stopOnInterrupt(int) {
     std::signal(SIGINT, SIG_DFL);
 }
 
+/// Leaves the cases that --case names, all where it names none. Error: the names there are.
+template <class T>
+Status keepCases(std::vector<T>& cases, const BenchArguments& arguments, std::string_view suite) {
+    if (arguments.cases.empty())
+        return {};
+    std::string names;
+    std::vector<T> kept;
+    for (const T& one : cases) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
+        if (std::count(arguments.cases.begin(), arguments.cases.end(), one.name) > 0)
+            kept.push_back(one);
+    }
+    if (kept.size() != arguments.cases.size())
+        return core::makeError(
+            "--case {}: the suite {} has {}",
+            fmt::join(arguments.cases, ", "),
+            suite,
+            names.empty() ? "no cases" : names
+        );
+    cases = std::move(kept);
+    return {};
+}
+
 core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
     if (!arguments.shot.scene.empty())
         return makeOwnSuite(arguments.shot);
@@ -60,23 +83,11 @@ core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
     for (ScalingAxis& axis : suite.value().axes)
         for (ScalingPoint& point : axis.points)
             applySize(point.shot);
-    if (arguments.cases.empty())
-        return suite;
-    std::string names;
-    std::vector<Case> kept;
-    for (const Case& shot : suite.value().cases) {
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", shot.name);
-        if (std::count(arguments.cases.begin(), arguments.cases.end(), shot.name) > 0)
-            kept.push_back(shot);
-    }
-    if (kept.size() != arguments.cases.size())
-        return core::makeError(
-            "--case {}: the suite {} has {}",
-            fmt::join(arguments.cases, ", "),
-            suite.value().name,
-            names.empty() ? "no cases" : names
-        );
-    suite.value().cases = std::move(kept);
+    Suite& chosen = suite.value();
+    Status kept = chosen.hardCases.empty() ? keepCases(chosen.cases, arguments, chosen.name)
+                                           : keepCases(chosen.hardCases, arguments, chosen.name);
+    if (!kept)
+        return kept.error();
     return suite;
 }
 
@@ -196,7 +207,7 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<bench::BenchArguments>();
     arguments->shot.size = "640x360";
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
-    command->add_option("--suite", arguments->suite, "paper, hard or scaling");
+    command->add_option("--suite", arguments->suite, "paper, hard, scaling or stability");
     command->add_option("--out", arguments->out, "folder of results.json and index.html")
         ->required();
     command->add_option("--methods", arguments->methods, "comma-separated; default: all")

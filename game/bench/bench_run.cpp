@@ -9,6 +9,9 @@
 #include "game/bench/results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
 
 namespace shutter::bench {
 
@@ -51,10 +54,17 @@ class BenchRun {
         for (const ScalingAxis& axis : mSuite.axes)
             if (Status measured = measureAxis(axis, progress); !measured)
                 return measured;
+        for (const stability::HardCase& hard : mSuite.hardCases) {
+            if (Status measured = measureHardCase(hard); !measured)
+                return measured;
+            progress.advance();
+        }
         mRoot["complete"] = true;
         if (Status written = writeResults(); !written)
             return written;
-        return page ? writeReportPage(mRoot, mOptions.folder) : Status();
+        if (Status made = page ? writeReportPage(mRoot, mOptions.folder) : Status(); !made)
+            return made;
+        return judgeHardCases();
     }
 
   private:
@@ -62,7 +72,7 @@ class BenchRun {
         uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
         for (const ScalingAxis& axis : mSuite.axes)
             steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
-        return steps;
+        return steps + mSuite.hardCases.size();
     }
 
     void describeRun() {
@@ -90,6 +100,8 @@ class BenchRun {
             {"tonemap",
              mShot.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
                                                             : "sRGB"}};
+        if (!mSuite.hardCases.empty())
+            mRoot["stability"] = json::array();
         if (mSuite.name == "paper")
             mRoot["paper"] = describePaperFigures();
     }
@@ -123,6 +135,28 @@ class BenchRun {
         return writeResults();
     }
 
+    Status measureHardCase(const stability::HardCase& hard) {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
+        HeldCase held{&hard, hard.measure(mDevice)};
+        held.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!holds(held))
+            mBroken.push_back(hard.name);
+        mRoot["stability"].push_back(describeHardCase(held));
+        return mStop() ? stopEarly() : writeResults();
+    }
+
+    Status judgeHardCases() const {
+        if (mBroken.empty())
+            return {};
+        return core::makeError(
+            "{} of {} hard cases left their bounds: {}",
+            mBroken.size(),
+            mSuite.hardCases.size(),
+            fmt::join(mBroken, ", ")
+        );
+    }
+
     Status writeResults() const {
         return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
     }
@@ -141,6 +175,7 @@ class BenchRun {
     std::vector<DialPoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
+    std::vector<std::string> mBroken; ///< hard cases that left their bounds
     json mRoot;
 };
 

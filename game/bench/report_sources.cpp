@@ -15,6 +15,7 @@
 #include "game/bench/report/pictures_js.h"
 #include "game/bench/report/scaling_js.h"
 #include "game/bench/report/slider_js.h"
+#include "game/bench/report/stability_js.h"
 #include "game/bench/report/style_css.h"
 #include "game/bench/report/tables_js.h"
 #include "game/bench/report/tradeoff_js.h"
@@ -58,6 +59,7 @@ std::string joinReportScripts() {
         viewOf(k_tables_js),
         viewOf(k_equal_time_js),
         viewOf(k_scaling_js),
+        viewOf(k_stability_js),
         viewOf(k_about_js),
         viewOf(k_main_js),
     };

@@ -247,6 +247,38 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
     return rows;
 }
 
+bool holds(const HeldCase& held) {
+    const auto& found = held.found;
+    return found && !found.value().empty() &&
+           std::all_of(found.value().begin(), found.value().end(), stability::holds);
+}
+
+json describeHardCase(const HeldCase& held) {
+    json rows = json::array();
+    if (held.found)
+        for (const stability::Measured& row : held.found.value())
+            rows.push_back(
+                {{"check", row.check},
+                 {"worst", std::isfinite(row.worst) ? json(row.worst) : json()},
+                 {"bound", row.bound},
+                 {"unit", row.unit},
+                 {"samples", row.samples},
+                 {"notFinite", row.notFinite},
+                 {"held", stability::holds(row)},
+                 {"note", row.note}}
+            );
+    json described = {
+        {"name", held.hard->name},
+        {"title", held.hard->title},
+        {"description", held.hard->description},
+        {"seconds", held.seconds},
+        {"held", holds(held)},
+        {"checks", rows}};
+    if (!held.found)
+        described["failure"] = held.found.error().message;
+    return described;
+}
+
 json describeMetrics() {
     return json::array(
         {{{"id", "psnr"}, {"name", "PSNR"}, {"unit", "dB"}, {"better", "higher"}},

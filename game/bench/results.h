@@ -46,6 +46,18 @@ struct MeasuredPoint {
 
 [[nodiscard]] nlohmann::json describeMethods(const std::vector<const game::MethodInfo*>& methods);
 
+/// One hard case against its bounds.
+struct HeldCase {
+    const stability::HardCase* hard = nullptr;
+    core::Result<stability::Measurements> found; ///< or why it could not be drawn
+    double seconds = 0.0;                        ///< that it took, on the wall's clock
+};
+
+/// Whether it was drawn and every measurement is within its bound.
+[[nodiscard]] bool holds(const HeldCase& held);
+
+[[nodiscard]] nlohmann::json describeHardCase(const HeldCase& held);
+
 /// How metrics are named and which way is better.
 [[nodiscard]] nlohmann::json describeMetrics();
 

@@ -19,6 +19,7 @@ constexpr std::array kSuites = {
     SuiteRow{"paper", makePaperSuite},
     SuiteRow{"hard", makeHardSuite},
     SuiteRow{"scaling", makeScalingSuite},
+    SuiteRow{"stability", makeStabilitySuite},
 };
 
 std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {

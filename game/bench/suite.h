@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "game/bench/stability/measured.h"
 #include "game/methods.h"
 #include "game/render_options.h"
 
@@ -44,11 +45,12 @@ struct ScalingAxis {
 
 struct Suite {
     std::string name;
-    std::vector<Case> cases;       ///< compared with the truth
-    std::vector<ScalingAxis> axes; ///< timed only
-    uint32_t repeats = 7;          ///< timed pictures of each method and dial
-    double limitSeconds = 60.0;    ///< dials whose one picture takes longer are skipped
-    uint32_t maxRays = 256;        ///< end of the sweep of methods whose dial is rays
+    std::vector<Case> cases;                    ///< compared with the truth
+    std::vector<ScalingAxis> axes;              ///< timed only
+    std::vector<stability::HardCase> hardCases; ///< measured against bounds
+    uint32_t repeats = 7;                       ///< timed pictures of each method and dial
+    double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
+    uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays
 };
 
 /// Error: the suites there are.

@@ -17,5 +17,7 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeHardSuite();
 /// Resolution, entities, triangles, moving share of the screen, exposure.
 [[nodiscard]] Suite makeScalingSuite();
+/// Hard cases against the bounds that keep them numerically stable.
+[[nodiscard]] Suite makeStabilitySuite();
 
 } // namespace shutter::bench

@@ -14,6 +14,8 @@ import zlib
 
 WIDTH, HEIGHT = 160, 90
 
+SUITES = ("paper", "hard", "scaling", "stability")
+
 # name, title, publication, dial, default, rays, dials, ms = a + b * dial, psnr = p + g * log2(dial)
 METHODS = [
     ("sharp", "No motion blur", "", "none", None, False, [None], (100, 0), (22.0, 0)),
@@ -236,8 +238,32 @@ def scaling():
     ]
 
 
+def hard_case(name, checks, failure=None):
+    held = failure is None and all(row["held"] for row in checks)
+    case = {"name": name, "title": f"Title of {name}", "description": "A synthetic case.",
+            "seconds": 1.25, "held": held, "checks": checks}
+    return {**case, "failure": failure} if failure else case
+
+
+def check(name, worst, bound, unit="", not_finite=0, note=""):
+    held = worst is not None and worst <= bound and not_finite == 0
+    return {"check": name, "worst": worst, "bound": bound, "unit": unit, "samples": 4096,
+            "notFinite": not_finite, "held": held, "note": note}
+
+
+def stability():
+    """Two cases that hold, one out of bounds, one not finite, one that could not be drawn."""
+    return [
+        hard_case("Holds", [check("finite", 0, 0), check("error", 0.25, 1, "half ulp")]),
+        hard_case("Tiny", [check("share", 3.2e-7, 1e-5, "share of rays", note="gather")]),
+        hard_case("Beyond", [check("error", 1.5, 1, "px"), check("finite", 0, 0)]),
+        hard_case("Broken", [check("finite", None, 0, not_finite=12)]),
+        hard_case("Undrawn", [], failure="the device has too little memory"),
+    ]
+
+
 def make(suite):
-    """Results of a suite: "paper" has one case with pictures, "hard" twelve, "scaling" none."""
+    """Results of a suite: "paper" has one case with pictures, "hard" twelve, the others none."""
     methods = METHODS
     if suite == "paper":
         cases = [make_case("vase", "Vase before a cushion", 0, methods, True)]
@@ -266,12 +292,14 @@ def make(suite):
         "headline": {"method": "hybrid", "baseline": "gather"},
         "cases": cases,
     }
-    if suite != "scaling":
+    if suite in ("paper", "hard"):
         results["equalTime"] = [equal_time(case) for case in cases]
     if suite == "paper":
         results["paper"] = PAPER
     if suite == "scaling":
         results["scaling"] = scaling()
+    if suite == "stability":
+        results["stability"] = stability()
     return results
 
 
@@ -295,6 +323,6 @@ def write(suite, folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in ("paper", "hard", "scaling"):
-        sys.exit("usage: example_results.py paper|hard|scaling FOLDER")
+    if len(sys.argv) != 3 or sys.argv[1] not in SUITES:
+        sys.exit(f"usage: example_results.py {'|'.join(SUITES)} FOLDER")
     write(sys.argv[1], sys.argv[2])

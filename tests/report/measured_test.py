@@ -56,6 +56,15 @@ class Measured(unittest.TestCase):
         self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
         self.assertEqual(results["equalTime"], [])
 
+    def test_a_stability_case(self):
+        results = self.measure("--suite", "stability", "--case", "ZeroMotion",
+                               "--case", "TooManyEntities")
+        self.validate(results)
+        self.assertEqual([c["name"] for c in results["stability"]],
+                         ["ZeroMotion", "TooManyEntities"])
+        self.assertTrue(all(c["held"] for c in results["stability"]))
+        self.assertEqual(results["cases"], [])
+
 
 if __name__ == "__main__":
     unittest.main()

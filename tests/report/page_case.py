@@ -55,7 +55,7 @@ class PageCase(unittest.TestCase):
         with contextlib.ExitStack() as stack:
             cls.folder = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory()))
             cls.results = {}
-            for suite in ("paper", "hard", "scaling"):
+            for suite in example_results.SUITES:
                 cls.results[suite] = example_results.write(suite, cls.folder / suite)
                 subprocess.run([MAKE_PAGE, cls.folder / suite], check=True)
                 # The page has to stand alone.

@@ -31,6 +31,34 @@ class Page(PageCase):
         for button in self.find_all('#tradeoff-legend [aria-pressed="false"]'):
             button.click()
 
+    # Hard cases
+
+    def test_shows_every_check_beside_its_bound_and_verdict(self):
+        self.open("stability")
+        rows = [[cell.text for cell in row.find_elements(By.CSS_SELECTOR, "th, td")]
+                for row in self.find_all("#stability-table tbody tr")]
+        cases = self.results["stability"]["stability"]
+        self.assertEqual(len(rows), sum(max(len(c["checks"]), 1) for c in cases))
+        verdicts = [row["held"] for c in cases for row in c["checks"] or [c]]
+        self.assertEqual([row[8] for row in rows],
+                         ["holds" if held else "broken" for held in verdicts])
+        self.assertEqual(rows[0], ["Title of Holds", "finite", "0", "0", "", "", "0", "4,096",
+                                   "holds", "1.25"])
+        self.assertEqual(rows[1][1:6], ["error", "0.25", "1", "half ulp", "25 %"])
+        self.assertEqual(rows[2][2:4], ["3.2e-7", "1.0e-5"])
+        self.assertEqual(rows[5][2:7], ["not finite", "0", "", "", "12"])
+        self.assertEqual(rows[6][1], "the device has too little memory")
+
+    def test_says_how_many_cases_hold_and_which_do_not(self):
+        self.open("stability")
+        self.assertEqual(self.find("#headline").text,
+                         "2 of 5 hard cases keep within their bounds.")
+        self.assertEqual(self.find("#stability-broken").text,
+                         "Out of bounds: Title of Beyond; Title of Broken; Title of Undrawn.")
+        self.assertIn("24,576 values, pixels and rays in 6 checks, 12 of them NaN",
+                      self.find("#stability-note").text)
+        self.assertNotIn("160×90", self.find("#overline").text)
+
     # The whole page
 
     def test_asks_nothing_of_the_network(self):
@@ -49,6 +77,7 @@ class Page(PageCase):
             "paper": {"ladder", "tradeoff", "pictures", "slider", "tables", "equal-time", "about"},
             "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "equal-time", "about"},
             "scaling": {"scaling", "about"},
+            "stability": {"stability", "about"},
         }
         for suite, sections in expected.items():
             self.open(suite)

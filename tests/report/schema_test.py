@@ -31,7 +31,7 @@ class Schema(unittest.TestCase):
         self.assertFalse(self.validator.is_valid(results))
 
     def test_takes_an_example_of_every_suite(self):
-        for suite in ("paper", "hard", "scaling"):
+        for suite in example_results.SUITES:
             with self.subTest(suite=suite):
                 self.validator.validate(example_results.make(suite))
 
@@ -51,6 +51,11 @@ class Schema(unittest.TestCase):
     def test_refuses_a_misspelt_field(self):
         self.refuses(lambda r: r["cases"][0]["measurements"][0].update(errormap="a.png"))
         self.refuses(lambda r: r["paper"]["table2"]["rows"][0].update(our=["edge"]))
+
+    def test_refuses_a_check_without_its_bound(self):
+        results = example_results.make("stability")
+        results["stability"][0]["checks"][0].pop("bound")
+        self.assertFalse(self.validator.is_valid(results))
 
     def test_refuses_a_negative_time(self):
         frame = lambda r: r["cases"][0]["measurements"][0]["milliseconds"]["frame"]

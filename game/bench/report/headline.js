@@ -120,11 +120,14 @@ function drawHeadline() {
     const metric = results.metrics[0];
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
-    const headline = pairSentence ?? writeScalingSentence() ?? writeCountSentence();
+    const headline = pairSentence ?? writeScalingSentence() ?? writeStabilitySentence() ??
+        writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
-        `Shutter benchmark, suite ${results.suite}`, `${width}×${height}`, results.device.name,
-    ].join(" · ");
+        `Shutter benchmark, suite ${results.suite}`,
+        results.stability ? "" : `${width}×${height}`, // hard cases have sizes of their own
+        results.device.name,
+    ].filter(Boolean).join(" · ");
     byId("headline").textContent = headline;
     document.title = `Shutter benchmark: ${results.suite}`;
     const lede = pairSentence

@@ -45,6 +45,7 @@ function drawChosen() {
 fillToolbar();
 drawHeadline();
 drawTables();
+drawStability();
 drawAbout();
 drawChosen();
 onChoice(drawChosen);
