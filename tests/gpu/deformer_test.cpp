@@ -10,6 +10,8 @@
 #include "tests/support/gpu_fixture.h"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -82,12 +84,15 @@ bendInCpp(const scene::Primitive& mesh, size_t i, const scene::Deformation& pose
     if (pose.objectFromBind.empty())
         return shader::finishVertex(vertex);
     shader::MotionKey blended = shader::noJoint();
-    for (uint32_t k = 0; k < mesh.influenceCount; ++k)
+    for (uint32_t k = 0; k < mesh.influenceCount; ++k) {
+        if (mesh.weights[i * mesh.influenceCount + k] == 0.0f)
+            continue;
         blended = shader::addJoint(
             blended,
             render::makeKey(pose.objectFromBind[mesh.joints[i * mesh.influenceCount + k]]),
             mesh.weights[i * mesh.influenceCount + k]
         );
+    }
     if (mesh.influenceCount == 0)
         blended = render::makeKey(pose.objectFromBind.front());
     return shader::finishVertex(shader::skinVertex(vertex, blended));
@@ -99,8 +104,15 @@ template <class T> std::vector<T> readAll(const gpu::Buffer& buffer, size_t coun
     return values;
 }
 
-/// Two poses at once, the second without a morph where `morphs` says so.
-void expectAsInCpp(gpu::Device& device, scene::Primitive mesh, bool skins, bool morphs) {
+/// Two poses at once.
+/// \param lost its matrix is NaN
+void expectAsInCpp(
+    gpu::Device& device,
+    scene::Primitive mesh,
+    bool skins,
+    bool morphs,
+    std::optional<size_t> lost = std::nullopt
+) {
     std::mt19937 random(5);
     scene::Assets assets;
     // A mesh before it, so that offsets matter.
@@ -114,6 +126,8 @@ void expectAsInCpp(gpu::Device& device, scene::Primitive mesh, bool skins, bool 
             shape.objectFromBind.clear();
         if (!morphs)
             shape.morphWeights.clear();
+        if (lost)
+            shape.objectFromBind[*lost] *= std::numeric_limits<double>::quiet_NaN();
     }
     (void)poses.add(shapes[0]);
     const auto place = poses.add(shapes[1]);
@@ -172,6 +186,15 @@ TEST_F(Deformer, FourJointsBendAsInCpp) {
     mesh.weights.assign(mesh.positions.size() * 4, 0.25f);
     mesh.morphTargets.clear();
     expectAsInCpp(device(), mesh, true, false);
+}
+
+TEST_F(Deformer, AJointOfNoWeightMayBeNowhere) {
+    std::mt19937 random(7);
+    scene::Primitive mesh = makeMesh(random);
+    for (size_t i = 0; i < mesh.weights.size(); ++i)
+        if (mesh.joints[i] == 2)
+            mesh.weights[i] = 0.0f;
+    expectAsInCpp(device(), mesh, true, true, 2);
 }
 
 TEST_F(Deformer, TargetsWithoutASkinBendAsInCpp) {
