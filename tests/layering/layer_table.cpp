@@ -95,8 +95,9 @@ Part findPart(std::string_view path) {
         return {Kind::Game, {}};
     if (top == "assets" && name == "generator")
         return {Kind::Generator, {}};
-    // Shaders compiled to headers belong to the folder they were compiled from.
-    if ((top == "shaders" || top == "spirv") && !name.empty())
+    // Shaders made into headers (compiled, in double precision) belong to the folder they come
+    // from.
+    if ((top == "shaders" || top == "spirv" || top == "double") && !name.empty())
         return {Kind::Shaders, name};
     if (top == "tests")
         return {Kind::Tests, {}};
@@ -158,7 +159,8 @@ bool cppMaySeeShaders(const Part& from, const Part& to, std::string_view path) {
         return false;
     if (to.name == "common")
         return true;
-    if (!isShared(path) && !path.ends_with(".glsl") && !path.starts_with("spirv/"))
+    if (!isShared(path) && !path.ends_with(".glsl") && !path.starts_with("spirv/") &&
+        !path.starts_with("double/"))
         return false;
     if (findEngineRow(to.name) == nullptr)
         return maySeeModule(from, Part{Kind::Module, to.name});
@@ -210,7 +212,8 @@ std::string resolve(const Include& include, const FileExists& exists) {
             return candidate;
     }
     // A file that does not exist yet, or is generated, still tells its part of the tree.
-    static const Names kTops = {"engine", "modules", "game", "assets", "shaders", "spirv", "tests"};
+    static const Names kTops = {
+        "engine", "modules", "game", "assets", "shaders", "spirv", "double", "tests"};
     if (kTops.contains(folderAt(asWritten, 0)) || exists(asWritten))
         return asWritten;
     const std::string belowShaders = "shaders/" + asWritten;

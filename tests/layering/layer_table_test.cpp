@@ -176,6 +176,7 @@ TEST(LayerTable, CppSeesTheShadersOfItsOwnFolderAndBelow) {
         {"modules/tonemap/tonemap.cpp", "\"shaders/render/brdf.glsl\""},
         {"modules/tonemap/tonemap.cpp", "\"shaders/tonemap/tonemap_shared.h\""},
         {"modules/tonemap/tonemap.cpp", "\"spirv/tonemap/tonemap.comp.h\""},
+        {"game/bench/bench.cpp", "\"double/tonemap/tonemap.glsl.h\""},
         {"modules/motion_blur/motion_blur.cpp", "\"shaders/motion_blur/tile.glsl\""},
         {"modules/motion_blur/motion_blur.cpp", "\"shaders/render/scene_shared.h\""},
         {"game/main.cpp", "\"shaders/tonemap/tonemap_shared.h\""},
@@ -187,6 +188,7 @@ TEST(LayerTable, CppSeesTheShadersOfItsOwnFolderAndBelow) {
         {"engine/render/renderer.cpp", "\"shaders/render/gbuffer.frag\""},
         {"modules/tonemap/tonemap.cpp", "\"shaders/motion_blur/tile.glsl\""},
         {"modules/tonemap/tonemap.cpp", "\"spirv/motion_blur/tile.comp.h\""},
+        {"modules/tonemap/tonemap.cpp", "\"double/motion_blur/taps.glsl.h\""},
         {"modules/motion_blur/motion_blur.cpp", "\"shaders/render/brdf.glsl\""},
         {"modules/motion_blur/motion_blur.cpp", "\"spirv/render/gbuffer.vert.h\""},
     });
