@@ -47,7 +47,8 @@ SHUTTER_INLINE float inverseResponse(ResponseRef response, float u) {
     float root = sqrt(max(a.density * a.density + 2.0f * slope * light, 0.0f));
     // Nothing is taken in a dark segment, nor yet at its start: 0 over 0.
     float x = 2.0f * light / max(a.density + root, 1.0e-20f);
-    return min(a.s + x, b.s);
+    float end = b.s;
+    return min(a.s + x, end);
 }
 
 /// The other way round: share of the light that is taken before s.
@@ -56,8 +57,9 @@ SHUTTER_INLINE float cumulativeResponse(ResponseRef response, float s) {
     while (last < response.value.knotCount - 1u && response.value.knots[last].s < s) ++last;
     ResponseKnot a = response.value.knots[last - 1u];
     ResponseKnot b = response.value.knots[last];
-    float x = clamp(s - a.s, 0.0f, b.s - a.s);
-    float slope = (b.density - a.density) / (b.s - a.s);
+    float length_ = b.s - a.s;
+    float x = clamp(s - a.s, 0.0f, length_);
+    float slope = (b.density - a.density) / length_;
     return min(a.cumulative + x * (a.density + 0.5f * slope * x), 1.0f);
 }
 

@@ -184,7 +184,7 @@ TEST_P(MotionSources, MotionVectorsAreDifferencesOfRasterisedPositions) {
         longest,
         worst
     );
-    EXPECT_GT(inside, 1500u);
+    EXPECT_GT(inside, 1000u);
     EXPECT_GT(longest, 4.0);
     EXPECT_LE(worst, 0.05);
 }

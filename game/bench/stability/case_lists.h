@@ -14,6 +14,8 @@ namespace shutter::stability {
 [[nodiscard]] std::vector<HardCase> listContinuityCases();
 /// Scenes whose cameras, places and shutter are hard.
 [[nodiscard]] std::vector<HardCase> listPlaceCases();
+/// Frames in which something has no past, and frames of no and of great length.
+[[nodiscard]] std::vector<HardCase> listHistoryCases();
 /// Scenes whose meshes, materials and transforms are hard.
 [[nodiscard]] std::vector<HardCase> listSurfaceCases();
 /// Sizes of the picture, and entities beyond the table.

@@ -10,6 +10,7 @@ std::vector<HardCase> listHardCases() {
     for (const auto list :
          {listMotionCases,
           listPlaceCases,
+          listHistoryCases,
           listSurfaceCases,
           listLimitCases,
           listEnergyCases,

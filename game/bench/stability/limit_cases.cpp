@@ -10,15 +10,6 @@ namespace shutter::stability {
 
 namespace {
 
-void buildStage(SceneDraft& draft) {
-    draft.add(makeSheet(12, 6), draft.addWaves(), Stand{.position = {0, 0, -5}});
-    draft.add(
-        generator::sphere(0.5f, 24, 12),
-        draft.addWaves(),
-        Stand{.position = {0.1, 0, -2.5}, .velocity = {0.5, 0.2, 0.1}}
-    );
-}
-
 struct Size {
     uint32_t width;
     uint32_t height;

@@ -31,6 +31,7 @@ void applyView(game::RenderOptions& options, const View& view, bool intermediate
     options.height = view.height;
     options.background = view.background;
     options.ambient = view.ambient;
+    options.frameSeconds = view.frameSeconds;
     options.aovs.clear();
     if (intermediates) {
         options.aovs = {"motion", "normal", "mesh_id"};
@@ -66,7 +67,9 @@ Drawer::draw(std::string_view name, const View& view, bool intermediates) {
     const auto method = game::findMethod(name);
     if (!method)
         return method.error();
-    mShot.world.registry.add(mShot.camera, scene::CameraShutter{view.exposureSeconds, view.phase});
+    scene::CameraShutter shutter{view.exposureSeconds, view.phase};
+    shutter.mode = view.mode;
+    mShot.world.registry.add(mShot.camera, shutter);
     Kept& kept = mKept[method.value()];
     kept.options.method = method.value();
     if (!kept.renderer) {

@@ -24,6 +24,8 @@ struct View {
     double seconds = 0.0;
     double exposureSeconds = 1.0;
     scene::ShutterPhase phase = scene::ShutterPhase::Centre;
+    scene::ShutterMode mode = scene::ShutterMode::Physical;
+    double frameSeconds = scene::kStillFrameSeconds;
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
     uint32_t samples = 0; ///< instants or rays of the truths; 0: four

@@ -14,18 +14,6 @@ using math::dvec3;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A textured wall and a lit sphere before it that moves.
-void buildStage(SceneDraft& draft) {
-    const auto lit = draft.addLitWaves();
-    draft.add(makeSheet(6, 5), lit, Stand{.position = {0, 0, -5}});
-    draft.add(
-        generator::sphere(0.5f, 24, 12),
-        lit,
-        Stand{.position = {0.1, 0, -2.5}, .velocity = {0.5, 0.2, 0.1}}
-    );
-    draft.addSun(glm::normalize(dvec3(-0.4, -0.7, -0.6)), 3.0f);
-}
-
 const View kLit{.background = math::vec3(0.1f, 0.2f, 0.3f), .ambient = math::vec3(0.3f)};
 
 View during(double exposureSeconds) {
@@ -267,7 +255,11 @@ std::vector<HardCase> listPlaceCases() {
                  "Hitch", "A frame of 10 seconds", "An exposure of 10 s at the time 10 s.", hitch},
          })
         cases.push_back(makeSceneCase(
-            shutter.name, shutter.title, shutter.description, buildStage, shutter.view
+            shutter.name,
+            shutter.title,
+            shutter.description,
+            [](SceneDraft& draft) { buildStage(draft); },
+            shutter.view
         ));
     return cases;
 }

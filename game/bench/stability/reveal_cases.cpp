@@ -50,10 +50,11 @@ class RevealEverywhere : public render::PostEffect {
             context.gbuffer.meshId,
             context.graph.importBuffer("all pixels", mList.handle(), mList.bytes()),
             context.graph.importBuffer("all groups", mArguments.handle(), mArguments.bytes()),
-            {context.rays->topLevelBuffer,
-             context.rays->topLevel,
-             context.rays->textures,
-             params.frame}};
+            motion_blur::RayInputs{
+                .topLevelBuffer = context.rays->topLevelBuffer,
+                .topLevel = context.rays->topLevel,
+                .scene = context.rays->textures,
+                .frame = params.frame}};
         const motion_blur::RayRevealOutputs outputs = mReveal.add(context.graph, inputs, params);
         context.color = outputs.color;
         context.intermediates.publish("reveal_id", outputs.meshId);

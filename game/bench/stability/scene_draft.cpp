@@ -156,6 +156,18 @@ void SceneDraft::moveAll(const dvec3& offset) {
         local.matrix[3] += math::dvec4(offset, 0.0);
 }
 
+ecs::Entity buildStage(SceneDraft& draft) {
+    const auto lit = draft.addLitWaves();
+    draft.add(makeSheet(6, 5), lit, Stand{.position = {0, 0, -5}});
+    const ecs::Entity sphere = draft.add(
+        generator::sphere(0.5f, 24, 12),
+        lit,
+        Stand{.position = {0.1, 0, -2.5}, .velocity = {0.5, 0.2, 0.1}}
+    );
+    draft.addSun(glm::normalize(dvec3(-0.4, -0.7, -0.6)), 3.0f);
+    return sphere;
+}
+
 generator::Shape makeSheet(double width, double height) {
     return generator::sheet(
         {float(width / 2.0), float(height / 2.0)}, float(std::max(width, height))

@@ -58,6 +58,10 @@ class SceneDraft {
     addMesh(std::span<const generator::Shape> shapes, scene::AssetIndex material);
 };
 
+/// A textured wall (the first entity) and a lit sphere before it that moves.
+/// \return the sphere
+ecs::Entity buildStage(SceneDraft& draft);
+
 /// A sheet in the xy plane that faces +Z. \param width, height metres
 [[nodiscard]] generator::Shape makeSheet(double width, double height);
 [[nodiscard]] generator::Shape makeBox(double width, double height, double depth);
