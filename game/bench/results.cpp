@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/results.h"
 
+#include "engine/scene/shutter.h"
 #include "game/bench/cost.h"
 #include "game/bench/fit.h"
 #include "game/quartiles.h"
+#include "game/shutter_options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,6 +101,13 @@ json describeFit(const std::vector<CurvePoint>& curve) {
     return {{"exponent", fit->exponent}, {"r2", fit->r2}, {"from", fit->from}, {"to", fit->to}};
 }
 
+/// Seconds; the shot's options were checked when it was set up.
+double findExposure(const game::RenderArguments& shot) {
+    const double frameSeconds = 1.0 / shot.fps;
+    const auto shutter = game::interpretShutter(shot, frameSeconds);
+    return shutter ? scene::computeExposureSeconds(shutter.value(), frameSeconds) : 0.0;
+}
+
 } // namespace
 
 json describeCase(
@@ -112,7 +121,7 @@ json describeCase(
         {"title", shot.title},
         {"description", shot.description},
         {"time", shot.shot.time},
-        {"exposure", shot.shot.exposureSeconds.value_or(game::kDefaultExposureSeconds)},
+        {"exposure", findExposure(shot.shot)},
         {"phase", shot.shot.phase},
         {"camera", shot.shot.camera},
         {"measurements", json::array()},

@@ -20,6 +20,7 @@ View makeView(Size size) {
     view.width = size.width;
     view.height = size.height;
     view.exposureSeconds = 0.1;
+    view.ambient = math::vec3(0.3f); // no pixel of the stage is black
     return view;
 }
 

@@ -158,7 +158,7 @@ void SceneDraft::moveAll(const dvec3& offset) {
 
 ecs::Entity buildStage(SceneDraft& draft) {
     const auto lit = draft.addLitWaves();
-    draft.add(makeSheet(6, 5), lit, Stand{.position = {0, 0, -5}});
+    draft.add(makeSheet(12, 6), lit, Stand{.position = {0, 0, -5}});
     const ecs::Entity sphere = draft.add(
         generator::sphere(0.5f, 24, 12),
         lit,

@@ -58,7 +58,7 @@ class SceneDraft {
     addMesh(std::span<const generator::Shape> shapes, scene::AssetIndex material);
 };
 
-/// A textured wall (the first entity) and a lit sphere before it that moves.
+/// A textured wall that fills the picture (the first entity) and a lit sphere before it that moves.
 /// \return the sphere
 ecs::Entity buildStage(SceneDraft& draft);
 
