@@ -2,7 +2,7 @@
 // Private to engine/io: what a node's `extras` say of its motion blur.
 #pragma once
 
-#include "engine/io/gltf_model.h"
+#include "engine/io/gltf_context.h"
 #include "engine/scene/components.h"
 
 #include <optional>
@@ -14,6 +14,6 @@ namespace shutter::io {
 /// nothing without it or where it is empty. Throws GltfError, naming the member, for values of
 /// another kind or range. \param path of the node
 [[nodiscard]] std::optional<scene::MotionBlur>
-readMotionBlur(const tinygltf::Node& node, const std::string& path);
+readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path);
 
 } // namespace shutter::io

@@ -177,7 +177,7 @@ class NodeLoader {
         addTransform();
         addMotion();
         addName();
-        if (const auto blur = readMotionBlur(mNode, mPath))
+        if (const auto blur = readMotionBlur(mContext, mNode, mPath))
             mRegistry.add<scene::MotionBlur>(mEntity, *blur);
         if (use != NodeUse::Scene)
             return;

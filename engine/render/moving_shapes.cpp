@@ -190,7 +190,7 @@ void MovingShapes::linkScenes(std::span<const MovingShape> shapes, const GpuScen
 void MovingShapes::update(std::span<const MovingShape> shapes, const GpuScene& scene) {
     if (std::equal(shapes.begin(), shapes.end(), mShapes.begin(), mShapes.end(), isSameShape))
         return;
-    mShapes.assign(shapes.begin(), shapes.end());
+    mShapes.clear(); // until all of it is there: what fails must not be taken for kept
     if (shapes.empty()) {
         mRows.clear();
         mEntries.clear();
@@ -211,6 +211,7 @@ void MovingShapes::update(std::span<const MovingShape> shapes, const GpuScene& s
         mScenes.record(mDevice, commands);
         gpu::fullBarrier(commands);
     });
+    mShapes.assign(shapes.begin(), shapes.end());
 }
 
 } // namespace shutter::render

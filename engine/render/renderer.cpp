@@ -246,6 +246,7 @@ Renderer::Tickets Renderer::declareFrame(
     std::vector<shader::Geometry> bent = shapes.rows;
     const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
     if (moving) {
+        mScene.buildBottomLevels(); // instances of bent meshes ask for their masks
         const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }

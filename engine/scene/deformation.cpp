@@ -2,6 +2,7 @@
 #include "engine/scene/deformation.h"
 
 #include "engine/core/check.h"
+#include "engine/math/transform.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/motion.h"
 
@@ -55,9 +56,10 @@ dmat4 worldFromObject(const World& world, ecs::Entity entity, double seconds) {
     const auto* skinned = world.registry.find<Skinned>(entity);
     if (!skinned)
         return worldFromEntity(world, entity, seconds);
-    return glm::translate(
-        dmat4(1.0), dvec3(worldFromEntity(world, skinned->joints.front(), seconds)[3])
-    );
+    SHUTTER_CHECK(!skinned->joints.empty(), "{} has a skin without joints", entity);
+    const dmat4 joint = worldFromEntity(world, skinned->joints.front(), seconds);
+    // A first joint that bends nothing may be nowhere; then the world's own origin has to do.
+    return math::isFinite(joint) ? glm::translate(dmat4(1.0), dvec3(joint[3])) : dmat4(1.0);
 }
 
 bool mayObjectMove(const World& world, ecs::Entity entity) {

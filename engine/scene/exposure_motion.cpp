@@ -7,6 +7,8 @@
 #include "engine/scene/path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace shutter::scene {
 
@@ -67,7 +69,12 @@ ExposureMotion::ExposureMotion(
     if (!(exposure.open < exposure.close))
         return;
     const TimeSpan reach = findReach(world, exposure);
-    mSpan = {std::min(reach.after, exposure.raster - exposure.frameSeconds), reach.until};
+    // Times of frames are rounded: an event at the time of the frame before must not fall an ulp
+    // behind it and count in this one again.
+    const double slack = 4.0 * std::numeric_limits<double>::epsilon() *
+                         std::max(std::abs(exposure.raster), exposure.frameSeconds);
+    const double before = exposure.raster - exposure.frameSeconds;
+    mSpan = {std::min(reach.after, before) + slack, reach.until};
     mAnyEvents = anyHappened<Appeared>(world, mSpan) || anyHappened<Teleported>(world, mSpan) ||
                  anyPathCut(world, mSpan);
     for (auto [entity, blur] : world.registry.view<MotionBlur>()) {

@@ -147,7 +147,11 @@ dquat lookAlong(const dvec3& direction, const dvec3& up) {
 dquat sampleRotation(const PathMotion& path, const Place& place) {
     const std::vector<PathKey>& keys = path.keys;
     if (path.interpolation == PathInterpolation::Linear && place.share > 0.0)
-        return glm::slerp(*keys[place.key].rotation, *keys[place.key + 1].rotation, place.share);
+        return glm::slerp(
+            glm::normalize(*keys[place.key].rotation),
+            glm::normalize(*keys[place.key + 1].rotation),
+            place.share
+        );
     return toRotation(interpolate<dvec4>(path, place, [&](size_t key) {
         return alignRotation(keys, place.key, key);
     }));

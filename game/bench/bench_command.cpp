@@ -88,6 +88,10 @@ core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
                                            : keepCases(chosen.hardCases, arguments, chosen.name);
     if (!kept)
         return kept.error();
+    if (!chosen.hardCases.empty() && !arguments.methods.empty())
+        return core::makeError(
+            "--methods has no meaning for the suite {}: its cases choose their own", chosen.name
+        );
     return suite;
 }
 

@@ -161,8 +161,10 @@ class BenchRun {
         return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
     }
 
-    /// What was measured is kept.
+    /// What was measured is kept, but for hard cases.
     Status stopEarly() const {
+        if (!mSuite.hardCases.empty())
+            return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);
         return core::makeError("stopped; the same command goes on where it was");
     }
 

@@ -18,12 +18,16 @@ function listFacts() {
         ["Machine", `${machine.cpu}, ${machine.cores} cores, ${formatNumber(gib, 1)} GiB, ` +
             machine.os],
         ["Revision", `${revision.git}${revision.dirty ? " with changes not committed" : ""}`],
-        ["Settings", [`${settings.width}×${settings.height}`, ...others].join(", ")],
+        ["Settings", results.stability ? "the cases' own"
+            : [`${settings.width}×${settings.height}`, ...others].join(", ")],
         ["Taken", `${results.created}, suite ${results.suite}`],
     ];
 }
 
 function describeMeasuring() {
+    if (results.stability)
+        return el("ul", {}, el("li", {}, "Each case draws and measures as its checks say; what is " +
+            "looked at is counted under samples. Nothing is timed but the case as a whole."));
     const {repeats, tonemap} = results.settings;
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +

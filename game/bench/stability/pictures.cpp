@@ -196,6 +196,42 @@ core::Result<Measurements> measureEveryMethod(Drawer& drawer, View view) {
         describe(excursion, "inside the range of what was filtered", "half ulp", 1.0)};
 }
 
+core::Result<Measurements> measureRays(Drawer& drawer, View view) {
+    constexpr double kStep = 2.0 / 255.0;
+    view.exposureSeconds = 0.0;
+    view.samples = 1;
+    const auto raster = drawer.draw("sharp", view);
+    const auto rays = drawer.draw("truth", view, false);
+    if (!raster || !rays)
+        return raster ? rays.error() : raster.error();
+    double differing = 0.0;
+    Range shown;
+    shown.add(raster.value().color);
+    for (uint32_t y = 0; y < view.height; ++y)
+        for (uint32_t x = 0; x < view.width; ++x) {
+            double worst = 0.0;
+            for (uint32_t c = 0; c < 3; ++c) {
+                const double a = raster.value().color.at(x, y, c);
+                const double b = rays.value().color.at(x, y, c);
+                worst = std::max(worst, std::abs(a - b) / std::max(1.0, std::abs(a)));
+            }
+            differing += worst > kStep ? 1.0 : 0.0;
+        }
+    const uint64_t pixels = uint64_t{view.width} * view.height;
+    Worst share;
+    share.add(differing / double(pixels));
+    share.samples = pixels;
+    Worst black;
+    black.add(
+        std::max({shown.greatest[0], shown.greatest[1], shown.greatest[2]}) > 0.0 ? 0.0 : 1.0
+    );
+    black.samples = pixels;
+    // Pixel centres on an edge, which raster and rays round to either side.
+    return Measurements{
+        describe(share, "rays see what raster draws, share of pixels", "", 0.01),
+        describe(black, "pictures that are black", "", 0.0)};
+}
+
 HardCase makeSceneCase(
     std::string name,
     std::string title,
@@ -208,7 +244,15 @@ HardCase makeSceneCase(
         SceneDraft draft;
         build(draft);
         Drawer drawer(device, draft);
-        return measureEveryMethod(drawer, view);
+        auto found = measureEveryMethod(drawer, view);
+        if (!found || !device.hasRays())
+            return found;
+        auto rays = measureRays(drawer, view);
+        if (!rays)
+            return rays;
+        for (Measured& row : rays.value())
+            found.value().push_back(std::move(row));
+        return found;
     };
     return made;
 }

@@ -115,7 +115,11 @@ void addDifference(
 /// Every method in every phase: the rows "finite" and "inside the range of what was filtered".
 [[nodiscard]] core::Result<Measurements> measureEveryMethod(Drawer& drawer, View view);
 
-/// A hard case whose scene `build` makes, drawn by every method.
+/// Rays at one instant against raster: the rows "rays see what raster draws", the share of pixels
+/// that differ by more than two steps of 255, and "something is drawn".
+[[nodiscard]] core::Result<Measurements> measureRays(Drawer& drawer, View view);
+
+/// A hard case whose scene `build` makes: measureEveryMethod() and measureRays().
 [[nodiscard]] HardCase makeSceneCase(
     std::string name,
     std::string title,

@@ -195,7 +195,8 @@ std::vector<HardCase> listPlaceCases() {
             "InsideAMover",
             "The camera inside a moving box",
             "A double-sided box turns and moves around the camera.",
-            buildInside
+            buildInside,
+            kLit
         ),
         makeSceneCase(
             "SkyAlone",

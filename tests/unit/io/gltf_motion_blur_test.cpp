@@ -45,6 +45,13 @@ TEST(GltfMotionBlur, OtherExtrasSayNothing) {
         EXPECT_FALSE(findBlur(expectLoads(loadExtras(extras)))) << extras;
 }
 
+TEST(GltfMotionBlur, AnUnknownMemberIsWarnedOf) {
+    const LoadedScene scene = expectLoads(loadExtras(R"({"motionBlur":{"excluded":true}})"));
+    EXPECT_FALSE(findBlur(scene)->exclude);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], "nodes[0].extras.motionBlur has a member 'excluded': not used");
+}
+
 TEST(GltfMotionBlur, BadValuesAreRefusedByName) {
     expectRefused(loadExtras(R"({"motionBlur":1})"), "nodes[0].extras.motionBlur");
     for (const char* scale : {"-0.1", "2.5", "1e31", "\"1\""})

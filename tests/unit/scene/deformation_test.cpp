@@ -122,6 +122,13 @@ TEST_F(SkinChain, HasItsOriginAtTheFirstJointWithTheAxesOfTheWorld) {
     EXPECT_EQ(worldFromObject(mWorld, mBody, 0.0), dmat4(1.0)) << "its own transform counts again";
 }
 
+TEST_F(SkinChain, AFirstJointThatIsNowhereLeavesTheOthersWhereTheyAre) {
+    math::Transform nowhere;
+    nowhere.translation.x = std::numeric_limits<double>::quiet_NaN();
+    mWorld.registry.add(mBody, Skinned{0, {add(nowhere), mTip}});
+    expectNear(pointAt(1, {0.0, 1.0, 0.0}, 0.0), {0.0, 1.0, 0.0});
+}
+
 TEST_F(SkinChain, KeepsItsNumbersSmallFarFromTheOrigin) {
     turnTip();
     const Deformation near = deformationAt(mWorld, mBody, 0.4);

@@ -282,5 +282,21 @@ TEST_F(History, DespawningTakesDescendantsAndWhatHangsOnThem) {
     EXPECT_EQ(mWorld.cameras, std::vector<ecs::Entity>{mCamera});
 }
 
+TEST_F(History, AnEventAtAFramesOwnTimeCountsInThatFrameOnly) {
+    // Whatever the quotient n / 24 is rounded to.
+    mShutter.mode = ShutterMode::Angle;
+    mShutter.angleDegrees = 360.0;
+    for (int n = 1; n < 3000; ++n) {
+        cut(mWorld, mCamera, n / 24.0);
+        const auto isCutAt = [&](int frame) {
+            const auto exposure = computeExposure(mShutter, frame / 24.0, 1.0 / 24.0);
+            return ExposureMotion(mWorld, mCamera, exposure).isCut();
+        };
+        ASSERT_FALSE(isCutAt(n - 1)) << n;
+        ASSERT_TRUE(isCutAt(n)) << n;
+        ASSERT_FALSE(isCutAt(n + 1)) << n;
+    }
+}
+
 } // namespace
 } // namespace shutter::scene
