@@ -15,22 +15,27 @@ namespace {
 /// Metres from the object's origin: builders of acceleration structures lose themselves beyond.
 constexpr double kFarthest = 1.0e18;
 
+bool bendsAnything(const scene::PoseReach& reach, size_t joint) {
+    return joint < reach.joints.size() && !reach.joints[joint].isEmpty();
+}
+
 } // namespace
 
 bool isFinite(const scene::Deformation& pose, const scene::PoseReach& reach) {
-    const size_t bending = std::min(reach.joints.size(), pose.objectFromBind.size());
-    for (size_t joint = 0; joint < bending; ++joint)
-        if (!reach.joints[joint].isEmpty() && !math::isFinite(pose.objectFromBind[joint]))
+    for (size_t joint = 0; joint < pose.objectFromBind.size(); ++joint)
+        if (bendsAnything(reach, joint) && !math::isFinite(pose.objectFromBind[joint]))
             return false;
     return std::all_of(pose.morphWeights.begin(), pose.morphWeights.end(), [](double weight) {
         return std::isfinite(weight);
     });
 }
 
-bool isMirrored(const scene::Deformation& pose) {
+bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach) {
     int64_t mirrored = 0;
-    for (const math::dmat4& matrix : pose.objectFromBind) {
-        const double determinant = glm::determinant(math::dmat3(matrix));
+    for (size_t joint = 0; joint < pose.objectFromBind.size(); ++joint) {
+        if (!bendsAnything(reach, joint))
+            continue;
+        const double determinant = glm::determinant(math::dmat3(pose.objectFromBind[joint]));
         mirrored += (determinant < 0.0) - (determinant > 0.0);
     }
     return mirrored > 0;
@@ -59,7 +64,7 @@ std::optional<DeformedEntity> poseEntity(
     if (!isFinite(result.open, reach) || !isFinite(result.close, reach))
         return std::nullopt;
     result.changes = !isSame(result.open, result.raster) || !isSame(result.close, result.raster);
-    result.mirrored = isMirrored(result.raster);
+    result.mirrored = isMirrored(result.raster, reach);
     result.bounds = scene::computePosedBounds(reach, result.raster);
     for (int axis = 0; axis < 3; ++axis)
         // Written so that NaN is not drawn.

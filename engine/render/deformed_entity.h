@@ -41,8 +41,8 @@ struct ShapeTimes {
 /// Every weight, and every joint that bends something, is.
 [[nodiscard]] bool isFinite(const scene::Deformation& pose, const scene::PoseReach& reach);
 
-/// Most joints' matrices mirror; those without a volume do not count.
-[[nodiscard]] bool isMirrored(const scene::Deformation& pose);
+/// Most matrices of joints that bend something mirror; those without a volume do not count.
+[[nodiscard]] bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach);
 
 [[nodiscard]] bool isSame(const scene::Deformation& a, const scene::Deformation& b);
 

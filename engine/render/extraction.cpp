@@ -141,8 +141,12 @@ class Extractor {
                         : math::vec2(0.0f, float(2.0 * mCamera.yMag / height));
         constants.lodBias = mRequest.lodBias;
         constants.flags = mRequest.unlit ? shader::kFrameUnlit : 0u;
-        mFrame.moves = constants.clipFromDirectionOpen != constants.clipFromDirectionClose ||
-                       mPoses.open.position != mPoses.close.position;
+        // A motion that ends where it began is one too: the raster instant tells.
+        const math::mat4 direction(directionMatrix(mPoses.raster));
+        mFrame.moves = constants.clipFromDirectionOpen != direction ||
+                       constants.clipFromDirectionClose != direction ||
+                       mPoses.open.position != mPoses.raster.position ||
+                       mPoses.close.position != mPoses.raster.position;
     }
 
     dmat4 directionMatrix(const CameraPose& pose) const {
@@ -195,8 +199,9 @@ class Extractor {
         mFrame.entityHandles.push_back(entity);
         const bool changes = shape && shape->changes;
         if (!isOutside(clipRaster, bounds)) {
-            mFrame.moves =
-                mFrame.moves || changes || row.clipFromObjectOpen != row.clipFromObjectClose;
+            const math::mat4 unjittered(mPoses.raster.clipFromWorld * raster);
+            mFrame.moves = mFrame.moves || changes || row.clipFromObjectOpen != unjittered ||
+                           row.clipFromObjectClose != unjittered;
             const dvec3 centre(eye * dvec4(bounds.centre(), 1.0));
             addDraws(index, mesh, mirrored, float(glm::length(centre)));
         }

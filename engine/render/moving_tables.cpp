@@ -149,7 +149,7 @@ class Builder {
     }
 
     void addShape(uint32_t row, uint32_t mesh, ShapeKeys shape) {
-        const bool mirrored = isMirrored(shape.keys.front());
+        const bool mirrored = isMirrored(shape.keys.front(), mLayout.reaches.at(mesh));
         mTables.shapes.push_back({row, mesh, std::move(shape.keys), shape.swept, mirrored});
     }
 

@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
+#include "game/methods.h"
 
 #include <optional>
 #include <vector>
@@ -74,23 +75,11 @@ void GBuffer::setMotion(uint32_t x, uint32_t y, float right, float down, float d
 }
 
 const char* describe(Method method) {
-    switch (method) {
-    case Method::OwnVelocity:
-        return "own_velocity";
-    case Method::McGuire2012:
-        return "mcguire2012";
-    case Method::Guertin2014:
-        return "guertin2014";
-    case Method::Jimenez2014:
-        return "jimenez2014";
-    case Method::Gather:
-        return "gather";
-    case Method::Hybrid:
-        return "hybrid";
-    case Method::Denoised:
-        return "denoised";
-    }
-    return "?";
+    for (const game::MethodInfo& info : game::listMethods())
+        if (info.family == game::MethodFamily::MotionBlur && info.blur == method)
+            return info.name;
+    SHUTTER_CHECK(false, "no method is made of the blur {}", static_cast<int>(method));
+    return "";
 }
 
 core::Result<Blurred> FilterRig::blur(

@@ -167,10 +167,17 @@ TEST_F(DeformedEntities, AMirroredSkeletonTurnsTheWindingRound) {
 TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
     const dmat4 mirror = glm::scale(dmat4(1.0), dvec3(-1, 1, 1));
     const dmat4 flat = glm::scale(dmat4(1.0), dvec3(-1, 0, 1));
-    EXPECT_FALSE(isMirrored({{}, {1.0}}));
-    EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}));
-    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}));
-    EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}));
+    const math::Bounds bent{dvec3(-1.0), dvec3(1.0)};
+    scene::PoseReach all;
+    all.joints = {bent, bent, bent};
+    EXPECT_FALSE(isMirrored({{}, {1.0}}, all));
+    EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}, all));
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}, all));
+    EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}, all));
+    // Of a skeleton that several meshes share, only this mesh's joints have a say.
+    scene::PoseReach first;
+    first.joints = {bent, {}, {}};
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), dmat4(1.0)}, {}}, first));
 }
 
 TEST_F(DeformedEntities, AShapeThatIsNotFiniteIsNotDrawn) {

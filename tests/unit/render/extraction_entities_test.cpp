@@ -183,6 +183,21 @@ TEST_F(Extraction, ASceneWithAMoverInViewMoves) {
     EXPECT_FALSE(extract().moves);
 }
 
+TEST_F(Extraction, AMoverThatEndsWhereItBeganMoves) {
+    // There and back by a clip, with the raster instant between the two.
+    const ecs::Entity box = addBox({0.0, 0.0, -20.0});
+    scene::AnimationChannel channel;
+    channel.times = {0.0f, 1.0f, 2.0f};
+    channel.values = {{0, 0, -20, 0}, {1, 0, -20, 0}, {0, 0, -20, 0}};
+    scene::AnimationClip clip;
+    clip.duration = 2.0;
+    clip.channels = {channel};
+    world.assets.clips.push_back(clip);
+    world.registry.add(box, scene::Animated{{{0, 0}}});
+    request.exposure = {0.0, 1.0, 2.0, 0.5};
+    EXPECT_TRUE(extract().moves);
+}
+
 TEST_F(Extraction, AMoverOutOfViewDoesNotMakeThePictureMove) {
     addBox({0.0, 0.0, -10.0});
     const ecs::Entity box = addBox({0.0, 0.0, 20.0});
