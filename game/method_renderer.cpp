@@ -93,6 +93,7 @@ core::Result<render::FrameResult> MethodRenderer::renderPicture(
     request.wantColor = !mOptions.displayOut;
     request.wantDisplay = mOptions.displayOut;
     request.wantDump = mOptions.dumpGraph;
+    request.wantReasons = mOptions.explain;
     if (mAccumulate)
         return renderAccumulated(request, onStep);
     if (mTruth)

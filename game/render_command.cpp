@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -32,13 +33,13 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
     for (const std::string& aov : options.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
-            const auto& decisions = result.statistics.decisions;
-            const auto blur = decisions.find("motion blur");
+            const render::Decision* blur =
+                render::findDecision(result.statistics.explanations, "motion blur");
             core::logWarning(
                 "--aov {} is not written: {}",
                 aov,
-                blur == decisions.end() ? "one ray a pixel shows no error"
-                                        : "motion blur was " + blur->second
+                blur ? "motion blur was " + render::describe(*blur)
+                     : "one ray a pixel shows no error"
             );
             continue;
         }
@@ -47,6 +48,23 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
             return written;
     }
     return {};
+}
+
+/// `--explain`: what ran and what did not, a line each, in the order of the frame.
+void printExplanations(double seconds, const render::FrameStatistics& statistics) {
+    size_t width = 0;
+    for (const render::Explanation& line : statistics.explanations)
+        width = std::max(width, line.subject.size());
+    fmt::print("frame at {} s\n", seconds);
+    for (const render::Explanation& line : statistics.explanations)
+        fmt::print(
+            "  {:<6}  {:<{}}  {}, because {}\n",
+            render::describe(line.kind),
+            line.subject,
+            width,
+            line.decision.run ? "ran" : "skipped",
+            line.decision.reason
+        );
 }
 
 /// With --repeat, the picture drawn first warms the driver up and is not timed.
@@ -90,6 +108,8 @@ core::Status renderAll(const RenderOptions& options, gpu::Device& device) {
         const int number = options.firstFrame + static_cast<int>(i);
         if (i == 0 && options.dumpGraph)
             fmt::print("{}", result.value().dump);
+        if (options.explain)
+            printExplanations(options.frameTimes[i], result.value().statistics);
         if (core::Status written = writePicture(options, number, result.value()); !written)
             return written;
         pictures.push_back({options.frameTimes[i], result.value().statistics});

@@ -244,6 +244,9 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--stats", a.stats, "times and counters as JSON");
     defineDeviceOptions(command, a);
     command.add_flag("--dump-graph", a.dumpGraph, "print the render graph of the first frame");
+    command.add_flag(
+        "--explain", a.explain, "print of each frame why each effect and pass ran or was skipped"
+    );
     command.add_option("--repeat", a.repeat, "draw each frame N times more, report median times")
         ->check(CLI::Range(1u, 1000u));
 }
@@ -263,6 +266,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.validate = true; // every debug run is a validated run
 #endif
     options.dumpGraph = arguments.dumpGraph;
+    options.explain = arguments.explain;
     options.repeat = arguments.repeat;
     options.stats = arguments.stats;
     using Step = Status (*)(const RenderArguments&, RenderOptions&);

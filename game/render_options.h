@@ -51,6 +51,7 @@ struct RenderArguments : ShutterArguments {
     std::string device;
     bool validate = false;
     bool dumpGraph = false;
+    bool explain = false;
     uint32_t repeat = 1;
 };
 
@@ -84,6 +85,7 @@ struct RenderOptions {
     std::string device;
     bool validate = false;
     bool dumpGraph = false;
+    bool explain = false; ///< print why each effect and pass ran or was skipped
     uint32_t repeat = 1;
 };
 

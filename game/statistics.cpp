@@ -31,6 +31,10 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
     nlohmann::json measures = nlohmann::json::object();
     for (const auto& [name, value] : frame.measures)
         measures[name] = value;
+    nlohmann::json decisions = nlohmann::json::object();
+    for (const render::Explanation& line : frame.explanations)
+        if (line.kind == render::ExplainedKind::Effect)
+            decisions[line.subject] = render::describe(line.decision);
     return {
         {"time_s", picture.seconds},
         {"gpu_ms", gpu},
@@ -40,7 +44,7 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
         {"passes", passes},
         {"counters", counters},
         {"measures", measures},
-        {"decisions", frame.decisions}};
+        {"decisions", decisions}};
 }
 
 } // namespace
@@ -63,7 +67,7 @@ void addStatistics(render::FrameStatistics& total, const render::FrameStatistics
         total.counters[name] += value;
     for (const auto& [name, value] : frame.measures)
         total.measures[name] = value;
-    total.decisions = frame.decisions;
+    total.explanations = frame.explanations;
     total.transientBytes = std::max(total.transientBytes, frame.transientBytes);
 }
 

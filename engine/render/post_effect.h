@@ -5,6 +5,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/graph/graph.h"
+#include "engine/render/demand.h"
 #include "engine/render/gbuffer.h"
 
 #include <cstdint>
@@ -14,22 +15,6 @@
 #include <vector>
 
 namespace shutter::render {
-
-/// What an effect may base its decision on.
-struct ViewFacts {
-    uint32_t width = 0;
-    uint32_t height = 0;
-    bool moves = false; ///< something in the picture, or the camera, moves
-    double exposureSeconds = 0.0;
-    double rasterShare = 1.0; ///< s of the raster instant in the exposure, [0, 1]
-    bool deviceHasRays = false;
-    bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
-};
-
-struct Decision {
-    bool run = false;
-    std::string reason; ///< why it runs or is skipped, for a person
-};
 
 /// What rays need; handles of this frame.
 struct RayScene {
@@ -89,6 +74,7 @@ struct PostContext {
     graph::ImageHandle display;   ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0; ///< shader::ResponseTable of the shutter; 0: a box
+    Explainer& explainer;         ///< takes reasons of passes that an effect leaves out
 };
 
 /// Numbers an effect reports about a frame, e.g. "rays traced".
@@ -104,10 +90,15 @@ class PostEffect {
     /// Pure: depends on the facts and the effect's settings only.
     [[nodiscard]] virtual Decision ask(const ViewFacts& facts) const = 0;
 
-    [[nodiscard]] virtual bool needsRays() const { return false; }
+    /// Whether it traces rays at the raster instant; asked when it runs. Pure, as ask().
+    [[nodiscard]] virtual Decision askRays(const ViewFacts&) const {
+        return {false, "it traces none"};
+    }
 
-    /// Rays at any time of the exposure.
-    [[nodiscard]] virtual bool needsMovingRays() const { return false; }
+    /// The same for rays at any time of the exposure.
+    [[nodiscard]] virtual Decision askMovingRays(const ViewFacts&) const {
+        return {false, "it traces none"};
+    }
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;

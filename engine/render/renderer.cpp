@@ -39,23 +39,11 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays
     return facts;
 }
 
-/// The effects that run, and every effect's reason.
-std::vector<PostEffect*> askEffects(
-    std::span<PostEffect* const> effects,
-    const ViewFacts& facts,
-    std::map<std::string, std::string>& reasons
-) {
-    std::vector<PostEffect*> running;
-    for (PostEffect* effect : effects) {
-        Decision decision = effect->ask(facts);
-        const bool needsRays = effect->needsRays() || effect->needsMovingRays();
-        if (decision.run && needsRays && !facts.deviceHasRays)
-            decision = {false, "it needs rays, which the device cannot trace"};
-        reasons[effect->name()] = (decision.run ? "ran: " : "skipped: ") + decision.reason;
-        if (decision.run)
-            running.push_back(effect);
-    }
-    return running;
+void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
+    const SurfaceDemand surfaces = decideSurfaces(frame);
+    explainer.decide(ExplainedKind::Work, "bent meshes", surfaces.bending);
+    explainer.decide(ExplainedKind::Work, "alpha mask", surfaces.alphaMask);
+    explainer.decide(ExplainedKind::Work, "blending", surfaces.blending);
 }
 
 } // namespace
@@ -64,6 +52,29 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
       mPool(device), mReadback(device), mDeformation(device), mShapeLevels(device),
       mMovingScene(device) {}
+
+Renderer::RunningEffects Renderer::askEffects(
+    std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
+) {
+    RunningEffects running;
+    running.rays = running.movingRays = {false, "no effect that runs traces any"};
+    for (PostEffect* effect : effects) {
+        Decision decision = effect->ask(facts);
+        const Decision rays = effect->askRays(facts);
+        const Decision movingRays = effect->askMovingRays(facts);
+        if (decision.run && (rays.run || movingRays.run) && !facts.deviceHasRays)
+            decision = {false, "it needs rays, which the device cannot trace"};
+        explainer.decide(ExplainedKind::Effect, effect->name(), decision);
+        if (!decision.run)
+            continue;
+        running.effects.push_back(effect);
+        if (!running.rays.run)
+            running.rays = {rays.run, effect->name() + ": " + rays.reason};
+        if (!running.movingRays.run)
+            running.movingRays = {movingRays.run, effect->name() + ": " + movingRays.reason};
+    }
+    return running;
+}
 
 Renderer::TableAddresses Renderer::uploadTables(
     ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
@@ -162,11 +173,16 @@ core::Result<FrameResult> Renderer::renderFrame(
     ExtractedFrame& frame = extracted.value();
     const ViewFacts facts = stateFacts(request, frame.moves, mDevice.hasRays());
     FrameResult result;
-    const std::vector<PostEffect*> running =
-        askEffects(effects, facts, result.statistics.decisions);
+    Explainer explainer;
+    const RunningEffects running = askEffects(effects, facts, explainer);
+    if (request.wantReasons) {
+        explainSurfaces(frame, explainer);
+        explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
+        explainer.decide(ExplainedKind::Work, "rays at any time", running.movingRays);
+    }
 
     std::optional<MovingTables> moving;
-    if (std::any_of(running.begin(), running.end(), [](auto* e) { return e->needsMovingRays(); })) {
+    if (running.movingRays.run) {
         auto computed = computeMovingTables(world, mScene.layout(), request.view, frame);
         if (!computed)
             return computed.error();
@@ -177,7 +193,7 @@ core::Result<FrameResult> Renderer::renderFrame(
     mReadback.reset();
     graph::Graph graph;
     const Tickets tickets =
-        declareFrame(graph, request, facts, frame, moving ? &*moving : nullptr, running);
+        declareFrame(graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer);
     auto plan = graph::execute(graph, mFrame, mPool);
     if (!plan)
         return plan.error();
@@ -186,7 +202,8 @@ core::Result<FrameResult> Renderer::renderFrame(
     result.statistics.passes = mFrame.waitForTimes();
     result.statistics.wallMilliseconds = millisecondsSince(start);
     result.statistics.transientBytes = mPool.heldBytes();
-    for (PostEffect* effect : running) {
+    result.statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
+    for (PostEffect* effect : running.effects) {
         effect->collect(result.statistics.counters);
         effect->measure(result.statistics.measures);
     }
@@ -240,8 +257,10 @@ Renderer::Tickets Renderer::declareFrame(
     const ViewFacts& facts,
     ExtractedFrame& frame,
     const MovingTables* moving,
-    std::span<PostEffect* const> running
+    const RunningEffects& running,
+    Explainer& explainer
 ) {
+    explainer.beginPasses(graph, "a skin or morph target is drawn");
     const DeformedShapes shapes = mDeformation.declare(graph, frame, mScene);
     std::vector<shader::Geometry> bent = shapes.rows;
     const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
@@ -255,11 +274,10 @@ Renderer::Tickets Renderer::declareFrame(
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
-        return effect->needsRays();
-    });
-    if (raysWanted)
+    explainer.beginPasses(graph, "rays at the raster instant, " + running.rays.reason);
+    if (running.rays.run)
         declareTopLevel(graph, frame, shapes, rays);
+    explainer.beginPasses(graph, "rays at any time, " + running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {
         movingRays = mMovingScene.declare(
@@ -272,6 +290,7 @@ Renderer::Tickets Renderer::declareFrame(
         );
         movingRays.shapesBuffer = shapes.buffer;
     }
+    explainer.beginPasses(graph, "the picture is drawn");
     const GBuffer gbuffer =
         mGBufferPass.declare(graph, frame, mScene, shapes.buffer, rays.frameConstants);
     Intermediates intermediates(request.intermediates);
@@ -280,15 +299,19 @@ Renderer::Tickets Renderer::declareFrame(
         graph,
         facts,
         gbuffer,
-        raysWanted ? &rays : nullptr,
+        running.rays.run ? &rays : nullptr,
         moving ? &movingRays : nullptr,
         gbuffer.color,
         {},
         intermediates,
-        tables.response};
-    for (PostEffect* effect : running)
+        tables.response,
+        explainer};
+    for (PostEffect* effect : running.effects) {
+        explainer.beginPasses(graph, effect->name() + " runs");
         effect->declare(context);
+    }
 
+    explainer.beginPasses(graph, "its picture is read back");
     Tickets tickets;
     for (const auto& [name, image] : intermediates.images())
         tickets.intermediates[name] = mReadback.add(graph, name, image);

@@ -32,6 +32,8 @@ struct FrameRequest {
     bool wantColor = true;    ///< read the linear picture back
     bool wantDisplay = false; ///< read the display-encoded picture back
     bool wantDump = false;    ///< describe the graph in FrameResult::dump
+    /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
+    bool wantReasons = false;
 };
 
 struct FrameStatistics {
@@ -40,8 +42,8 @@ struct FrameStatistics {
     double wallMilliseconds = 0.0;     ///< the whole frame with waiting for the GPU
     Counters counters;
     Measures measures;
-    std::map<std::string, std::string> decisions; ///< effect -> "ran: ..." or "skipped: ..."
-    uint64_t transientBytes = 0;                  ///< memory of the graph's images
+    std::vector<Explanation> explanations; ///< in the order in which things were decided
+    uint64_t transientBytes = 0;           ///< memory of the graph's images
 };
 
 struct FrameResult {
@@ -78,13 +80,23 @@ class Renderer {
         std::map<std::string, size_t> intermediates;
     };
 
+    /// The effects of a frame that run, and what rays they trace.
+    struct RunningEffects {
+        std::vector<PostEffect*> effects;
+        Decision rays;
+        Decision movingRays;
+    };
+
+    static RunningEffects
+    askEffects(std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer);
     Tickets declareFrame(
         graph::Graph& graph,
         const FrameRequest& request,
         const ViewFacts& facts,
         ExtractedFrame& frame,
         const MovingTables* moving,
-        std::span<PostEffect* const> running
+        const RunningEffects& running,
+        Explainer& explainer
     );
 
     /// Where the frame's tables are.

@@ -54,7 +54,9 @@ class Truth : public render::PostEffect {
 
     [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
 
-    [[nodiscard]] bool needsMovingRays() const override { return true; }
+    [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts&) const override {
+        return {true, "every ray has its own time"};
+    }
 
     /// Publishes "error": the standard error per pixel and channel.
     void declare(render::PostContext& context) override;

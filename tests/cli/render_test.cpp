@@ -242,4 +242,24 @@ TEST_F(CliRender, TheRenderGraphIsPrintedWhereAskedFor) {
         EXPECT_NE(out.find(pass), std::string::npos) << pass;
 }
 
+TEST_F(CliRender, EveryEffectAndPassIsExplainedWhereAskedFor) {
+    const std::string ran = expectSuccess(renderVase({"--out", "a.png", "--explain"})).out;
+    for (const char* line :
+         {"effect  motion blur",
+          "ran, because something in the picture moves during the exposure",
+          "work    rays at the raster instant",
+          "pass    G-buffer",
+          "pass    tile max",
+          "ran, because motion blur runs",
+          "work    alpha mask",
+          "skipped, because no surface in the picture has an alpha mask"})
+        EXPECT_NE(ran.find(line), std::string::npos) << line << "\n" << ran;
+
+    const std::string still =
+        expectSuccess(renderVase({"--out", "a.png", "--explain", "--exposure", "0"})).out;
+    EXPECT_NE(still.find("skipped, because the exposure is 0"), std::string::npos) << still;
+    EXPECT_NE(still.find("skipped, because no effect that runs traces any"), std::string::npos);
+    EXPECT_EQ(still.find("tile max"), std::string::npos) << still;
+}
+
 } // namespace shutter::cli

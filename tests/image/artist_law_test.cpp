@@ -168,7 +168,7 @@ TEST_F(ArtistLaw, WithEveryScaleZeroThePictureIsSharpBitForBit) {
             test::sameBits(sharp, stage.render({.method = method, .shutter = shutter}).color)
         ) << describe(method);
     const auto skipped = stage.render({.method = Method::Hybrid, .shutter = shutter});
-    EXPECT_TRUE(skipped.statistics.decisions.at("motion blur").starts_with("skipped: nothing"));
+    EXPECT_TRUE(test::describeMotionBlur(skipped).starts_with("skipped: nothing"));
 }
 
 } // namespace

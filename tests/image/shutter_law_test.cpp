@@ -198,7 +198,7 @@ TEST_F(ShutterLaw, APausedFrameIsSharpBitForBitInEveryMode) {
             )) << describe(method);
         const auto skipped =
             stage.render({.method = Method::Gather, .shutter = shutter, .frameSeconds = 0.0});
-        EXPECT_EQ(skipped.statistics.decisions.at("motion blur"), "skipped: the exposure is 0");
+        EXPECT_EQ(test::describeMotionBlur(skipped), "skipped: the exposure is 0");
     }
 }
 

@@ -161,4 +161,10 @@ render::FrameResult renderOnce(gpu::Device& device, const SceneBuilder& scene, c
     return Stage(device, scene).render(shot);
 }
 
+std::string describeMotionBlur(const render::FrameResult& result) {
+    const render::Decision* decision =
+        render::findDecision(result.statistics.explanations, "motion blur");
+    return decision ? render::describe(*decision) : "not asked";
+}
+
 } // namespace shutter::test

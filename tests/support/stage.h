@@ -94,6 +94,9 @@ class Stage {
     render::Renderer mRenderer;
 };
 
+/// "ran: ..." or "skipped: ..." of the motion blur; "not asked" where the frame had none.
+[[nodiscard]] std::string describeMotionBlur(const render::FrameResult& result);
+
 /// For tests that need one picture of a scene.
 [[nodiscard]] render::FrameResult
 renderOnce(gpu::Device& device, const SceneBuilder& scene, const Shot& shot);

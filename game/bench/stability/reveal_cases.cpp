@@ -34,7 +34,9 @@ class RevealEverywhere : public render::PostEffect {
         return {true, "every pixel is asked"};
     }
 
-    [[nodiscard]] bool needsRays() const override { return true; }
+    [[nodiscard]] render::Decision askRays(const render::ViewFacts&) const override {
+        return {true, "it is held against raster"};
+    }
 
     void declare(render::PostContext& context) override {
         fillList(context.facts.width, context.facts.height);

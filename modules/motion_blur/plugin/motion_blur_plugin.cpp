@@ -16,6 +16,18 @@ render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     return {true, "something in the picture moves during the exposure"};
 }
 
+render::Decision MotionBlurPlugin::askRays(const render::ViewFacts&) const {
+    if (mSettings.method != Method::Hybrid)
+        return {false, "its method reveals nothing"};
+    return {true, "a background may come into sight behind what moves"};
+}
+
+render::Decision MotionBlurPlugin::askMovingRays(const render::ViewFacts&) const {
+    if (mSettings.method != Method::Denoised)
+        return {false, "its method has no rays with times of their own"};
+    return {true, "its method has rays with times of their own"};
+}
+
 void MotionBlurPlugin::declare(render::PostContext& context) {
     MotionBlurInputs inputs;
     inputs.color = context.color;

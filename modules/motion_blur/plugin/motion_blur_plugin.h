@@ -22,11 +22,10 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Skipped when nothing moves or the exposure is 0.
     [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
 
-    [[nodiscard]] bool needsRays() const override { return mSettings.method == Method::Hybrid; }
-
-    [[nodiscard]] bool needsMovingRays() const override {
-        return mSettings.method == Method::Denoised;
-    }
+    /// The hybrid method's.
+    [[nodiscard]] render::Decision askRays(const render::ViewFacts& facts) const override;
+    /// The denoised method's.
+    [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
     void collect(render::Counters& counters) override;

@@ -55,7 +55,7 @@ TEST(Statistics, SumsAreByPassNameInTheOrderOfFirstAppearance) {
     addStatistics(total, makeFrame(1.0));
     render::FrameStatistics next = makeFrame(2.0);
     next.passes = {{"blur", 5.0, 1.0}, {"tone map", 7.0, 1.0}, {"draw", 2.0, 4.0}};
-    next.decisions = {{"motion blur", "ran: later"}};
+    next.explanations = {{render::ExplainedKind::Effect, "motion blur", {true, "later"}}};
     total.measures = {{"standard error", 0.5}, {"other", 2.0}};
     next.measures = {{"standard error", 0.25}};
     addStatistics(total, next);
@@ -70,7 +70,9 @@ TEST(Statistics, SumsAreByPassNameInTheOrderOfFirstAppearance) {
     EXPECT_EQ(total.cpuMilliseconds, 9.0);
     EXPECT_EQ(total.wallMilliseconds, 12.0);
     EXPECT_EQ(total.counters.at("rays traced"), 10u);
-    EXPECT_EQ(total.decisions.at("motion blur"), "ran: later");
+    const render::Decision* blur = render::findDecision(total.explanations, "motion blur");
+    ASSERT_NE(blur, nullptr);
+    EXPECT_EQ(render::describe(*blur), "ran: later");
 }
 
 TEST(Statistics, MemoryIsUsedAgainSoItsSumIsItsMaximum) {

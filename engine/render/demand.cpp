@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/demand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace shutter::render {
+
+namespace {
+
+std::string countOf(size_t count, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+} // namespace
+
+const char* describe(ExplainedKind kind) {
+    switch (kind) {
+    case ExplainedKind::Effect:
+        return "effect";
+    case ExplainedKind::Work:
+        return "work";
+    case ExplainedKind::Pass:
+        return "pass";
+    }
+    return "";
+}
+
+std::string describe(const Decision& decision) {
+    return (decision.run ? "ran: " : "skipped: ") + decision.reason;
+}
+
+const Decision*
+findDecision(std::span<const Explanation> explanations, const std::string& subject) {
+    const auto found =
+        std::find_if(explanations.begin(), explanations.end(), [&](const Explanation& e) {
+            return e.kind != ExplainedKind::Pass && e.subject == subject;
+        });
+    return found == explanations.end() ? nullptr : &found->decision;
+}
+
+SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {
+    const auto masked =
+        std::count_if(frame.opaque.begin(), frame.opaque.end(), [](const DrawItem& draw) {
+            return draw.alphaMode == scene::AlphaMode::Mask;
+        });
+    SurfaceDemand demand;
+    demand.bending = {false, "no mesh that is drawn has a skin or morph targets"};
+    if (!frame.deformed.empty())
+        demand.bending = {
+            true,
+            countOf(frame.deformed.size(), "drawn entity", "drawn entities") +
+                " with a skin or morph targets"};
+    demand.alphaMask = {false, "no surface in the picture has an alpha mask"};
+    if (masked > 0)
+        demand.alphaMask = {
+            true,
+            countOf(static_cast<size_t>(masked), "draw", "draws") +
+                " in the picture with an alpha mask"};
+    demand.blending = {false, "no surface in the picture is blended"};
+    if (!frame.blended.empty())
+        demand.blending = {
+            true,
+            countOf(frame.blended.size(), "blended draw", "blended draws") + " in the picture"};
+    return demand;
+}
+
+void Explainer::decide(ExplainedKind kind, std::string subject, Decision decision) {
+    mDecided.push_back({kind, std::move(subject), std::move(decision)});
+}
+
+void Explainer::beginPasses(const graph::Graph& graph, std::string reason) {
+    mRanges.push_back({graph.passes().size(), std::move(reason)});
+}
+
+std::vector<Explanation>
+Explainer::finish(const graph::Graph& graph, const graph::Plan& plan, bool passes) const {
+    std::vector<Explanation> all;
+    std::copy_if(
+        mDecided.begin(),
+        mDecided.end(),
+        std::back_inserter(all),
+        [](const Explanation& e) { return e.kind != ExplainedKind::Pass; }
+    );
+    if (!passes)
+        return all;
+    for (const graph::PlannedPass& planned : plan.passes) {
+        const auto next = std::find_if(mRanges.begin(), mRanges.end(), [&](const PassRange& range) {
+            return range.first > planned.pass;
+        });
+        const std::string reason =
+            next == mRanges.begin() ? "the frame needs it" : std::prev(next)->reason;
+        all.push_back({ExplainedKind::Pass, graph.passes()[planned.pass].name, {true, reason}});
+    }
+    std::copy_if(
+        mDecided.begin(),
+        mDecided.end(),
+        std::back_inserter(all),
+        [](const Explanation& e) { return e.kind == ExplainedKind::Pass; }
+    );
+    for (const graph::CulledPass& culled : plan.culled)
+        all.push_back({ExplainedKind::Pass, culled.name, {false, culled.reason}});
+    return all;
+}
+
+} // namespace shutter::render

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What a frame calls for, each with its reason: work runs because something in the extracted frame
+// wants it. Pure functions, and the list of reasons that `--explain` prints.
+#pragma once
+
+#include "engine/graph/compile.h"
+#include "engine/graph/graph.h"
+#include "engine/render/extraction.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+struct Decision {
+    bool run = false;
+    std::string reason; ///< why it runs or is skipped, for a person; continues "because"
+};
+
+/// What an effect may base its decision on.
+struct ViewFacts {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool moves = false; ///< something in the picture, or the camera, moves
+    double exposureSeconds = 0.0;
+    double rasterShare = 1.0; ///< s of the raster instant in the exposure, [0, 1]
+    bool deviceHasRays = false;
+    bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
+};
+
+enum class ExplainedKind : uint8_t {
+    Effect, ///< a post effect
+    Work,   ///< a part of the renderer's own frame
+    Pass,   ///< a pass of the graph
+};
+
+[[nodiscard]] const char* describe(ExplainedKind kind);
+
+/// Why one thing ran or was skipped.
+struct Explanation {
+    ExplainedKind kind = ExplainedKind::Effect;
+    std::string subject;
+    Decision decision;
+};
+
+/// "ran: ..." or "skipped: ...".
+[[nodiscard]] std::string describe(const Decision& decision);
+
+/// Of the effect or work of that name; null where nothing was decided about it.
+[[nodiscard]] const Decision*
+findDecision(std::span<const Explanation> explanations, const std::string& subject);
+
+/// What the renderer draws besides opaque meshes that keep their shape.
+struct SurfaceDemand {
+    Decision bending;   ///< "bend meshes": a skin or morph target that is drawn
+    Decision alphaMask; ///< draws that test alpha
+    Decision blending;  ///< draws that blend
+};
+
+[[nodiscard]] SurfaceDemand decideSurfaces(const ExtractedFrame& frame);
+
+/// Collects a frame's reasons while it is declared.
+class Explainer {
+  public:
+    void decide(ExplainedKind kind, std::string subject, Decision decision);
+    /// Passes declared from here on run for this reason, where nothing was decided about them.
+    void beginPasses(const graph::Graph& graph, std::string reason);
+    /// Effects and work as decided; with `passes`, the passes too: those of the plan in execution
+    /// order, then what was left out or culled.
+    [[nodiscard]] std::vector<Explanation>
+    finish(const graph::Graph& graph, const graph::Plan& plan, bool passes) const;
+
+  private:
+    struct PassRange {
+        size_t first = 0; ///< index into Graph::passes()
+        std::string reason;
+    };
+
+    std::vector<Explanation> mDecided;
+    std::vector<PassRange> mRanges; ///< by rising first
+};
+
+} // namespace shutter::render
