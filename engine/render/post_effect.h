@@ -90,15 +90,12 @@ class PostEffect {
     /// Pure: depends on the facts and the effect's settings only.
     [[nodiscard]] virtual Decision ask(const ViewFacts& facts) const = 0;
 
-    /// Whether it traces rays at the raster instant; asked when it runs. Pure, as ask().
-    [[nodiscard]] virtual Decision askRays(const ViewFacts&) const {
-        return {false, "it traces none"};
-    }
+    /// Whether it traces rays at the raster instant; counts when it runs. Pure, as ask(). Without a
+    /// reason it never does.
+    [[nodiscard]] virtual Decision askRays(const ViewFacts&) const { return {}; }
 
     /// The same for rays at any time of the exposure.
-    [[nodiscard]] virtual Decision askMovingRays(const ViewFacts&) const {
-        return {false, "it traces none"};
-    }
+    [[nodiscard]] virtual Decision askMovingRays(const ViewFacts&) const { return {}; }
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;

@@ -39,6 +39,12 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays
     return facts;
 }
 
+/// What all effects together want: the first that wants it, or the last that says why not.
+void join(Decision& all, const std::string& effect, const Decision& own) {
+    if (!all.run && !own.reason.empty())
+        all = {own.run, effect + ": " + own.reason};
+}
+
 void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
     const SurfaceDemand surfaces = decideSurfaces(frame);
     explainer.decide(ExplainedKind::Work, "bent meshes", surfaces.bending);
@@ -68,10 +74,8 @@ Renderer::RunningEffects Renderer::askEffects(
         if (!decision.run)
             continue;
         running.effects.push_back(effect);
-        if (!running.rays.run)
-            running.rays = {rays.run, effect->name() + ": " + rays.reason};
-        if (!running.movingRays.run)
-            running.movingRays = {movingRays.run, effect->name() + ": " + movingRays.reason};
+        join(running.rays, effect->name(), rays);
+        join(running.movingRays, effect->name(), movingRays);
     }
     return running;
 }
@@ -274,10 +278,10 @@ Renderer::Tickets Renderer::declareFrame(
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    explainer.beginPasses(graph, "rays at the raster instant, " + running.rays.reason);
+    explainer.beginPasses(graph, running.rays.reason);
     if (running.rays.run)
         declareTopLevel(graph, frame, shapes, rays);
-    explainer.beginPasses(graph, "rays at any time, " + running.movingRays.reason);
+    explainer.beginPasses(graph, running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {
         movingRays = mMovingScene.declare(

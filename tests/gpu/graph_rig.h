@@ -46,6 +46,7 @@ struct EffectRig {
     render::ViewFacts facts;
     render::GBuffer gbuffer;
     render::Intermediates intermediates{{}};
+    render::Explainer explainer;
     render::PostContext context;
 };
 
