@@ -17,7 +17,8 @@ constexpr uint8_t kCompute = bit(PassKind::Compute);
 constexpr uint8_t kRaster = bit(PassKind::Raster);
 constexpr uint8_t kTransfer = bit(PassKind::Transfer);
 constexpr uint8_t kBuild = bit(PassKind::Build);
-constexpr uint8_t kAny = kCompute | kRaster | kTransfer | kBuild;
+constexpr uint8_t kRays = bit(PassKind::RayTracing);
+constexpr uint8_t kAny = kCompute | kRaster | kTransfer | kBuild | kRays;
 
 struct Row {
     Access access;
@@ -46,7 +47,7 @@ constexpr VkImageLayout kSampledLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMA
 const std::array<Row, 13> kRows{{
     {Access::SampledCompute,
      "sampled in compute",
-     kCompute,
+     kCompute | kRays,
      true,
      false,
      {kComputeStage, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, kSampledLayout},
@@ -62,7 +63,7 @@ const std::array<Row, 13> kRows{{
      0},
     {Access::StorageRead,
      "storage read",
-     kCompute,
+     kCompute | kRays,
      true,
      true,
      {kComputeStage, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, 0, VK_IMAGE_LAYOUT_GENERAL},
@@ -70,7 +71,7 @@ const std::array<Row, 13> kRows{{
      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
     {Access::StorageWrite,
      "storage write",
-     kCompute,
+     kCompute | kRays,
      true,
      true,
      {kComputeStage,
@@ -125,7 +126,7 @@ const std::array<Row, 13> kRows{{
      VK_BUFFER_USAGE_TRANSFER_DST_BIT},
     {Access::IndirectRead,
      "indirect arguments",
-     kCompute | kRaster,
+     kCompute | kRays | kRaster,
      false,
      true,
      {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, kNoLayout},
@@ -133,7 +134,7 @@ const std::array<Row, 13> kRows{{
      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT},
     {Access::ShaderRead,
      "shader read",
-     kCompute | kRaster | kBuild,
+     kCompute | kRays | kRaster | kBuild,
      false,
      true,
      {kShaderStages, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT, 0, kNoLayout},
@@ -141,7 +142,7 @@ const std::array<Row, 13> kRows{{
      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
     {Access::AccelerationRead,
      "traced",
-     kCompute | kBuild,
+     kCompute | kRays | kBuild,
      false,
      true,
      {kComputeStage, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0, kNoLayout},
@@ -194,6 +195,8 @@ AccessScope scopeOf(Access access, PassKind kind) {
         if (access == Access::ShaderRead)
             scope.reads = VK_ACCESS_2_SHADER_READ_BIT;
     }
+    if (kind == PassKind::RayTracing && (scope.stages & kComputeStage) != 0)
+        scope.stages = VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
     return scope;
 }
 

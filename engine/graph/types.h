@@ -50,17 +50,17 @@ struct TransientBufferDesc {
 
 /// How a pass touches a resource: what barriers, layouts and usage flags follow from.
 enum class Access : uint8_t {
-    SampledCompute,    ///< image: texture() in a compute shader
+    SampledCompute,    ///< image: texture() in a compute or ray-tracing shader
     SampledFragment,   ///< image: texture() in a fragment shader
-    StorageRead,       ///< image or buffer: load in a compute shader
-    StorageWrite,      ///< image or buffer: store (and load) in a compute shader
+    StorageRead,       ///< image or buffer: load in a compute or ray-tracing shader
+    StorageWrite,      ///< image or buffer: store (and load) in a compute or ray-tracing shader
     ColorAttachment,   ///< image: written as colour attachment
     DepthAttachment,   ///< image: tested and written as depth attachment
     TransferRead,      ///< copy source
     TransferWrite,     ///< copy or clear target
-    IndirectRead,      ///< buffer: dispatch or draw arguments
+    IndirectRead,      ///< buffer: dispatch, draw or launch arguments
     ShaderRead,        ///< buffer: read in any shader stage
-    AccelerationRead,  ///< buffer: traced in a compute shader
+    AccelerationRead,  ///< buffer: traced in a compute or ray-tracing shader
     AccelerationBuild, ///< buffer: built
     HostRead,          ///< buffer: read by the CPU after the frame
 };
@@ -68,6 +68,12 @@ enum class Access : uint8_t {
 [[nodiscard]] bool isWrite(Access access);
 [[nodiscard]] const char* describe(Access access);
 
-enum class PassKind : uint8_t { Compute, Raster, Transfer, Build };
+enum class PassKind : uint8_t {
+    Compute,
+    Raster,
+    Transfer,
+    Build,      ///< of acceleration structures
+    RayTracing, ///< launches of ray-tracing pipelines
+};
 
 } // namespace shutter::graph

@@ -18,6 +18,8 @@ const char* describe(PassKind kind) {
         return "transfer";
     case PassKind::Build:
         return "build";
+    case PassKind::RayTracing:
+        return "ray tracing";
     }
     return "unknown";
 }

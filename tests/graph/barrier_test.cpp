@@ -12,6 +12,8 @@ constexpr VkAccessFlags2 kSampledRead = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
 constexpr VkAccessFlags2 kStorageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
 constexpr VkAccessFlags2 kStorageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 
+constexpr VkPipelineStageFlags2 kRayStage = VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
+
 template <class Barrier>
 void expectHalves(
     const Barrier& barrier,
@@ -60,6 +62,39 @@ void readBuffer(Graph& graph, BufferHandle buffer, Access access, PassKind kind)
         if (kind == PassKind::Raster)
             (void)builder.colorTarget(makeImage(graph, "target"), std::nullopt);
     });
+}
+
+TEST(Barriers, ALaunchOfRaysTouchesResourcesInItsOwnStage) {
+    Graph graph;
+    const BufferHandle filled = fill(graph, makeBuffer(graph, "list"));
+    BufferHandle written;
+    addPass(graph, "launch", PassKind::RayTracing, [&](PassBuilder& builder) {
+        written = builder.write(filled, Access::StorageWrite);
+    });
+    readBuffer(graph, written, Access::AccelerationRead, PassKind::RayTracing);
+    const Plan plan = mustCompile(graph);
+    expectHalves(
+        onlyBufferBarrier(plan, 1),
+        {kComputeStage, kStorageWrite},
+        {kRayStage, kStorageRead | kStorageWrite}
+    );
+    expectHalves(
+        onlyBufferBarrier(plan, 2),
+        {kRayStage, kStorageWrite},
+        {kRayStage, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR}
+    );
+}
+
+TEST(Barriers, ALaunchOfRaysReadsItsSizeWhereDispatchesDo) {
+    Graph graph;
+    readBuffer(
+        graph, fill(graph, makeBuffer(graph, "size")), Access::IndirectRead, PassKind::RayTracing
+    );
+    expectHalves(
+        onlyBufferBarrier(mustCompile(graph), 1),
+        {kComputeStage, kStorageWrite},
+        {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT}
+    );
 }
 
 TEST(Barriers, AFirstUseComesFromNothing) {
