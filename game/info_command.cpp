@@ -38,7 +38,7 @@ core::Status printDevices() {
             devices[i].name,
             devices[i].kind,
             devices[i].driver,
-            gpu::describe(devices[i].rayTier),
+            gpu::describeTiers(devices[i]),
             devices[i].missing.empty() ? "" : ", unusable: lacks " + devices[i].missing
         );
     vkDestroyInstance(instance, nullptr);

@@ -22,8 +22,8 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
         );
     // The ray mask lists its pixels in one storage buffer.
     const uint64_t listBytes = uint64_t(options.width) * options.height * 4 + 16;
-    if (options.method->family == MethodFamily::MotionBlur && options.method->needsRays &&
-        listBytes > device.limits().maxStorageBufferRange)
+    if (options.method->family == MethodFamily::MotionBlur &&
+        options.method->rays != RayNeed::None && listBytes > device.limits().maxStorageBufferRange)
         return core::makeError(
             "--size {}x{}: method {} needs a buffer of {} MiB, {} has at most {}",
             options.width,
@@ -34,6 +34,24 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
             device.limits().maxStorageBufferRange >> 20
         );
     return {};
+}
+
+core::Status checkRays(const gpu::Device& device, const MethodInfo& method) {
+    if (canRun(method, device))
+        return {};
+    if (device.hasRays())
+        return core::makeError(
+            "--method {} nests ray queries (VK_KHR_ray_query), which {} lacks or --rays hides; "
+            "hybrid and accumulate do without",
+            method.name,
+            device.info().name
+        );
+    return core::makeError(
+        "--method {} needs ray tracing (VK_KHR_ray_query or, for hybrid, "
+        "VK_KHR_ray_tracing_pipeline), which {} lacks or --rays hides; gather does without",
+        method.name,
+        device.info().name
+    );
 }
 
 truth::PixelModel pixelModel(const RenderOptions& options) {
@@ -49,12 +67,8 @@ constexpr uint32_t kLeastRaysToStop = 16;
 core::Result<std::unique_ptr<MethodRenderer>> MethodRenderer::create(
     gpu::Device& device, render::Renderer& renderer, const Shot& shot, const RenderOptions& options
 ) {
-    if (options.method->needsRays && !device.hasRays())
-        return core::makeError(
-            "--method {} needs ray tracing, which {} lacks (VK_KHR_ray_query); gather does without",
-            options.method->name,
-            device.info().name
-        );
+    if (core::Status traced = checkRays(device, *options.method); !traced)
+        return traced.error();
     if (core::Status fits = checkSize(device, options); !fits)
         return fits.error();
     return std::unique_ptr<MethodRenderer>(new MethodRenderer(device, renderer, shot, options));

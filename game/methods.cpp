@@ -11,7 +11,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "",
          .family = MethodFamily::Sharp,
          .blur = {},
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::None,
          .defaultSamples = 0,
          .aovs = {}},
@@ -20,7 +20,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "three.js, Babylon.js; Bevy with occluderTest=velocity",
          .family = MethodFamily::MotionBlur,
          .blur = Method::OwnVelocity,
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Samples,
          .defaultSamples = 16,
          .aovs = {}},
@@ -29,7 +29,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "McGuire, Hennessy, Bukowski, Osman 2012",
          .family = MethodFamily::MotionBlur,
          .blur = Method::McGuire2012,
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Samples,
          .defaultSamples = 15,
          .aovs = {"tiles"}},
@@ -38,7 +38,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Guertin, McGuire, Nowrouzezahrai 2014",
          .family = MethodFamily::MotionBlur,
          .blur = Method::Guertin2014,
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Samples,
          .defaultSamples = 35,
          .aovs = {"tiles", "variance"}},
@@ -47,7 +47,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Jimenez 2014",
          .family = MethodFamily::MotionBlur,
          .blur = Method::Jimenez2014,
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Samples,
          .defaultSamples = 8,
          .aovs = {"tiles"}},
@@ -56,7 +56,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Tan, Cui, Bhojan, Hybrid MBlur, post-process",
          .family = MethodFamily::MotionBlur,
          .blur = Method::Gather,
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Samples,
          .defaultSamples = 15,
          .aovs = {"tiles"}},
@@ -65,7 +65,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Tan, Cui, Bhojan, Hybrid MBlur",
          .family = MethodFamily::MotionBlur,
          .blur = Method::Hybrid,
-         .needsRays = true,
+         .rays = RayNeed::Any,
          .dial = Dial::Samples,
          .defaultSamples = 15,
          .aovs = {"tiles", "edge", "mask", "reveal"}},
@@ -74,7 +74,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Oberberger, Chajdas, Westermann 2022",
          .family = MethodFamily::MotionBlur,
          .blur = Method::Denoised,
-         .needsRays = true,
+         .rays = RayNeed::Query,
          .dial = Dial::Rays,
          .defaultSamples = 1,
          .aovs = {"tiles", "noisy"}},
@@ -83,7 +83,7 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Haeberli and Akeley 1990",
          .family = MethodFamily::Accumulate,
          .blur = {},
-         .needsRays = false,
+         .rays = RayNeed::None,
          .dial = Dial::Instants,
          .defaultSamples = 256,
          .aovs = {}},
@@ -92,12 +92,24 @@ std::span<const MethodInfo> listMethods() {
          .publication = "Cook, Porter, Carpenter 1984",
          .family = MethodFamily::Truth,
          .blur = {},
-         .needsRays = true,
+         .rays = RayNeed::Query,
          .dial = Dial::Rays,
          .defaultSamples = 256,
          .aovs = {"error"}},
     };
     return kMethods;
+}
+
+bool canRun(const MethodInfo& method, const gpu::Device& device) {
+    switch (method.rays) {
+    case RayNeed::None:
+        return true;
+    case RayNeed::Any:
+        return device.hasRays();
+    case RayNeed::Query:
+        return device.hasRayQuery();
+    }
+    return false;
 }
 
 core::Result<const MethodInfo*> findMethod(std::string_view name) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/gpu/device.h"
 #include "modules/motion_blur/settings.h"
 
 #include <cstdint>
@@ -24,17 +25,26 @@ enum class Dial : uint8_t {
     Rays,     ///< rays a pixel
 };
 
+/// What a method asks of the device's ray tiers.
+enum class RayNeed : uint8_t {
+    None,
+    Any,   ///< any tier that traces rays
+    Query, ///< ray queries, which alone can be nested
+};
+
 struct MethodInfo {
     const char* name;
     const char* description;
     const char* publication; ///< authors and year; empty where it is nobody's in particular
     MethodFamily family;
     motion_blur::Method blur; ///< of MethodFamily::MotionBlur; else unused
-    bool needsRays;
+    RayNeed rays;
     Dial dial;
     uint32_t defaultSamples;       ///< 0 with Dial::None
     std::vector<std::string> aovs; ///< intermediates it writes beyond the G-buffer's
 };
+
+[[nodiscard]] bool canRun(const MethodInfo& method, const gpu::Device& device);
 
 /// In the order in which quality rises.
 [[nodiscard]] std::span<const MethodInfo> listMethods();

@@ -133,6 +133,7 @@ int runRender(const RenderArguments& arguments) {
     gpu::DeviceOptions deviceOptions;
     deviceOptions.wanted = options.value().device;
     deviceOptions.validate = options.value().validate;
+    deviceOptions.bestTier = options.value().bestTier;
     deviceOptions.cacheFolder = findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);
     if (!device)

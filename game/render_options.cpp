@@ -26,6 +26,17 @@ constexpr uint32_t kMaxSize = 16384;
 constexpr uint32_t kMaxSamples = 65536;
 constexpr int kMaxFrames = 1000000;
 
+/// Empty: query.
+Result<gpu::RayTier> interpretRays(const std::string& text) {
+    if (text.empty() || text == "query")
+        return gpu::RayTier::RayQuery;
+    if (text == "pipeline")
+        return gpu::RayTier::Pipeline;
+    if (text == "none")
+        return gpu::RayTier::None;
+    return makeError("--rays '{}' is not one of query, pipeline, none", text);
+}
+
 Result<math::vec3> parseColor(const char* option, const std::string& text) {
     const auto parts = splitAt(text, ',');
     math::vec3 color(0.0f);
@@ -219,6 +230,11 @@ void defineShotOptions(CLI::App& command, RenderArguments& a) {
 
 void defineDeviceOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--device", a.device, "name or index, see `shutter info --devices`");
+    command.add_option(
+        "--rays",
+        a.rays,
+        "best way to trace rays: query (default), pipeline or none hide those above"
+    );
     command.add_flag("--validate", a.validate, "Vulkan validation; a message is a failure");
 }
 
@@ -260,6 +276,10 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.seed = arguments.seed;
     options.unlit = arguments.unlit;
     options.device = arguments.device;
+    auto tier = interpretRays(arguments.rays);
+    if (!tier)
+        return tier.error();
+    options.bestTier = tier.value();
 #ifdef NDEBUG
     options.validate = arguments.validate;
 #else

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/gpu/device_select.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
@@ -49,6 +50,7 @@ struct RenderArguments : ShutterArguments {
     std::string aov;
     std::string stats;
     std::string device;
+    std::string rays;
     bool validate = false;
     bool dumpGraph = false;
     bool explain = false;
@@ -83,6 +85,7 @@ struct RenderOptions {
     std::set<std::string> aovs;
     std::filesystem::path stats;
     std::string device;
+    gpu::RayTier bestTier = gpu::RayTier::RayQuery; ///< --rays
     bool validate = false;
     bool dumpGraph = false;
     bool explain = false; ///< print why each effect and pass ran or was skipped

@@ -44,15 +44,19 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     try {
         if (core::Status made = device->createInstance(options); !made)
             return made.error();
-        auto chosen = chooseDevice(listDevices(device->mInstance), options.wanted);
+        std::vector<DeviceInfo> devices = listDevices(device->mInstance);
+        for (DeviceInfo& info : devices) {
+            info.rayTier = chooseTier(info, options.bestTier);
+            info.tracesIndirect = info.tracesIndirect && options.allowIndirectLaunch;
+        }
+        auto chosen = chooseDevice(devices, options.wanted);
         if (!chosen)
             return chosen.error();
         device->mInfo = chosen.value();
-        if (!options.allowRays)
-            device->mInfo.rayTier = RayTier::None;
         if (core::Status made = device->createLogicalDevice(); !made)
             return made.error();
         device->loadFunctions();
+        device->loadLimits();
         device->createSampler();
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
@@ -115,8 +119,13 @@ core::Status Device::createLogicalDevice() {
     VkPhysicalDeviceRayQueryFeaturesKHR query{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
     query.rayQuery = VK_TRUE;
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    pipeline.rayTracingPipeline = VK_TRUE;
+    pipeline.rayTracingPipelineTraceRaysIndirect = mInfo.tracesIndirect;
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &query};
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    structure.pNext = hasRayQuery() ? static_cast<void*>(&query) : &pipeline;
     structure.accelerationStructure = VK_TRUE;
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     if (hasRays())
@@ -143,7 +152,8 @@ core::Status Device::createLogicalDevice() {
         extensions = {
             VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
             VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-            VK_KHR_RAY_QUERY_EXTENSION_NAME};
+            hasRayQuery() ? VK_KHR_RAY_QUERY_EXTENSION_NAME
+                          : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
@@ -181,13 +191,27 @@ void Device::loadFunctions() {
         );
         load(mFunctions.cmdBuildAccelerationStructures, "vkCmdBuildAccelerationStructuresKHR");
     }
+    if (mInfo.rayTier == RayTier::Pipeline) {
+        load(mFunctions.createRayTracingPipelines, "vkCreateRayTracingPipelinesKHR");
+        load(mFunctions.getRayTracingShaderGroupHandles, "vkGetRayTracingShaderGroupHandlesKHR");
+        load(mFunctions.cmdTraceRays, "vkCmdTraceRaysKHR");
+        if (mInfo.tracesIndirect)
+            load(mFunctions.cmdTraceRaysIndirect, "vkCmdTraceRaysIndirectKHR");
+    }
     if (mHasDebugUtils) {
         load(mFunctions.cmdBeginDebugUtilsLabel, "vkCmdBeginDebugUtilsLabelEXT");
         load(mFunctions.cmdEndDebugUtilsLabel, "vkCmdEndDebugUtilsLabelEXT");
         load(mFunctions.setDebugUtilsObjectName, "vkSetDebugUtilsObjectNameEXT");
     }
+}
+
+void Device::loadLimits() {
+    VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
     VkPhysicalDeviceAccelerationStructurePropertiesKHR structure{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    if (mInfo.rayTier == RayTier::Pipeline)
+        structure.pNext = &pipeline;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     if (hasRays())
         properties.pNext = &structure;
@@ -195,6 +219,11 @@ void Device::loadFunctions() {
     mLimits = properties.properties.limits;
     if (hasRays())
         mMinScratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
+    if (mInfo.rayTier == RayTier::Pipeline)
+        mShaderGroupLimits = {
+            pipeline.shaderGroupHandleSize,
+            pipeline.shaderGroupHandleAlignment,
+            pipeline.shaderGroupBaseAlignment};
 }
 
 void Device::createSampler() {

@@ -20,7 +20,10 @@ namespace shutter::gpu {
 struct DeviceOptions {
     std::string wanted;    ///< see chooseDevice
     bool validate = false; ///< core and synchronization validation; needs the layer installed
-    bool allowRays = true; ///< false hides ray tracing, so that the lower tier can be tested
+    RayTier bestTier =
+        RayTier::RayQuery; ///< hides the tiers above, so that lower ones can be tested
+    /// False hides launches of rays whose size is in memory, for the same reason.
+    bool allowIndirectLaunch = true;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
 };
@@ -32,9 +35,20 @@ struct ExtensionFunctions {
     PFN_vkGetAccelerationStructureBuildSizesKHR getAccelerationStructureBuildSizes = nullptr;
     PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureDeviceAddress = nullptr;
     PFN_vkCmdBuildAccelerationStructuresKHR cmdBuildAccelerationStructures = nullptr;
+    PFN_vkCreateRayTracingPipelinesKHR createRayTracingPipelines = nullptr;
+    PFN_vkGetRayTracingShaderGroupHandlesKHR getRayTracingShaderGroupHandles = nullptr;
+    PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
+    PFN_vkCmdTraceRaysIndirectKHR cmdTraceRaysIndirect = nullptr; ///< where tracesIndirect
     PFN_vkCmdBeginDebugUtilsLabelEXT cmdBeginDebugUtilsLabel = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT cmdEndDebugUtilsLabel = nullptr;
     PFN_vkSetDebugUtilsObjectNameEXT setDebugUtilsObjectName = nullptr;
+};
+
+/// What a shader binding table has to keep to, bytes (RayTier::Pipeline).
+struct ShaderGroupLimits {
+    uint32_t handleBytes = 0;
+    uint32_t handleAlignment = 1;
+    uint32_t baseAlignment = 1;
 };
 
 /// A logical device with one queue, its timeline and its retired objects. Everything made from it
@@ -58,11 +72,16 @@ class Device {
 
     [[nodiscard]] bool hasRays() const { return mInfo.rayTier != RayTier::None; }
 
+    /// Whether shaders of every kind may trace rays, and traversals be nested.
+    [[nodiscard]] bool hasRayQuery() const { return mInfo.rayTier == RayTier::RayQuery; }
+
     [[nodiscard]] const ExtensionFunctions& functions() const { return mFunctions; }
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
 
     [[nodiscard]] uint32_t minScratchAlignment() const { return mMinScratchAlignment; }
+
+    [[nodiscard]] const ShaderGroupLimits& shaderGroupLimits() const { return mShaderGroupLimits; }
 
     [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
 
@@ -91,6 +110,7 @@ class Device {
     core::Status createInstance(const DeviceOptions& options);
     core::Status createLogicalDevice();
     void loadFunctions();
+    void loadLimits();
     void createSampler();
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
@@ -105,6 +125,7 @@ class Device {
     DeviceInfo mInfo;
     VkPhysicalDeviceLimits mLimits{};
     uint32_t mMinScratchAlignment = 1;
+    ShaderGroupLimits mShaderGroupLimits;
     ExtensionFunctions mFunctions;
     VkSemaphore mTimeline = VK_NULL_HANDLE;
     uint64_t mLastSubmitted = 0;

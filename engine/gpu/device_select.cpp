@@ -26,7 +26,9 @@ const char* describeKind(VkPhysicalDeviceType type) {
 }
 
 int rankOf(const DeviceInfo& info) {
-    int rank = info.rayTier == RayTier::RayQuery ? 100 : 0;
+    int rank = info.rayTier != RayTier::None ? 100 : 0;
+    if (info.rayTier == RayTier::RayQuery)
+        rank += 5;
     if (info.kind == "discrete")
         rank += 40;
     if (info.kind == "integrated")
@@ -50,21 +52,33 @@ std::vector<VkExtensionProperties> listExtensions(VkPhysicalDevice device) {
     return extensions;
 }
 
-bool supportsRayQuery(VkPhysicalDevice device) {
-    const auto extensions = listExtensions(device);
-    for (const char* name :
-         {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-          VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-          VK_KHR_RAY_QUERY_EXTENSION_NAME})
-        if (!hasExtension(extensions, name))
-            return false;
-    VkPhysicalDeviceRayQueryFeaturesKHR query{
+void findRays(DeviceInfo& info) {
+    const auto extensions = listExtensions(info.handle);
+    if (!hasExtension(extensions, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) ||
+        !hasExtension(extensions, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME))
+        return;
+    const bool query = hasExtension(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    const bool pipeline = hasExtension(extensions, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR queries{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
-    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &query};
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &structure};
-    vkGetPhysicalDeviceFeatures2(device, &features);
-    return query.rayQuery && structure.accelerationStructure;
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipelines{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    // Structs of extensions that are not there must not be in the chain.
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &structures};
+    if (query) {
+        queries.pNext = structures.pNext;
+        structures.pNext = &queries;
+    }
+    if (pipeline) {
+        pipelines.pNext = structures.pNext;
+        structures.pNext = &pipelines;
+    }
+    vkGetPhysicalDeviceFeatures2(info.handle, &features);
+    info.hasRayQuery = structures.accelerationStructure && queries.rayQuery;
+    info.hasRayPipeline = structures.accelerationStructure && pipelines.rayTracingPipeline;
+    info.tracesIndirect = info.hasRayPipeline && pipelines.rayTracingPipelineTraceRaysIndirect;
 }
 
 std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
@@ -85,8 +99,8 @@ std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
         return "timeline semaphores";
     if (!v12.bufferDeviceAddress)
         return "buffer device addresses";
-    if (!v12.descriptorIndexing || !v12.runtimeDescriptorArray || !v12.shaderSampledImageArrayNonUniformIndexing ||
-        !v12.descriptorBindingPartiallyBound)
+    if (!v12.descriptorIndexing || !v12.runtimeDescriptorArray ||
+        !v12.shaderSampledImageArrayNonUniformIndexing || !v12.descriptorBindingPartiallyBound)
         return "descriptor indexing";
     if (!v12.scalarBlockLayout)
         return "scalar block layout";
@@ -115,7 +129,32 @@ std::string listNames(const std::vector<DeviceInfo>& devices) {
 } // namespace
 
 const char* describe(RayTier tier) {
-    return tier == RayTier::RayQuery ? "VK_KHR_ray_query" : "none";
+    switch (tier) {
+    case RayTier::RayQuery:
+        return "VK_KHR_ray_query";
+    case RayTier::Pipeline:
+        return "VK_KHR_ray_tracing_pipeline";
+    case RayTier::None:
+        break;
+    }
+    return "none";
+}
+
+std::string describeTiers(const DeviceInfo& device) {
+    std::string words;
+    if (device.hasRayQuery)
+        words = describe(RayTier::RayQuery);
+    if (device.hasRayPipeline)
+        words += fmt::format("{}{}", words.empty() ? "" : ", ", describe(RayTier::Pipeline));
+    return words.empty() ? describe(RayTier::None) : words;
+}
+
+RayTier chooseTier(const DeviceInfo& device, RayTier best) {
+    if (best <= RayTier::RayQuery && device.hasRayQuery)
+        return RayTier::RayQuery;
+    if (best <= RayTier::Pipeline && device.hasRayPipeline)
+        return RayTier::Pipeline;
+    return RayTier::None;
 }
 
 std::vector<DeviceInfo> listDevices(VkInstance instance) {
@@ -138,7 +177,8 @@ std::vector<DeviceInfo> listDevices(VkInstance instance) {
         info.kind = describeKind(properties.properties.deviceType);
         info.apiVersion = properties.properties.apiVersion;
         info.missing = findMissing(handle, info.apiVersion);
-        info.rayTier = supportsRayQuery(handle) ? RayTier::RayQuery : RayTier::None;
+        findRays(info);
+        info.rayTier = chooseTier(info, RayTier::RayQuery);
         devices.push_back(std::move(info));
     }
     return devices;

@@ -200,6 +200,52 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
 }
 
+Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
+    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR),
+      mStages(
+          VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
+          VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR
+      ) {
+    createLayout(desc.interface);
+    const Module raygen(device, desc.raygenSpirv, desc.name);
+    const Module miss(device, desc.missSpirv, desc.name);
+    const Module closestHit(device, desc.closestHitSpirv, desc.name);
+    const Module anyHit(device, desc.anyHitSpirv, desc.name);
+    const Specialization constants(desc.specialization);
+    const std::array stages{
+        makeStage(VK_SHADER_STAGE_RAYGEN_BIT_KHR, raygen.handle(), constants),
+        makeStage(VK_SHADER_STAGE_MISS_BIT_KHR, miss.handle(), constants),
+        makeStage(VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, closestHit.handle(), constants),
+        makeStage(VK_SHADER_STAGE_ANY_HIT_BIT_KHR, anyHit.handle(), constants)};
+    std::array<VkRayTracingShaderGroupCreateInfoKHR, 3> groups{};
+    for (uint32_t i = 0; i < groups.size(); ++i) {
+        groups[i].sType = VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR;
+        groups[i].type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+        groups[i].generalShader = i; // stages 0 and 1
+        groups[i].closestHitShader = VK_SHADER_UNUSED_KHR;
+        groups[i].anyHitShader = VK_SHADER_UNUSED_KHR;
+        groups[i].intersectionShader = VK_SHADER_UNUSED_KHR;
+    }
+    groups[2].type = VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+    groups[2].generalShader = VK_SHADER_UNUSED_KHR;
+    groups[2].closestHitShader = 2;
+    groups[2].anyHitShader = 3;
+    VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+    info.stageCount = stages.size();
+    info.pStages = stages.data();
+    info.groupCount = groups.size();
+    info.pGroups = groups.data();
+    info.maxPipelineRayRecursionDepth = 1;
+    info.layout = mLayout;
+    require(
+        device.functions().createRayTracingPipelines(
+            device.handle(), VK_NULL_HANDLE, device.pipelineCache(), 1, &info, nullptr, &mPipeline
+        ),
+        fmt::format("creating the pipeline '{}'", desc.name)
+    );
+    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+}
+
 Pipeline::~Pipeline() {
     release();
 }

@@ -27,6 +27,18 @@ struct ComputePipelineDesc {
     std::vector<uint32_t> specialization; ///< constant_id 0, 1, 2, ...
 };
 
+/// Shaders of one traversal: where it starts, what becomes of candidates, and its two ends. Rays
+/// start in the first alone.
+struct RayPipelineDesc {
+    std::string name;
+    std::span<const uint32_t> raygenSpirv;
+    std::span<const uint32_t> missSpirv;
+    std::span<const uint32_t> closestHitSpirv;
+    std::span<const uint32_t> anyHitSpirv;
+    PipelineInterface interface;
+    std::vector<uint32_t> specialization; ///< of all shaders
+};
+
 struct GraphicsPipelineDesc {
     std::string name;
     std::span<const uint32_t> vertexSpirv;
@@ -41,12 +53,14 @@ struct GraphicsPipelineDesc {
     bool blendFirstOnly = false;
 };
 
-/// A compute or graphics pipeline with its layout. Cull mode is dynamic for graphics.
+/// A compute, graphics or ray-tracing pipeline with its layout. Cull mode is dynamic for graphics.
 class Pipeline {
   public:
     Pipeline() = default;
     Pipeline(Device& device, const ComputePipelineDesc& desc);
     Pipeline(Device& device, const GraphicsPipelineDesc& desc);
+    /// Groups: 0 start, 1 miss, 2 hit. RayPipeline adds the table that launches need.
+    Pipeline(Device& device, const RayPipelineDesc& desc);
     ~Pipeline();
     Pipeline(Pipeline&& other) noexcept;
     Pipeline& operator=(Pipeline&& other) noexcept;

@@ -148,6 +148,7 @@ Status measureSuite(
         return made;
     gpu::DeviceOptions deviceOptions;
     deviceOptions.wanted = arguments.shot.device;
+    deviceOptions.bestTier = shot.bestTier;
     deviceOptions.validate = arguments.shot.validate;
     deviceOptions.cacheFolder = game::findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);

@@ -32,6 +32,12 @@ bool isProgressive(const DialPoint& point) {
     return point.method->family == game::MethodFamily::Truth;
 }
 
+/// Why the device cannot run it.
+const char* describeLack(const game::MethodInfo& method) {
+    return method.rays == game::RayNeed::Query ? "the device traces no ray queries"
+                                               : "the device traces no rays";
+}
+
 double secondsOf(const render::FrameResult& drawn) {
     return drawn.statistics.wallMilliseconds / 1e3;
 }
@@ -102,8 +108,8 @@ class Rounds {
     /// Compares the picture and learns what it costs.
     Status drawFirst(Entry& entry) {
         const DialPoint& point = entry.point();
-        if (point.method->needsRays && !mDevice.hasRays())
-            return refuse(entry, "the device traces no rays");
+        if (!game::canRun(*point.method, mDevice))
+            return refuse(entry, describeLack(*point.method));
         const double predicted = predict(entry);
         if (predicted > mOptions.limitSeconds) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
@@ -178,9 +184,9 @@ class Rounds {
     Status drawProgressive() {
         if (mProgressive.empty() || mStop())
             return {};
-        if (!mDevice.hasRays()) {
+        if (!game::canRun(*mProgressive.front().point().method, mDevice)) {
             for (Entry& entry : mProgressive)
-                if (Status kept = refuse(entry, "the device traces no rays"); !kept)
+                if (Status kept = refuse(entry, describeLack(*entry.point().method)); !kept)
                     return kept;
             return {};
         }
@@ -204,7 +210,8 @@ class Rounds {
 
     /// The dear end of the dial is timed once, by the run that made its pictures.
     Status timeProgressive(uint32_t round) {
-        if (round == 0 || mProgressive.empty() || mStop() || !mDevice.hasRays())
+        if (round == 0 || mProgressive.empty() || mStop() ||
+            !game::canRun(*mProgressive.front().point().method, mDevice))
             return {};
         Entry* last = findLastWithin(kSecondsAPoint / mOptions.repeats);
         if (last == nullptr || mStage.isKnown(last->point(), round + 1))

@@ -251,7 +251,7 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
              {"publication", method->publication},
              {"dial", nameDial(method->dial)},
              {"default", packDial(method->defaultSamples)},
-             {"usesRays", method->needsRays}}
+             {"usesRays", method->rays != game::RayNeed::None}}
         );
     return rows;
 }

@@ -26,7 +26,8 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
       mATrous(device, "denoise", motion_blur_denoise_atrous_comp, 2) {
     if (!sceneLayout || !device.hasRays())
         return;
-    mStochasticRays = std::make_unique<StochasticRays>(device, sceneLayout);
+    if (device.hasRayQuery())
+        mStochasticRays = std::make_unique<StochasticRays>(device, sceneLayout);
     mRayMask = std::make_unique<RayMask>(device);
     mRayReveal = std::make_unique<RayReveal>(device, sceneLayout);
 }
@@ -148,7 +149,10 @@ MotionBlurOutputs MotionBlur::addDenoised(
     const MotionBlurSettings& settings,
     const MotionBlurParams& resolved
 ) const {
-    SHUTTER_CHECK(inputs.movingRays && mStochasticRays, "the denoised method needs moving rays");
+    SHUTTER_CHECK(
+        inputs.movingRays && mStochasticRays,
+        "the denoised method needs moving rays, by ray queries"
+    );
     MotionBlurParams params = resolved;
     params.frame = inputs.movingRays->frame;
     params.moving = inputs.movingRays->moving;

@@ -239,6 +239,8 @@ TEST_F(Cli, InfoListsDevicesWithTheirRays) {
     EXPECT_NE(out.find("0: "), std::string::npos);
     EXPECT_NE(out.find("software"), std::string::npos);
     EXPECT_NE(out.find("rays: "), std::string::npos);
+    EXPECT_NE(out.find("VK_KHR_ray_query"), std::string::npos);
+    EXPECT_NE(out.find("VK_KHR_ray_tracing_pipeline"), std::string::npos);
 }
 
 TEST_F(Cli, InfoCountsWhatASceneHolds) {

@@ -15,7 +15,7 @@ class Checkpoints : public test::GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRayQuery())
             GTEST_SKIP() << device().info().name << " has no ray queries";
     }
 };

@@ -39,6 +39,37 @@ TEST(DeviceChoice, WithoutAWishRaysCountBeforeTheKindOfDevice) {
     EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
 }
 
+TEST(DeviceChoice, AnyTierOfRaysCountsBeforeTheKindOfDeviceAndTheBetterTierAfterIt) {
+    auto devices = threeDevices();
+    devices[2].rayTier = gpu::RayTier::Pipeline;
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "New Card");
+    devices[2].rayTier = gpu::RayTier::None;
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
+    devices[0].rayTier = gpu::RayTier::Pipeline;
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
+    devices.push_back(makeInfo("Better Card", "discrete", gpu::RayTier::RayQuery));
+    devices[2].rayTier = gpu::RayTier::Pipeline;
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "Better Card");
+}
+
+TEST(DeviceChoice, TheTierIsTheBestOneThatIsThereAndAllowed) {
+    using gpu::RayTier;
+    gpu::DeviceInfo both;
+    both.hasRayQuery = both.hasRayPipeline = true;
+    EXPECT_EQ(gpu::chooseTier(both, RayTier::RayQuery), RayTier::RayQuery);
+    EXPECT_EQ(gpu::chooseTier(both, RayTier::Pipeline), RayTier::Pipeline);
+    EXPECT_EQ(gpu::chooseTier(both, RayTier::None), RayTier::None);
+    gpu::DeviceInfo pipelines;
+    pipelines.hasRayPipeline = true;
+    EXPECT_EQ(gpu::chooseTier(pipelines, RayTier::RayQuery), RayTier::Pipeline);
+    gpu::DeviceInfo queries;
+    queries.hasRayQuery = true;
+    EXPECT_EQ(gpu::chooseTier(queries, RayTier::Pipeline), RayTier::None);
+    EXPECT_EQ(gpu::describeTiers(both), "VK_KHR_ray_query, VK_KHR_ray_tracing_pipeline");
+    EXPECT_EQ(gpu::describeTiers(pipelines), "VK_KHR_ray_tracing_pipeline");
+    EXPECT_EQ(gpu::describeTiers({}), "none");
+}
+
 TEST(DeviceChoice, ADeviceThatLacksSomethingIsPassedOver) {
     auto devices = threeDevices();
     devices[2].missing = "timeline semaphores";
@@ -81,7 +112,7 @@ class DeviceWithoutRays : public test::GpuTest {
     static std::unique_ptr<gpu::Device> openWithoutRays() {
         gpu::DeviceOptions options;
         options.validate = true;
-        options.allowRays = false;
+        options.bestTier = gpu::RayTier::None;
         auto opened = gpu::Device::create(options);
         EXPECT_TRUE(opened.ok());
         return opened ? std::move(opened).value() : nullptr;

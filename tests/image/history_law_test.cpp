@@ -20,7 +20,7 @@ class HistoryLaw : public test::GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRayQuery())
             GTEST_SKIP() << device().info().name << " has no ray queries";
     }
 

@@ -111,7 +111,7 @@ TEST_F(MotionCapLaw, TruthShowsAShorterExposure) {
     const auto expected = test::renderOnce(device(), alone, shorter);
     const auto actual = test::renderOnce(device(), alone, capped);
     EXPECT_GE(image::computePsnr(actual.color, expected.color), 60.0);
-    if (!device().hasRays())
+    if (!device().hasRayQuery())
         return;
     Shot rays = cappedShot(Method::Truth);
     rays.instants = 256;

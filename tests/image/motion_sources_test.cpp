@@ -231,7 +231,7 @@ double measureSpeed(const image::Image& motion) {
 }
 
 TEST_P(MotionSources, BlurIsAsNearToTruthAsOnARigidMoverOfTheSameSpeed) {
-    if (!device().hasRays())
+    if (!device().hasRayQuery())
         GTEST_SKIP() << device().info().name << " has no ray queries";
 
     struct Scores {

@@ -145,7 +145,7 @@ class TruthReferences : public References {
   protected:
     void SetUp() override {
         References::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRayQuery())
             GTEST_SKIP() << device().info().name << " has no ray queries";
     }
 };

@@ -20,7 +20,7 @@ class TransparencyLaw : public test::GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
-        if (!device().hasRays())
+        if (!device().hasRayQuery())
             GTEST_SKIP() << device().info().name << " has no ray queries";
     }
 };

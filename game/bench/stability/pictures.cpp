@@ -172,7 +172,7 @@ core::Result<Measurements> measureEveryMethod(Drawer& drawer, View view) {
         view.phase = phase;
         Image sharp;
         for (const game::MethodInfo& method : game::listMethods()) {
-            if (method.needsRays && !drawer.device().hasRays())
+            if (!game::canRun(method, drawer.device()))
                 continue;
             auto frame = drawer.draw(method.name, view);
             if (!frame)
@@ -245,7 +245,7 @@ HardCase makeSceneCase(
         build(draft);
         Drawer drawer(device, draft);
         auto found = measureEveryMethod(drawer, view);
-        if (!found || !device.hasRays())
+        if (!found || !device.hasRayQuery())
             return found;
         auto rays = measureRays(drawer, view);
         if (!rays)

@@ -49,7 +49,7 @@ using Hashes = std::map<std::string, uint64_t>;
 core::Result<Hashes> hashEveryMethod(Drawer& drawer) {
     Hashes hashes;
     for (const game::MethodInfo& method : game::listMethods()) {
-        if (method.needsRays && !drawer.device().hasRays())
+        if (!game::canRun(method, drawer.device()))
             continue;
         auto frame = drawer.draw(method.name, kView);
         if (!frame)

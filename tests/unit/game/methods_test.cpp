@@ -31,9 +31,10 @@ TEST(Methods, ADialHasADefault) {
 }
 
 TEST(Methods, TheHybridNeedsRaysAndTheGatherDoesWithout) {
-    EXPECT_TRUE(findMethod("hybrid").value()->needsRays);
-    EXPECT_TRUE(findMethod("truth").value()->needsRays);
-    EXPECT_FALSE(findMethod("gather").value()->needsRays);
+    EXPECT_EQ(findMethod("hybrid").value()->rays, RayNeed::Any);
+    EXPECT_EQ(findMethod("truth").value()->rays, RayNeed::Query);
+    EXPECT_EQ(findMethod("denoised").value()->rays, RayNeed::Query);
+    EXPECT_EQ(findMethod("gather").value()->rays, RayNeed::None);
 }
 
 TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
