@@ -113,12 +113,20 @@ Status applySetting(
         );
     using motion_blur::ObjectTest;
     using motion_blur::OccluderTest;
+    using motion_blur::RevealTraversal;
     if (name == "objectTest")
         return applyWord<ObjectTest>(
             name,
             value,
             {{{"mesh_id", ObjectTest::MeshId}, {"luminance", ObjectTest::Luminance}}},
             settings.objectTest
+        );
+    if (name == "revealTraversal")
+        return applyWord<RevealTraversal>(
+            name,
+            value,
+            {{{"single", RevealTraversal::Single}, {"stepping", RevealTraversal::Stepping}}},
+            settings.revealTraversal
         );
     if (name == "occluderTest")
         return applyWord<OccluderTest>(

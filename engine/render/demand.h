@@ -28,6 +28,7 @@ struct ViewFacts {
     double exposureSeconds = 0.0;
     double rasterShare = 1.0; ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
+    bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
 };
 

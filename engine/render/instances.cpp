@@ -6,6 +6,15 @@
 
 namespace shutter::render {
 
+namespace {
+
+void narrow(gpu::Instance& instance, uint32_t solidMask) {
+    if ((instance.mask & shader::kSolidMask) != 0)
+        instance.mask = (instance.mask & ~shader::kSolidMask) | solidMask;
+}
+
+} // namespace
+
 gpu::Instance describeInstance(const GpuScene& scene, uint32_t mesh) {
     const SceneLayout& layout = scene.layout();
     gpu::Instance instance{};
@@ -30,19 +39,25 @@ gpu::Instance describeInstance(const GpuScene& scene, const BentInstance& bent) 
     return instance;
 }
 
-void InstanceList::add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3]) {
+void InstanceList::add(
+    uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
+) {
     if (!mScene.bottomLevel(mesh))
         return;
     gpu::Instance instance = describeInstance(mScene, mesh);
     instance.customIndex = row;
+    narrow(instance, solidMask);
     place(instance, mScene.layout().bounds[mesh], eyeFromObject);
 }
 
-void InstanceList::add(const BentInstance& bent, const math::vec4 (&eyeFromObject)[3]) {
+void InstanceList::add(
+    const BentInstance& bent, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
+) {
     if (bent.bottomLevel == 0)
         return;
     gpu::Instance instance = describeInstance(mScene, bent);
     instance.customIndex = bent.row;
+    narrow(instance, solidMask);
     place(instance, bent.bounds, eyeFromObject);
 }
 

@@ -30,8 +30,16 @@ class InstanceList {
 
     /// Leaves out meshes that no ray can meet and matrices that are singular or not finite.
     /// \param eyeFromObject rows of a 3x4 matrix
-    void add(uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3]);
-    void add(const BentInstance& bent, const math::vec4 (&eyeFromObject)[3]);
+    /// \param solidMask bits of kSolidMask that its solid parts get
+    void
+    add(uint32_t row,
+        uint32_t mesh,
+        const math::vec4 (&eyeFromObject)[3],
+        uint32_t solidMask = shader::kSolidMask);
+    void
+    add(const BentInstance& bent,
+        const math::vec4 (&eyeFromObject)[3],
+        uint32_t solidMask = shader::kSolidMask);
     void add(const gpu::Instance& instance, const Box& box);
 
     /// In an order that builders which keep it make a good tree of.

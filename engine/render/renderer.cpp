@@ -5,6 +5,7 @@
 #include "engine/graph/execute.h"
 #include "engine/render/instances.h"
 #include "engine/render/motion_cap.h"
+#include "engine/render/ray_masks.h"
 #include "engine/scene/shutter.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ VkDeviceSize alignTable(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
 }
 
-ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays) {
+ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device& device) {
     ViewFacts facts;
     facts.width = request.view.width;
     facts.height = request.view.height;
@@ -34,7 +35,8 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, bool deviceHasRays
     if (!request.view.instant)
         facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
     facts.rasterShare = request.view.exposure.rasterShare;
-    facts.deviceHasRays = deviceHasRays;
+    facts.deviceHasRays = device.hasRays();
+    facts.deviceHasRayQuery = device.hasRayQuery();
     facts.displayWanted = request.wantDisplay;
     return facts;
 }
@@ -70,6 +72,8 @@ Renderer::RunningEffects Renderer::askEffects(
         const Decision movingRays = effect->askMovingRays(facts);
         if (decision.run && (rays.run || movingRays.run) && !facts.deviceHasRays)
             decision = {false, "it needs rays, which the device cannot trace"};
+        if (decision.run && movingRays.run && !facts.deviceHasRayQuery)
+            decision = {false, "it needs ray queries, which the device lacks"};
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
         if (!decision.run)
             continue;
@@ -129,14 +133,17 @@ void Renderer::declareTopLevel(
     size_t nextDeformed = 0;
     for (uint32_t row = 0; row < frame.entities.size(); ++row) {
         const auto& eyeFromObject = frame.entities[row].eyeFromObject;
+        const uint32_t solidMask = solidMaskOf(frame.entities[row]);
         if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
-            instances.add(row, frame.entityMeshes[row], eyeFromObject);
+            instances.add(row, frame.entityMeshes[row], eyeFromObject, solidMask);
             continue;
         }
         const DeformedEntity& bent = frame.deformed[nextDeformed];
         const VkDeviceAddress level = mShapeLevels.address(nextDeformed++);
         instances.add(
-            BentInstance{row, bent.mesh, bent.mirrored, level, bent.bounds}, eyeFromObject
+            BentInstance{row, bent.mesh, bent.mirrored, level, bent.bounds},
+            eyeFromObject,
+            solidMask
         );
     }
     mTopLevel.prepare(mDevice, instances.order());
@@ -175,7 +182,7 @@ core::Result<FrameResult> Renderer::renderFrame(
     if (!extracted)
         return extracted.error();
     ExtractedFrame& frame = extracted.value();
-    const ViewFacts facts = stateFacts(request, frame.moves, mDevice.hasRays());
+    const ViewFacts facts = stateFacts(request, frame.moves, mDevice);
     FrameResult result;
     Explainer explainer;
     const RunningEffects running = askEffects(effects, facts, explainer);
@@ -273,6 +280,11 @@ Renderer::Tickets Renderer::declareFrame(
         const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
+    const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
+        return effect->needsRays();
+    });
+    if (raysWanted)
+        assignRayMasks(frame, mScene.layout());
     RayScene rays;
     const TableAddresses tables = uploadTables(frame, request.view, bent);
     rays.frameConstants = tables.constants;

@@ -35,6 +35,7 @@ std::span<const std::string_view> listSettings(Method method) {
          "edgeThreshold",
          "recursionLimit",
          "objectTest",
+         "revealTraversal",
          "luminanceThreshold"}
     );
     static const Names kOwnVelocity = {"jitter", "occluderTest"};
@@ -105,6 +106,11 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
     params.recursionLimit = settings.recursionLimit;
     params.objectTest = settings.objectTest == ObjectTest::MeshId ? shader::kObjectTestMeshId
                                                                   : shader::kObjectTestLuminance;
+    // Each hit's luminance decides whether the ray goes on.
+    params.revealTraversal = settings.revealTraversal == RevealTraversal::Single &&
+                                     settings.objectTest == ObjectTest::MeshId
+                                 ? shader::kRevealTraversalSingle
+                                 : shader::kRevealTraversalStepping;
     params.luminanceThreshold = settings.luminanceThreshold;
     params.occluderTest = settings.occluderTest == OccluderTest::Velocity
                               ? shader::kOccluderTestVelocity

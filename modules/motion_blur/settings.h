@@ -26,6 +26,12 @@ enum class ObjectTest : uint8_t {
     Luminance, ///< another luminance than the first hit's (the paper's implementation)
 };
 
+/// How the reveal's ray gets past the object in front where ObjectTest::MeshId tells objects apart.
+enum class RevealTraversal : uint8_t {
+    Single,   ///< one traversal that leaves that object out: any number of its surfaces is passed
+    Stepping, ///< from hit to hit (the paper's implementation), up to recursionLimit
+};
+
 /// What own velocity does with samples of what may be in front.
 enum class OccluderTest : uint8_t {
     None,     ///< takes them all (three.js, Babylon.js)
@@ -40,8 +46,11 @@ struct MotionBlurSettings {
     uint32_t sampleCount = 15;       ///< taps of each gather, or rays a pixel (Denoised), [1, 256]
     float softDepthExtent = 0.03f;   ///< SOFT_Z_EXTENT, metres, above 0; the paper: 5 mm to 3 cm
     float edgeThreshold = 0.9f;      ///< e, [0, 1]; the paper: 0.9 to 0.98; higher: fewer rays
-    uint32_t recursionLimit = 5;     ///< surfaces along a ray, the first included, [1, 64]
+    /// RevealTraversal::Stepping and ObjectTest::Luminance: surfaces along a ray, the first
+    /// included, [1, 64]
+    uint32_t recursionLimit = 5;
     ObjectTest objectTest = ObjectTest::MeshId;
+    RevealTraversal revealTraversal = RevealTraversal::Single; ///< luminance steps whatever this is
     float luminanceThreshold =
         0.01f; ///< ObjectTest::Luminance: smallest difference, linear, [0, 1e6]
     float foregroundMagnification =

@@ -16,6 +16,9 @@ SHUTTER_CONST float kStillPx = 0.5f;
 SHUTTER_CONST uint kObjectTestMeshId = 0u;
 SHUTTER_CONST uint kObjectTestLuminance = 1u;
 
+SHUTTER_CONST uint kRevealTraversalSingle = 0u;
+SHUTTER_CONST uint kRevealTraversalStepping = 1u;
+
 SHUTTER_CONST uint kOccluderTestNone = 0u;
 SHUTTER_CONST uint kOccluderTestVelocity = 1u;
 
@@ -43,6 +46,7 @@ struct MotionBlurParams {
     float luminanceSigma;          // deviations that count as noise (denoised only)
     float stepPx;                  // between taps of one level (denoised only)
     uvec2 response;                // address of the shutter's ResponseTable; 0: a box
+    uint revealTraversal;          // kRevealTraversal... (reveal only)
 };
 
 /// Arguments of the reveal's indirect dispatch (VkDispatchIndirectCommand).
@@ -63,7 +67,7 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 108);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 112);
 static_assert(sizeof(shutter::shader::RevealArguments) == 12);
 static_assert(sizeof(shutter::shader::MaskHeader) == 16);
 #endif

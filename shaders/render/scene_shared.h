@@ -31,7 +31,8 @@ struct EntityRow {
     uint firstGeometry;        // index into the geometry table
     float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
                                // mirrored skeleton, else 1
-    uint padding1;
+    uint rayMask;              // bits of its instance that a ray leaves out to pass it and no other
+                               // entity (ray_masks.h); 0: no mask tells it from all others
     uint padding2;
 };
 
@@ -61,9 +62,10 @@ SHUTTER_CONST uint kMaterialDoubleSided = 2u;
 SHUTTER_CONST uint kMaterialMask = 4u;
 SHUTTER_CONST uint kMaterialBlend = 8u;
 
-/// Bits of an instance's mask and of a ray's: what can be met.
-SHUTTER_CONST uint kSolidMask = 1u;   // opaque and masked surfaces
-SHUTTER_CONST uint kBlendedMask = 2u; // blended ones
+/// Bits of an instance's mask and of a ray's: what can be met. A ray that leaves out some of the
+/// solid bits passes the instances that have none but those.
+SHUTTER_CONST uint kSolidMask = 0x7Fu;   // opaque and masked surfaces
+SHUTTER_CONST uint kBlendedMask = 0x80u; // blended ones
 
 struct MaterialRow {
     vec4 baseColor;

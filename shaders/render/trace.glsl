@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Rays at the raster instant, and what counts as a hit for rays at any time.
+// Rays at the raster instant, and what counts as a hit for rays at any time. Who traces them is a thin
+// layer beneath: ray queries, or, where SHUTTER_RAY_PIPELINE is defined, the shaders of a ray-tracing
+// pipeline.
 #ifndef SHUTTER_TRACE_GLSL
 #define SHUTTER_TRACE_GLSL
 
+#ifdef SHUTTER_RAY_PIPELINE
+#extension GL_EXT_ray_tracing : require
+#else
 #extension GL_EXT_ray_query : require
+#endif
 
 #include "render/hit.glsl"
 
@@ -37,55 +43,36 @@ bool isDrawn(
     return isCovered(frame, materials.rows[index], hit.point, direction);
 }
 
-/// What a ray goes on from: surfaces of `entity` at t <= `until` are passed.
+/// What a ray goes on from: surfaces of `entity` at t <= `until` are passed. kNoEntity: none is, and
+/// opaque surfaces need not be shown to the shader.
 struct LeftSurface {
     uint entity;
     float until;
 };
 
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
-/// \param direction unit
-/// \param mask what is met: kSolidMask, kBlendedMask or both
-RayHit traceRay(
-    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
-    float tMax, uint mask, LeftSurface left
+/// Whether the ray meets the candidate.
+/// \param t its distance along the ray
+bool isMet(
+    FrameRef frame, HitId id, float t, bool frontFace, vec3 direction, uint mask, LeftSurface left
 ) {
-    uint flags = gl_RayFlagsCullBackFacingTrianglesEXT;
-    // A mesh may have opaque parts besides blended ones: kept out of rays for these, and shown to
-    // others like any candidate, since they have to be asked whose they are.
-    flags |= (mask & kSolidMask) == 0u ? gl_RayFlagsCullOpaqueEXT : gl_RayFlagsNoOpaqueEXT;
-    rayQueryEXT query;
-    rayQueryInitializeEXT(query, scene, flags, mask, origin, tMin, direction, tMax);
-    while (rayQueryProceedEXT(query)) {
-        if (rayQueryGetIntersectionTypeEXT(query, false) !=
-            gl_RayQueryCandidateIntersectionTriangleEXT)
-            continue;
-        HitId id = HitId(
-            uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false)),
-            uint(rayQueryGetIntersectionGeometryIndexEXT(query, false)),
-            uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false)),
-            rayQueryGetIntersectionBarycentricsEXT(query, false)
-        );
-        if (id.entity == left.entity && rayQueryGetIntersectionTEXT(query, false) <= left.until)
-            continue;
-        bool frontFace = rayQueryGetIntersectionFrontFaceEXT(query, false);
-        Placement placement = placeAtRaster(frame, id.entity);
-        if (isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask))
-            rayQueryConfirmIntersectionEXT(query);
-    }
-    RayHit result;
-    result.found = rayQueryGetIntersectionTypeEXT(query, true) ==
-                   gl_RayQueryCommittedIntersectionTriangleEXT;
-    if (result.found) {
-        result.t = rayQueryGetIntersectionTEXT(query, true);
-        result.id = HitId(
-            uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, true)),
-            uint(rayQueryGetIntersectionGeometryIndexEXT(query, true)),
-            uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true)),
-            rayQueryGetIntersectionBarycentricsEXT(query, true)
-        );
-    }
-    return result;
+    if (id.entity == left.entity && t <= left.until) return false;
+    Placement placement = placeAtRaster(frame, id.entity);
+    return isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask);
 }
+
+uint findRayFlags(uint mask, LeftSurface left) {
+    uint flags = gl_RayFlagsCullBackFacingTrianglesEXT;
+    // A mesh may have opaque parts besides blended ones: kept out of rays for these. Others are shown
+    // them like any candidate where they have to be asked whose they are.
+    if ((mask & kSolidMask) == 0u) flags |= gl_RayFlagsCullOpaqueEXT;
+    else if (left.entity != kNoEntity) flags |= gl_RayFlagsNoOpaqueEXT;
+    return flags;
+}
+
+#ifdef SHUTTER_RAY_PIPELINE
+#include "render/trace_pipeline.glsl"
+#else
+#include "render/trace_query.glsl"
+#endif
 
 #endif

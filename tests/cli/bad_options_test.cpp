@@ -64,6 +64,8 @@ TEST_F(Cli, ANameThatIsNoneOfAListIsRefused) {
         {"--aov", "motion,nosuch"},
         {"--set", "nosuch=1"},
         {"--set", "objectTest=nosuch"},
+        {"--set", "revealTraversal=nosuch"},
+        {"--rays", "nosuch"},
         {"--background", "nosuch"},
         {"--ambient", "nosuch"},
         {"--frames", "nosuch"}};
@@ -125,7 +127,8 @@ TEST_F(Cli, ASettingThatTheMethodDoesNotReadIsRefusedByName) {
         {"jimenez2014", "centreBias"}};
     for (const auto& [method, setting] : bad)
         expectRefusal(
-            renderVase({"--out", "a.png", "--method", method, "--set", fmt::format("{}=1", setting)}),
+            renderVase({"--out", "a.png", "--method", method, "--set", fmt::format("{}=1", setting)}
+            ),
             kUsage,
             {"--set", method, setting}
         );
@@ -189,6 +192,33 @@ TEST_F(Cli, AnUnknownDeviceIsAnsweredWithThoseThereAre) {
             kFailed,
             {"--device", device, "llvmpipe"}
         );
+}
+
+TEST_F(Cli, AMethodIsRefusedByNameWhereTheTierOfRaysThatItNeedsIsHidden) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    const auto arguments = [](const char* rays, const char* method) {
+        return Arguments{
+            "render",
+            SHUTTER_ASSETS "/vase.glb",
+            "--size",
+            "32x18",
+            "--out",
+            "a.png",
+            "--device",
+            "llvmpipe",
+            "--rays",
+            rays,
+            "--method",
+            method};
+    };
+    expectRefusal(arguments("none", "hybrid"), kFailed, {"hybrid", "VK_KHR_ray_query"});
+    expectRefusal(arguments("none", "truth"), kFailed, {"truth", "VK_KHR_ray_query"});
+    expectRefusal(arguments("pipeline", "truth"), kFailed, {"truth", "VK_KHR_ray_query"});
+    expectRefusal(arguments("pipeline", "denoised"), kFailed, {"denoised", "VK_KHR_ray_query"});
+    expectSuccess(arguments("none", "gather"));
+    expectSuccess(arguments("pipeline", "hybrid"));
 }
 
 TEST_F(Cli, AnUnknownCameraOrClipIsAnsweredWithThoseThereAre) {

@@ -226,6 +226,7 @@ void addWall(SceneBuilder& scene) {
 
 TEST_F(RevealLaw, AConcaveOccluderIsPassedWithEnoughLevels) {
     Shot shot = revealShot();
+    shot.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
     shot.settings.recursionLimit = 5; // four surfaces of its own, then the wall
     expectRevealIsRaster(device(), addWall, addPronged, shot);
 }
@@ -235,6 +236,7 @@ TEST_F(RevealLaw, TooFewLevelsEndInsideAConcaveOccluder) {
     addWall(scene);
     addPronged(scene);
     Shot shot = revealShot();
+    shot.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
     shot.settings.recursionLimit = 3;
     const auto result = test::renderOnce(device(), scene, shot);
     const image::Image& mask = result.intermediates.at("mask");
@@ -254,6 +256,27 @@ TEST_F(RevealLaw, TooFewLevelsEndInsideAConcaveOccluder) {
             ASSERT_LT(reveal.at(x, y, 1), 0.01f) << x << ", " << y;
         }
     EXPECT_GT(compared, 150u);
+}
+
+TEST_F(RevealLaw, OneTraversalFindsTheBackgroundWhereTooFewLevelsDoNot) {
+    Shot shot = revealShot();
+    shot.settings.recursionLimit = 1; // of stepping alone
+    expectRevealIsRaster(device(), addWall, addPronged, shot);
+}
+
+TEST_F(RevealLaw, OneTraversalPassesMoversWithoutMasksOfTheirOwn) {
+    // More movers than masks, all behind the camera and larger than the one in front: that one is
+    // passed candidate by candidate.
+    const auto addCrowd = [](SceneBuilder& scene) {
+        addWall(scene);
+        const auto color = scene.addColor({0, 1, 0});
+        for (int i = 0; i < 40; ++i)
+            scene.add(
+                test::makeQuad(9, 9, color),
+                {.position = {0, 0, 2.0 + 0.01 * i}, .velocity = {0.1, 0, 0}}
+            );
+    };
+    expectRevealIsRaster(device(), addCrowd, addPronged);
 }
 
 TEST_F(RevealLaw, SingleAndDoubleSidedPartsOfOneMeshKeepTheirSides) {

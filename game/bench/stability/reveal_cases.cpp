@@ -42,6 +42,7 @@ class RevealEverywhere : public render::PostEffect {
         fillList(context.facts.width, context.facts.height);
         motion_blur::MotionBlurSettings settings;
         settings.recursionLimit = 2; // the raster's surface and one ray
+        settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
         shader::MotionBlurParams params = motion_blur::resolve(
             settings, context.facts.width, context.facts.height, context.facts.rasterShare
         );

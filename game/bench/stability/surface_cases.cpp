@@ -69,6 +69,7 @@ core::Result<Measurements> measureShells(gpu::Device& device) {
     SceneDraft draft;
     buildShells(draft);
     motion_blur::MotionBlurSettings settings;
+    settings.revealTraversal = motion_blur::RevealTraversal::Stepping; // the other has no limit
     Drawer drawer(device, draft, settings);
     auto found = measureEveryMethod(drawer, kBefore);
     if (!found)

@@ -2,10 +2,16 @@
 #include "modules/motion_blur/passes/ray_reveal.h"
 
 #include "spirv/motion_blur/reveal.comp.h"
+#include "spirv/motion_blur/reveal.rgen.h"
+#include "spirv/render/trace.rahit.h"
+#include "spirv/render/trace.rchit.h"
+#include "spirv/render/trace.rmiss.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
 
 #include <array>
+#include <cstddef>
+#include <utility>
 
 namespace shutter::motion_blur {
 
@@ -29,6 +35,19 @@ gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout, bool 
     return desc;
 }
 
+gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasBlended) {
+    gpu::ComputePipelineDesc shared = describeReveal(sceneLayout, hasBlended);
+    gpu::RayPipelineDesc desc;
+    desc.name = shared.name;
+    desc.raygenSpirv = motion_blur_reveal_rgen;
+    desc.missSpirv = render_trace_rmiss;
+    desc.closestHitSpirv = render_trace_rchit;
+    desc.anyHitSpirv = render_trace_rahit;
+    desc.interface = std::move(shared.interface);
+    desc.specialization = std::move(shared.specialization);
+    return desc;
+}
+
 void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
     VkImageCopy region{};
     region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -49,17 +68,76 @@ void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Im
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
     : mDevice(device), mSceneLayout(sceneLayout), mSampler(device.nearestSampler()),
-      mReveal(device, describeReveal(sceneLayout, false)),
       mHeader(
           device, "ray mask counters", sizeof(shader::MaskHeader), 0, gpu::MemoryUse::Readback
       ) {}
 
-const gpu::Pipeline& RayReveal::findPipeline(bool hasBlended) {
-    if (!hasBlended)
-        return mReveal;
-    if (!mRevealBlended)
-        mRevealBlended.emplace(mDevice, describeReveal(mSceneLayout, true));
-    return *mRevealBlended;
+void RayReveal::makePipeline(bool hasBlended) {
+    if (mDevice.hasRayQuery()) {
+        if (!mQueries[hasBlended])
+            mQueries[hasBlended].emplace(mDevice, describeReveal(mSceneLayout, hasBlended));
+    } else if (!mTracers[hasBlended])
+        mTracers[hasBlended].emplace(mDevice, describeTracer(mSceneLayout, hasBlended));
+}
+
+graph::BufferHandle RayReveal::addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const {
+    using graph::Access;
+    if (mDevice.hasRayQuery() || !mDevice.info().tracesIndirect)
+        return {};
+
+    struct Data {
+        graph::BufferHandle list;
+        graph::BufferHandle size;
+    };
+
+    const auto buffer = graph.createBuffer(
+        "reveal launch",
+        {sizeof(VkTraceRaysIndirectCommandKHR), VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}
+    );
+    return graph
+        .addPass<Data>(
+            "size reveal launch",
+            graph::PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.list = builder.read(list, Access::TransferRead);
+                data.size = builder.write(buffer, Access::TransferWrite);
+            },
+            [](const Data& data, graph::PassContext& context) {
+                using Size = VkTraceRaysIndirectCommandKHR;
+                const VkBuffer target = context.resources.buffer(data.size);
+                const VkBufferCopy width{
+                    offsetof(shader::MaskHeader, maskedPixels),
+                    offsetof(Size, width),
+                    sizeof(Size::width)};
+                vkCmdCopyBuffer(
+                    context.commands, context.resources.buffer(data.list), target, 1, &width
+                );
+                const std::array<uint32_t, 2> heightDepth{1, 1};
+                vkCmdUpdateBuffer(
+                    context.commands,
+                    target,
+                    offsetof(Size, height),
+                    sizeof(heightDepth),
+                    heightDepth.data()
+                );
+            }
+        )
+        .size;
+}
+
+void RayReveal::launch(
+    graph::PassContext& context,
+    const RayRevealInputs& inputs,
+    const shader::MotionBlurParams& params,
+    graph::BufferHandle launchSize
+) const {
+    const graph::PassResources& resources = context.resources;
+    if (mDevice.hasRayQuery())
+        return vkCmdDispatchIndirect(context.commands, resources.buffer(inputs.arguments), 0);
+    const gpu::RayPipeline& tracer = *mTracers[inputs.rays.hasBlended];
+    if (launchSize.isValid())
+        return tracer.traceIndirect(context.commands, resources.buffer(launchSize));
+    tracer.trace(context.commands, params.sizePx.x, params.sizePx.y);
 }
 
 RayRevealOutputs RayReveal::copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const {
@@ -100,7 +178,11 @@ RayRevealOutputs RayReveal::add(
 ) {
     using graph::Access;
     RayRevealOutputs outputs = copyLayer(graph, inputs);
-    const gpu::Pipeline& pipeline = findPipeline(inputs.rays.hasBlended);
+    const graph::BufferHandle launchSize = addLaunchSize(graph, inputs.list);
+    const bool byQuery = mDevice.hasRayQuery();
+    makePipeline(inputs.rays.hasBlended);
+    const gpu::Pipeline& pipeline =
+        byQuery ? *mQueries[inputs.rays.hasBlended] : mTracers[inputs.rays.hasBlended]->pipeline();
 
     struct RevealData {
         RayRevealInputs in;
@@ -110,7 +192,7 @@ RayRevealOutputs RayReveal::add(
 
     const RevealData& revealed = graph.addPass<RevealData>(
         "ray reveal",
-        graph::PassKind::Compute,
+        byQuery ? graph::PassKind::Compute : graph::PassKind::RayTracing,
         [&](graph::PassBuilder& builder, RevealData& data) {
             data.in = inputs;
             builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
@@ -125,9 +207,12 @@ RayRevealOutputs RayReveal::add(
             data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
             data.out.meshId = builder.write(outputs.meshId, Access::StorageWrite);
             data.list = builder.write(inputs.list, Access::StorageWrite);
-            builder.read(inputs.arguments, Access::IndirectRead);
+            if (byQuery)
+                builder.read(inputs.arguments, Access::IndirectRead);
+            else if (launchSize.isValid())
+                builder.read(launchSize, Access::IndirectRead);
         },
-        [this, params, &pipeline](const RevealData& data, graph::PassContext& context) {
+        [this, params, launchSize, &pipeline](const RevealData& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings;
             bindings.accelerationStructure(data.in.rays.topLevel)
@@ -139,7 +224,7 @@ RayRevealOutputs RayReveal::add(
                 .storage(resources.view(data.out.meshId))
                 .buffer(resources.buffer(data.list));
             context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.scene);
-            vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
+            launch(context, data.in, params, launchSize);
         }
     );
 

@@ -4,16 +4,18 @@
 
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/ray_pipeline.h"
 #include "engine/graph/graph.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
+#include <array>
 #include <optional>
 
 namespace shutter::motion_blur {
 
 /// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
 struct RayInputs {
-    graph::BufferHandle topLevelBuffer;                   ///< read with Access::AccelerationRead
+    graph::BufferHandle topLevelBuffer;    ///< read with Access::AccelerationRead
     graph::BufferHandle shapeLevelsBuffer; ///< likewise, unless it is invalid: nothing is bent
     graph::BufferHandle shapesBuffer;      ///< read with Access::ShaderRead, unless it is invalid
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE; ///< custom index: row of the entity table
@@ -37,6 +39,7 @@ struct RayRevealOutputs {
     graph::ImageHandle meshId;
 };
 
+/// By ray queries in a compute shader, or by a ray-tracing pipeline: what the device has.
 class RayReveal {
   public:
     RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
@@ -48,13 +51,22 @@ class RayReveal {
 
   private:
     RayRevealOutputs copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const;
-    const gpu::Pipeline& findPipeline(bool hasBlended);
+    /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
+    graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
+    /// The one for the device is made for the first frame that needs it.
+    void makePipeline(bool hasBlended);
+    void launch(
+        graph::PassContext& context,
+        const RayRevealInputs& inputs,
+        const shader::MotionBlurParams& params,
+        graph::BufferHandle launchSize
+    ) const;
 
     gpu::Device& mDevice;
     VkDescriptorSetLayout mSceneLayout;
     VkSampler mSampler;
-    gpu::Pipeline mReveal;
-    std::optional<gpu::Pipeline> mRevealBlended; ///< made for the first frame that needs it
+    std::array<std::optional<gpu::Pipeline>, 2> mQueries;    ///< without and with blended surfaces
+    std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same
     gpu::Buffer mHeader;
 };
 

@@ -64,6 +64,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         {"mask", outputs.mask},
         {"reveal", outputs.revealColor},
         {"reveal_motion", outputs.revealMotionDepth},
+        {"reveal_id", outputs.revealMeshId},
         {"noisy", outputs.noisy}};
     for (const auto& [name, image] : views)
         if (image.isValid())

@@ -262,7 +262,8 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
                                                              "foregroundMagnification=12",
                                                              "backgroundMagnification=6",
                                                              "jitter=0",
-                                                             "objectTest=luminance"};
+                                                             "objectTest=luminance",
+                                                             "revealTraversal=stepping"};
                                                      }).motionBlur;
     EXPECT_EQ(settings.tileSizePx, 20u);
     EXPECT_EQ(settings.neighbourhoodTiles, 5u);
@@ -274,6 +275,11 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
     EXPECT_EQ(settings.backgroundMagnification, 6.0f);
     EXPECT_EQ(settings.jitter, 0.0f);
     EXPECT_EQ(settings.objectTest, motion_blur::ObjectTest::Luminance);
+    EXPECT_EQ(settings.revealTraversal, motion_blur::RevealTraversal::Stepping);
+    EXPECT_EQ(
+        accept([](auto& a) { a.settings = {"revealTraversal=single"}; }).motionBlur.revealTraversal,
+        motion_blur::RevealTraversal::Single
+    );
     EXPECT_EQ(
         accept([](auto& a) { a.settings = {"objectTest=mesh_id"}; }).motionBlur.objectTest,
         motion_blur::ObjectTest::MeshId
@@ -341,7 +347,8 @@ TEST_F(RenderOptionsTest, BadSettingsAreRefused) {
           "tileSizePx=0",
           "tileSizePx=1e30",
           "neighbourhoodTiles=4",
-          "objectTest=nosuch"})
+          "objectTest=nosuch",
+          "revealTraversal=nosuch"})
         refuse("--set", [&](auto& a) { a.settings = {setting}; });
 }
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/ray_masks.h"
+
+#include "engine/math/bounds.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+#include <vector>
+
+namespace shutter::render {
+
+namespace {
+
+constexpr int kBitsPerMask = 3; // of seven: 35 masks, the most there can be
+
+static_assert(std::popcount(kSharedRayMask) == kBitsPerMask);
+static_assert((kSharedRayMask & ~shader::kSolidMask) == 0);
+
+std::vector<uint32_t> makeRayMasks() {
+    std::vector<uint32_t> masks;
+    for (uint32_t mask = 1; mask <= shader::kSolidMask; ++mask)
+        if ((mask & ~shader::kSolidMask) == 0 && std::popcount(mask) == kBitsPerMask &&
+            mask != kSharedRayMask)
+            masks.push_back(mask);
+    return masks;
+}
+
+bool isMoving(const shader::EntityRow& row) {
+    return row.clipFromObjectOpen != row.clipFromObjectRaster ||
+           row.clipFromObjectClose != row.clipFromObjectRaster;
+}
+
+/// Rows a masked pixel may show: whose motion can be longer than nothing.
+std::vector<uint32_t> listMoving(const ExtractedFrame& frame) {
+    std::vector<uint32_t> rows;
+    size_t nextDeformed = 0;
+    for (uint32_t row = 0; row < frame.entities.size(); ++row) {
+        const bool bent =
+            nextDeformed < frame.deformed.size() && frame.deformed[nextDeformed].row == row;
+        nextDeformed += bent;
+        if (bent || isMoving(frame.entities[row]))
+            rows.push_back(row);
+    }
+    return rows;
+}
+
+/// Of the bounds, as a share of their distance; any monotonic measure would do.
+double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bounds) {
+    math::dmat4 matrix(1.0);
+    for (int r = 0; r < 3; ++r)
+        for (int column = 0; column < 4; ++column)
+            matrix[column][r] = double(row.eyeFromObject[r][column]);
+    const math::Bounds placed = math::transformBounds(matrix, bounds);
+    const double size = glm::length(placed.max - placed.min);
+    return size / std::max(glm::length(placed.centre()), 1.0e-9);
+}
+
+} // namespace
+
+std::span<const uint32_t> listRayMasks() {
+    static const std::vector<uint32_t> kMasks = makeRayMasks();
+    return kMasks;
+}
+
+void assignRayMasks(ExtractedFrame& frame, const SceneLayout& layout) {
+    for (shader::EntityRow& row : frame.entities)
+        row.rayMask = 0;
+    std::vector<uint32_t> rows = listMoving(frame);
+    const std::span<const uint32_t> masks = listRayMasks();
+    if (rows.size() > masks.size()) {
+        std::vector<std::pair<double, uint32_t>> sizes;
+        for (const uint32_t row : rows)
+            sizes.emplace_back(
+                -computeApparentSize(
+                    frame.entities[row], layout.bounds.at(frame.entityMeshes[row])
+                ),
+                row
+            );
+        std::nth_element(
+            sizes.begin(), sizes.begin() + static_cast<ptrdiff_t>(masks.size()), sizes.end()
+        );
+        rows.clear();
+        for (size_t i = 0; i < masks.size(); ++i)
+            rows.push_back(sizes[i].second);
+    }
+    for (size_t i = 0; i < rows.size(); ++i)
+        frame.entities[rows[i]].rayMask = masks[i];
+}
+
+} // namespace shutter::render

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// What the shaders of a ray-tracing pipeline tell one another of a ray.
+#ifndef SHUTTER_TRACE_PAYLOAD_GLSL
+#define SHUTTER_TRACE_PAYLOAD_GLSL
+
+struct TracePayload {
+    uvec2 frame;     // to the candidates' shader: address of FrameConstants,
+    uint mask;       // what the ray meets
+    uint leftEntity; // and what it passes: LeftSurface
+    float leftUntil;
+    uint found; // back: 1 where it hit
+    float t;
+    uint entity; // HitId
+    uint geometry;
+    uint primitive;
+    vec2 barycentrics;
+};
+
+#endif

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Ray-tracing pipelines: their tables, and that what they reveal is what ray queries reveal.
+#include "engine/gpu/ray_pipeline.h"
+#include "game/method_renderer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <fmt/format.h>
+
+namespace shutter {
+namespace {
+
+using math::dvec3;
+
+TEST(BindingTable, GroupsStandApartAsTheDeviceAsks) {
+    // A device whose handles are tightly packed, one whose are not, and one with a wide base.
+    for (const gpu::ShaderGroupLimits& limits :
+         {gpu::ShaderGroupLimits{32, 32, 64},
+          gpu::ShaderGroupLimits{32, 64, 64},
+          gpu::ShaderGroupLimits{48, 32, 64},
+          gpu::ShaderGroupLimits{32, 1, 4096}}) {
+        const gpu::BindingTableLayout layout = gpu::computeTableLayout(limits);
+        EXPECT_GE(layout.stride, limits.handleBytes);
+        EXPECT_EQ(layout.stride % limits.handleAlignment, 0u);
+        for (size_t i = 0; i < layout.offsets.size(); ++i) {
+            EXPECT_EQ(layout.offsets[i] % limits.baseAlignment, 0u);
+            const auto end = i + 1 < layout.offsets.size() ? layout.offsets[i + 1] : layout.bytes;
+            EXPECT_GE(end - layout.offsets[i], layout.stride);
+        }
+    }
+}
+
+/// A second device of the tier below.
+class RayPipelineTier : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        if (!device().info().hasRayPipeline || !device().hasRayQuery())
+            GTEST_SKIP() << "the device lacks one of the tiers";
+        open(true);
+    }
+
+    void open(bool allowIndirectLaunch) {
+        gpu::DeviceOptions options;
+        options.validate = true;
+        options.bestTier = gpu::RayTier::Pipeline;
+        options.allowIndirectLaunch = allowIndirectLaunch;
+        options.wanted = device().info().name;
+        auto opened = gpu::Device::create(options);
+        ASSERT_TRUE(opened.ok()) << opened.error().message;
+        mLower = std::move(opened).value();
+    }
+
+    void TearDown() override {
+        if (mLower) {
+            mLower->waitIdle();
+            EXPECT_EQ(mLower->validationMessageCount(), 0u);
+        }
+        mLower.reset();
+        GpuTest::TearDown();
+    }
+
+    gpu::Device& lower() { return *mLower; }
+
+    /// Everything that the reveal writes, and the picture, are the same by both tiers. Hits are
+    /// bit-identical on the software device; elsewhere a hit's place may differ by its rounding,
+    /// which a half-float colour shows as 1/512 of it at most.
+    void expectSamePictures(const test::SceneBuilder& scene, test::Shot shot, size_t leastMasked) {
+        shot.method = test::Method::Hybrid;
+        shot.width = 96;
+        shot.height = 64;
+        shot.background = math::vec3(0.2f, 0.3f, 0.4f);
+        shot.aovs = {"mask", "reveal", "reveal_motion", "reveal_id"};
+        const auto queries = test::renderOnce(device(), scene, shot);
+        const auto pipeline = test::renderOnce(lower(), scene, shot);
+        ASSERT_TRUE(queries.intermediates.contains("mask"));
+        EXPECT_GE(test::countSet(queries.intermediates.at("mask")), leastMasked);
+        EXPECT_EQ(queries.statistics.counters, pipeline.statistics.counters);
+        if (device().info().kind == "software") {
+            for (const std::string& aov : shot.aovs)
+                EXPECT_TRUE(
+                    test::sameBits(queries.intermediates.at(aov), pipeline.intermediates.at(aov))
+                ) << aov;
+            EXPECT_TRUE(test::sameBits(queries.color, pipeline.color));
+            return;
+        }
+        const auto everywhere = [](uint32_t, uint32_t) { return true; };
+        const auto differ = [&](const image::Image& a, const image::Image& b) {
+            return test::computeMaxDifferenceWhere(a, b, everywhere);
+        };
+        EXPECT_LE(
+            differ(queries.intermediates.at("reveal"), pipeline.intermediates.at("reveal")),
+            1.0 / 512
+        );
+        EXPECT_LE(differ(queries.color, pipeline.color), 1.0 / 512);
+    }
+
+  private:
+    std::unique_ptr<gpu::Device> mLower;
+};
+
+/// A mover of two shells before a pane, a leafy sheet, a mirrored box and a wall.
+test::SceneBuilder makeScene() {
+    test::SceneBuilder scene;
+    scene.setPerspective(0.9);
+    const auto waves = scene.addTextured(scene.addWaves());
+    scene.add(test::makeQuad(7, 5, waves), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeBox({1.0, 1.0, 0.4}, waves), {.position = {0.6, 0, -4}, .scale = {-1.2, 1, 1}}
+    );
+    scene::Material leaves;
+    leaves.unlit = true;
+    leaves.alphaMode = scene::AlphaMode::Mask;
+    leaves.doubleSided = true;
+    leaves.baseColor.texture = scene.addWaves(64, true);
+    scene.add(test::makeQuad(2, 2, scene.addMaterial(leaves)), {.position = {-0.6, 0.1, -3}});
+    const auto pink = scene.addColor({1, 0, 0.9f});
+    scene.world.assets.materials.back().doubleSided = true;
+    const auto near = test::makeBox({0.9, 0.9, 0.1}, pink);
+    const auto far = test::transformed(near, glm::translate(math::dmat4(1.0), dvec3(0, 0, -0.4)));
+    scene.add(
+        scene.addMesh({near, far}), {.position = {0.05, -0.03, -1.95}, .velocity = {0.35, 0.1, 0}}
+    );
+    return scene;
+}
+
+void addPane(test::SceneBuilder& scene) {
+    scene::Material glass;
+    glass.unlit = true;
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.baseColorFactor = {0.2f, 0.9f, 0.4f, 0.4f};
+    const auto material = scene.addMaterial(glass);
+    scene.add(test::makeQuad(2.5, 2.5, material), {.position = {0.2, 0, -2.6}});
+    scene.add(test::makeQuad(2.5, 2.5, material), {.position = {-0.2, 0, -1.5}});
+}
+
+TEST_F(RayPipelineTier, ItIsChosenWhereQueriesAreHidden) {
+    EXPECT_TRUE(lower().hasRays());
+    EXPECT_FALSE(lower().hasRayQuery());
+    EXPECT_EQ(lower().info().rayTier, gpu::RayTier::Pipeline);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealInOneTraversal) {
+    expectSamePictures(makeScene(), {}, 150);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealStepByStep) {
+    test::Shot shot;
+    shot.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
+    expectSamePictures(makeScene(), shot, 150);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealWhereLaunchesReadNoSizeFromMemory) {
+    open(false);
+    EXPECT_FALSE(lower().info().tracesIndirect);
+    expectSamePictures(makeScene(), {}, 150);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealByLuminance) {
+    test::Shot shot;
+    shot.settings.objectTest = motion_blur::ObjectTest::Luminance;
+    expectSamePictures(makeScene(), shot, 150);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealThroughBlendedSurfaces) {
+    test::SceneBuilder scene = makeScene();
+    addPane(scene);
+    expectSamePictures(scene, {}, 150);
+}
+
+TEST_F(RayPipelineTier, RevealsWhatQueriesRevealWithMoreMoversThanMasks) {
+    test::SceneBuilder scene = makeScene();
+    scene.moveCamera({.velocity = {0.05, 0, 0}});
+    const auto green = scene.addColor({0, 0.6f, 0});
+    for (int i = 0; i < 60; ++i)
+        scene.add(
+            test::makeQuad(0.4, 0.4, green),
+            {.position = {i % 10 * 0.5 - 2.25, i / 10 * 0.5 - 1.25, -4.5},
+             .velocity = {0.1 * (i % 3), 0, 0}}
+        );
+    expectSamePictures(scene, {}, 150);
+}
+
+TEST_F(RayPipelineTier, AnEmptyMaskLaunchesNothing) {
+    test::SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(
+        test::makeQuad(40, 40, scene.addTextured(scene.addWaves())),
+        {.position = {0, 0, -4}, .velocity = {0.5, 0, 0}}
+    );
+    expectSamePictures(scene, {}, 0);
+}
+
+TEST_F(RayPipelineTier, MethodsThatNestQueriesAreRefusedAndHybridIsNot) {
+    test::SceneBuilder scene = makeScene();
+    const game::Shot shot{std::move(scene.world), scene.camera};
+    render::Renderer renderer(lower(), shot.world.assets);
+    game::RenderOptions options;
+    options.width = 64;
+    options.height = 48;
+    for (const game::MethodInfo& method : game::listMethods()) {
+        options.method = &method;
+        options.samples = 1;
+        const auto created = game::MethodRenderer::create(lower(), renderer, shot, options);
+        EXPECT_EQ(created.ok(), method.rays != game::RayNeed::Query) << method.name;
+        if (created.ok())
+            continue;
+        EXPECT_NE(created.error().message.find(method.name), std::string::npos);
+        EXPECT_NE(created.error().message.find("VK_KHR_ray_query"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace shutter

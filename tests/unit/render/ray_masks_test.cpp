@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// A ray without an entity's mask passes that entity and no other.
+#include "engine/render/ray_masks.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+namespace shutter::render {
+namespace {
+
+/// Whether a ray that leaves `passed` out meets an instance of `mask`.
+bool isMet(uint32_t mask, uint32_t passed) {
+    return (mask & shader::kSolidMask & ~passed) != 0;
+}
+
+TEST(RayMasks, ARayPassesTheInstanceOfItsMaskAndNoOther) {
+    std::vector<uint32_t> masks(listRayMasks().begin(), listRayMasks().end());
+    ASSERT_EQ(masks.size(), 34u);
+    for (size_t i = 0; i < masks.size(); ++i) {
+        EXPECT_EQ(masks[i] & ~shader::kSolidMask, 0u);
+        for (size_t j = 0; j < masks.size(); ++j)
+            EXPECT_EQ(isMet(masks[j], masks[i]), i != j) << i << ", " << j;
+        EXPECT_TRUE(isMet(kSharedRayMask, masks[i]));
+        EXPECT_TRUE(isMet(shader::kSolidMask, masks[i]));
+        EXPECT_TRUE(isMet(masks[i], 0));
+    }
+}
+
+/// Boxes of one mesh: row i at distance distances[i], moving or not.
+class RayMasksOfAFrame : public ::testing::Test {
+  protected:
+    RayMasksOfAFrame() { layout.bounds = {{math::dvec3(-1.0), math::dvec3(1.0)}}; }
+
+    void add(double distance, bool moves) {
+        shader::EntityRow row{};
+        row.clipFromObjectOpen = row.clipFromObjectRaster = row.clipFromObjectClose =
+            math::mat4(1.0f);
+        if (moves)
+            row.clipFromObjectClose[3][0] = 0.5f;
+        for (int i = 0; i < 3; ++i)
+            row.eyeFromObject[i][i] = 1.0f;
+        row.eyeFromObject[2][3] = static_cast<float>(-distance);
+        row.rayMask = 0x55u; // whatever an earlier frame left
+        frame.entities.push_back(row);
+        frame.entityMeshes.push_back(0);
+    }
+
+    std::vector<uint32_t> assign() {
+        assignRayMasks(frame, layout);
+        std::vector<uint32_t> masks;
+        for (const shader::EntityRow& row : frame.entities)
+            masks.push_back(row.rayMask);
+        return masks;
+    }
+
+    ExtractedFrame frame;
+    SceneLayout layout;
+};
+
+TEST_F(RayMasksOfAFrame, AnEmptyFrameHasNone) {
+    EXPECT_TRUE(assign().empty());
+}
+
+TEST_F(RayMasksOfAFrame, WhatMovesGetsOneOfItsOwnAndWhatStandsStillGetsNone) {
+    for (int i = 0; i < 20; ++i)
+        add(5.0, i % 2 == 0);
+    const auto masks = assign();
+    std::set<uint32_t> given;
+    for (size_t i = 0; i < masks.size(); ++i) {
+        EXPECT_EQ(masks[i] != 0, i % 2 == 0) << i;
+        if (masks[i] != 0) {
+            EXPECT_TRUE(given.insert(masks[i]).second) << i;
+        }
+        EXPECT_EQ(solidMaskOf(frame.entities[i]), masks[i] != 0 ? masks[i] : kSharedRayMask);
+    }
+}
+
+TEST_F(RayMasksOfAFrame, AMotionThatEndsWhereItBeganIsOneToo) {
+    add(5.0, false);
+    frame.entities[0].clipFromObjectOpen[3][1] = frame.entities[0].clipFromObjectClose[3][1] =
+        0.25f;
+    EXPECT_NE(assign()[0], 0u);
+}
+
+TEST_F(RayMasksOfAFrame, WhatBendsGetsOne) {
+    add(5.0, false);
+    add(5.0, false);
+    frame.deformed.emplace_back();
+    frame.deformed.back().row = 1;
+    const auto masks = assign();
+    EXPECT_EQ(masks[0], 0u);
+    EXPECT_NE(masks[1], 0u);
+}
+
+TEST_F(RayMasksOfAFrame, WithMoreMoversThanMasksTheApparentlyLargestGetThem) {
+    for (int i = 0; i < 100; ++i)
+        add(3.0 + (i * 37) % 100, true);
+    add(0.0, true); // the camera's own place: no division by zero
+    const auto masks = assign();
+    std::set<uint32_t> given;
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(masks[size_t(i)] != 0, (i * 37) % 100 < 33) << i;
+        if (masks[size_t(i)] != 0) {
+            EXPECT_TRUE(given.insert(masks[size_t(i)]).second) << i;
+        }
+    }
+    EXPECT_NE(masks[100], 0u);
+}
+
+} // namespace
+} // namespace shutter::render
