@@ -280,10 +280,7 @@ Renderer::Tickets Renderer::declareFrame(
         const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
-    const bool raysWanted = std::any_of(running.begin(), running.end(), [](auto* effect) {
-        return effect->needsRays();
-    });
-    if (raysWanted)
+    if (running.rays.run)
         assignRayMasks(frame, mScene.layout());
     RayScene rays;
     const TableAddresses tables = uploadTables(frame, request.view, bent);
