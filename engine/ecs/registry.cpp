@@ -10,6 +10,11 @@ uint32_t takeTypeIndex() {
     return next++;
 }
 
+uint64_t takeLogNumber() {
+    static std::atomic<uint64_t> next = 1;
+    return next++;
+}
+
 Registry::Registry(Registry&& other) noexcept {
     *this = std::move(other);
 }

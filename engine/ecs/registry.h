@@ -28,7 +28,8 @@ template <class T> [[nodiscard]] uint32_t typeIndex() {
 /// Entities and their components (README.md). Structural changes are create, destroy, add and
 /// remove; they invalidate references to components of the types concerned, and they are a CHECK
 /// failure while a view or entities() is being iterated: record them in Commands instead. Several
-/// threads may read a registry that nobody writes.
+/// threads may read a const registry that nobody writes; asking one that is not const for a
+/// component that is not const is writing (changesSince).
 class Registry {
   public:
     Registry() = default;
@@ -103,6 +104,17 @@ class Registry {
 
     template <class... Components> [[nodiscard]] View<const Components...> view() const {
         return {mIterationCount, findSet<std::remove_const_t<Components>>()...};
+    }
+
+    /// Which components of type T may have changed since `cursor`, which then stands at now. All
+    /// that gives out a component to be written counts: add, remove, destroy, and find, get and
+    /// views that are not const. Writing later through a reference kept from then is not seen.
+    template <class T> [[nodiscard]] Changes changesSince(ChangeCursor& cursor) const {
+        if (const SparseSet<T>* set = findSet<T>())
+            return set->changes().since(cursor);
+        const bool other = cursor.log != 0; // of another registry
+        cursor = {};
+        return {other, other, {}};
     }
 
     /// for (Entity entity : registry.entities()), by rising index.

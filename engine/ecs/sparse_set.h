@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Storage of one component type: values lie densely in the order they were added, a sparse array
 // finds them by entity index. Adding, removing and finding are O(1); iteration touches no holes.
+// Whatever may change a value is noted in the storage's log of changes.
 #pragma once
 
+#include "engine/ecs/change_log.h"
 #include "engine/ecs/entity.h"
 
 #include <cstddef>
@@ -33,6 +35,8 @@ class SparseSetBase {
     /// Removes the entity's component. Returns whether there was one.
     virtual bool erase(Entity entity) = 0;
 
+    [[nodiscard]] const ChangeLog& changes() const { return mChanges; }
+
   protected:
     static constexpr uint32_t kAbsent = 0xFFFFFFFFu;
 
@@ -50,10 +54,12 @@ class SparseSetBase {
             mPositions.resize(entity.index + size_t{1}, kAbsent);
         mPositions[entity.index] = static_cast<uint32_t>(mEntities.size());
         mEntities.push_back(entity);
+        mChanges.noteStructure(entity);
     }
 
     /// Moves the last entity into `position`.
     void eraseEntityAt(uint32_t position) {
+        mChanges.noteStructure(mEntities[position]);
         mPositions[mEntities[position].index] = kAbsent;
         if (position + size_t{1} < mEntities.size()) {
             mEntities[position] = mEntities.back();
@@ -62,9 +68,12 @@ class SparseSetBase {
         mEntities.pop_back();
     }
 
+    void noteChange(Entity entity) { mChanges.note(entity); }
+
   private:
     std::vector<uint32_t> mPositions; ///< by entity index
     std::vector<Entity> mEntities;    ///< dense
+    ChangeLog mChanges;
 };
 
 /// Components of type T. References stay valid until the next insert or erase.
@@ -75,9 +84,13 @@ template <class T> class SparseSet final : public SparseSetBase {
     );
 
   public:
+    /// Counts as a change: who only reads asks a const storage.
     [[nodiscard]] T* find(Entity entity) {
         const uint32_t position = positionOf(entity);
-        return position == kAbsent ? nullptr : &mValues[position];
+        if (position == kAbsent)
+            return nullptr;
+        noteChange(entity);
+        return &mValues[position];
     }
 
     [[nodiscard]] const T* find(Entity entity) const {

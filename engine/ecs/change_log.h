@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Which entities' components of one type may have changed: every storage keeps a bounded log, and
+// readers that come again ask for what was noted since (README.md, "Changes").
+#pragma once
+
+#include "engine/ecs/entity.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::ecs {
+
+/// Where a reader stands in the log of one component type. A default one has read nothing.
+struct ChangeCursor {
+    uint64_t log = 0;      ///< which log; 0: there was none, since no entity had had the component
+    uint64_t sequence = 0; ///< entries read
+    uint64_t structureChanges = 0; ///< components added and removed by then
+};
+
+/// What may have changed since a cursor.
+struct Changes {
+    /// More than is remembered, or the first look: everything may have changed.
+    bool all = false;
+    /// A component was added to an entity that lacked it, or removed.
+    bool structure = false;
+    /// Unless `all`: whose component was added, removed, or given out to be written. May hold one
+    /// more than once, and entities that are no longer alive. Until the next change.
+    std::span<const Entity> entities;
+};
+
+/// A number that no other log of the process has; above 0.
+[[nodiscard]] uint64_t takeLogNumber();
+
+/// Private to SparseSetBase.
+class ChangeLog {
+  public:
+    /// Entries that are remembered at least; twice as many are kept at most.
+    static constexpr size_t kRemembered = 1024;
+
+    void note(Entity entity) {
+        // One entity that is written again and again fills no log, unless somebody read in between.
+        if (!mEntries.empty() && mEntries.back() == entity &&
+            !mWasRead.load(std::memory_order_relaxed))
+            return;
+        if (mEntries.size() == 2 * kRemembered) {
+            mEntries.erase(mEntries.begin(), mEntries.begin() + kRemembered);
+            mForgotten += kRemembered;
+        }
+        mEntries.push_back(entity);
+        mWasRead.store(false, std::memory_order_relaxed);
+    }
+
+    void noteStructure(Entity entity) {
+        ++mStructureChanges;
+        note(entity);
+    }
+
+    /// Several threads may read at once.
+    [[nodiscard]] Changes since(ChangeCursor& cursor) const {
+        Changes changes;
+        changes.all = cursor.log != mNumber || cursor.sequence < mForgotten;
+        changes.structure = changes.all || cursor.structureChanges != mStructureChanges;
+        if (!changes.all)
+            changes.entities = std::span(mEntries).subspan(cursor.sequence - mForgotten);
+        cursor = {mNumber, mForgotten + mEntries.size(), mStructureChanges};
+        mWasRead.store(true, std::memory_order_relaxed);
+        return changes;
+    }
+
+  private:
+    uint64_t mNumber = takeLogNumber();
+    std::vector<Entity> mEntries;
+    uint64_t mForgotten = 0; ///< entries before the first of mEntries
+    uint64_t mStructureChanges = 0;
+    mutable std::atomic<bool> mWasRead = false; ///< up to the last entry
+};
+
+} // namespace shutter::ecs
