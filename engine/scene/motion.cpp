@@ -79,8 +79,12 @@ dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
 bool mayMove(const World& world, ecs::Entity entity) {
     const ecs::Registry& registry = world.registry;
     return findUpwards(world, entity, [&](ecs::Entity at) {
+               // Written so that NaN moves.
+               const auto* linear = registry.find<LinearVelocity>(at);
+               const auto* angular = registry.find<AngularVelocity>(at);
                const auto* path = registry.find<PathMotion>(at);
-               return registry.has<LinearVelocity>(at) || registry.has<AngularVelocity>(at) ||
+               return (linear && linear->metresPerSecond != dvec3(0.0)) ||
+                      (angular && angular->radiansPerSecond != dvec3(0.0)) ||
                       registry.has<Animated>(at) || (path && path->keys.size() > 1);
            }) != ecs::kNullEntity;
 }

@@ -215,6 +215,11 @@ TEST_F(WorldFromEntity, OnlyWhatCouldMoveMayMove) {
     mWorld.registry.add(slider, LinearVelocity{});
     const ecs::Entity spinner = addEntity();
     mWorld.registry.add(spinner, AngularVelocity{});
+    EXPECT_FALSE(mayMove(mWorld, slider));
+    EXPECT_FALSE(mayMove(mWorld, spinner));
+    mWorld.registry.get<LinearVelocity>(slider).metresPerSecond.y =
+        std::numeric_limits<double>::quiet_NaN();
+    mWorld.registry.get<AngularVelocity>(spinner).radiansPerSecond.z = 0.1;
     const ecs::Entity animated = addEntity();
     mWorld.registry.add(animated, Animated{});
     for (const ecs::Entity mover : {slider, spinner, animated}) {
