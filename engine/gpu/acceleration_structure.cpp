@@ -215,7 +215,7 @@ void TopLevel::prepare(Device& device, std::span<const Instance> instances) {
     mScratch = makeScratch(device, "TLAS scratch", sizes.buildScratchSize);
 }
 
-void TopLevel::record(const Device& device, VkCommandBuffer commands) {
+void TopLevel::record(const Device& device, VkCommandBuffer commands) const {
     InstanceBuild(mInstances.address())
         .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
 }

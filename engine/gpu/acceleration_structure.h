@@ -62,6 +62,8 @@ struct Instance {
     bool flipFacing = false;     ///< front faces run clockwise: their vertices were mirrored
     uint32_t mask = 0xFF;        ///< rays whose cull mask shares a bit meet it
     VkDeviceAddress bottomLevel = 0;
+
+    bool operator==(const Instance&) const = default;
 };
 
 /// One TLAS an instance, built and waited for: load time only.
@@ -102,7 +104,7 @@ class TopLevel {
     void prepare(Device& device, std::span<const Instance> instances);
     /// Records the build. The caller places barriers (build reads and writes
     /// ACCELERATION_STRUCTURE_BUILD).
-    void record(const Device& device, VkCommandBuffer commands);
+    void record(const Device& device, VkCommandBuffer commands) const;
 
     [[nodiscard]] const AccelerationStructure& structure() const { return mStructure; }
 

@@ -39,29 +39,29 @@ gpu::Instance describeInstance(const GpuScene& scene, const BentInstance& bent) 
     return instance;
 }
 
-void InstanceList::add(
+bool InstanceList::add(
     uint32_t row, uint32_t mesh, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
 ) {
     if (!mScene.bottomLevel(mesh))
-        return;
+        return false;
     gpu::Instance instance = describeInstance(mScene, mesh);
     instance.customIndex = row;
     narrow(instance, solidMask);
-    place(instance, mScene.layout().bounds[mesh], eyeFromObject);
+    return place(instance, mScene.layout().bounds[mesh], eyeFromObject);
 }
 
-void InstanceList::add(
+bool InstanceList::add(
     const BentInstance& bent, const math::vec4 (&eyeFromObject)[3], uint32_t solidMask
 ) {
     if (bent.bottomLevel == 0)
-        return;
+        return false;
     gpu::Instance instance = describeInstance(mScene, bent);
     instance.customIndex = bent.row;
     narrow(instance, solidMask);
-    place(instance, bent.bounds, eyeFromObject);
+    return place(instance, bent.bounds, eyeFromObject);
 }
 
-void InstanceList::place(
+bool InstanceList::place(
     gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]
 ) {
     math::dmat4 matrix(1.0);
@@ -71,9 +71,10 @@ void InstanceList::place(
             matrix[column][r] = double(eyeFromObject[r][column]);
         }
     if (!isDrawable(matrix))
-        return;
+        return false;
     const math::Bounds placed = math::transformBounds(matrix, bounds);
     add(instance, {math::vec3(placed.min), math::vec3(placed.max)});
+    return true;
 }
 
 void InstanceList::add(const gpu::Instance& instance, const Box& box) {
@@ -84,7 +85,7 @@ void InstanceList::add(const gpu::Instance& instance, const Box& box) {
 std::vector<gpu::Instance> InstanceList::order() const {
     std::vector<gpu::Instance> ordered;
     ordered.reserve(mInstances.size());
-    for (const uint32_t index : computeSpatialOrder(mBoxes))
+    for (const uint32_t index : computeOrder())
         ordered.push_back(mInstances[index]);
     return ordered;
 }

@@ -28,25 +28,31 @@ class InstanceList {
   public:
     explicit InstanceList(const GpuScene& scene) : mScene(scene) {}
 
-    /// Leaves out meshes that no ray can meet and matrices that are singular or not finite.
+    /// Leaves out meshes that no ray can meet and matrices that are singular or not finite: false.
     /// \param eyeFromObject rows of a 3x4 matrix
     /// \param solidMask bits of kSolidMask that its solid parts get
-    void
+    bool
     add(uint32_t row,
         uint32_t mesh,
         const math::vec4 (&eyeFromObject)[3],
         uint32_t solidMask = shader::kSolidMask);
-    void
+    bool
     add(const BentInstance& bent,
         const math::vec4 (&eyeFromObject)[3],
         uint32_t solidMask = shader::kSolidMask);
     void add(const gpu::Instance& instance, const Box& box);
 
+    /// As they were added.
+    [[nodiscard]] const std::vector<gpu::Instance>& instances() const { return mInstances; }
+
+    /// computeSpatialOrder() of them.
+    [[nodiscard]] std::vector<uint32_t> computeOrder() const { return computeSpatialOrder(mBoxes); }
+
     /// In an order that builders which keep it make a good tree of.
     [[nodiscard]] std::vector<gpu::Instance> order() const;
 
   private:
-    void
+    bool
     place(gpu::Instance instance, const math::Bounds& bounds, const math::vec4 (&eyeFromObject)[3]);
 
     const GpuScene& mScene;

@@ -29,6 +29,7 @@ graph::BufferHandle ShapeLevels::declare(
 ) {
     using graph::Access;
     mAddresses.assign(frame.deformed.size(), 0);
+    mWasRebuilt = false;
     std::vector<gpu::BottomLevelDesc> levels;
     std::vector<size_t> owners; // of ExtractedFrame::deformed
     size_t row = 0;
@@ -61,6 +62,7 @@ graph::BufferHandle ShapeLevels::declare(
             return action == gpu::BuildAction::Keep;
         }))
         return levelsBuffer;
+    mWasRebuilt = true;
 
     struct Data {};
 

@@ -32,6 +32,9 @@ class ShapeLevels {
     /// Of ExtractedFrame::deformed[index]; 0: it has no triangles.
     [[nodiscard]] VkDeviceAddress address(size_t index) const { return mAddresses[index]; }
 
+    /// The last declare() declared a build: structures above have to be built too.
+    [[nodiscard]] bool wasRebuilt() const { return mWasRebuilt; }
+
   private:
     /// What a level was built of last.
     struct Built {
@@ -47,6 +50,7 @@ class ShapeLevels {
     gpu::StructureSet mLevels;
     std::vector<Built> mBuilt; ///< beside mLevels
     std::vector<VkDeviceAddress> mAddresses;
+    bool mWasRebuilt = false;
 };
 
 } // namespace shutter::render
