@@ -96,40 +96,97 @@ Shape pumpkin(float radius, int ringCount) {
     return shape;
 }
 
+/// Boxes in cells that are 16:9 as the picture is, as many in a row as in a column; the last row
+/// may be short.
+class BoxGrid {
+  public:
+    explicit BoxGrid(int count)
+        : mSide(static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))))),
+          mHalf(halfView(kMoverDepth) * 0.92f),
+          mCell(2.0f * mHalf / vec2(mSide, (count + mSide - 1) / mSide)) {}
+
+    [[nodiscard]] MeshPart makeBox(Index material) const {
+        constexpr float kBoxShare = 0.68f; // of a cell's width and height
+        const float size = kBoxShare / 2.0f * std::min(mCell.x, mCell.y);
+        // Flat, or nearer fronts and visible sides would hide more than the cell's share.
+        const float thickness = 0.1f * size;
+        return {
+            .shape =
+                box({kBoxShare / 2.0f * mCell.x, kBoxShare / 2.0f * mCell.y, thickness},
+                    2.0f * size),
+            .material = material};
+    }
+
+    /// Centre of the box, metres.
+    [[nodiscard]] vec3 placeOf(int i) const {
+        const vec2 place = -mHalf + mCell * (vec2(i % mSide, i / mSide) + 0.5f);
+        const float depth = depthOf(i);
+        return {place * (depth / kMoverDepth), -depth};
+    }
+
+    /// 12 to 20 px in an exposure at 1280x720, m/s.
+    [[nodiscard]] static vec3 velocityOf(int i) {
+        const float angle = glm::two_pi<float>() * hash(i, 0, 3);
+        const float pixels = 12.0f + 8.0f * hash(i, 1, 3);
+        return kShot.velocityFor(pixels * vec2(std::cos(angle), std::sin(angle)), depthOf(i));
+    }
+
+  private:
+    static float depthOf(int i) { return kMoverDepth + 0.2f * (hash(i, 2, 3) - 0.5f); }
+
+    int mSide;
+    vec2 mHalf;
+    vec2 mCell;
+};
+
 } // namespace
 
 GltfWriter buildEntitiesScene(int count) {
-    constexpr float kBoxShare = 0.68f; // of a cell's width and height
     count = std::clamp(count, 1, kMaxEntityCount);
     GltfWriter writer("entities");
     addStage(writer);
     addFlatWall(writer);
-    const vec2 half = halfView(kMoverDepth) * 0.92f;
-    // Cells are 16:9 as the picture is, as many in a row as in a column; the last row may be short.
-    const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))));
-    const int rowCount = (count + side - 1) / side;
-    const vec2 cell = 2.0f * half / vec2(side, rowCount);
-    const float size = kBoxShare / 2.0f * std::min(cell.x, cell.y);
-    // Flat, or nearer fronts and visible sides would hide more than the cell's share.
-    const float thickness = 0.1f * size;
-    const MeshPart part{
-        .shape =
-            box({kBoxShare / 2.0f * cell.x, kBoxShare / 2.0f * cell.y, thickness}, 2.0f * size),
-        .material = addTextured(writer, "crate_boards", crateBoards(), 0.8f)};
+    const BoxGrid grid(count);
+    const MeshPart part = grid.makeBox(addTextured(writer, "crate_boards", crateBoards(), 0.8f));
     const Index mesh = writer.addMesh("box", {&part, 1});
-    for (int i = 0; i < count; ++i) {
-        const vec2 place = -half + cell * (vec2(i % side, i / side) + 0.5f);
-        const float angle = glm::two_pi<float>() * hash(i, 0, 3);
-        const float pixels = 12.0f + 8.0f * hash(i, 1, 3);
-        const float depth = kMoverDepth + 0.2f * (hash(i, 2, 3) - 0.5f);
+    for (int i = 0; i < count; ++i)
         writer.addNode(
             {.name = fmt::format("box_{}", i + 1),
-             .translation = {place * (depth / kMoverDepth), -depth},
+             .translation = grid.placeOf(i),
              .mesh = mesh,
-             .linearVelocity =
-                 kShot.velocityFor(pixels * vec2(std::cos(angle), std::sin(angle)), depth)}
+             .linearVelocity = grid.velocityOf(i)}
         );
+    return writer;
+}
+
+GltfWriter buildFewMoversScene(int count, int movers, bool merged) {
+    count = std::clamp(count, 1, kMaxEntityCount);
+    movers = std::clamp(movers, 0, count);
+    GltfWriter writer("few_movers");
+    addStage(writer);
+    const BoxGrid grid(count);
+    const MeshPart part = grid.makeBox(addTextured(writer, "crate_boards", crateBoards(), 0.8f));
+    const Index mesh = writer.addMesh("box", {&part, 1});
+    // Each of as many runs of boxes has its mover in the middle, however long they are.
+    const auto isMover = [&](int i) {
+        const int64_t run = (int64_t{i} * movers) / count;
+        const int64_t first = (run * count + movers - 1) / std::max(movers, 1);
+        const int64_t next = ((run + 1) * count + movers - 1) / std::max(movers, 1);
+        return movers > 0 && i == (first + next - 1) / 2;
+    };
+    MeshPart still{.shape = {}, .material = part.material};
+    for (int i = 0; i < count; ++i) {
+        NodeDesc node{
+            .name = fmt::format("box_{}", i + 1), .translation = grid.placeOf(i), .mesh = mesh};
+        if (isMover(i))
+            node.linearVelocity = grid.velocityOf(i);
+        else if (merged)
+            append(still.shape, part.shape, glm::translate(mat4(1.0f), grid.placeOf(i)));
+        if (isMover(i) || !merged)
+            writer.addNode(node);
     }
+    if (!still.shape.indices.empty())
+        writer.addNode({.name = "boxes", .mesh = writer.addMesh("boxes", {&still, 1})});
     return writer;
 }
 

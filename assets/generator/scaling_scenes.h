@@ -23,6 +23,11 @@ inline constexpr int kMaxTriangleCount = 1'000'000;
 /// by the same 12 to 20 px at 1280x720. \param count clamped to [1, kMaxEntityCount]
 [[nodiscard]] GltfWriter buildEntitiesScene(int count);
 
+/// A grid of `count` boxes that share one mesh, of which `movers`, spread over it, move by 12 to 20
+/// px at 1280x720; the others stand still. `merged`: those are one mesh of one entity; the picture
+/// is the same. No wall. \param count clamped to [1, kMaxEntityCount]; movers to [0, count]
+[[nodiscard]] GltfWriter buildFewMoversScene(int count, int movers, bool merged);
+
 /// One mover and a relief behind it, each half of `count` triangles, within 2 %. The shapes stay,
 /// their detail changes. \param count clamped to [kMinTriangleCount, kMaxTriangleCount]
 [[nodiscard]] GltfWriter buildTrianglesScene(int count);

@@ -115,6 +115,32 @@ TEST(ScalingScenes, HoldAsManyMovingEntitiesAsAskedFor) {
     }
 }
 
+TEST(ScalingScenes, FewMoversHaveAsManyEntitiesAsAskedForOrOneThatStandsStill) {
+    for (const auto& [count, movers] :
+         {std::pair{1, 0}, {1, 1}, {100, 7}, {101, 101}, {10'000, 10}})
+        for (const bool merged : {false, true}) {
+            const scene::World world = writeAndLoad(
+                fmt::format("few_movers_{}_{}_{}", count, movers, merged),
+                buildFewMoversScene(count, movers, merged)
+            );
+            const ecs::Entity* camera = findCamera(world, kScalingCamera);
+            ASSERT_NE(camera, nullptr);
+            EXPECT_EQ(
+                countMovers(
+                    world, *camera, kScalingSeconds - kScalingExposureSeconds, kScalingSeconds
+                ),
+                size_t(movers)
+            );
+            size_t drawn = 0;
+            for (auto [entity, instance] : world.registry.view<scene::MeshInstance>())
+                drawn += instance.mesh != scene::kNone;
+            EXPECT_EQ(drawn, merged ? size_t(movers) + (movers < count) : size_t(count));
+            if (merged) {
+                EXPECT_EQ(countTriangles(world), size_t(count) * 12);
+            }
+        }
+}
+
 TEST(ScalingScenes, EntityCountsOutsideTheRangeAreClamped) {
     const auto count = [](int asked) {
         const scene::World world = writeAndLoad("entities_clamped", buildEntitiesScene(asked));
