@@ -42,10 +42,10 @@ findDecision(std::span<const Explanation> explanations, const std::string& subje
 }
 
 SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {
-    const auto masked =
-        std::count_if(frame.opaque.begin(), frame.opaque.end(), [](const DrawItem& draw) {
-            return draw.alphaMode == scene::AlphaMode::Mask;
-        });
+    size_t masked = 0;
+    frame.opaque.forEach([&](const DrawItem& draw) {
+        masked += draw.alphaMode == scene::AlphaMode::Mask;
+    });
     SurfaceDemand demand;
     demand.bending = {false, "no mesh that is drawn has a skin or morph targets"};
     if (!frame.deformed.empty())
@@ -56,9 +56,7 @@ SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {
     demand.alphaMask = {false, "no surface in the picture has an alpha mask"};
     if (masked > 0)
         demand.alphaMask = {
-            true,
-            countOf(static_cast<size_t>(masked), "draw", "draws") +
-                " in the picture with an alpha mask"};
+            true, countOf(masked, "draw", "draws") + " in the picture with an alpha mask"};
     demand.blending = {false, "no surface in the picture is blended"};
     if (!frame.blended.empty())
         demand.blending = {

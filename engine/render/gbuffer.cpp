@@ -9,6 +9,8 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 
+#include <utility>
+
 namespace shutter::render {
 
 namespace {
@@ -19,16 +21,16 @@ constexpr VkFormat kMotionDepthFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kMeshIdFormat = VK_FORMAT_R32_UINT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-enum class Variant { Opaque, Masked, Blended };
+using Variant = GBufferPass::Variant;
 
-gpu::GraphicsPipelineDesc describeGeometry(const GpuScene& scene, Variant variant) {
+gpu::GraphicsPipelineDesc describeGeometry(const GpuScene& scene, Variant variant, bool moves) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
     desc.fragmentSpirv = render_gbuffer_frag;
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
-    desc.specialization = {variant == Variant::Masked ? 1u : 0u, variant == Variant::Blended};
+    desc.specialization = {variant == Variant::Masked, variant == Variant::Blended, moves};
     desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kMeshIdFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthWrite = variant != Variant::Blended;
@@ -37,7 +39,7 @@ gpu::GraphicsPipelineDesc describeGeometry(const GpuScene& scene, Variant varian
 }
 
 gpu::GraphicsPipelineDesc describeSky(const GpuScene& scene) {
-    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque);
+    gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false);
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
     desc.fragmentSpirv = render_sky_frag;
@@ -48,41 +50,70 @@ gpu::GraphicsPipelineDesc describeSky(const GpuScene& scene) {
 }
 
 /// Records the draws of one frame.
-struct Recorder {
-    gpu::Frame& frame;
-    const GpuScene& scene;
-    math::uvec2 constants;
+class Recorder {
+  public:
+    Recorder(
+        gpu::Frame& commands,
+        const ExtractedFrame& frame,
+        const GpuScene& scene,
+        VkDeviceAddress constants
+    )
+        : mCommands(commands), mFrame(frame), mScene(scene), mConstants(splitAddress(constants)) {}
 
-    void bind(const gpu::Pipeline& pipeline) const {
-        frame.bind(pipeline, {}, nullptr, 0, scene.textureSet());
+    /// Binds the pipeline unless it is bound.
+    void bind(const gpu::Pipeline& pipeline) {
+        if (std::exchange(mBound, &pipeline) != &pipeline)
+            mCommands.bind(pipeline, {}, nullptr, 0, mScene.textureSet());
     }
 
-    void push(const gpu::Pipeline& pipeline, uint32_t entity, uint32_t geometry) const {
-        const shader::DrawConstants draw{constants, entity, geometry};
+    void draw(const GBufferPass::Pipelines& pipelines, const DrawItem& item) {
+        const SceneLayout::GeometryInfo& info = mScene.layout().geometries[item.geometry];
+        const bool moves = mFrame.entities[item.entity].motion != shader::kNoMotion;
+        bind(moves ? pipelines.moving : pipelines.still);
+        push(item.entity, item.geometryRow);
+        set(item.doubleSided, item.mirrored);
+        vkCmdDrawIndexed(mCommands.commands(), info.indexCount, 1, info.firstIndex, 0, 0);
+    }
+
+    /// The bound pipeline's, without buffers.
+    void drawScreen() {
+        push(0, 0);
+        set(true, false);
+        vkCmdDraw(mCommands.commands(), 3, 1, 0, 0);
+    }
+
+  private:
+    void push(uint32_t entity, uint32_t geometry) const {
+        const shader::DrawConstants draw{mConstants, entity, geometry};
         vkCmdPushConstants(
-            frame.commands(), pipeline.layout(), pipeline.stages(), 0, sizeof(draw), &draw
+            mCommands.commands(), mBound->layout(), mBound->stages(), 0, sizeof(draw), &draw
         );
     }
 
-    void draw(const gpu::Pipeline& pipeline, const DrawItem& item) const {
-        const SceneLayout::GeometryInfo& info = scene.layout().geometries[item.geometry];
-        const VkCommandBuffer commands = frame.commands();
-        push(pipeline, item.entity, item.geometryRow);
-        vkCmdSetCullMode(commands, item.doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+    void set(bool doubleSided, bool mirrored) const {
+        const VkCommandBuffer commands = mCommands.commands();
+        vkCmdSetCullMode(commands, doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(
-            commands, item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE
+            commands, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE
         );
-        vkCmdDrawIndexed(commands, info.indexCount, 1, info.firstIndex, 0, 0);
     }
+
+    gpu::Frame& mCommands;
+    const ExtractedFrame& mFrame;
+    const GpuScene& mScene;
+    math::uvec2 mConstants;
+    const gpu::Pipeline* mBound = nullptr;
 };
 
 } // namespace
 
+GBufferPass::Pipelines::Pipelines(gpu::Device& device, const GpuScene& scene, Variant variant)
+    : still(device, describeGeometry(scene, variant, false)),
+      moving(device, describeGeometry(scene, variant, true)) {}
+
 GBufferPass::GBufferPass(gpu::Device& device, const GpuScene& scene)
-    : mOpaque(device, describeGeometry(scene, Variant::Opaque)),
-      mMasked(device, describeGeometry(scene, Variant::Masked)),
-      mBlended(device, describeGeometry(scene, Variant::Blended)),
-      mSky(device, describeSky(scene)) {}
+    : mOpaque(device, scene, Variant::Opaque), mMasked(device, scene, Variant::Masked),
+      mBlended(device, scene, Variant::Blended), mSky(device, describeSky(scene)) {}
 
 GBuffer GBufferPass::declare(
     graph::Graph& graph,
@@ -117,30 +148,16 @@ GBuffer GBufferPass::declare(
             (void)builder.depthTarget(depth, 0.0f);
         },
         [this, &frame, &scene, frameConstants](const Data&, graph::PassContext& context) {
-            const Recorder recorder{context.frame, scene, splitAddress(frameConstants)};
+            Recorder recorder(context.frame, frame, scene, frameConstants);
             vkCmdBindIndexBuffer(context.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
-            for (const bool masked : {false, true}) {
-                const gpu::Pipeline& pipeline = masked ? mMasked : mOpaque;
-                bool bound = false;
-                for (const DrawItem& item : frame.opaque) {
-                    if ((item.alphaMode == scene::AlphaMode::Mask) != masked)
-                        continue;
-                    if (!bound)
-                        recorder.bind(pipeline);
-                    bound = true;
-                    recorder.draw(pipeline, item);
-                }
-            }
+            for (const bool masked : {false, true})
+                frame.opaque.forEach([&](const DrawItem& item) {
+                    if ((item.alphaMode == scene::AlphaMode::Mask) == masked)
+                        recorder.draw(masked ? mMasked : mOpaque, item);
+                });
             recorder.bind(mSky);
-            recorder.push(mSky, 0, 0);
-            vkCmdSetCullMode(context.commands, VK_CULL_MODE_NONE);
-            vkCmdSetFrontFace(context.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-            vkCmdDraw(context.commands, 3, 1, 0, 0);
-            if (frame.blended.empty())
-                return;
-            recorder.bind(mBlended);
-            for (const DrawItem& item : frame.blended)
-                recorder.draw(mBlended, item);
+            recorder.drawScreen();
+            frame.blended.forEach([&](const DrawItem& item) { recorder.draw(mBlended, item); });
         }
     );
     return targets;

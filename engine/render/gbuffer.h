@@ -6,6 +6,8 @@
 #include "engine/render/extraction.h"
 #include "engine/render/gpu_scene.h"
 
+#include <cstdint>
+
 namespace shutter::render {
 
 /// What the raster pass leaves. Formats are chosen for one nearest fetch a tap (lavapipe) and for
@@ -21,6 +23,16 @@ struct GBuffer {
 /// The pipelines of the G-buffer; one a scene (they know its texture table).
 class GBufferPass {
   public:
+    enum class Variant : uint8_t { Opaque, Masked, Blended };
+
+    /// Of one variant.
+    struct Pipelines {
+        Pipelines(gpu::Device& device, const GpuScene& scene, Variant variant);
+
+        gpu::Pipeline still;  ///< of entities that have no motion: works out none and writes 0
+        gpu::Pipeline moving; ///< of the others
+    };
+
     GBufferPass(gpu::Device& device, const GpuScene& scene);
 
     /// Declares the pass. `frame` and `scene` must live until it has been recorded.
@@ -34,9 +46,9 @@ class GBufferPass {
     ) const;
 
   private:
-    gpu::Pipeline mOpaque;
-    gpu::Pipeline mMasked;
-    gpu::Pipeline mBlended;
+    Pipelines mOpaque;
+    Pipelines mMasked;
+    Pipelines mBlended;
     gpu::Pipeline mSky;
 };
 

@@ -196,6 +196,7 @@ class Builder {
             shader::EntityRow row{};
             row.firstGeometry = firstGeometry;
             row.handedness = 1.0f;
+            row.motion = shader::kNoMotion;
             mFrame.entities.push_back(row);
             mFrame.entityMeshes.push_back(instance.mesh);
             mFrame.entityHandles.push_back(entity);

@@ -18,7 +18,8 @@ namespace shutter::render {
 
 /// What rays need; handles of this frame.
 struct RayScene {
-    graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
+    graph::BufferHandle topLevelBuffer;    ///< read it with Access::AccelerationRead
+    graph::BufferHandle movingLevelBuffer; ///< likewise, unless it is invalid: there is no second
     /// Levels of bent meshes, read with AccelerationRead, and their vertices, read with ShaderRead;
     /// invalid where nothing is bent.
     graph::BufferHandle shapeLevelsBuffer;

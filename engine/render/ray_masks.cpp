@@ -26,22 +26,18 @@ std::vector<uint32_t> makeRayMasks() {
     return masks;
 }
 
-bool isMoving(const shader::EntityRow& row) {
-    return row.clipFromObjectOpen != row.clipFromObjectRaster ||
-           row.clipFromObjectClose != row.clipFromObjectRaster;
-}
-
 /// Rows a masked pixel may show: whose motion can be longer than nothing.
 std::vector<uint32_t> listMoving(const ExtractedFrame& frame) {
     std::vector<uint32_t> rows;
-    size_t nextDeformed = 0;
-    for (uint32_t row = 0; row < frame.entities.size(); ++row) {
-        const bool bent =
-            nextDeformed < frame.deformed.size() && frame.deformed[nextDeformed].row == row;
-        nextDeformed += bent;
-        if (bent || isMoving(frame.entities[row]))
+    const auto consider = [&](uint32_t row) {
+        if (frame.entities[row].motion != shader::kNoMotion)
             rows.push_back(row);
-    }
+    };
+    if (frame.stillMotions.empty())
+        std::for_each(frame.movingRows.begin(), frame.movingRows.end(), consider);
+    else // the camera moves
+        for (uint32_t row = 0; row < frame.changes.ownRows; ++row)
+            consider(row);
     return rows;
 }
 
@@ -64,9 +60,11 @@ std::span<const uint32_t> listRayMasks() {
 }
 
 void assignRayMasks(ExtractedFrame& frame, const SceneLayout& layout) {
-    for (shader::EntityRow& row : frame.entities)
-        row.rayMask = 0;
     std::vector<uint32_t> rows = listMoving(frame);
+    for (const uint32_t row : rows) // all others have none
+        frame.entities[row].rayMask = 0;
+    if (!frame.changes.all)
+        frame.changes.rows.insert(frame.changes.rows.end(), rows.begin(), rows.end());
     const std::span<const uint32_t> masks = listRayMasks();
     if (rows.size() > masks.size()) {
         std::vector<std::pair<double, uint32_t>> sizes;

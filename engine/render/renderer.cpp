@@ -3,7 +3,6 @@
 
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
-#include "engine/render/instances.h"
 #include "engine/render/motion_cap.h"
 #include "engine/render/ray_masks.h"
 #include "engine/scene/shutter.h"
@@ -58,8 +57,8 @@ void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
-      mPool(device), mReadback(device), mDeformation(device), mShapeLevels(device),
-      mMovingScene(device) {}
+      mPool(device), mReadback(device), mEntityTable(device), mDeformation(device),
+      mTopLevels(device), mMovingScene(device) {}
 
 Renderer::RunningEffects Renderer::askEffects(
     std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
@@ -88,9 +87,7 @@ Renderer::TableAddresses Renderer::uploadTables(
     ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
 ) {
     const std::span<const shader::Geometry> own = mScene.geometryRows();
-    const VkDeviceSize entitiesAt = alignTable(sizeof(shader::FrameConstants));
-    const VkDeviceSize entityBytes = frame.entities.size() * sizeof(shader::EntityRow);
-    const VkDeviceSize lightsAt = entitiesAt + alignTable(entityBytes);
+    const VkDeviceSize lightsAt = alignTable(sizeof(shader::FrameConstants));
     const VkDeviceSize lightBytes = frame.lights.size() * sizeof(shader::LightRow);
     const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
     const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
@@ -106,13 +103,13 @@ Renderer::TableAddresses Renderer::uploadTables(
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Upload
         );
-    frame.constants.entities = splitAddress(mTables.address() + entitiesAt);
+    frame.constants.entities = splitAddress(mEntityTable.rows());
+    frame.constants.entityMotions = splitAddress(mEntityTable.motions());
     frame.constants.lights = splitAddress(mTables.address() + lightsAt);
     frame.constants.geometries =
         splitAddress(bent.empty() ? mScene.geometryTable() : mTables.address() + geometriesAt);
     frame.constants.materials = splitAddress(mScene.materialTable());
     mTables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
-    mTables.write(std::span<const shader::EntityRow>(frame.entities), entitiesAt);
     mTables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
     if (response)
         mTables.writeBytes(&*response, sizeof(*response), responseAt);
@@ -123,48 +120,17 @@ Renderer::TableAddresses Renderer::uploadTables(
     return {mTables.address(), response ? mTables.address() + responseAt : 0};
 }
 
-void Renderer::declareTopLevel(
-    graph::Graph& graph, const ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
+void Renderer::declareTopLevels(
+    graph::Graph& graph, ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
 ) {
     mScene.buildBottomLevels();
+    const TopLevelHandles levels = mTopLevels.declare(graph, frame, mScene, shapes);
+    rays.topLevelBuffer = levels.buffer;
+    rays.movingLevelBuffer = levels.movingBuffer;
+    rays.shapeLevelsBuffer = levels.shapesBuffer;
     rays.shapesBuffer = shapes.buffer;
-    rays.shapeLevelsBuffer = mShapeLevels.declare(graph, frame, mScene, shapes);
-    InstanceList instances(mScene);
-    size_t nextDeformed = 0;
-    for (uint32_t row = 0; row < frame.entities.size(); ++row) {
-        const auto& eyeFromObject = frame.entities[row].eyeFromObject;
-        const uint32_t solidMask = solidMaskOf(frame.entities[row]);
-        if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
-            instances.add(row, frame.entityMeshes[row], eyeFromObject, solidMask);
-            continue;
-        }
-        const DeformedEntity& bent = frame.deformed[nextDeformed];
-        const VkDeviceAddress level = mShapeLevels.address(nextDeformed++);
-        instances.add(
-            BentInstance{row, bent.mesh, bent.mirrored, level, bent.bounds},
-            eyeFromObject,
-            solidMask
-        );
-    }
-    mTopLevel.prepare(mDevice, instances.order());
-    rays.topLevel = mTopLevel.structure().handle();
-    const auto imported =
-        graph.importBuffer("top-level acceleration structure", mTopLevel.structure().buffer(), 0);
-
-    struct Data {};
-
-    graph.addPass<Data>(
-        "build top level",
-        graph::PassKind::Build,
-        [&](graph::PassBuilder& builder, Data&) {
-            if (rays.shapeLevelsBuffer.isValid())
-                builder.read(rays.shapeLevelsBuffer, graph::Access::AccelerationRead);
-            rays.topLevelBuffer = builder.write(imported, graph::Access::AccelerationBuild);
-        },
-        [this](const Data&, graph::PassContext& context) {
-            mTopLevel.record(mDevice, context.commands);
-        }
-    );
+    rays.topLevel = levels.level;
+    frame.constants.movingLevel = splitAddress(levels.movingLevel);
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -178,12 +144,14 @@ core::Result<FrameResult> Renderer::renderFrame(
     const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
 ) {
     const Clock::time_point start = Clock::now();
-    auto extracted = extractFrame(world, mScene.layout(), request.view);
+    auto extracted = mExtractor.update(world, mScene.layout(), request.view);
     if (!extracted)
         return extracted.error();
-    ExtractedFrame& frame = extracted.value();
+    ExtractedFrame& frame = *extracted.value();
     const ViewFacts facts = stateFacts(request, frame.moves, mDevice);
     FrameResult result;
+    FrameStatistics& statistics = result.statistics;
+    statistics.measures["extraction ms"] = millisecondsSince(start);
     Explainer explainer;
     const RunningEffects running = askEffects(effects, facts, explainer);
     if (request.wantReasons) {
@@ -205,6 +173,10 @@ core::Result<FrameResult> Renderer::renderFrame(
     graph::Graph graph;
     const Tickets tickets =
         declareFrame(graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer);
+    statistics.measures["entity table ms"] = mTableMilliseconds;
+    statistics.measures["top level ms"] = mTopLevelMilliseconds;
+    statistics.counters["entity rows written"] = mWritten.rows;
+    statistics.counters["entity motions written"] = mWritten.motions;
     auto plan = graph::execute(graph, mFrame, mPool);
     if (!plan)
         return plan.error();
@@ -280,16 +252,22 @@ Renderer::Tickets Renderer::declareFrame(
         const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
-    if (running.rays.run)
-        assignRayMasks(frame, mScene.layout());
     RayScene rays;
+    explainer.beginPasses(graph, running.rays.reason);
+    mTopLevelMilliseconds = 0.0;
+    if (running.rays.run) {
+        const Clock::time_point start = Clock::now();
+        assignRayMasks(frame, mScene.layout());
+        declareTopLevels(graph, frame, shapes, rays);
+        mTopLevelMilliseconds = millisecondsSince(start);
+    }
+    const Clock::time_point start = Clock::now();
+    mWritten = mEntityTable.update(frame);
+    mTableMilliseconds = millisecondsSince(start);
     const TableAddresses tables = uploadTables(frame, request.view, bent);
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    explainer.beginPasses(graph, running.rays.reason);
-    if (running.rays.run)
-        declareTopLevel(graph, frame, shapes, rays);
     explainer.beginPasses(graph, running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {

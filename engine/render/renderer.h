@@ -2,18 +2,19 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/transient_pool.h"
 #include "engine/image/image.h"
 #include "engine/render/deformation_pass.h"
+#include "engine/render/entity_table.h"
 #include "engine/render/extraction.h"
+#include "engine/render/frame_extractor.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/gpu_scene.h"
 #include "engine/render/moving_scene.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
-#include "engine/render/shape_levels.h"
+#include "engine/render/top_levels.h"
 
 #include <map>
 #include <memory>
@@ -40,7 +41,10 @@ struct FrameStatistics {
     std::vector<gpu::PassTime> passes; ///< in execution order
     double cpuMilliseconds = 0.0;      ///< extraction, declaring, compiling, recording
     double wallMilliseconds = 0.0;     ///< the whole frame with waiting for the GPU
+    /// The effects', and "entity rows written" and "entity motions written".
     Counters counters;
+    /// The effects', and the CPU's part of cpuMilliseconds for "extraction ms", "entity table ms"
+    /// and "top level ms".
     Measures measures;
     std::vector<Explanation> explanations; ///< in the order in which things were decided
     uint64_t transientBytes = 0;           ///< memory of the graph's images
@@ -109,11 +113,8 @@ class Renderer {
     TableAddresses uploadTables(
         ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
     );
-    void declareTopLevel(
-        graph::Graph& graph,
-        const ExtractedFrame& frame,
-        const DeformedShapes& shapes,
-        RayScene& rays
+    void declareTopLevels(
+        graph::Graph& graph, ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
     );
     void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
 
@@ -123,12 +124,17 @@ class Renderer {
     gpu::Frame mFrame;
     graph::TransientPool mPool;
     Readback mReadback;
-    /// Constants, entities, lights and, where meshes are bent, geometries of the frame, mapped.
+    FrameExtractor mExtractor;
+    EntityTable mEntityTable;
+    /// Constants, lights and, where meshes are bent, geometries of the frame, mapped.
     gpu::Buffer mTables;
     DeformationPass mDeformation;
-    ShapeLevels mShapeLevels;
-    gpu::TopLevel mTopLevel;
+    TopLevels mTopLevels;
     MovingScene mMovingScene;
+    // Of the frame declared last, for statistics.
+    EntityTable::Written mWritten;
+    double mTableMilliseconds = 0.0;
+    double mTopLevelMilliseconds = 0.0;
 };
 
 } // namespace shutter::render

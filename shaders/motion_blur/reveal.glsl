@@ -7,6 +7,7 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/next_surface.glsl"
 #include "render/blended_layers.glsl"
+#include "render/point_motion.glsl"
 #include "render/sky.glsl"
 #include "render/view_ray.glsl"
 
@@ -42,14 +43,7 @@ Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
     Placement placement = placeAtRaster(frame, rayHit.id.entity);
     ShadedHit shaded =
         shadeHit(frame, placement, rayHit.id, direction, vec3(0.0f), lightsAtRaster(frame));
-    EntityTable entities = EntityTable(frame.value.entities);
-    PointPath path = fetchPath(frame, rayHit.id, shaded.objectPosition);
-    vec4 open = entities.rows[rayHit.id.entity].clipFromObjectOpen * vec4(path.open, 1.0f);
-    vec4 visible = entities.rows[rayHit.id.entity].clipFromObjectRaster * vec4(path.raster, 1.0f);
-    vec4 close = entities.rows[rayHit.id.entity].clipFromObjectClose * vec4(path.close, 1.0f);
-    vec2 motion = motionFromClip(
-        open.xyw, close.xyw, visible.xyw, frame.value.forward.w, frame.value.sizePx
-    );
+    vec2 motion = motionOfPoint(frame, rayHit.id, shaded.objectPosition);
     float depth = dot(shaded.eyePosition, frame.value.forward.xyz);
     return Revealed(shaded.color, vec4(motion, depth, 0.0f), rayHit.id.entity);
 }

@@ -8,7 +8,7 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
 #include "render/distributed_ray.glsl"
-#include "render/motion.glsl"
+#include "render/point_motion.glsl"
 #include "render/sky.glsl"
 #include "render/view_ray.glsl"
 
@@ -21,14 +21,7 @@ layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D uMotionDepth;
 vec2 motionOf(FrameRef frame, DistributedSample seen, vec2 centre) {
     if (seen.id.entity == kNoEntity)
         return skyMotion(frame, centre, makeViewRay(frame, centre).direction);
-    EntityTable entities = EntityTable(frame.value.entities);
-    PointPath path = fetchPath(frame, seen.id, seen.objectPosition);
-    vec4 open = entities.rows[seen.id.entity].clipFromObjectOpen * vec4(path.open, 1.0f);
-    vec4 raster = entities.rows[seen.id.entity].clipFromObjectRaster * vec4(path.raster, 1.0f);
-    vec4 close = entities.rows[seen.id.entity].clipFromObjectClose * vec4(path.close, 1.0f);
-    return motionFromClip(
-        open.xyw, close.xyw, raster.xyw, frame.value.forward.w, frame.value.sizePx
-    );
+    return motionOfPoint(frame, seen.id, seen.objectPosition);
 }
 
 void main() {

@@ -7,6 +7,7 @@
 
 layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: pixels below the cutoff are dropped
 layout(constant_id = 1) const uint kBlend = 0u;     // 1: alpha is kept for blending
+layout(constant_id = 2) const uint kMoves = 1u;     // 0: the entity has no motion
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
@@ -60,11 +61,15 @@ void main() {
     );
     outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
     outNormal = vec4(surface.normal, 0.0f);
-    // x, y, w of the raster clip position; 1 / gl_FragCoord.w is w.
-    float w = 1.0f / gl_FragCoord.w;
-    vec3 visible = vec3((gl_FragCoord.xy / frame.value.sizePx * 2.0f - 1.0f) * w, w);
-    vec2 motion =
-        motionFromClip(inClipOpen, inClipClose, visible, frame.value.forward.w, frame.value.sizePx);
+    vec2 motion = vec2(0.0f);
+    if (kMoves != 0u) {
+        // x, y, w of the raster clip position; 1 / gl_FragCoord.w is w.
+        float w = 1.0f / gl_FragCoord.w;
+        vec3 visible = vec3((gl_FragCoord.xy / frame.value.sizePx * 2.0f - 1.0f) * w, w);
+        motion = motionFromClip(
+            inClipOpen, inClipClose, visible, frame.value.forward.w, frame.value.sizePx
+        );
+    }
     outMotionDepth = vec4(motion, dot(inEyePosition, frame.value.forward.xyz), 0.0f);
     outMeshId = draw.entity;
 }

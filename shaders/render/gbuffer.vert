@@ -3,6 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/hit.glsl"
 
+layout(constant_id = 2) const uint kMoves = 1u; // 0: the entity has no motion
+
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
 layout(location = 0) out vec3 outEyePosition;
@@ -21,16 +23,19 @@ void main() {
 
     vec4 position = vec4(vertex.positionU0.xyz, 1.0f);
     gl_Position = row.clipFromObjectRaster * position;
-    vec4 positionOpen = position;
-    vec4 positionClose = position;
-    if ((geometry.openPositions.x | geometry.openPositions.y) != 0u) {
-        positionOpen = PositionArray(geometry.openPositions).values[gl_VertexIndex];
-        positionClose = PositionArray(geometry.closePositions).values[gl_VertexIndex];
+    outClipOpen = vec3(0.0f);
+    outClipClose = vec3(0.0f);
+    if (kMoves != 0u) {
+        vec4 positionOpen = position;
+        vec4 positionClose = position;
+        if ((geometry.openPositions.x | geometry.openPositions.y) != 0u) {
+            positionOpen = PositionArray(geometry.openPositions).values[gl_VertexIndex];
+            positionClose = PositionArray(geometry.closePositions).values[gl_VertexIndex];
+        }
+        EntityMotion motion = MotionTable(frame.value.entityMotions).rows[row.motion];
+        outClipOpen = (motion.clipFromObjectOpen * positionOpen).xyw;
+        outClipClose = (motion.clipFromObjectClose * positionClose).xyw;
     }
-    vec4 open = row.clipFromObjectOpen * positionOpen;
-    vec4 close = row.clipFromObjectClose * positionClose;
-    outClipOpen = open.xyw;
-    outClipClose = close.xyw;
     Placement placement = placeAtRaster(frame, draw.entity);
     outEyePosition = transformPoint(placement, position.xyz);
     outNormal = transformNormal(placement, vertex.normalV0.xyz);

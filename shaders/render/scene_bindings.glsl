@@ -16,6 +16,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Fr
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer EntityTable {
     EntityRow rows[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer MotionTable {
+    EntityMotion rows[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GeometryTable {
     Geometry rows[];
 };

@@ -22,18 +22,25 @@ struct Vertex {
     uvec2 color;     // four half floats, linear RGBA
 };
 
-/// One drawn entity; its index in the table is the mesh id.
+/// EntityRow::motion of an entity that stands still in the picture.
+SHUTTER_CONST uint kNoMotion = 0xFFFFFFFFu;
+
+/// One drawn entity at the raster instant; its index in the table is the mesh id.
 struct EntityRow {
-    mat4 clipFromObjectOpen;   // with the camera at shutter open
     mat4 clipFromObjectRaster; // with the camera at the raster instant (jittered where asked for)
-    mat4 clipFromObjectClose;  // with the camera at shutter close
-    vec4 eyeFromObject[3];     // rows of the 3x4 matrix, raster instant
+    vec4 eyeFromObject[3];     // rows of the 3x4 matrix
     uint firstGeometry;        // index into the geometry table
     float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
                                // mirrored skeleton, else 1
+    uint motion;               // index into the table of motions, or kNoMotion
     uint rayMask;              // bits of its instance that a ray leaves out to pass it and no other
                                // entity (ray_masks.h); 0: no mask tells it from all others
-    uint padding2;
+};
+
+/// Where an entity that moves in the picture, or whose shape changes, is at the exposure's ends.
+struct EntityMotion {
+    mat4 clipFromObjectOpen;  // with the camera at shutter open
+    mat4 clipFromObjectClose; // with the camera at shutter close
 };
 
 /// Triangles with one material.
@@ -113,9 +120,11 @@ struct FrameConstants {
     uint lightCount;
     uint padding0;
     uvec2 entities;              // addresses of the tables
+    uvec2 entityMotions;
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
+    uvec2 movingLevel;           // address of a second top level, of what moves; 0: there is none
 };
 
 /// Push constants of the G-buffer's draws.
@@ -129,12 +138,13 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::Vertex) == 64);
-static_assert(sizeof(shutter::shader::EntityRow) == 256);
+static_assert(sizeof(shutter::shader::EntityRow) == 128);
+static_assert(sizeof(shutter::shader::EntityMotion) == 128);
 static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 368);
+static_assert(sizeof(shutter::shader::FrameConstants) == 384);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif
 

@@ -10,11 +10,9 @@
 
 layout(location = 0) rayPayloadEXT TracePayload gTraced;
 
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
-/// \param direction unit
-/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
-RayHit traceRay(
-    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
+/// traceRay() through one level.
+RayHit traceLevel(
+    accelerationStructureEXT level, FrameRef frame, vec3 origin, vec3 direction, float tMin,
     float tMax, uint mask, LeftSurface left
 ) {
     gTraced.frame = uvec2(frame);
@@ -22,7 +20,7 @@ RayHit traceRay(
     gTraced.leftEntity = left.entity;
     gTraced.leftUntil = left.until;
     traceRayEXT(
-        scene, findRayFlags(mask, left), mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0
+        level, findRayFlags(mask, left), mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0
     );
     return RayHit(
         gTraced.found != 0u, gTraced.t,

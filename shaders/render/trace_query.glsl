@@ -3,16 +3,14 @@
 #ifndef SHUTTER_TRACE_QUERY_GLSL
 #define SHUTTER_TRACE_QUERY_GLSL
 
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
-/// \param direction unit
-/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
-RayHit traceRay(
-    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
+/// traceRay() through one level.
+RayHit traceLevel(
+    accelerationStructureEXT level, FrameRef frame, vec3 origin, vec3 direction, float tMin,
     float tMax, uint mask, LeftSurface left
 ) {
     rayQueryEXT query;
     rayQueryInitializeEXT(
-        query, scene, findRayFlags(mask, left), mask, origin, tMin, direction, tMax
+        query, level, findRayFlags(mask, left), mask, origin, tMin, direction, tMax
     );
     while (rayQueryProceedEXT(query)) {
         if (rayQueryGetIntersectionTypeEXT(query, false) !=

@@ -196,6 +196,8 @@ RayRevealOutputs RayReveal::add(
         [&](graph::PassBuilder& builder, RevealData& data) {
             data.in = inputs;
             builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
+            if (inputs.rays.movingLevelBuffer.isValid())
+                builder.read(inputs.rays.movingLevelBuffer, Access::AccelerationRead);
             if (inputs.rays.shapeLevelsBuffer.isValid())
                 builder.read(inputs.rays.shapeLevelsBuffer, Access::AccelerationRead);
             if (inputs.rays.shapesBuffer.isValid())

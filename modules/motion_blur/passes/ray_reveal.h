@@ -16,6 +16,7 @@ namespace shutter::motion_blur {
 /// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
 struct RayInputs {
     graph::BufferHandle topLevelBuffer;    ///< read with Access::AccelerationRead
+    graph::BufferHandle movingLevelBuffer; ///< likewise, unless it is invalid: there is no second
     graph::BufferHandle shapeLevelsBuffer; ///< likewise, unless it is invalid: nothing is bent
     graph::BufferHandle shapesBuffer;      ///< read with Access::ShaderRead, unless it is invalid
     VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE; ///< custom index: row of the entity table

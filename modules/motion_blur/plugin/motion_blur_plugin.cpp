@@ -40,6 +40,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     if (context.rays)
         inputs.rays = RayInputs{
             context.rays->topLevelBuffer,
+            context.rays->movingLevelBuffer,
             context.rays->shapeLevelsBuffer,
             context.rays->shapesBuffer,
             context.rays->topLevel,

@@ -96,7 +96,7 @@ TEST_F(DeformedEntities, TheirGeometriesStandBehindTheScenesOwn) {
     EXPECT_EQ(frame.entities[1].firstGeometry, 3u);
     EXPECT_EQ(frame.entities[2].firstGeometry, 4u);
     EXPECT_EQ(frame.entities[3].firstGeometry, 6u);
-    for (const DrawItem& item : frame.opaque) {
+    for (const DrawItem& item : frame.opaque.merge()) {
         const uint32_t mesh = frame.entityMeshes[item.entity];
         EXPECT_EQ(
             item.geometryRow - frame.entities[item.entity].firstGeometry,
@@ -111,7 +111,7 @@ TEST_F(DeformedEntities, AnUnbentSceneHasNone) {
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.deformed.empty());
     ASSERT_EQ(frame.opaque.size(), 1u);
-    EXPECT_EQ(frame.opaque[0].geometryRow, frame.opaque[0].geometry);
+    EXPECT_EQ(frame.opaque.merge()[0].geometryRow, frame.opaque.merge()[0].geometry);
 }
 
 TEST_F(DeformedEntities, ASkinsOwnTransformHasNoMeaning) {
@@ -119,7 +119,7 @@ TEST_F(DeformedEntities, ASkinsOwnTransformHasNoMeaning) {
     world.registry.get<scene::LocalTransform>(entity).transform = at({100, 0, 0});
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 1u) << "its joints are in the picture";
-    EXPECT_NEAR(frame.opaque[0].distance, 5.0f, 1e-4f);
+    EXPECT_NEAR(frame.opaque.merge()[0].distance, 5.0f, 1e-4f);
 }
 
 TEST_F(DeformedEntities, TheyAreLeftOutByWhereTheyAreBentTo) {
@@ -159,7 +159,7 @@ TEST_F(DeformedEntities, AMirroredSkeletonTurnsTheWindingRound) {
     addSkinned(root, root);
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 1u);
-    EXPECT_TRUE(frame.opaque[0].mirrored);
+    EXPECT_TRUE(frame.opaque.merge()[0].mirrored);
     EXPECT_EQ(frame.entities[0].handedness, -1.0f);
     EXPECT_TRUE(frame.deformed.at(0).mirrored);
 }

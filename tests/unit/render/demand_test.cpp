@@ -39,7 +39,7 @@ graph::Plan compile(const graph::Graph& graph) {
 
 TEST(Demand, AFrameOfPlainMeshesAsksForNothingMore) {
     ExtractedFrame frame;
-    frame.opaque.push_back(makeDraw(scene::AlphaMode::Opaque));
+    frame.opaque.still.push_back(makeDraw(scene::AlphaMode::Opaque));
     const SurfaceDemand demand = decideSurfaces(frame);
     EXPECT_FALSE(demand.bending.run);
     EXPECT_FALSE(demand.alphaMask.run);
@@ -49,8 +49,8 @@ TEST(Demand, AFrameOfPlainMeshesAsksForNothingMore) {
 
 TEST(Demand, WhatIsDrawnAsksForWhatItNeedsAndSaysHowMuchOfItThereIs) {
     ExtractedFrame frame;
-    frame.opaque.assign(2, makeDraw(scene::AlphaMode::Mask));
-    frame.blended.push_back(makeDraw(scene::AlphaMode::Blend));
+    frame.opaque.still.assign(2, makeDraw(scene::AlphaMode::Mask));
+    frame.blended.moving.push_back(makeDraw(scene::AlphaMode::Blend));
     frame.deformed.resize(3);
     const SurfaceDemand demand = decideSurfaces(frame);
     EXPECT_EQ(describe(demand.bending), "ran: 3 drawn entities with a skin or morph targets");

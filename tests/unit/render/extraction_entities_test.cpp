@@ -48,7 +48,7 @@ TEST_F(Extraction, EveryGeometryOfAMeshIsDrawnOnce) {
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 3u);
     for (uint32_t i = 0; i < 3; ++i)
-        EXPECT_EQ(frame.opaque[i].geometry, layout.firstGeometry[mesh] + i);
+        EXPECT_EQ(frame.opaque.merge()[i].geometry, layout.firstGeometry[mesh] + i);
 }
 
 TEST_F(Extraction, OpaqueComesNearToFarAndBlendedFarToNear) {
@@ -60,10 +60,10 @@ TEST_F(Extraction, OpaqueComesNearToFarAndBlendedFarToNear) {
     addBox({0.0, 0.0, -11.0}, glass);
     addBox({0.0, 0.0, -33.0}, glass);
     const ExtractedFrame frame = extract();
-    EXPECT_EQ(entitiesOf(frame.opaque), (std::vector<uint32_t>{1, 2, 0}));
-    EXPECT_EQ(entitiesOf(frame.blended), (std::vector<uint32_t>{4, 3}));
-    EXPECT_NEAR(frame.opaque[0].distance, 10.0f, 1e-4f);
-    EXPECT_EQ(frame.opaque[0].alphaMode, scene::AlphaMode::Mask);
+    EXPECT_EQ(entitiesOf(frame.opaque.merge()), (std::vector<uint32_t>{1, 2, 0}));
+    EXPECT_EQ(entitiesOf(frame.blended.merge()), (std::vector<uint32_t>{4, 3}));
+    EXPECT_NEAR(frame.opaque.merge()[0].distance, 10.0f, 1e-4f);
+    EXPECT_EQ(frame.opaque.merge()[0].alphaMode, scene::AlphaMode::Mask);
 }
 
 TEST_F(Extraction, AMeshWithoutTrianglesGetsNoRow) {
@@ -104,9 +104,9 @@ TEST_F(Extraction, AMirroringTransformIsMarked) {
     addBox({0.0, 0.0, -9.0});
     const ExtractedFrame frame = extract();
     ASSERT_EQ(frame.opaque.size(), 2u);
-    EXPECT_TRUE(frame.opaque[0].mirrored);
+    EXPECT_TRUE(frame.opaque.merge()[0].mirrored);
     EXPECT_EQ(frame.entities[0].handedness, -1.0f);
-    EXPECT_FALSE(frame.opaque[1].mirrored);
+    EXPECT_FALSE(frame.opaque.merge()[1].mirrored);
     EXPECT_EQ(frame.entities[1].handedness, 1.0f);
 }
 
@@ -119,7 +119,7 @@ TEST_F(Extraction, WhatLiesOutsideThePictureKeepsItsRowForRaysButIsNotDrawn) {
     addBox({0.0, 0.0, -5.0}); // in view
     const ExtractedFrame frame = extract();
     EXPECT_EQ(frame.entities.size(), 6u);
-    EXPECT_EQ(entitiesOf(frame.opaque), (std::vector<uint32_t>{5}));
+    EXPECT_EQ(entitiesOf(frame.opaque.merge()), (std::vector<uint32_t>{5}));
 }
 
 TEST_F(Extraction, WhatReachesIntoThePictureOrAroundTheCameraIsDrawn) {
@@ -160,12 +160,14 @@ TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
     const ecs::Entity box = addBox({0.0, 0.0, -10.0});
     world.registry.add(box, scene::LinearVelocity{{0.5, 0.0, 0.0}});
     request.exposure = {2.0, 3.0, 4.0, 0.5};
-    const shader::EntityRow row = extract().entities.at(0);
+    const ExtractedFrame frame = extract();
+    const shader::EntityRow& row = frame.entities.at(0);
+    const shader::EntityMotion motion = motionOf(frame, 0);
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0; // aspect 2
     const math::vec3 centre(0.0f);
-    EXPECT_NEAR(project(row.clipFromObjectOpen, centre).x, 0.1 * focal, 1e-6);
+    EXPECT_NEAR(project(motion.clipFromObjectOpen, centre).x, 0.1 * focal, 1e-6);
     EXPECT_NEAR(project(row.clipFromObjectRaster, centre).x, 0.15 * focal, 1e-6);
-    EXPECT_NEAR(project(row.clipFromObjectClose, centre).x, 0.2 * focal, 1e-6);
+    EXPECT_NEAR(project(motion.clipFromObjectClose, centre).x, 0.2 * focal, 1e-6);
     EXPECT_NEAR(row.eyeFromObject[0].w, 1.5f, 1e-6f);
 }
 

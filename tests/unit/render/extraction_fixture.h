@@ -59,6 +59,16 @@ class Extraction : public testing::Test {
         return std::move(frame).value();
     }
 
+    /// Of a row of the table; one without motion is at the ends where it is at the raster instant.
+    static shader::EntityMotion motionOf(const ExtractedFrame& frame, size_t row) {
+        const shader::EntityRow& entry = frame.entities.at(row);
+        if (entry.motion == shader::kNoMotion)
+            return {entry.clipFromObjectRaster, entry.clipFromObjectRaster};
+        const size_t stillCount = frame.stillMotions.size();
+        return entry.motion < stillCount ? frame.stillMotions[entry.motion]
+                                         : frame.movingMotions.at(entry.motion - stillCount);
+    }
+
     static math::vec3 project(const math::mat4& clipFromObject, const math::vec3& point) {
         const math::vec4 clip = clipFromObject * math::vec4(point, 1.0f);
         return math::vec3(clip) / clip.w;

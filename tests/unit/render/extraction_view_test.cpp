@@ -45,12 +45,14 @@ TEST_F(Extraction, AMovingCameraSeesAStillEntityFromWhereItIsAtEachInstant) {
     world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
     addBox({0.0, 0.0, -10.0});
     request.exposure = {0.0, 0.25, 1.0, 0.25};
-    const shader::EntityRow row = extract().entities.at(0);
+    const ExtractedFrame frame = extract();
+    const shader::EntityRow& row = frame.entities.at(0);
+    const shader::EntityMotion motion = motionOf(frame, 0);
     const math::vec3 centre(0.0f);
     const double perMetre = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0 / 10.0;
-    EXPECT_NEAR(project(row.clipFromObjectOpen, centre).x, 0.0, 1e-6);
+    EXPECT_NEAR(project(motion.clipFromObjectOpen, centre).x, 0.0, 1e-6);
     EXPECT_NEAR(project(row.clipFromObjectRaster, centre).x, -0.25 * perMetre, 1e-6);
-    EXPECT_NEAR(project(row.clipFromObjectClose, centre).x, -perMetre, 1e-6);
+    EXPECT_NEAR(project(motion.clipFromObjectClose, centre).x, -perMetre, 1e-6);
 }
 
 TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
@@ -62,12 +64,14 @@ TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
           std::tuple{ShutterPhase::Centre, 4.75, 5.25},
           std::tuple{ShutterPhase::End, 4.5, 5.0}}) {
         request.exposure = scene::computeExposure({0.5, phase}, 5.0);
-        const shader::EntityRow row = extract().entities.at(0);
+        const ExtractedFrame frame = extract();
+        const shader::EntityRow& row = frame.entities.at(0);
+        const shader::EntityMotion motion = motionOf(frame, 0);
         EXPECT_NEAR(row.eyeFromObject[0].w, 5.0f, 1e-6f); // the frame's own time in all three
         const auto x = [&](const math::mat4& matrix) { return double(matrix[3].x); };
         const double perMetre = x(row.clipFromObjectRaster) / 5.0;
-        EXPECT_NEAR(x(row.clipFromObjectOpen), open * perMetre, 1e-5);
-        EXPECT_NEAR(x(row.clipFromObjectClose), close * perMetre, 1e-5);
+        EXPECT_NEAR(x(motion.clipFromObjectOpen), open * perMetre, 1e-5);
+        EXPECT_NEAR(x(motion.clipFromObjectClose), close * perMetre, 1e-5);
     }
 }
 
@@ -139,9 +143,16 @@ TEST_F(Extraction, JitterMovesTheSampleByThatPartOfAPixelAndLeavesMotionAlone) {
                              project(straight.entities[0].clipFromObjectRaster, math::vec3());
     EXPECT_NEAR(moved.x * 100.0f, -0.25f, 1e-4f); // half of the width: NDC to pixels
     EXPECT_NEAR(moved.y * 50.0f, 0.5f, 1e-4f);
-    EXPECT_EQ(jittered.entities[0].clipFromObjectOpen, straight.entities[0].clipFromObjectOpen);
-    EXPECT_EQ(jittered.entities[0].clipFromObjectClose, straight.entities[0].clipFromObjectClose);
+    EXPECT_EQ(jittered.entities[0].motion, shader::kNoMotion);
     EXPECT_FALSE(jittered.moves);
+    const ecs::Entity mover = addBox({0.5, 0.25, -10.0});
+    world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    const shader::EntityMotion motion = motionOf(extract(), 1);
+    request.jitterPx = math::dvec2(0.0);
+    const shader::EntityMotion expected = motionOf(extract(), 1);
+    EXPECT_EQ(motion.clipFromObjectOpen, expected.clipFromObjectOpen);
+    EXPECT_EQ(motion.clipFromObjectClose, expected.clipFromObjectClose);
+    EXPECT_NE(motion.clipFromObjectOpen, motion.clipFromObjectClose);
 }
 
 TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
@@ -161,9 +172,11 @@ TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
     ASSERT_EQ(far.opaque.size(), 1u);
     const shader::EntityRow& a = near.entities[0];
     const shader::EntityRow& b = far.entities[0];
-    expectNear(b.clipFromObjectOpen, a.clipFromObjectOpen, kRounding);
+    const shader::EntityMotion nearMotion = motionOf(near, 0);
+    const shader::EntityMotion farMotion = motionOf(far, 0);
+    expectNear(farMotion.clipFromObjectOpen, nearMotion.clipFromObjectOpen, kRounding);
     expectNear(b.clipFromObjectRaster, a.clipFromObjectRaster, kRounding);
-    expectNear(b.clipFromObjectClose, a.clipFromObjectClose, kRounding);
+    expectNear(farMotion.clipFromObjectClose, nearMotion.clipFromObjectClose, kRounding);
     expectNear(far.constants.clipFromEye, near.constants.clipFromEye, kRounding);
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(b.eyeFromObject[i].w, a.eyeFromObject[i].w, 2e-6f);

@@ -35,16 +35,16 @@ class RayMasksOfAFrame : public ::testing::Test {
 
     void add(double distance, bool moves) {
         shader::EntityRow row{};
-        row.clipFromObjectOpen = row.clipFromObjectRaster = row.clipFromObjectClose =
-            math::mat4(1.0f);
-        if (moves)
-            row.clipFromObjectClose[3][0] = 0.5f;
+        row.motion = moves ? 0u : shader::kNoMotion;
         for (int i = 0; i < 3; ++i)
             row.eyeFromObject[i][i] = 1.0f;
         row.eyeFromObject[2][3] = static_cast<float>(-distance);
-        row.rayMask = 0x55u; // whatever an earlier frame left
+        row.rayMask = moves ? 0x55u : 0u; // whatever an earlier frame left
+        if (moves)
+            frame.movingRows.push_back(static_cast<uint32_t>(frame.entities.size()));
         frame.entities.push_back(row);
         frame.entityMeshes.push_back(0);
+        frame.changes.ownRows = frame.entities.size();
     }
 
     std::vector<uint32_t> assign() {
@@ -77,21 +77,22 @@ TEST_F(RayMasksOfAFrame, WhatMovesGetsOneOfItsOwnAndWhatStandsStillGetsNone) {
     }
 }
 
-TEST_F(RayMasksOfAFrame, AMotionThatEndsWhereItBeganIsOneToo) {
+TEST_F(RayMasksOfAFrame, BeforeAMovingCameraWhatStandsStillInTheWorldGetsOneToo) {
     add(5.0, false);
-    frame.entities[0].clipFromObjectOpen[3][1] = frame.entities[0].clipFromObjectClose[3][1] =
-        0.25f;
-    EXPECT_NE(assign()[0], 0u);
-}
-
-TEST_F(RayMasksOfAFrame, WhatBendsGetsOne) {
-    add(5.0, false);
-    add(5.0, false);
-    frame.deformed.emplace_back();
-    frame.deformed.back().row = 1;
+    add(5.0, true);
+    frame.movingRows.clear(); // it moves in the picture only
+    frame.stillMotions.resize(1);
     const auto masks = assign();
     EXPECT_EQ(masks[0], 0u);
     EXPECT_NE(masks[1], 0u);
+}
+
+TEST_F(RayMasksOfAFrame, RowsWithMasksCountAsChanged) {
+    add(5.0, false);
+    add(5.0, true);
+    frame.changes.all = false;
+    assign();
+    EXPECT_EQ(frame.changes.rows, std::vector<uint32_t>{1});
 }
 
 TEST_F(RayMasksOfAFrame, WithMoreMoversThanMasksTheApparentlyLargestGetThem) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/top_levels.h"
+
+#include "engine/graph/execute.h"
+#include "engine/render/ray_masks.h"
+
+#include <utility>
+
+namespace shutter::render {
+
+namespace {
+
+/// Calls `use` with each row that stands still.
+template <class Use> void forEachStill(const ExtractedFrame& frame, Use&& use) {
+    size_t next = 0; // of movingRows
+    for (uint32_t row = 0; row < frame.changes.ownRows; ++row) {
+        if (next < frame.movingRows.size() && frame.movingRows[next] == row)
+            ++next;
+        else
+            use(row);
+    }
+}
+
+bool addStill(const ExtractedFrame& frame, uint32_t row, InstanceList& instances) {
+    const shader::EntityRow& entry = frame.entities[row];
+    return instances.add(row, frame.entityMeshes[row], entry.eyeFromObject, solidMaskOf(entry));
+}
+
+} // namespace
+
+TopLevelHandles TopLevels::declare(
+    graph::Graph& graph,
+    const ExtractedFrame& frame,
+    const GpuScene& scene,
+    const DeformedShapes& shapes
+) {
+    TopLevelHandles handles;
+    handles.shapesBuffer = mShapeLevels.declare(graph, frame, scene, shapes);
+    mShapesBuffer = handles.shapesBuffer;
+    InstanceList moving(scene);
+    listMoving(frame, moving);
+    const bool apart = frame.changes.ownRows - frame.movingRows.size() >= kStillLevelInstances;
+    bool build = false;
+    if (apart) {
+        build = updateStill(frame, scene);
+        if (!moving.instances().empty()) {
+            const bool buildMoving = update(mMoving, moving, false);
+            handles.movingBuffer = declareLevel(graph, "top level of movers", mMoving, buildMoving);
+            handles.movingLevel = mMoving.level.structure().address();
+        }
+    } else {
+        mMoving.listed.clear();
+        const bool wasApart = std::exchange(mStillRevision, 0) != 0;
+        forEachStill(frame, [&](uint32_t row) { (void)addStill(frame, row, moving); });
+        build = update(mStill, moving, wasApart);
+    }
+    handles.buffer = declareLevel(graph, "top level", mStill, build);
+    handles.level = mStill.level.structure().handle();
+    return handles;
+}
+
+void TopLevels::listMoving(const ExtractedFrame& frame, InstanceList& instances) const {
+    size_t nextDeformed = 0;
+    for (const uint32_t row : frame.movingRows) {
+        const auto& eyeFromObject = frame.entities[row].eyeFromObject;
+        const uint32_t solidMask = solidMaskOf(frame.entities[row]);
+        if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
+            instances.add(row, frame.entityMeshes[row], eyeFromObject, solidMask);
+            continue;
+        }
+        const DeformedEntity& bent = frame.deformed[nextDeformed];
+        const VkDeviceAddress level = mShapeLevels.address(nextDeformed++);
+        instances.add(
+            BentInstance{row, bent.mesh, bent.mirrored, level, bent.bounds},
+            eyeFromObject,
+            solidMask
+        );
+    }
+}
+
+void TopLevels::orderStill(const ExtractedFrame& frame, const GpuScene& scene) {
+    InstanceList instances(scene);
+    std::vector<uint32_t> listed;
+    std::vector<uint32_t> leftOut; // may be met from another place of the camera
+    forEachStill(frame, [&](uint32_t row) {
+        (addStill(frame, row, instances) ? listed : leftOut).push_back(row);
+    });
+    mStillOrder.clear();
+    for (const uint32_t index : instances.computeOrder())
+        mStillOrder.push_back(listed[index]);
+    mStillOrder.insert(mStillOrder.end(), leftOut.begin(), leftOut.end());
+    mStillSet = frame.stillSet;
+}
+
+bool TopLevels::updateStill(const ExtractedFrame& frame, const GpuScene& scene) {
+    // Where the camera moves, what stands still has masks that change with what else there is.
+    if (mStillRevision == frame.stillRevision && frame.stillMotions.empty())
+        return false;
+    if (mStillSet != frame.stillSet)
+        orderStill(frame, scene);
+    InstanceList instances(scene);
+    for (const uint32_t row : mStillOrder)
+        (void)addStill(frame, row, instances);
+    mStill.level.prepare(mDevice, instances.instances());
+    mStill.listed.clear(); // not as update() lists
+    mStillRevision = frame.stillRevision;
+    return true;
+}
+
+bool TopLevels::update(Level& level, const InstanceList& instances, bool force) {
+    // A level holds the bounds of those below it.
+    if (!force && level.level.structure() && !mShapeLevels.wasRebuilt() &&
+        level.listed == instances.instances())
+        return false;
+    level.level.prepare(mDevice, instances.order());
+    level.listed = instances.instances();
+    return true;
+}
+
+graph::BufferHandle TopLevels::declareLevel(
+    graph::Graph& graph, const char* name, const Level& level, bool build
+) const {
+    auto buffer = graph.importBuffer(name, level.level.structure().buffer(), 0);
+    if (!build)
+        return buffer;
+
+    struct Data {};
+
+    graph.addPass<Data>(
+        fmt::format("build {}", name),
+        graph::PassKind::Build,
+        [&](graph::PassBuilder& builder, Data&) {
+            if (mShapesBuffer.isValid())
+                builder.read(mShapesBuffer, graph::Access::AccelerationRead);
+            buffer = builder.write(buffer, graph::Access::AccelerationBuild);
+        },
+        [this, &level](const Data&, graph::PassContext& context) {
+            level.level.record(mDevice, context.commands);
+        }
+    );
+    return buffer;
+}
+
+} // namespace shutter::render
