@@ -148,6 +148,27 @@ TEST_F(KeptFrames, ManyThatStandStillHaveATopLevelThatIsBuiltOnce) {
     EXPECT_TRUE(ran(frames.hybrid(0.2), "build top level")) << "seen from another place";
 }
 
+TEST_F(KeptFrames, ATableThatMissedAFrameTakesAllRows) {
+    const Crowd crowd(40);
+    const render::GpuScene scene(device(), crowd.scene.world.assets);
+    render::FrameExtractor extractor;
+    render::EntityTable table(device());
+    const auto extract = [&](double seconds) -> render::ExtractedFrame& {
+        render::ViewRequest view;
+        view.camera = crowd.scene.camera;
+        view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, seconds);
+        return *extractor.update(crowd.scene.world, scene.layout(), view).value();
+    };
+    EXPECT_EQ(table.update(extract(0.0)).rows, 41u);
+    EXPECT_EQ(table.update(extract(0.1)).rows, 1u);
+    (void)extract(0.2);
+    EXPECT_EQ(table.update(extract(0.3)).rows, 41u);
+    render::ExtractedFrame& longer = extract(0.4);
+    longer.entities.emplace_back();
+    EXPECT_EQ(table.update(longer).rows, 2u) << "what was appended is this frame's only";
+    EXPECT_EQ(table.update(extract(0.5)).rows, 1u);
+}
+
 TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
     for (const size_t count : {size_t{60}, render::kStillLevelInstances + 40}) {
         Crowd crowd(count);
