@@ -53,6 +53,8 @@ Status applyNumber(
         {"centreBias", &settings.centreBias},
         {"speedThresholdPx", &settings.speedThresholdPx},
         {"luminanceSigma", &settings.luminanceSigma},
+        {"uniformMotionPx", &settings.uniformMotionPx},
+        {"maxMotionDepth", &settings.maxMotionDepth},
     };
     const auto number = parseNumber(value);
     if (!number)

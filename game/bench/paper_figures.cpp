@@ -37,12 +37,12 @@ json describePassTimes() {
         {0.05, 0.05, 0.06},
         {0.33, 0.38, 0.33},
         "ours",
-        names({"edge", "clear ray mask list", "ray mask"}));
+        names({"sort blocks", "clear ray mask", "edge", "ray mask"}));
     add("Ray Trace",
         {1.13, 2.27, 2.99},
         {0.59, 0.65, 0.62},
         "ours",
-        names({"build top level", "copy layer", "ray reveal"}));
+        names({"build top level", "ray reveal"}));
     add("Tile-Dilate",
         {0.05, 0.06, 0.08},
         {1.48, 1.44, 1.43},
@@ -52,7 +52,14 @@ json describePassTimes() {
         {0.03, 0.04, 0.04},
         {0.85, 0.82, 0.82},
         "ours",
-        names({"gather and composite"}));
+        names(
+            {"copy still pixels",
+             "gather uniform",
+             "gather",
+             "gather and composite",
+             "write uniform blocks",
+             "write mixed blocks",
+             "write masked blocks"}));
     add("Others", {3.14, 4.67, 3.48}, {0.39, 0.42, 0.29}, "others", true);
     add("Total Duration", {4.66, 7.63, 8.39}, {4.83, 7.25, 9.92}, "total", true);
     return {

@@ -17,11 +17,12 @@ namespace shutter::motion_blur {
 using shader::MotionBlurParams;
 
 MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-    : mTileMotion(device), mGather(device),
-      mOwnVelocity(device, "own velocity", motion_blur_own_velocity_comp, 2),
-      mMcGuire(device, "mcguire2012", motion_blur_mcguire2012_comp, 3), mGuertinTiles(device),
-      mGuertin(device, "guertin2014", motion_blur_guertin2014_comp, 4),
-      mJimenez(device, "jimenez2014", motion_blur_jimenez2014_comp, 3),
+    : mTileMotion(device), mSorter(device), mStillPixels(device), mGather(device),
+      mOwnVelocity(device, "own velocity", motion_blur_own_velocity_comp, 2, shader::kMixedList),
+      mMcGuire(device, "mcguire2012", motion_blur_mcguire2012_comp, 3, shader::kMixedList),
+      mGuertinTiles(device),
+      mGuertin(device, "guertin2014", motion_blur_guertin2014_comp, 4, shader::kMixedList),
+      mJimenez(device, "jimenez2014", motion_blur_jimenez2014_comp, 3, shader::kMixedList),
       mVariance(device, "variance of rays", motion_blur_denoise_variance_comp, 3),
       mATrous(device, "denoise", motion_blur_denoise_atrous_comp, 2) {
     if (!sceneLayout || !device.hasRays())
@@ -30,6 +31,18 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
         mStochasticRays = std::make_unique<StochasticRays>(device, sceneLayout);
     mRayMask = std::make_unique<RayMask>(device);
     mRayReveal = std::make_unique<RayReveal>(device, sceneLayout);
+    mRevealedLayer = std::make_unique<RevealedLayerPasses>(device);
+}
+
+void MotionBlur::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
+    // The last frame's share is a good guess at this one's; the picture is the same either way.
+    const BlockCounters last = mSorter.counters();
+    const uint32_t moving = last.uniform + last.mixed + last.masked;
+    const uint32_t all = moving + last.still;
+    if (!inputs.colorIsWritable || all == 0)
+        mStillPixelsBy = StillPixelsBy::WholeCopy;
+    else
+        mStillPixelsBy = chooseStillPixels(double(moving) / double(all), mStillPixelsBy);
 }
 
 MotionBlurOutputs MotionBlur::add(
@@ -40,19 +53,17 @@ MotionBlurOutputs MotionBlur::add(
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
     MotionBlurParams params = resolve(settings, size.width, size.height, inputs.rasterShare);
     params.response = inputs.response;
+    chooseStillPixelsBy(inputs);
     switch (settings.method) {
     case Method::Gather:
         return addGather(graph, inputs, params);
     case Method::Hybrid:
         return addHybrid(graph, inputs, params);
     case Method::OwnVelocity:
-        return addOwnVelocity(graph, inputs, params);
     case Method::McGuire2012:
-        return addTiled(graph, mMcGuire, inputs, params);
     case Method::Guertin2014:
-        return addGuertin(graph, inputs, params);
     case Method::Jimenez2014:
-        return addTiled(graph, mJimenez, inputs, params);
+        return addRival(graph, settings.method, inputs, params);
     case Method::Denoised:
         return addDenoised(graph, inputs, settings, params);
     }
@@ -62,13 +73,22 @@ MotionBlurOutputs MotionBlur::add(
 
 MotionBlurOutputs MotionBlur::addGather(
     graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurParams& params
-) const {
+) {
+    const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
+    const BlockLists lists = mSorter.add(graph, tiles, params, false).lists;
+    mSorter.addCounters(graph, lists, params);
+    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+    const graph::ImageHandle filtered = mGather.add(
+        graph, {inputs.color, inputs.motionDepth, tiles.dominant, {}}, lists, target, params
+    );
+
     MotionBlurOutputs outputs;
-    const TileMotionOutputs front = mTileMotion.add(graph, inputs.motionDepth, params, "");
-    outputs.tiles = front.tiles;
-    outputs.dominant = front.dominant;
-    outputs.color =
-        mGather.add(graph, {inputs.color, inputs.motionDepth, front.dominant, {}}, params);
+    outputs.tiles = tiles.tiles;
+    outputs.dominant = tiles.dominant;
+    outputs.blocks = lists;
+    outputs.color = mStillPixels.end(
+        graph, inputs.color, filtered, lists, shader::kMixedList + 1, params, mStillPixelsBy
+    );
     return outputs;
 }
 
@@ -78,67 +98,94 @@ MotionBlurOutputs MotionBlur::addHybrid(
     SHUTTER_CHECK(inputs.rays && mRayReveal, "the hybrid method needs rays");
     MotionBlurParams params = resolved;
     params.frame = inputs.rays->frame;
-    const TileMotionOutputs front = mTileMotion.add(graph, inputs.motionDepth, params, "");
+    const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
+    const SortedBlocks sorted = mSorter.add(graph, tiles, params, true);
     const RayMaskInputs maskInputs{
-        inputs.motionDepth,
-        inputs.normal,
-        inputs.meshId,
-        front.dominant,
-        inputs.measureEdgesEverywhere};
+        inputs.motionDepth, inputs.normal, inputs.meshId, sorted, inputs.measureEdgesEverywhere};
     const RayMaskOutputs mask = mRayMask->add(graph, maskInputs, params);
+    mSorter.addCounters(graph, mask.blocks, params);
     const RayRevealInputs revealInputs{
         inputs.color, inputs.motionDepth, inputs.meshId, mask.list, mask.arguments, *inputs.rays};
     const RayRevealOutputs reveal = mRayReveal->add(graph, revealInputs, params);
-    const TileMotionOutputs behind =
-        mTileMotion.add(graph, reveal.motionDepth, params, " of reveal");
-    const RevealedLayer layer{reveal.color, reveal.motionDepth, behind.dominant, mask.mask};
+    const RevealedLayerInputs layerInputs{
+        inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
+    const RevealedLayer layer{
+        reveal.color,
+        reveal.motionDepth,
+        mRevealedLayer->addDominant(graph, layerInputs, params),
+        mask.mask};
+    const RevealedViews views = mRevealedLayer->addViews(graph, layerInputs, params);
+    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+    const graph::ImageHandle filtered = mGather.add(
+        graph,
+        {inputs.color, inputs.motionDepth, tiles.dominant, layer},
+        mask.blocks,
+        target,
+        params
+    );
 
     MotionBlurOutputs outputs;
-    outputs.tiles = front.tiles;
-    outputs.dominant = front.dominant;
-    outputs.edge = mask.edge;
-    outputs.mask = mask.mask;
-    outputs.revealColor = reveal.color;
-    outputs.revealMotionDepth = reveal.motionDepth;
-    outputs.revealMeshId = reveal.meshId;
-    outputs.color =
-        mGather.add(graph, {inputs.color, inputs.motionDepth, front.dominant, layer}, params);
-    return outputs;
-}
-
-MotionBlurOutputs MotionBlur::addOwnVelocity(
-    graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurParams& params
-) const {
-    MotionBlurOutputs outputs;
-    outputs.color = mOwnVelocity.add(graph, std::array{inputs.color, inputs.motionDepth}, params);
-    return outputs;
-}
-
-MotionBlurOutputs MotionBlur::addTiled(
-    graph::Graph& graph,
-    const ScreenFilter& filter,
-    const MotionBlurInputs& inputs,
-    const MotionBlurParams& params
-) const {
-    MotionBlurOutputs outputs;
-    const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params, "");
     outputs.tiles = tiles.tiles;
     outputs.dominant = tiles.dominant;
-    outputs.color =
-        filter.add(graph, std::array{inputs.color, inputs.motionDepth, tiles.dominant}, params);
+    outputs.edge = mask.edge;
+    outputs.mask = mask.mask;
+    outputs.revealColor = views.color;
+    outputs.revealMotionDepth = views.motionDepth;
+    outputs.revealMeshId = reveal.meshId;
+    outputs.blocks = mask.blocks;
+    outputs.color = mStillPixels.end(
+        graph, inputs.color, filtered, mask.blocks, shader::kListCount, params, mStillPixelsBy
+    );
     return outputs;
 }
 
-MotionBlurOutputs MotionBlur::addGuertin(
-    graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurParams& params
-) const {
+MotionBlurOutputs MotionBlur::addRival(
+    graph::Graph& graph,
+    Method method,
+    const MotionBlurInputs& inputs,
+    const MotionBlurParams& resolved
+) {
+    MotionBlurParams params = resolved;
+    // A pixel's own motion is all that own velocity reads: no neighbour's comes over it.
+    if (method == Method::OwnVelocity)
+        params.neighbourRadius = 0;
+    const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
+    const BlockLists lists = mSorter.add(graph, tiles, params, false).lists;
+    mSorter.addCounters(graph, lists, params);
+    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+
     MotionBlurOutputs outputs;
-    outputs.tiles = mTileMotion.addTileMax(graph, inputs.motionDepth, params, "");
-    const GuertinTilesOutputs tiles = mGuertinTiles.add(graph, outputs.tiles, params);
+    outputs.tiles = tiles.tiles;
     outputs.dominant = tiles.dominant;
-    outputs.variance = tiles.variance;
-    outputs.color = mGuertin.add(
-        graph, std::array{inputs.color, inputs.motionDepth, tiles.dominant, tiles.variance}, params
+    outputs.blocks = lists;
+    graph::ImageHandle filtered;
+    if (method == Method::OwnVelocity) {
+        filtered = mOwnVelocity.add(
+            graph, std::array{inputs.color, inputs.motionDepth}, lists, target, params
+        );
+    } else if (method == Method::Guertin2014) {
+        const GuertinTilesOutputs directed = mGuertinTiles.add(graph, tiles.tiles, params);
+        outputs.dominant = directed.dominant;
+        outputs.variance = directed.variance;
+        filtered = mGuertin.add(
+            graph,
+            std::array{inputs.color, inputs.motionDepth, directed.dominant, directed.variance},
+            lists,
+            target,
+            params
+        );
+    } else {
+        const BlockFilter& filter = method == Method::McGuire2012 ? mMcGuire : mJimenez;
+        filtered = filter.add(
+            graph,
+            std::array{inputs.color, inputs.motionDepth, tiles.dominant},
+            lists,
+            target,
+            params
+        );
+    }
+    outputs.color = mStillPixels.end(
+        graph, inputs.color, filtered, lists, shader::kMixedList + 1, params, mStillPixelsBy
     );
     return outputs;
 }
@@ -157,7 +204,7 @@ MotionBlurOutputs MotionBlur::addDenoised(
     params.frame = inputs.movingRays->frame;
     params.moving = inputs.movingRays->moving;
     const StochasticRaysOutputs rays = mStochasticRays->add(graph, *inputs.movingRays, params);
-    const TileMotionOutputs tiles = mTileMotion.add(graph, rays.motionDepth, params, "");
+    const TileMotionOutputs tiles = mTileMotion.add(graph, rays.motionDepth, params);
     MotionBlurOutputs outputs;
     outputs.noisy = rays.color;
     outputs.tiles = tiles.tiles;
@@ -177,10 +224,14 @@ MotionBlurOutputs MotionBlur::addDenoised(
 }
 
 MotionBlurCounters MotionBlur::counters() const {
+    MotionBlurCounters counters;
+    counters.blocks = mSorter.counters();
     if (!mRayReveal)
-        return {};
+        return counters;
     const shader::MaskHeader header = mRayReveal->lastHeader();
-    return {header.maskedPixels, header.raysTraced};
+    counters.maskedPixels = header.maskedPixels;
+    counters.raysTraced = header.raysTraced;
+    return counters;
 }
 
 } // namespace shutter::motion_blur

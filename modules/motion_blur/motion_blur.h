@@ -9,11 +9,15 @@
 
 #include "engine/gpu/device.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/block_filter.h"
+#include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/guertin_tiles.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
+#include "modules/motion_blur/passes/revealed_layer.h"
 #include "modules/motion_blur/passes/screen_filter.h"
+#include "modules/motion_blur/passes/still_pixels.h"
 #include "modules/motion_blur/passes/stochastic_rays.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/settings.h"
@@ -34,10 +38,13 @@ struct MotionBlurInputs {
     std::optional<RayInputs> rays;             ///< Method::Hybrid needs them (CHECKed)
     std::optional<MovingRayInputs> movingRays; ///< Method::Denoised needs them (CHECKed)
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
+    /// The colour image may be written in place: it is a transient, or was made with storage usage.
+    /// Where little moves, still pixels are then not touched.
+    bool colorIsWritable = false;
 };
 
 /// The blurred picture, and every intermediate for debug views; those of a method that did not run
-/// are invalid handles.
+/// are invalid handles. Views are drawn only if something reads them.
 struct MotionBlurOutputs {
     graph::ImageHandle color;             ///< RGBA16F
     graph::ImageHandle tiles;             ///< RG32F, one texel a tile: longest motion
@@ -47,7 +54,8 @@ struct MotionBlurOutputs {
     graph::ImageHandle mask;              ///< R8: 1 inside the ray mask
     graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
     graph::ImageHandle revealMotionDepth; ///< RGBA32F
-    graph::ImageHandle revealMeshId;      ///< R32_UINT
+    graph::ImageHandle revealMeshId;      ///< R32_UINT; written inside the mask only
+    BlockLists blocks;                    ///< what the filters go over; not of Method::Denoised
     graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered
 };
 
@@ -55,6 +63,7 @@ struct MotionBlurOutputs {
 struct MotionBlurCounters {
     uint32_t maskedPixels = 0;
     uint32_t raysTraced = 0;
+    BlockCounters blocks; ///< of 8 x 8 pixels
 };
 
 /// Holds the pipelines; images belong to the graph.
@@ -74,20 +83,17 @@ class MotionBlur {
   private:
     MotionBlurOutputs addGather(
         graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
-    ) const;
+    );
     MotionBlurOutputs addHybrid(
         graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
     );
-    MotionBlurOutputs addOwnVelocity(
-        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
-    ) const;
-    /// A filter that reads colour, motion and depth, and dominant motion.
-    MotionBlurOutputs addTiled(
+    /// A filter of one pass over blocks of mixed motion, which all that move are to it.
+    MotionBlurOutputs addRival(
         graph::Graph& graph,
-        const ScreenFilter& filter,
+        Method method,
         const MotionBlurInputs& inputs,
         const shader::MotionBlurParams& params
-    ) const;
+    );
     /// Reads no raster image.
     MotionBlurOutputs addDenoised(
         graph::Graph& graph,
@@ -95,22 +101,24 @@ class MotionBlur {
         const MotionBlurSettings& settings,
         const shader::MotionBlurParams& params
     ) const;
-    MotionBlurOutputs addGuertin(
-        graph::Graph& graph, const MotionBlurInputs& inputs, const shader::MotionBlurParams& params
-    ) const;
+    void chooseStillPixelsBy(const MotionBlurInputs& inputs);
 
     TileMotion mTileMotion;
+    BlockSorter mSorter;
+    StillPixels mStillPixels;
+    StillPixelsBy mStillPixelsBy = StillPixelsBy::WholeCopy;
     Gather mGather;
-    ScreenFilter mOwnVelocity;
-    ScreenFilter mMcGuire;
+    BlockFilter mOwnVelocity;
+    BlockFilter mMcGuire;
     GuertinTiles mGuertinTiles;
-    ScreenFilter mGuertin;
-    ScreenFilter mJimenez;
+    BlockFilter mGuertin;
+    BlockFilter mJimenez;
     ScreenFilter mVariance;
     ScreenFilter mATrous;
     std::unique_ptr<StochasticRays> mStochasticRays;
     std::unique_ptr<RayMask> mRayMask;
     std::unique_ptr<RayReveal> mRayReveal;
+    std::unique_ptr<RevealedLayerPasses> mRevealedLayer;
 };
 
 } // namespace shutter::motion_blur

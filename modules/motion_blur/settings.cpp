@@ -19,16 +19,32 @@ template <class T> core::Status requireRange(const char* field, T value, T lowes
     );
 }
 
+/// Guertin and Jimenez look tiles up to a quarter of a tile away (tileJitter()); a smear of Jimenez
+/// fades over one tap's distance beyond its end.
+float findMargin(const MotionBlurSettings& settings) {
+    const auto tile = static_cast<float>(settings.tileSizePx);
+    const float lookUp = 0.25f * tile * settings.jitter;
+    switch (settings.method) {
+    case Method::Guertin2014:
+        return lookUp;
+    case Method::Jimenez2014:
+        return std::max(lookUp, tile / static_cast<float>(settings.sampleCount));
+    default:
+        return 0.0f;
+    }
+}
+
 } // namespace
 
 std::span<const std::string_view> listSettings(Method method) {
     using Names = std::vector<std::string_view>;
-    static const Names kTiled = {"tileSizePx", "neighbourhoodTiles", "softDepthExtent", "jitter"};
+    static const Names kTiled = {
+        "tileSizePx", "neighbourhoodTiles", "softDepthExtent", "jitter", "maxMotionDepth"};
     static const auto with = [](Names names, const Names& more) {
         names.insert(names.end(), more.begin(), more.end());
         return names;
     };
-    static const Names kGather = with(kTiled, {"foregroundMagnification"});
+    static const Names kGather = with(kTiled, {"foregroundMagnification", "uniformMotionPx"});
     static const Names kHybrid = with(
         kGather,
         {"backgroundMagnification",
@@ -38,7 +54,7 @@ std::span<const std::string_view> listSettings(Method method) {
          "revealTraversal",
          "luminanceThreshold"}
     );
-    static const Names kOwnVelocity = {"jitter", "occluderTest"};
+    static const Names kOwnVelocity = {"jitter", "occluderTest", "maxMotionDepth"};
     static const Names kGuertin = with(kTiled, {"centreBias", "speedThresholdPx"});
     static const Names kDenoised = {
         "tileSizePx", "neighbourhoodTiles", "filterLevels", "luminanceSigma"};
@@ -77,6 +93,10 @@ core::Status validate(const MotionBlurSettings& settings) {
         requireRange("speedThresholdPx", settings.speedThresholdPx, 1e-3f, 100.0f),
         requireRange("filterLevels", settings.filterLevels, 0u, 8u),
         requireRange("luminanceSigma", settings.luminanceSigma, 0.01f, 100.0f),
+        requireRange("uniformMotionPx", settings.uniformMotionPx, 0.0f, 16.0f),
+        requireRange(
+            "maxMotionDepth", settings.maxMotionDepth, 0.0f, std::numeric_limits<float>::infinity()
+        ),
     };
     for (const core::Status& check : checks)
         if (!check)
@@ -118,6 +138,10 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
     params.centreBias = settings.centreBias;
     params.speedThresholdPx = settings.speedThresholdPx;
     params.luminanceSigma = settings.luminanceSigma;
+    const bool isGather = settings.method == Method::Gather || settings.method == Method::Hybrid;
+    params.uniformMotionPx = isGather ? settings.uniformMotionPx : 0.0f;
+    params.maxMotionDepth = settings.maxMotionDepth;
+    params.marginPx = findMargin(settings);
     return params;
 }
 

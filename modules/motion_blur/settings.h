@@ -5,6 +5,7 @@
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -67,6 +68,11 @@ struct MotionBlurSettings {
     uint32_t filterLevels = 5; ///< Method::Denoised: of the filter, each twice as wide, [0, 8]
     float luminanceSigma =
         4.0f; ///< Method::Denoised: standard deviations that count as noise, [0.01, 100]
+    float uniformMotionPx = 0.5f; ///< deviation from the dominant motion within which taps of the
+                                  ///< gathers read colour only, pixels, [0, 16]; 0 turns that off
+    float maxMotionDepth =
+        std::numeric_limits<float>::infinity(); ///< metres along the view, [0, infinity]; what is
+                                                ///< deeper, the sky too, counts as still
 };
 
 /// Names of the MotionBlurSettings that a method reads, sampleCount apart, which each does.

@@ -7,6 +7,9 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/jimenez2014.glsl"
 
+#define SHUTTER_BLOCK_LIST_BINDING 4
+#include "motion_blur/block_list.glsl"
+
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uColor;
@@ -25,7 +28,7 @@ struct Tap {
 Tap takeTap(vec2 centre, vec2 offset, vec3 target, float pixelsToTaps) {
     vec2 uv = (centre + offset) / vec2(params.sizePx);
     vec4 motionDepth = textureLod(uMotionDepth, uv, 0.0f);
-    vec2 motion = clampMotion(motionDepth.xy, float(params.tileSizePx));
+    vec2 motion = limitMotion(motionDepth.xyz, float(params.tileSizePx), params.maxMotionDepth);
     Tap tap;
     tap.color = textureLod(uColor, uv, 0.0f).rgb;
     tap.depth = motionDepth.z;
@@ -67,15 +70,15 @@ vec3 gather(vec2 dominant, vec3 target, vec2 centre) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
+    ivec2 pixel;
+    if (!findPixel(params.sizePx, pixel)) return;
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
     vec2 tile = jitteredTileUv(
         centre, params.jitter, params.tileSizePx, params.tileCount, params.sizePx
     );
     vec4 target = textureLod(uMotionDepth, uv, 0.0f);
-    vec2 motion = clampMotion(target.xy, float(params.tileSizePx));
+    vec2 motion = limitMotion(target.xyz, float(params.tileSizePx), params.maxMotionDepth);
     // The jitter may fetch a tile that is slower than the pixel is.
     vec2 dominant = longerMotion(textureLod(uDominant, tile, 0.0f).xy, motion);
     // Nothing moves within reach: the sharp colour, bit for bit.

@@ -1,55 +1,131 @@
 // SPDX-License-Identifier: MIT
 // Third test of the ray mask, the range check: a moving pixel is masked when any sample along its
-// motion is an edge. Masked pixels are also listed for the reveal, which is dispatched indirectly.
+// motion is an edge. Lists masked pixels for the reveal, blocks for the gathers, and tiles with
+// masked pixels. One barrier.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
+#define SHUTTER_BLOCK_LIST_BINDING 4
+#include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
-layout(binding = 1) uniform sampler2D uDominant;
-layout(binding = 2) uniform sampler2D uEdge;
+layout(binding = 1) uniform sampler2D uEdge;
+layout(binding = 2) uniform sampler2D uEdgeBlocks;
 layout(binding = 3, r8) uniform writeonly image2D uMask;
-layout(binding = 4, scalar) buffer MaskList {
+layout(binding = 5, scalar) buffer MaskList {
     MaskHeader header;
     uint pixels[];
-};
-layout(binding = 5, scalar) buffer Arguments { RevealArguments arguments; };
+} uMasked;
+layout(binding = 6, scalar) buffer Arguments { DispatchArguments uReveal; };
+layout(binding = 7, scalar) buffer SortedBlocks {
+    BlockHeader header;
+    uint entries[];
+} uSorted;
+layout(binding = 8, scalar) buffer SortedArguments { DispatchArguments uLists[kListCount]; };
+layout(binding = 9, scalar) buffer Tiles {
+    TileHeader header;
+    uint words[]; // listed tiles, then a flag for each tile of the picture
+} uTiles;
+layout(binding = 10, scalar) buffer TileArguments { DispatchArguments uTileArguments[2]; };
 
 /// Edges of a silhouette are two pixels wide (half the Sobel window): steps of at most one and a
 /// half cannot jump over one.
 const float kStepPx = 1.5f;
+const uint kPixels = kGroupSize * kGroupSize;
 
-bool meetsEdge(vec2 centre, vec2 offset) {
-    float range = length(offset);
-    uint steps = uint(ceil(range / kStepPx));
-    for (uint i = 0u; i <= steps; ++i) {
-        vec2 at = centre + offset * (float(i) / float(max(steps, 1u)));
-        if (textureLod(uEdge, at / vec2(params.sizePx), 0.0f).b > 0.5f) return true;
+shared uint sMasked[kPixels];
+
+bool meetsEdgeBlock(vec2 centre, vec2 offset, float range) {
+    // A place's block knows of every edge within a block's length of it, twice of what steps of one
+    // leave between them.
+    float steps = max(ceil(range / float(kGroupSize)), 1.0f);
+    vec2 blockUv = 1.0f / (ceil(vec2(params.sizePx) / float(kGroupSize)) * float(kGroupSize));
+    vec2 last = vec2(params.sizePx) - 0.5f;
+    for (float i = 0.0f; i <= steps; i += 1.0f) {
+        vec2 at = clamp(centre + offset * (i / steps), vec2(0.5f), last);
+        if (textureLod(uEdgeBlocks, at * blockUv, 0.0f).x > 0.5f) return true;
     }
     return false;
 }
 
-void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    vec2 centre = vec2(pixel) + 0.5f;
-    bool masked = false;
-    vec2 dominant =
-        textureLod(uDominant, tileUv(centre, params.tileSizePx, params.tileCount), 0.0f).xy;
-    if (length(dominant) >= kStillPx) {
-        vec2 motion = textureLod(uMotionDepth, centre / vec2(params.sizePx), 0.0f).xy;
-        motion = clampMotion(motion, float(params.tileSizePx));
-        masked = length(motion) >= kStillPx &&
-                 (meetsEdge(centre, motion * params.rasterShare) ||
-                  meetsEdge(centre, motion * (params.rasterShare - 1.0f)));
+bool meetsEdge(vec2 centre, vec2 offset) {
+    float range = length(offset);
+    if (!meetsEdgeBlock(centre, offset, range)) return false;
+    uint steps = uint(ceil(range / kStepPx));
+    for (uint i = 0u; i <= steps; ++i) {
+        vec2 at = centre + offset * (float(i) / float(max(steps, 1u)));
+        if (textureLod(uEdge, at / vec2(params.sizePx), 0.0f).x > 0.5f) return true;
     }
-    imageStore(uMask, pixel, vec4(masked ? 1.0f : 0.0f));
-    if (!masked) return;
-    uint index = atomicAdd(header.maskedPixels, 1u);
-    pixels[index] = uint(pixel.x) | uint(pixel.y) << 16;
-    if (index % kRevealThreads == 0u) atomicAdd(arguments.groupsX, 1u);
+    return false;
+}
+
+bool isMasked(ivec2 pixel) {
+    vec2 centre = vec2(pixel) + 0.5f;
+    vec3 target = textureLod(uMotionDepth, centre / vec2(params.sizePx), 0.0f).xyz;
+    vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
+    return length(motion) >= kStillPx &&
+           (meetsEdge(centre, motion * params.rasterShare) ||
+            meetsEdge(centre, motion * (params.rasterShare - 1.0f)));
+}
+
+void listTile(uvec2 tile) {
+    uint tiles = params.tileCount.x * params.tileCount.y;
+    if (atomicExchange(uTiles.words[tiles + tile.y * params.tileCount.x + tile.x], 1u) != 0u) return;
+    uint index = atomicAdd(uTiles.header.count, 1u);
+    uTiles.words[index] = tile.x | tile.y << 16;
+    atomicMax(uTileArguments[0].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uTileArguments[0].groupsY, 1u);
+    // And a thread a tile, in the same rows.
+    uint group = index / kPixels;
+    atomicMax(uTileArguments[1].groupsX, min(group + 1u, kListRow));
+    if (index % (kPixels * kListRow) == 0u) atomicAdd(uTileArguments[1].groupsY, 1u);
+}
+
+/// The block's masked pixels stand beside each other in the list: their rays are alike.
+void listPixels(uvec2 first, uint count) {
+    uint at = atomicAdd(uMasked.header.maskedPixels, count);
+    uint groups = (at + count + kRevealThreads - 1u) / kRevealThreads -
+                  (at + kRevealThreads - 1u) / kRevealThreads;
+    if (groups > 0u) atomicAdd(uReveal.groupsX, groups);
+    uvec2 lastTile = uvec2(0xFFFFFFFFu);
+    for (uint i = 0u; i < kPixels; ++i) {
+        if (sMasked[i] == 0u) continue;
+        uvec2 pixel = first + uvec2(i % kGroupSize, i / kGroupSize);
+        uMasked.pixels[at] = pixel.x | pixel.y << 16;
+        ++at;
+        uvec2 tile = uvec2(floor((vec2(pixel) + 0.5f) / float(params.tileSizePx)));
+        if (tile != lastTile) listTile(tile);
+        lastTile = tile;
+    }
+}
+
+void listBlock(uvec2 block, uint list, uint index) {
+    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
+    uSorted.entries[list * blocks.x * blocks.y + index] = block.x | block.y << 16;
+    atomicMax(uLists[list].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uLists[list].groupsY, 1u);
+}
+
+void main() {
+    uvec2 block;
+    bool listed = findBlock(params.sizePx, block);
+    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
+    bool inside = listed && all(lessThan(uvec2(pixel), params.sizePx));
+    bool masked = inside && isMasked(pixel);
+    if (masked) imageStore(uMask, pixel, vec4(1.0f));
+    sMasked[gl_LocalInvocationIndex] = masked ? 1u : 0u;
+    barrier();
+    if (!listed || gl_LocalInvocationIndex != 0u) return;
+    uint count = 0u;
+    for (uint i = 0u; i < kPixels; ++i) count += sMasked[i];
+    if (count == 0u) {
+        listBlock(block, kMixedList, atomicAdd(uSorted.header.mixedCount, 1u));
+        return;
+    }
+    listBlock(block, kMaskedList, atomicAdd(uSorted.header.maskedCount, 1u));
+    listPixels(block * kGroupSize, count);
 }

@@ -6,6 +6,9 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/taps.glsl"
 
+#define SHUTTER_BLOCK_LIST_BINDING 4
+#include "motion_blur/block_list.glsl"
+
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uColor;
@@ -17,7 +20,7 @@ vec3 gather(vec2 dominant, vec2 centre) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     float limit = float(params.tileSizePx);
     vec4 target = textureLod(uMotionDepth, centre * pixelsToUv, 0.0f);
-    vec2 targetMotion = clampMotion(target.xy, limit);
+    vec2 targetMotion = limitMotion(target.xyz, limit, params.maxMotionDepth);
     float weight = centreWeight(0.5f * length(targetMotion)); // 1 / |V|, V a half velocity
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (interleavedGradientNoise(floor(centre)) - 0.5f) * params.jitter;
@@ -33,7 +36,7 @@ vec3 gather(vec2 dominant, vec2 centre) {
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);
         float tapWeight = sampleWeight(
             (target.z - tap.z) / params.softDepthExtent, length(offset),
-            smearReach(offset, clampMotion(tap.xy, limit), params.rasterShare),
+            smearReach(offset, limitMotion(tap.xyz, limit, params.maxMotionDepth), params.rasterShare),
             smearReach(offset, targetMotion, params.rasterShare), 1.0f
         );
         sum += textureLod(uColor, uv, 0.0f).rgb * tapWeight;
@@ -43,8 +46,8 @@ vec3 gather(vec2 dominant, vec2 centre) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
+    ivec2 pixel;
+    if (!findPixel(params.sizePx, pixel)) return;
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 dominant =
         textureLod(uDominant, tileUv(centre, params.tileSizePx, params.tileCount), 0.0f).xy;

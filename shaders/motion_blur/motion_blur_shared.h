@@ -7,7 +7,8 @@
 
 SHUTTER_SHADER_BEGIN
 
-SHUTTER_CONST uint kGroupSize = 8u;      // pixel passes and tile max: 8 x 8 threads
+SHUTTER_CONST uint kGroupSize = 8u;      // pixel passes: 8 x 8 threads, a block
+SHUTTER_CONST uint kTileColumns = 8u;    // tile max: threads in a row; a multiple of it in a group
 SHUTTER_CONST uint kRevealThreads = 64u; // reveal: masked pixels a group
 
 /// Motion shorter than this blurs less than a pixel shows: such pixels are still.
@@ -47,13 +48,47 @@ struct MotionBlurParams {
     float stepPx;                  // between taps of one level (denoised only)
     uvec2 response;                // address of the shutter's ResponseTable; 0: a box
     uint revealTraversal;          // kRevealTraversal... (reveal only)
+    float uniformMotionPx;         // deviation that still counts as uniform motion; 0: none does
+    float maxMotionDepth;          // metres; what is deeper counts as still; infinity: nothing does
+    float marginPx;                // beyond a block whose tiles its pixels may look up
 };
 
-/// Arguments of the reveal's indirect dispatch (VkDispatchIndirectCommand).
-struct RevealArguments {
+// Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the
+// classification are dispatched over compacted lists of them. Three lists share a buffer.
+SHUTTER_CONST uint kUniformList = 0u; // all motion around is the dominant one
+SHUTTER_CONST uint kMixedList = 1u;   // no masked pixel in it, or no mask was asked for
+SHUTTER_CONST uint kMaskedList = 2u;  // masked pixels in it
+SHUTTER_CONST uint kListCount = 3u;
+/// In the other buffer of the mask's passes: mixed blocks that may have masked pixels.
+SHUTTER_CONST uint kCandidateList = 0u;
+
+/// Groups in x of a dispatch over a list; further ones go to y, so that no picture has more than a
+/// device takes (65535 in each).
+SHUTTER_CONST uint kListRow = 256u;
+
+/// VkDispatchIndirectCommand.
+struct DispatchArguments {
     uint groupsX;
     uint groupsY;
     uint groupsZ;
+};
+
+/// Head of a buffer of lists; room for every block of the picture follows for each list. An entry is
+/// x | y << 16, in blocks.
+struct BlockHeader {
+    uint uniformCount;
+    uint mixedCount;
+    uint maskedCount;
+    uint padding0;
+};
+
+/// Head of the list of tiles with masked pixels; the tiles (x | y << 16) follow, as many as there
+/// are, then for each tile of the picture 1 where it is in the list.
+struct TileHeader {
+    uint count;
+    uint padding0;
+    uint padding1;
+    uint padding2;
 };
 
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.
@@ -67,8 +102,10 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 112);
-static_assert(sizeof(shutter::shader::RevealArguments) == 12);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 124);
+static_assert(sizeof(shutter::shader::DispatchArguments) == 12);
+static_assert(sizeof(shutter::shader::BlockHeader) == 16);
+static_assert(sizeof(shutter::shader::TileHeader) == 16);
 static_assert(sizeof(shutter::shader::MaskHeader) == 16);
 #endif
 

@@ -7,6 +7,9 @@
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/own_velocity.glsl"
 
+#define SHUTTER_BLOCK_LIST_BINDING 3
+#include "motion_blur/block_list.glsl"
+
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uColor;
@@ -19,16 +22,16 @@ bool passesOccluderTest(vec2 at, vec2 offset, float depth) {
     if (any(lessThan(at, vec2(0.0f))) || any(greaterThan(at, vec2(params.sizePx)))) return false;
     vec4 tap = textureLod(uMotionDepth, at / vec2(params.sizePx), 0.0f);
     return tap.z > depth ||
-           couldCover(offset, clampMotion(tap.xy, kLongestOwnMotionPx), params.rasterShare);
+           couldCover(offset, limitMotion(tap.xyz, kLongestOwnMotionPx, params.maxMotionDepth), params.rasterShare);
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
+    ivec2 pixel;
+    if (!findPixel(params.sizePx, pixel)) return;
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     vec4 target = textureLod(uMotionDepth, centre * pixelsToUv, 0.0f);
-    vec2 motion = clampMotion(target.xy, kLongestOwnMotionPx);
+    vec2 motion = limitMotion(target.xyz, kLongestOwnMotionPx, params.maxMotionDepth);
     vec4 sharp = textureLod(uColor, centre * pixelsToUv, 0.0f);
     vec3 sum = vec3(0.0f);
     float weight = 0.0f;

@@ -1,35 +1,64 @@
 // SPDX-License-Identifier: MIT
-// Longest motion in each tile, clamped to the tile's size. One group a tile, one barrier.
+// Longest motion in each tile, clamped to the tile's size; how far the others are from it; the range
+// of depths. One group a tile, one barrier.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/block_class.glsl"
 #include "motion_blur/weights.glsl"
 
-layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+// Threads of a group: few where a group is a loop over threads (software devices), so that little is
+// left to add up.
+layout(local_size_x_id = 0, local_size_y = 1) in;
+layout(constant_id = 1) const uint kThreads = kTileColumns;
+
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1, rg32f) uniform writeonly image2D uTiles;
+layout(binding = 2, rgba32f) uniform writeonly image2D uRanges;
 
-const uint kTileThreads = kGroupSize * kGroupSize;
-shared vec2 sLongest[kTileThreads];
+struct Ranges {
+    vec2 longest;
+    vec2 least;
+    vec2 greatest;
+    vec2 depth; // nearest, farthest
+};
+
+shared Ranges sRanges[kThreads];
 
 void main() {
     uvec2 tile = gl_WorkGroupID.xy;
     uvec2 first = tile * params.tileSizePx;
     uvec2 end = min(first + params.tileSizePx, params.sizePx); // the last tile may be partial
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    vec2 longest = vec2(0.0f);
-    // Threads walk the tile as an 8 x 8 block: no division by the tile's width.
-    for (uint y = first.y + gl_LocalInvocationID.y; y < end.y; y += kGroupSize)
-        for (uint x = first.x + gl_LocalInvocationID.x; x < end.x; x += kGroupSize) {
+    Ranges ranges = Ranges(vec2(0.0f), vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, -3.0e38f));
+    // Threads walk the tile in rows of kTileColumns: no division by the tile's width.
+    uint column = gl_LocalInvocationIndex % kTileColumns;
+    uint row = gl_LocalInvocationIndex / kTileColumns;
+    for (uint y = first.y + row; y < end.y; y += kThreads / kTileColumns)
+        for (uint x = first.x + column; x < end.x; x += kTileColumns) {
             vec2 uv = (vec2(x, y) + 0.5f) * pixelsToUv;
-            longest = longerMotion(longest, textureLod(uMotionDepth, uv, 0.0f).xy);
+            vec3 texel = textureLod(uMotionDepth, uv, 0.0f).xyz;
+            vec2 motion = shownMotion(texel.xy, texel.z, params.maxMotionDepth);
+            ranges.longest = longerMotion(ranges.longest, motion);
+            ranges.least = min(ranges.least, motion);
+            ranges.greatest = max(ranges.greatest, motion);
+            ranges.depth =
+                vec2(min(ranges.depth.x, texel.z), max(ranges.depth.y, texel.z));
         }
-    sLongest[gl_LocalInvocationIndex] = longest;
+    sRanges[gl_LocalInvocationIndex] = ranges;
     barrier();
     if (gl_LocalInvocationIndex != 0u) return;
-    for (uint i = 1u; i < kTileThreads; ++i) longest = longerMotion(longest, sLongest[i]);
-    longest = clampMotion(longest, float(params.tileSizePx));
-    imageStore(uTiles, ivec2(tile), vec4(longest, 0.0f, 0.0f));
+    for (uint i = 1u; i < kThreads; ++i) {
+        ranges.longest = longerMotion(ranges.longest, sRanges[i].longest);
+        ranges.least = min(ranges.least, sRanges[i].least);
+        ranges.greatest = max(ranges.greatest, sRanges[i].greatest);
+        ranges.depth = vec2(
+            min(ranges.depth.x, sRanges[i].depth.x), max(ranges.depth.y, sRanges[i].depth.y)
+        );
+    }
+    float limit = float(params.tileSizePx);
+    float spread = tileSpread(ranges.least, ranges.greatest, length(ranges.longest), limit);
+    imageStore(uTiles, ivec2(tile), vec4(clampMotion(ranges.longest, limit), 0.0f, 0.0f));
+    imageStore(uRanges, ivec2(tile), vec4(spread, ranges.depth, 0.0f));
 }

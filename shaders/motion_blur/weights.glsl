@@ -19,17 +19,43 @@ SHUTTER_INLINE float cylinder(float distancePx, float speedPx) {
     return 1.0f - t * t * (3.0f - 2.0f * t);
 }
 
+/// How far along a smear a distance lies, 1 at its end. Of a still one everything is beyond the end.
+SHUTTER_INLINE float smearRatio(float distancePx, float speedPx) {
+    return distancePx / max(speedPx, 1.0e-3f);
+}
+
+/// cylinder() of a smearRatio(): one division serves cone and cylinder.
+SHUTTER_INLINE float cylinderAt(float ratio) {
+    float t = saturate(10.0f * ratio - 9.5f);
+    return 1.0f - t * t * (3.0f - 2.0f * t);
+}
+
+/// sampleWeight() of smearRatio()s.
+SHUTTER_INLINE float sampleWeightAt(
+    float z, float sampleRatio, float targetRatio, float magnification
+) {
+    float front = saturate(1.0f + z) * saturate(1.0f - sampleRatio);
+    front *= z >= 1.0f ? magnification : 1.0f;
+    float behind = saturate(1.0f - z) * saturate(1.0f - targetRatio);
+    return front + behind + 2.0f * cylinderAt(sampleRatio) * cylinderAt(targetRatio);
+}
+
 /// w = w_f + w_b + w_s of a sample at `distancePx` from the target.
 /// \param z (target depth - sample depth) / SOFT_Z_EXTENT: positive when the target is deeper
 /// \param magnification w_f is multiplied by it where the target is deeper by the whole extent
 SHUTTER_INLINE float sampleWeight(
     float z, float distancePx, float sampleSpeedPx, float targetSpeedPx, float magnification
 ) {
-    float front = saturate(1.0f + z) * cone(distancePx, sampleSpeedPx);
-    if (z >= 1.0f) front *= magnification;
-    float behind = saturate(1.0f - z) * cone(distancePx, targetSpeedPx);
-    float both = 2.0f * cylinder(distancePx, sampleSpeedPx) * cylinder(distancePx, targetSpeedPx);
-    return front + behind + both;
+    return sampleWeightAt(
+        z, smearRatio(distancePx, sampleSpeedPx), smearRatio(distancePx, targetSpeedPx),
+        magnification
+    );
+}
+
+/// sampleWeight() of two at one depth that move alike.
+SHUTTER_INLINE float uniformWeight(float ratio) {
+    float both = cylinderAt(ratio);
+    return 2.0f * (saturate(1.0f - ratio) + both * both);
 }
 
 /// Weight of the target itself (McGuire 2012: 1 / |V|), bounded for a still one.
@@ -64,6 +90,20 @@ SHUTTER_INLINE vec2 clampMotion(vec2 motion, float limitPx) {
     float speed = length(motion);
     if (!isFinite(speed)) return vec2(0.0f);
     return speed > limitPx ? motion * (limitPx / speed) : motion;
+}
+
+/// `motion` as the filters see it: none where it is not finite, nor beyond the depth to which motion
+/// is shown (Tan et al.: velocity limited to a user-defined depth).
+SHUTTER_INLINE vec2 shownMotion(vec2 motion, float depth, float maxMotionDepth) {
+    bool shown = isFinite(dot(motion, motion)) && depth <= maxMotionDepth;
+    return shown ? motion : vec2(0.0f);
+}
+
+/// shownMotion() no longer than `limitPx`.
+/// \param motionDepth motion and depth, as the G-buffer has them
+SHUTTER_INLINE vec2 limitMotion(vec3 motionDepth, float limitPx, float maxMotionDepth) {
+    vec2 motion = vec2(motionDepth.x, motionDepth.y);
+    return clampMotion(shownMotion(motion, motionDepth.z, maxMotionDepth), limitPx);
 }
 
 /// Length of a motion, 0 where that is not finite: clampMotion() without a limit.

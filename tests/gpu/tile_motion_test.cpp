@@ -35,7 +35,7 @@ Tiles runPasses(gpu::Device& device, const Image& motion, uint32_t neighbourhood
     const auto params = motion_blur::resolve(settings, motion.width, motion.height, 1.0);
     test::GraphRig rig(device);
     const motion_blur::TileMotion passes(device);
-    const auto outputs = passes.add(rig.graph, rig.upload(motion), params, "");
+    const auto outputs = passes.add(rig.graph, rig.upload(motion), params);
     const size_t tiles = rig.want(outputs.tiles);
     const size_t dominant = rig.want(outputs.dominant);
     rig.run();

@@ -305,6 +305,7 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
     motion_blur::MotionBlurSettings settings = makeSettings();
     settings.edgeThreshold = 0.8f;
     const motion_blur::TileMotion tileMotion(device);
+    const motion_blur::BlockSorter sorter(device);
     const motion_blur::RayMask rayMask(device);
     Worst measure;
     Worst edges;
@@ -315,13 +316,13 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
         GBufferRig rig(device);
         const auto params = motion_blur::resolve(settings, kWidth, kHeight, share);
         const graph::ImageHandle motionDepth = rig.upload(layer.gbuffer.motionDepth);
-        const auto tiles = tileMotion.add(rig.graph, motionDepth, params, "");
+        const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
         const auto outputs = rayMask.add(
             rig.graph,
             {motionDepth,
              rig.upload(layer.normal),
              rig.uploadIds(layer.meshId),
-             tiles.dominant,
+             sorter.add(rig.graph, tiles, params, true),
              true},
             params
         );

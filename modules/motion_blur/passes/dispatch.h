@@ -6,6 +6,7 @@
 #include "engine/graph/execute.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -39,8 +40,55 @@ inline void dispatchPixels(
     vkCmdDispatch(context.commands, groups.x, groups.y, 1);
 }
 
+/// Binds and dispatches over a list, whose arguments are the `list`th of a buffer of
+/// shader::DispatchArguments.
+inline void dispatchList(
+    graph::PassContext& context,
+    const gpu::Pipeline& pipeline,
+    const gpu::BindingList& bindings,
+    const shader::MotionBlurParams& params,
+    graph::BufferHandle arguments,
+    uint32_t list
+) {
+    context.frame.bind(pipeline, bindings, &params, sizeof(params));
+    vkCmdDispatchIndirect(
+        context.commands,
+        context.resources.buffer(arguments),
+        list * sizeof(shader::DispatchArguments)
+    );
+}
+
+/// Blocks of a picture, across and down.
+[[nodiscard]] inline glm::uvec2 countBlocks(const shader::MotionBlurParams& params) {
+    return (params.sizePx + shader::kGroupSize - 1u) / shader::kGroupSize;
+}
+
+/// In a transfer pass: writes the head of a list.
+inline void
+clearList(graph::PassContext& context, graph::BufferHandle list, const void* header, size_t bytes) {
+    vkCmdUpdateBuffer(context.commands, context.resources.buffer(list), 0, bytes, header);
+}
+
+/// In a transfer pass: dispatches of no groups, for kListCount lists at most.
+inline void
+clearArguments(graph::PassContext& context, graph::BufferHandle arguments, uint32_t listCount) {
+    std::array<shader::DispatchArguments, shader::kListCount> none;
+    none.fill({0, 0, 1});
+    vkCmdUpdateBuffer(
+        context.commands,
+        context.resources.buffer(arguments),
+        0,
+        listCount * sizeof(shader::DispatchArguments),
+        none.data()
+    );
+}
+
 inline constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 inline constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 inline constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+
+inline constexpr VkBufferUsageFlags kListUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+inline constexpr VkBufferUsageFlags kArgumentsUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
 
 } // namespace shutter::motion_blur

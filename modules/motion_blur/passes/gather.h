@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The gather of one or two layers and their composite (Tan et al., "Post-process" and appendix).
+// The gather of one or two layers and their composite (Tan et al., "Post-process" and appendix),
+// each class of blocks by a kernel of its own.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/block_filter.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 #include <optional>
 
 namespace shutter::motion_blur {
 
-/// What lies behind, where the mask says so.
+/// What lies behind. Images hold masked pixels, `dominant` tiles that have some; elsewhere the
+/// layer is the raster's.
 struct RevealedLayer {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
@@ -28,14 +31,19 @@ struct GatherInputs {
 class Gather {
   public:
     explicit Gather(gpu::Device& device);
+
+    /// \return target with all listed blocks written
     [[nodiscard]] graph::ImageHandle
-    add(graph::Graph& graph, const GatherInputs& inputs, const shader::MotionBlurParams& params
-    ) const;
+    add(graph::Graph& graph,
+        const GatherInputs& inputs,
+        const BlockLists& lists,
+        graph::ImageHandle target,
+        const shader::MotionBlurParams& params) const;
 
   private:
-    VkSampler mSampler;
-    gpu::Pipeline mOneLayer;
-    gpu::Pipeline mTwoLayers;
+    BlockFilter mUniform;
+    BlockFilter mOneLayer;
+    BlockFilter mTwoLayers;
 };
 
 } // namespace shutter::motion_blur

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Where a background is about to come into sight (Tan et al., "Ray Mask"): mesh id and depth one
-// motion away, 5x5 Sobel edge, range check.
+// motion away, 5x5 Sobel edge, range check. In blocks where that is possible only.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/block_lists.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
 namespace shutter::motion_blur {
@@ -13,15 +14,18 @@ struct RayMaskInputs {
     graph::ImageHandle motionDepth;
     graph::ImageHandle normal;
     graph::ImageHandle meshId;
-    graph::ImageHandle dominant;
+    SortedBlocks blocks; ///< sorted for a mask
     bool measureEverywhere = false;
 };
 
 struct RayMaskOutputs {
-    graph::ImageHandle edge;       ///< RGBA8: candidate, measure, edge
+    graph::ImageHandle edge;       ///< RGBA8: candidate, measure, edge; drawn only if it is read
     graph::ImageHandle mask;       ///< R8
     graph::BufferHandle list;      ///< MaskHeader, then the masked pixels
-    graph::BufferHandle arguments; ///< RevealArguments
+    graph::BufferHandle arguments; ///< DispatchArguments of the reveal
+    BlockLists blocks;             ///< all of them sorted: kMaskedList, kMixedList
+    graph::BufferHandle tiles;     ///< TileHeader, then the tiles with masked pixels
+    graph::BufferHandle tileArguments; ///< DispatchArguments: a group a tile, 64 tiles a group
 };
 
 class RayMask {
@@ -32,9 +36,25 @@ class RayMask {
     ) const;
 
   private:
+    struct Edges {
+        graph::ImageHandle edges;  ///< R8
+        graph::ImageHandle blocks; ///< R8, one texel a block: an edge lies within a block's length
+    };
+
+    graph::ImageHandle addEdgeView(
+        graph::Graph& graph, const RayMaskInputs& inputs, const shader::MotionBlurParams& params
+    ) const;
+    Edges addEdges(
+        graph::Graph& graph,
+        const RayMaskInputs& inputs,
+        const Edges& cleared,
+        const shader::MotionBlurParams& params
+    ) const;
+
     VkSampler mSampler;
     gpu::Pipeline mEdge;
-    gpu::Pipeline mEdgeEverywhere;
+    gpu::Pipeline mEdgeView;
+    gpu::Pipeline mEdgeViewEverywhere;
     gpu::Pipeline mMask;
 };
 

@@ -48,22 +48,6 @@ gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasB
     return desc;
 }
 
-void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
-    VkImageCopy region{};
-    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.dstSubresource = region.srcSubresource;
-    region.extent = {source.desc().width, source.desc().height, 1};
-    vkCmdCopyImage(
-        commands,
-        source.handle(),
-        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        target.handle(),
-        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-        1,
-        &region
-    );
-}
-
 } // namespace
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
@@ -140,44 +124,17 @@ void RayReveal::launch(
     tracer.trace(context.commands, params.sizePx.x, params.sizePx.y);
 }
 
-RayRevealOutputs RayReveal::copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const {
-    using graph::Access;
-
-    struct Data {
-        std::array<graph::ImageHandle, 3> sources;
-        std::array<graph::ImageHandle, 3> targets;
-    };
-
-    const Data& copied = graph.addPass<Data>(
-        "copy layer",
-        graph::PassKind::Transfer,
-        [&](graph::PassBuilder& builder, Data& data) {
-            data.sources = {inputs.color, inputs.motionDepth, inputs.meshId};
-            const std::array names{"reveal color", "reveal motion depth", "reveal mesh id"};
-            for (size_t i = 0; i < names.size(); ++i) {
-                builder.read(data.sources[i], Access::TransferRead);
-                const auto image =
-                    graph.createImage(names[i], graph.describeImage(data.sources[i]));
-                data.targets[i] = builder.write(image, Access::TransferWrite);
-            }
-        },
-        [](const Data& data, graph::PassContext& context) {
-            for (size_t i = 0; i < data.sources.size(); ++i)
-                copyWhole(
-                    context.commands,
-                    context.resources.image(data.sources[i]),
-                    context.resources.image(data.targets[i])
-                );
-        }
-    );
-    return {copied.targets[0], copied.targets[1], copied.targets[2]};
-}
-
 RayRevealOutputs RayReveal::add(
     graph::Graph& graph, const RayRevealInputs& inputs, const shader::MotionBlurParams& params
 ) {
     using graph::Access;
-    RayRevealOutputs outputs = copyLayer(graph, inputs);
+    const auto create = [&](const char* name, graph::ImageHandle like) {
+        return graph.createImage(name, graph.describeImage(like));
+    };
+    const RayRevealOutputs outputs{
+        create("reveal color", inputs.color),
+        create("reveal motion depth", inputs.motionDepth),
+        create("reveal mesh id", inputs.meshId)};
     const graph::BufferHandle launchSize = addLaunchSize(graph, inputs.list);
     const bool byQuery = mDevice.hasRayQuery();
     makePipeline(inputs.rays.hasBlended);

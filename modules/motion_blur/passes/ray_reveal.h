@@ -34,6 +34,7 @@ struct RayRevealInputs {
     RayInputs rays;
 };
 
+/// Written at masked pixels only.
 struct RayRevealOutputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
@@ -51,7 +52,6 @@ class RayReveal {
     [[nodiscard]] shader::MaskHeader lastHeader() const;
 
   private:
-    RayRevealOutputs copyLayer(graph::Graph& graph, const RayRevealInputs& inputs) const;
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
     graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
     /// The one for the device is made for the first frame that needs it.

@@ -12,74 +12,102 @@ namespace {
 
 using graph::Access;
 
-struct Data {
-    graph::ImageHandle source;
-    graph::ImageHandle target;
-};
-
-graph::TransientImageDesc describeTiles(const shader::MotionBlurParams& params) {
-    return {params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
+gpu::ComputePipelineDesc describeTileMax(const gpu::Device& device) {
+    gpu::ComputePipelineDesc desc =
+        describePass("tile max", motion_blur_tile_max_comp, {kSampled, kStorage, kStorage});
+    // A software device runs a group's threads in turn and adds up what each found in one of them:
+    // as few as it runs at once. Elsewhere as many as keep a processor busy.
+    const bool isSoftware = device.info().kind == "software";
+    const uint32_t threads = shader::kTileColumns * (isSoftware ? 1u : 8u);
+    desc.specialization = {threads, threads};
+    return desc;
 }
 
 } // namespace
 
 TileMotion::TileMotion(gpu::Device& device)
-    : mSampler(device.nearestSampler()),
-      mTileMax(device, describePass("tile max", motion_blur_tile_max_comp, {kSampled, kStorage})),
+    : mSampler(device.nearestSampler()), mTileMax(device, describeTileMax(device)),
       mNeighbourMax(
           device,
-          describePass("neighbour max", motion_blur_neighbour_max_comp, {kSampled, kStorage})
+          describePass(
+              "neighbour max",
+              motion_blur_neighbour_max_comp,
+              {kSampled, kSampled, kStorage, kStorage}
+          )
       ) {}
 
-graph::ImageHandle TileMotion::addTileMax(
-    graph::Graph& graph,
-    graph::ImageHandle motionDepth,
-    const shader::MotionBlurParams& params,
-    const std::string& suffix
+TileMaxOutputs TileMotion::addTileMax(
+    graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
 ) const {
+    struct Data {
+        graph::ImageHandle motionDepth;
+        TileMaxOutputs out;
+    };
+
+    const glm::uvec2 size = params.tileCount;
     const Data& pass = graph.addPass<Data>(
-        "tile max" + suffix,
+        "tile max",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.source = builder.read(motionDepth, Access::SampledCompute);
-            const auto tiles = graph.createImage("tiles" + suffix, describeTiles(params));
-            data.target = builder.write(tiles, Access::StorageWrite);
+            data.motionDepth = builder.read(motionDepth, Access::SampledCompute);
+            data.out.tiles = builder.write(
+                graph.createImage("tiles", {size.x, size.y, VK_FORMAT_R32G32_SFLOAT}),
+                Access::StorageWrite
+            );
+            data.out.ranges = builder.write(
+                graph.createImage("tile ranges", {size.x, size.y, VK_FORMAT_R32G32B32A32_SFLOAT}),
+                Access::StorageWrite
+            );
         },
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
-            bindings.sampled(context.resources.view(data.source), mSampler)
-                .storage(context.resources.view(data.target));
+            bindings.sampled(context.resources.view(data.motionDepth), mSampler)
+                .storage(context.resources.view(data.out.tiles))
+                .storage(context.resources.view(data.out.ranges));
             context.frame.bind(mTileMax, bindings, &params, sizeof(params));
             vkCmdDispatch(context.commands, params.tileCount.x, params.tileCount.y, 1);
         }
     );
-    return pass.target;
+    return pass.out;
 }
 
 TileMotionOutputs TileMotion::add(
-    graph::Graph& graph,
-    graph::ImageHandle motionDepth,
-    const shader::MotionBlurParams& params,
-    const std::string& suffix
+    graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
 ) const {
-    const graph::ImageHandle tiles = addTileMax(graph, motionDepth, params, suffix);
+    struct Data {
+        TileMaxOutputs in;
+        TileMotionOutputs out;
+    };
+
+    const TileMaxOutputs tileMax = addTileMax(graph, motionDepth, params);
+    const glm::uvec2 size = params.tileCount;
     const Data& pass = graph.addPass<Data>(
-        "neighbour max" + suffix,
+        "neighbour max",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.source = builder.read(tiles, Access::SampledCompute);
-            const auto dominant =
-                graph.createImage("dominant motion" + suffix, describeTiles(params));
-            data.target = builder.write(dominant, Access::StorageWrite);
+            data.in = tileMax;
+            builder.read(tileMax.tiles, Access::SampledCompute);
+            builder.read(tileMax.ranges, Access::SampledCompute);
+            data.out.tiles = tileMax.tiles;
+            data.out.dominant = builder.write(
+                graph.createImage("dominant motion", {size.x, size.y, VK_FORMAT_R32G32_SFLOAT}),
+                Access::StorageWrite
+            );
+            data.out.tileClass = builder.write(
+                graph.createImage("tile class", {size.x, size.y, VK_FORMAT_R32_SFLOAT}),
+                Access::StorageWrite
+            );
         },
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
-            bindings.sampled(context.resources.view(data.source), mSampler)
-                .storage(context.resources.view(data.target));
+            bindings.sampled(context.resources.view(data.in.tiles), mSampler)
+                .sampled(context.resources.view(data.in.ranges), mSampler)
+                .storage(context.resources.view(data.out.dominant))
+                .storage(context.resources.view(data.out.tileClass));
             dispatchPixels(context, mNeighbourMax, bindings, params, params.tileCount);
         }
     );
-    return {tiles, pass.target};
+    return pass.out;
 }
 
 } // namespace shutter::motion_blur

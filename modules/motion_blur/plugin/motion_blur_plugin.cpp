@@ -36,6 +36,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.meshId = context.gbuffer.meshId;
     inputs.rasterShare = context.facts.rasterShare;
     inputs.response = render::splitAddress(context.response);
+    inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
     if (context.rays)
         inputs.rays = RayInputs{

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Sorts the picture's blocks of 8 x 8 pixels into lists by what they ask for; the passes after are
+// dispatched over the lists, without the CPU. Still blocks are in none.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/tile_motion.h"
+#include "shaders/motion_blur/motion_blur_shared.h"
+
+#include <cstdint>
+
+namespace shutter::motion_blur {
+
+/// Lists of blocks and the arguments of dispatches over them. The first of each pair starts with a
+/// shader::BlockHeader, the second is shader::DispatchArguments for each list.
+struct BlockLists {
+    graph::BufferHandle blocks;
+    graph::BufferHandle arguments;
+};
+
+struct SortedBlocks {
+    BlockLists lists;      ///< kUniformList, kMixedList; after the ray mask kMaskedList, too
+    BlockLists candidates; ///< kCandidateList: what the ray mask has to look at
+};
+
+/// Blocks of a picture by class.
+struct BlockCounters {
+    uint32_t still = 0;   ///< neither read nor written
+    uint32_t uniform = 0; ///< all motion around is the dominant one
+    uint32_t mixed = 0;   ///< the full filter
+    uint32_t masked = 0;  ///< the full filter over two layers
+};
+
+class BlockSorter {
+  public:
+    explicit BlockSorter(gpu::Device& device);
+
+    /// \param forMask blocks that may have masked pixels go to the candidates
+    SortedBlocks
+    add(graph::Graph& graph,
+        const TileMotionOutputs& tiles,
+        const shader::MotionBlurParams& params,
+        bool forMask) const;
+
+    /// Reads the lists' lengths back, once all passes that append are declared.
+    void addCounters(
+        graph::Graph& graph, const BlockLists& lists, const shader::MotionBlurParams& params
+    );
+
+    /// Of the frame declared last, once the GPU is done with it; before the first all 0.
+    [[nodiscard]] BlockCounters counters() const;
+
+  private:
+    VkSampler mSampler;
+    gpu::Pipeline mSort;
+    gpu::Pipeline mSortForMask;
+    gpu::Buffer mHeader;
+    uint32_t mBlockCount = 0; ///< of the picture declared last
+};
+
+} // namespace shutter::motion_blur

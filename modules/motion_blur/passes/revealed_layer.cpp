@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/revealed_layer.h"
+
+#include "spirv/motion_blur/reveal_neighbour_max.comp.h"
+#include "spirv/motion_blur/reveal_tile_max.comp.h"
+#include "spirv/motion_blur/reveal_view.comp.h"
+
+#include "modules/motion_blur/passes/dispatch.h"
+
+#include <array>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+struct TileData {
+    std::vector<graph::ImageHandle> in;
+    graph::BufferHandle tiles;
+    graph::BufferHandle arguments;
+    graph::ImageHandle out;
+};
+
+} // namespace
+
+RevealedLayerPasses::RevealedLayerPasses(gpu::Device& device)
+    : mSampler(device.nearestSampler()), mTileMax(
+                                             device,
+                                             describePass(
+                                                 "tile max of reveal",
+                                                 motion_blur_reveal_tile_max_comp,
+                                                 {kSampled, kSampled, kSampled, kStorage, kBuffer}
+                                             )
+                                         ),
+      mNeighbourMax(
+          device,
+          describePass(
+              "neighbour max of reveal",
+              motion_blur_reveal_neighbour_max_comp,
+              {kSampled, kSampled, kStorage, kBuffer}
+          )
+      ),
+      mView(
+          device,
+          describePass(
+              "reveal view",
+              motion_blur_reveal_view_comp,
+              {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kStorage}
+          )
+      ) {}
+
+graph::ImageHandle RevealedLayerPasses::addDominant(
+    graph::Graph& graph, const RevealedLayerInputs& inputs, const shader::MotionBlurParams& params
+) const {
+    const graph::TransientImageDesc desc{
+        params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
+    const auto addPass = [&](const std::string& name,
+                             const gpu::Pipeline& pipeline,
+                             std::vector<graph::ImageHandle> sampled,
+                             const char* image,
+                             uint32_t list) {
+        return graph
+            .addPass<TileData>(
+                name,
+                graph::PassKind::Compute,
+                [&](graph::PassBuilder& builder, TileData& data) {
+                    data.in = std::move(sampled);
+                    for (graph::ImageHandle in : data.in)
+                        builder.read(in, Access::SampledCompute);
+                    data.tiles = builder.read(inputs.mask.tiles, Access::StorageRead);
+                    data.arguments = builder.read(inputs.mask.tileArguments, Access::IndirectRead);
+                    data.out = builder.write(graph.createImage(image, desc), Access::StorageWrite);
+                },
+                [this, params, &pipeline, list](const TileData& data, graph::PassContext& context) {
+                    gpu::BindingList bindings;
+                    for (graph::ImageHandle in : data.in)
+                        bindings.sampled(context.resources.view(in), mSampler);
+                    bindings.storage(context.resources.view(data.out))
+                        .buffer(context.resources.buffer(data.tiles));
+                    dispatchList(context, pipeline, bindings, params, data.arguments, list);
+                }
+            )
+            .out;
+    };
+    const graph::ImageHandle tiles = addPass(
+        "tile max of reveal",
+        mTileMax,
+        {inputs.motionDepth, inputs.reveal.motionDepth, inputs.mask.mask},
+        "tiles of reveal",
+        0
+    );
+    return addPass(
+        "neighbour max of reveal",
+        mNeighbourMax,
+        {inputs.tiles, tiles},
+        "dominant motion of reveal",
+        1
+    );
+}
+
+RevealedViews RevealedLayerPasses::addViews(
+    graph::Graph& graph, const RevealedLayerInputs& inputs, const shader::MotionBlurParams& params
+) const {
+    struct Data {
+        std::array<graph::ImageHandle, 5> in;
+        RevealedViews out;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "reveal view",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.in = {
+                inputs.mask.mask,
+                inputs.color,
+                inputs.motionDepth,
+                inputs.reveal.color,
+                inputs.reveal.motionDepth};
+            for (graph::ImageHandle in : data.in)
+                builder.read(in, Access::SampledCompute);
+            data.out.color = builder.write(
+                graph.createImage("reveal view", graph.describeImage(inputs.reveal.color)),
+                Access::StorageWrite
+            );
+            data.out.motionDepth = builder.write(
+                graph.createImage(
+                    "reveal motion view", graph.describeImage(inputs.reveal.motionDepth)
+                ),
+                Access::StorageWrite
+            );
+        },
+        [this, params](const Data& data, graph::PassContext& context) {
+            gpu::BindingList bindings;
+            for (graph::ImageHandle in : data.in)
+                bindings.sampled(context.resources.view(in), mSampler);
+            bindings.storage(context.resources.view(data.out.color))
+                .storage(context.resources.view(data.out.motionDepth));
+            dispatchPixels(context, mView, bindings, params, params.sizePx);
+        }
+    );
+    return pass.out;
+}
+
+} // namespace shutter::motion_blur

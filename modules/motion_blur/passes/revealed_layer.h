@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// What the gather needs of the revealed layer besides its pixels: its dominant motion, in tiles
+// with masked pixels only; and the layer as whole pictures, for debug views.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/ray_mask.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
+#include "shaders/motion_blur/motion_blur_shared.h"
+
+namespace shutter::motion_blur {
+
+struct RevealedLayerInputs {
+    graph::ImageHandle color;       ///< of the raster
+    graph::ImageHandle motionDepth; ///< of the raster
+    graph::ImageHandle tiles;       ///< longest motion of the raster's tiles
+    RayMaskOutputs mask;
+    RayRevealOutputs reveal;
+};
+
+struct RevealedViews {
+    graph::ImageHandle color;
+    graph::ImageHandle motionDepth;
+};
+
+class RevealedLayerPasses {
+  public:
+    explicit RevealedLayerPasses(gpu::Device& device);
+
+    /// RG32F, one texel a tile; written where a tile has masked pixels.
+    [[nodiscard]] graph::ImageHandle addDominant(
+        graph::Graph& graph,
+        const RevealedLayerInputs& inputs,
+        const shader::MotionBlurParams& params
+    ) const;
+
+    /// Drawn only if they are read.
+    [[nodiscard]] RevealedViews addViews(
+        graph::Graph& graph,
+        const RevealedLayerInputs& inputs,
+        const shader::MotionBlurParams& params
+    ) const;
+
+  private:
+    VkSampler mSampler;
+    gpu::Pipeline mTileMax;
+    gpu::Pipeline mNeighbourMax;
+    gpu::Pipeline mView;
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/still_pixels.h"
+
+#include "spirv/motion_blur/copy_blocks.comp.h"
+
+#include "engine/graph/execute.h"
+
+#include <array>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
+    VkImageCopy region{};
+    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.dstSubresource = region.srcSubresource;
+    region.extent = {source.desc().width, source.desc().height, 1};
+    vkCmdCopyImage(
+        commands,
+        source.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        target.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        1,
+        &region
+    );
+}
+
+} // namespace
+
+StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
+    // The two cost the same where a quarter of the picture moves.
+    if (movingShare < 0.2)
+        return StillPixelsBy::CopyBack;
+    if (movingShare > 0.3)
+        return StillPixelsBy::WholeCopy;
+    return last;
+}
+
+StillPixels::StillPixels(gpu::Device& device) {
+    const std::array names{"write uniform blocks", "write mixed blocks", "write masked blocks"};
+    for (uint32_t list = 0; list < shader::kListCount; ++list)
+        mCopyBack.emplace_back(device, names[list], motion_blur_copy_blocks_comp, 1, list);
+}
+
+graph::ImageHandle
+StillPixels::begin(graph::Graph& graph, graph::ImageHandle color, StillPixelsBy by) const {
+    const graph::ImageHandle target = graph.createImage("blurred", graph.describeImage(color));
+    if (by == StillPixelsBy::CopyBack)
+        return target;
+
+    struct Data {
+        graph::ImageHandle source;
+        graph::ImageHandle target;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "copy still pixels",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.source = builder.read(color, Access::TransferRead);
+            data.target = builder.write(target, Access::TransferWrite);
+        },
+        [](const Data& data, graph::PassContext& context) {
+            copyWhole(
+                context.commands,
+                context.resources.image(data.source),
+                context.resources.image(data.target)
+            );
+        }
+    );
+    return pass.target;
+}
+
+graph::ImageHandle StillPixels::end(
+    graph::Graph& graph,
+    graph::ImageHandle color,
+    graph::ImageHandle filtered,
+    const BlockLists& lists,
+    uint32_t listCount,
+    const shader::MotionBlurParams& params,
+    StillPixelsBy by
+) const {
+    if (by == StillPixelsBy::WholeCopy)
+        return filtered;
+    for (uint32_t list = 0; list < listCount; ++list)
+        color = mCopyBack[list].add(graph, std::array{filtered}, lists, color, params);
+    return color;
+}
+
+} // namespace shutter::motion_blur

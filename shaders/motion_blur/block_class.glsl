@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// What a tile's neighbourhood and a block of pixels ask of the filters.
+#ifndef SHUTTER_MOTION_BLUR_BLOCK_CLASS_GLSL
+#define SHUTTER_MOTION_BLUR_BLOCK_CLASS_GLSL
+
+#include "common/numeric.glsl"
+#include "motion_blur/motion_blur_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+// In the order of what they ask for; stored as floats, which every sampler reads.
+SHUTTER_CONST float kClassStill = 0.0f;   // nothing within reach moves
+SHUTTER_CONST float kClassUniform = 1.0f; // all within reach moves by the dominant motion
+SHUTTER_CONST float kClassMixed = 2.0f;   // anything else, at depths too alike to hide anything
+SHUTTER_CONST float kClassDeep = 3.0f;    // the same, and what is deeper may come into sight
+
+/// Deviation from the dominant motion within which motion is uniform, pixels. With a deviation e
+/// the weight of a tap at u of the motion v is off by at most u e / v of the cone's part of it; the
+/// mean over the taps by e / (3 v). An e of v / 16 is two percent of the contrast along the smear,
+/// and the smear ends e pixels from where it should.
+SHUTTER_INLINE float uniformBound(float dominantPx, float uniformMotionPx) {
+    return min(uniformMotionPx, dominantPx * (1.0f / 16.0f));
+}
+
+/// \param deviationPx greatest distance of a motion within reach from the dominant one
+/// \param depthRange metres between the nearest and the farthest within reach
+SHUTTER_INLINE float classifyTile(
+    float dominantPx, float deviationPx, float depthRange, float uniformMotionPx,
+    float softDepthExtent
+) {
+    if (dominantPx < kStillPx) return kClassStill;
+    // Written so that a deviation that is no number is not uniform.
+    if (uniformMotionPx > 0.0f && deviationPx <= uniformBound(dominantPx, uniformMotionPx))
+        return kClassUniform;
+    return depthRange > softDepthExtent ? kClassDeep : kClassMixed;
+}
+
+/// How far the motions in a tile are from its longest one, at most: the diagonal of the box that
+/// holds them, and what the longest one was cut by to fit the tile.
+SHUTTER_INLINE float tileSpread(vec2 least, vec2 greatest, float longestPx, float limitPx) {
+    return length(greatest - least) + max(longestPx - limitPx, 0.0f);
+}
+
+/// Whether a smear no longer than `reachPx` of something in one rectangle comes over the other.
+/// Each from its first corner to where it ends.
+SHUTTER_INLINE bool reachesBlock(
+    vec2 blockFirst, vec2 blockEnd, vec2 tileFirst, vec2 tileEnd, float reachPx
+) {
+    vec2 gap = max(max(tileFirst - blockEnd, blockFirst - tileEnd), vec2(0.0f));
+    // A pixel of slack: smears are measured between centres and end softly.
+    return dot(gap, gap) <= (reachPx + 1.0f) * (reachPx + 1.0f);
+}
+
+SHUTTER_SHADER_END
+
+#endif

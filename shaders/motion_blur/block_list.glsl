@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The pixel of a thread in a dispatch over a list of blocks. Define SHUTTER_BLOCK_LIST_BINDING.
+#ifndef SHUTTER_MOTION_BLUR_BLOCK_LIST_GLSL
+#define SHUTTER_MOTION_BLUR_BLOCK_LIST_GLSL
+
+#include "motion_blur/motion_blur_shared.h"
+
+layout(constant_id = 0) const uint kList = kMixedList;
+
+layout(binding = SHUTTER_BLOCK_LIST_BINDING, scalar) readonly buffer BlockLists {
+    BlockHeader header;
+    uint entries[];
+} uBlocks;
+
+uint countOf(BlockHeader header, uint list) {
+    return list == kUniformList ? header.uniformCount
+                                : (list == kMixedList ? header.mixedCount : header.maskedCount);
+}
+
+/// x | y << 16 of the group's block; false where the dispatch has more groups than the list blocks.
+bool findBlock(uvec2 sizePx, out uvec2 block) {
+    uint index = gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x;
+    block = uvec2(0u);
+    if (index >= countOf(uBlocks.header, kList)) return false;
+    uvec2 blocks = (sizePx + kGroupSize - 1u) / kGroupSize;
+    uint entry = uBlocks.entries[kList * blocks.x * blocks.y + index];
+    block = uvec2(entry & 0xFFFFu, entry >> 16);
+    return true;
+}
+
+/// The thread's pixel; false where it has none.
+bool findPixel(uvec2 sizePx, out ivec2 pixel) {
+    uvec2 block;
+    pixel = ivec2(0);
+    if (!findBlock(sizePx, block)) return false;
+    pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
+    return all(lessThan(uvec2(pixel), sizePx));
+}
+
+#endif
