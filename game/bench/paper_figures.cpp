@@ -56,10 +56,11 @@ json describePassTimes() {
             {"copy still pixels",
              "gather uniform",
              "gather",
+             "gather without mask",
              "gather and composite",
              "write uniform blocks",
              "write mixed blocks",
-             "write masked blocks"}));
+             "write candidate blocks"}));
     add("Others", {3.14, 4.67, 3.48}, {0.39, 0.42, 0.29}, "others", true);
     add("Total Duration", {4.66, 7.63, 8.39}, {4.83, 7.25, 9.92}, "total", true);
     return {

@@ -75,20 +75,19 @@ MotionBlurOutputs MotionBlur::addGather(
     graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurParams& params
 ) {
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
-    const BlockLists lists = mSorter.add(graph, tiles, params, false).lists;
-    mSorter.addCounters(graph, lists, params);
+    const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
+    mSorter.addCounters(graph, blocks, params);
     const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
     const graph::ImageHandle filtered = mGather.add(
-        graph, {inputs.color, inputs.motionDepth, tiles.dominant, {}}, lists, target, params
+        graph, {inputs.color, inputs.motionDepth, tiles.dominant, {}}, blocks, target, params
     );
 
     MotionBlurOutputs outputs;
     outputs.tiles = tiles.tiles;
     outputs.dominant = tiles.dominant;
-    outputs.blocks = lists;
-    outputs.color = mStillPixels.end(
-        graph, inputs.color, filtered, lists, shader::kMixedList + 1, params, mStillPixelsBy
-    );
+    outputs.blocks = blocks;
+    outputs.color =
+        mStillPixels.end(graph, inputs.color, filtered, blocks, false, params, mStillPixelsBy);
     return outputs;
 }
 
@@ -133,9 +132,8 @@ MotionBlurOutputs MotionBlur::addHybrid(
     outputs.revealMotionDepth = views.motionDepth;
     outputs.revealMeshId = reveal.meshId;
     outputs.blocks = mask.blocks;
-    outputs.color = mStillPixels.end(
-        graph, inputs.color, filtered, mask.blocks, shader::kListCount, params, mStillPixelsBy
-    );
+    outputs.color =
+        mStillPixels.end(graph, inputs.color, filtered, mask.blocks, true, params, mStillPixelsBy);
     return outputs;
 }
 
@@ -150,18 +148,18 @@ MotionBlurOutputs MotionBlur::addRival(
     if (method == Method::OwnVelocity)
         params.neighbourRadius = 0;
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
-    const BlockLists lists = mSorter.add(graph, tiles, params, false).lists;
-    mSorter.addCounters(graph, lists, params);
+    const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
+    mSorter.addCounters(graph, blocks, params);
     const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
 
     MotionBlurOutputs outputs;
     outputs.tiles = tiles.tiles;
     outputs.dominant = tiles.dominant;
-    outputs.blocks = lists;
+    outputs.blocks = blocks;
     graph::ImageHandle filtered;
     if (method == Method::OwnVelocity) {
         filtered = mOwnVelocity.add(
-            graph, std::array{inputs.color, inputs.motionDepth}, lists, target, params
+            graph, std::array{inputs.color, inputs.motionDepth}, blocks.lists, target, params
         );
     } else if (method == Method::Guertin2014) {
         const GuertinTilesOutputs directed = mGuertinTiles.add(graph, tiles.tiles, params);
@@ -170,7 +168,7 @@ MotionBlurOutputs MotionBlur::addRival(
         filtered = mGuertin.add(
             graph,
             std::array{inputs.color, inputs.motionDepth, directed.dominant, directed.variance},
-            lists,
+            blocks.lists,
             target,
             params
         );
@@ -179,14 +177,13 @@ MotionBlurOutputs MotionBlur::addRival(
         filtered = filter.add(
             graph,
             std::array{inputs.color, inputs.motionDepth, tiles.dominant},
-            lists,
+            blocks.lists,
             target,
             params
         );
     }
-    outputs.color = mStillPixels.end(
-        graph, inputs.color, filtered, lists, shader::kMixedList + 1, params, mStillPixelsBy
-    );
+    outputs.color =
+        mStillPixels.end(graph, inputs.color, filtered, blocks, false, params, mStillPixelsBy);
     return outputs;
 }
 

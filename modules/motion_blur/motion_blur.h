@@ -55,7 +55,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
     graph::ImageHandle revealMotionDepth; ///< RGBA32F
     graph::ImageHandle revealMeshId;      ///< R32_UINT; written inside the mask only
-    BlockLists blocks;                    ///< what the filters go over; not of Method::Denoised
+    SortedBlocks blocks;                  ///< what the filters go over; not of Method::Denoised
     graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pixel of a thread in a dispatch over a list of blocks. Define SHUTTER_BLOCK_LIST_BINDING.
+// The pixel of a thread in a dispatch over a list of blocks. Define SHUTTER_BLOCK_LIST_BINDING, and
+// SHUTTER_BLOCK_LIST_ACCESS as nothing where the buffer is written, too.
 #ifndef SHUTTER_MOTION_BLUR_BLOCK_LIST_GLSL
 #define SHUTTER_MOTION_BLUR_BLOCK_LIST_GLSL
 
@@ -7,7 +8,11 @@
 
 layout(constant_id = 0) const uint kList = kMixedList;
 
-layout(binding = SHUTTER_BLOCK_LIST_BINDING, scalar) readonly buffer BlockLists {
+#ifndef SHUTTER_BLOCK_LIST_ACCESS
+#define SHUTTER_BLOCK_LIST_ACCESS readonly
+#endif
+
+layout(binding = SHUTTER_BLOCK_LIST_BINDING, scalar) SHUTTER_BLOCK_LIST_ACCESS buffer BlockLists {
     BlockHeader header;
     uint entries[];
 } uBlocks;
@@ -26,6 +31,13 @@ bool findBlock(uvec2 sizePx, out uvec2 block) {
     uint entry = uBlocks.entries[kList * blocks.x * blocks.y + index];
     block = uvec2(entry & 0xFFFFu, entry >> 16);
     return true;
+}
+
+/// Whether a block of the candidates has masked pixels; their buffer has a flag for each block of the
+/// picture behind the list.
+bool isMaskedBlock(uvec2 sizePx, uvec2 block) {
+    uvec2 blocks = (sizePx + kGroupSize - 1u) / kGroupSize;
+    return uBlocks.entries[blocks.x * blocks.y + block.y * blocks.x + block.x] != 0u;
 }
 
 /// The thread's pixel; false where it has none.

@@ -14,7 +14,8 @@ struct Gathered {
 struct Target {
     float depth;
     float speed;
-    float offset;        // of its taps in their strata
+    float firstTap;      // u
+    float perTap;        // u from one tap to the next
     vec2 perReach;       // 1 / length of its smear to the side of u >= 0, to the other
     float perSoftExtent; // 1 / SOFT_Z_EXTENT
 };
@@ -23,8 +24,10 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
     vec2 motion = shownMotion(motionDepth.xy, motionDepth.z, params.maxMotionDepth);
     float noise = interleavedGradientNoise(floor(centre));
     float speed = length(motion);
+    float offset = mix(0.5f, noise, params.jitter);
     return Target(
-        motionDepth.z, speed, mix(0.5f, noise, params.jitter),
+        motionDepth.z, speed, tapPosition(0u, offset, params.sampleCount, params.rasterShare),
+        1.0f / float(params.sampleCount),
         vec2(
             smearRatio(1.0f, speed * params.rasterShare),
             smearRatio(1.0f, speed * (1.0f - params.rasterShare))
@@ -35,7 +38,7 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
 
 /// Tap `index`, u.
 float placeTap(uint index, Target target) {
-    float even = tapPosition(index, target.offset, params.sampleCount, params.rasterShare);
+    float even = target.firstTap + float(index) * target.perTap; // tapPosition()
     return warpTapAt(params.response, even, params.rasterShare);
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Third test of the ray mask, the range check: a moving pixel is masked when any sample along its
-// motion is an edge. Lists masked pixels for the reveal, blocks for the gathers, and tiles with
-// masked pixels. One barrier.
+// motion is an edge. Lists masked pixels for the reveal, and blocks and tiles that have some for the
+// gather of the revealed layer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 4
+#define SHUTTER_BLOCK_LIST_ACCESS // the flags are written
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
@@ -35,9 +36,7 @@ layout(binding = 10, scalar) buffer TileArguments { DispatchArguments uTileArgum
 /// Edges of a silhouette are two pixels wide (half the Sobel window): steps of at most one and a
 /// half cannot jump over one.
 const float kStepPx = 1.5f;
-const uint kPixels = kGroupSize * kGroupSize;
-
-shared uint sMasked[kPixels];
+const uint kTilesPerGroup = 64u; // of reveal_neighbour_max.comp
 
 bool meetsEdgeBlock(vec2 centre, vec2 offset, float range) {
     // A place's block knows of every edge within a block's length of it, twice of what steps of one
@@ -67,9 +66,10 @@ bool isMasked(ivec2 pixel) {
     vec2 centre = vec2(pixel) + 0.5f;
     vec3 target = textureLod(uMotionDepth, centre / vec2(params.sizePx), 0.0f).xyz;
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
-    return length(motion) >= kStillPx &&
-           (meetsEdge(centre, motion * params.rasterShare) ||
-            meetsEdge(centre, motion * (params.rasterShare - 1.0f)));
+    if (length(motion) < kStillPx) return false;
+    // A side that is not exposed holds only the pixel itself, which the other has looked at.
+    if (params.rasterShare > 0.0f && meetsEdge(centre, motion * params.rasterShare)) return true;
+    return params.rasterShare < 1.0f && meetsEdge(centre, motion * (params.rasterShare - 1.0f));
 }
 
 void listTile(uvec2 tile) {
@@ -80,52 +80,36 @@ void listTile(uvec2 tile) {
     atomicMax(uTileArguments[0].groupsX, min(index + 1u, kListRow));
     if (index % kListRow == 0u) atomicAdd(uTileArguments[0].groupsY, 1u);
     // And a thread a tile, in the same rows.
-    uint group = index / kPixels;
+    uint group = index / kTilesPerGroup;
     atomicMax(uTileArguments[1].groupsX, min(group + 1u, kListRow));
-    if (index % (kPixels * kListRow) == 0u) atomicAdd(uTileArguments[1].groupsY, 1u);
+    if (index % (kTilesPerGroup * kListRow) == 0u) atomicAdd(uTileArguments[1].groupsY, 1u);
 }
 
-/// The block's masked pixels stand beside each other in the list: their rays are alike.
-void listPixels(uvec2 first, uint count) {
-    uint at = atomicAdd(uMasked.header.maskedPixels, count);
-    uint groups = (at + count + kRevealThreads - 1u) / kRevealThreads -
-                  (at + kRevealThreads - 1u) / kRevealThreads;
-    if (groups > 0u) atomicAdd(uReveal.groupsX, groups);
-    uvec2 lastTile = uvec2(0xFFFFFFFFu);
-    for (uint i = 0u; i < kPixels; ++i) {
-        if (sMasked[i] == 0u) continue;
-        uvec2 pixel = first + uvec2(i % kGroupSize, i / kGroupSize);
-        uMasked.pixels[at] = pixel.x | pixel.y << 16;
-        ++at;
-        uvec2 tile = uvec2(floor((vec2(pixel) + 0.5f) / float(params.tileSizePx)));
-        if (tile != lastTile) listTile(tile);
-        lastTile = tile;
-    }
-}
-
-void listBlock(uvec2 block, uint list, uint index) {
+/// The first masked pixel of a block lists it, and every tile that it lies in: one without masked
+/// pixels is worked out like the others and comes out as the raster's.
+void listBlock(uvec2 block) {
     uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    uSorted.entries[list * blocks.x * blocks.y + index] = block.x | block.y << 16;
-    atomicMax(uLists[list].groupsX, min(index + 1u, kListRow));
-    if (index % kListRow == 0u) atomicAdd(uLists[list].groupsY, 1u);
+    uint blockCount = blocks.x * blocks.y;
+    uint flag = blockCount + block.y * blocks.x + block.x;
+    if (atomicExchange(uBlocks.entries[flag], 1u) != 0u) return;
+    uint index = atomicAdd(uSorted.header.maskedCount, 1u);
+    uSorted.entries[kMaskedList * blockCount + index] = block.x | block.y << 16;
+    atomicMax(uLists[kMaskedList].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uLists[kMaskedList].groupsY, 1u);
+    vec2 first = vec2(block * kGroupSize) + 0.5f;
+    vec2 last = min(first + float(kGroupSize - 1u), vec2(params.sizePx) - 0.5f);
+    uvec2 firstTile = uvec2(floor(first / float(params.tileSizePx)));
+    uvec2 lastTile = uvec2(floor(last / float(params.tileSizePx)));
+    for (uint y = firstTile.y; y <= lastTile.y; ++y)
+        for (uint x = firstTile.x; x <= lastTile.x; ++x) listTile(uvec2(x, y));
 }
 
 void main() {
-    uvec2 block;
-    bool listed = findBlock(params.sizePx, block);
-    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
-    bool inside = listed && all(lessThan(uvec2(pixel), params.sizePx));
-    bool masked = inside && isMasked(pixel);
-    if (masked) imageStore(uMask, pixel, vec4(1.0f));
-    sMasked[gl_LocalInvocationIndex] = masked ? 1u : 0u;
-    barrier();
-    if (!listed || gl_LocalInvocationIndex != 0u) return;
-    uint count = 0u;
-    for (uint i = 0u; i < kPixels; ++i) count += sMasked[i];
-    if (count == 0u) {
-        listBlock(block, kMixedList, atomicAdd(uSorted.header.mixedCount, 1u));
-        return;
-    }
-    listBlock(block, kMaskedList, atomicAdd(uSorted.header.maskedCount, 1u));
-    listPixels(block * kGroupSize, count);
+    ivec2 pixel;
+    if (!findPixel(params.sizePx, pixel) || !isMasked(pixel)) return;
+    imageStore(uMask, pixel, vec4(1.0f));
+    uint index = atomicAdd(uMasked.header.maskedPixels, 1u);
+    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16;
+    if (index % kRevealThreads == 0u) atomicAdd(uReveal.groupsX, 1u);
+    listBlock(uvec2(pixel) / kGroupSize);
 }

@@ -7,6 +7,8 @@
 #define SHUTTER_BLOCK_LIST_BINDING 4
 #include "motion_blur/block_list.glsl"
 
+layout(constant_id = 1) const uint kSkipMasked = 0u; // 1: over candidates, of which some are masked
+
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uColor;
@@ -19,6 +21,7 @@ layout(binding = 3, rgba16f) uniform writeonly image2D uBlurred;
 void main() {
     ivec2 pixel;
     if (!findPixel(params.sizePx, pixel)) return;
+    if (kSkipMasked != 0u && isMaskedBlock(params.sizePx, uvec2(pixel) / kGroupSize)) return;
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 dominant = dominantAt(uDominant, centre);
     // Nothing moves within reach: the sharp colour, bit for bit.

@@ -27,11 +27,16 @@ void main() {
     float weight = centreWeight(range);
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
+    float first = tapPosition(0u, offset, params.sampleCount, params.rasterShare);
+    float perTap = 1.0f / float(params.sampleCount);
+    // Of the smear's length to the side of u >= 0, and to the other, one u.
+    vec2 perReach = vec2(
+        smearRatio(range, range * params.rasterShare),
+        smearRatio(range, range * (1.0f - params.rasterShare))
+    );
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
-        u = warpTapAt(params.response, u, params.rasterShare);
-        float reach = u >= 0.0f ? params.rasterShare : 1.0f - params.rasterShare;
-        float tapWeight = uniformWeight(smearRatio(range * abs(u), range * reach));
+        float u = warpTapAt(params.response, first + float(i) * perTap, params.rasterShare);
+        float tapWeight = uniformWeight(abs(u) * (u >= 0.0f ? perReach.x : perReach.y));
         sum += textureLod(uColor, (centre + dominant * u) * pixelsToUv, 0.0f).rgb * tapWeight;
         weight += tapWeight;
     }

@@ -26,26 +26,44 @@ struct Ranges {
 
 shared Ranges sRanges[kThreads];
 
+Ranges ranges = Ranges(vec2(0.0f), vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, -3.0e38f));
+float longestSquare = 0.0f;
+
+void take(vec2 uv) {
+    vec3 texel = textureLod(uMotionDepth, uv, 0.0f).xyz;
+    vec2 motion = shownMotion(texel.xy, texel.z, params.maxMotionDepth);
+    float square = dot(motion, motion);
+    bool longer = isLonger(motion, square, ranges.longest, longestSquare);
+    ranges.longest = longer ? motion : ranges.longest;
+    longestSquare = longer ? square : longestSquare;
+    ranges.least = min(ranges.least, motion);
+    ranges.greatest = max(ranges.greatest, motion);
+    ranges.depth = vec2(min(ranges.depth.x, texel.z), max(ranges.depth.y, texel.z));
+}
+
+const uint kRows = kThreads / kTileColumns;
+const uint kUnrolled = 4u; // rows that a thread takes in one go
+
 void main() {
     uvec2 tile = gl_WorkGroupID.xy;
     uvec2 first = tile * params.tileSizePx;
-    uvec2 end = min(first + params.tileSizePx, params.sizePx); // the last tile may be partial
+    uvec2 last = min(first + params.tileSizePx, params.sizePx) - 1u; // it may be partial
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    Ranges ranges = Ranges(vec2(0.0f), vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, -3.0e38f));
-    // Threads walk the tile in rows of kTileColumns: no division by the tile's width.
+    // Threads walk the tile in rows of kTileColumns: no division by the tile's width. All take the
+    // same steps; beyond the tile's end its last pixels come again, which changes nothing.
     uint column = gl_LocalInvocationIndex % kTileColumns;
     uint row = gl_LocalInvocationIndex / kTileColumns;
-    for (uint y = first.y + row; y < end.y; y += kThreads / kTileColumns)
-        for (uint x = first.x + column; x < end.x; x += kTileColumns) {
-            vec2 uv = (vec2(x, y) + 0.5f) * pixelsToUv;
-            vec3 texel = textureLod(uMotionDepth, uv, 0.0f).xyz;
-            vec2 motion = shownMotion(texel.xy, texel.z, params.maxMotionDepth);
-            ranges.longest = longerMotion(ranges.longest, motion);
-            ranges.least = min(ranges.least, motion);
-            ranges.greatest = max(ranges.greatest, motion);
-            ranges.depth =
-                vec2(min(ranges.depth.x, texel.z), max(ranges.depth.y, texel.z));
+    vec2 lastCentre = vec2(last) + 0.5f;
+    for (uint x = first.x; x <= last.x; x += kTileColumns) {
+        float centreX = min(float(x + column) + 0.5f, lastCentre.x) * pixelsToUv.x;
+        for (uint y = first.y; y <= last.y; y += kRows * kUnrolled) {
+            float centreY = float(y + row) + 0.5f;
+            take(vec2(centreX, min(centreY, lastCentre.y) * pixelsToUv.y));
+            take(vec2(centreX, min(centreY + float(kRows), lastCentre.y) * pixelsToUv.y));
+            take(vec2(centreX, min(centreY + float(2u * kRows), lastCentre.y) * pixelsToUv.y));
+            take(vec2(centreX, min(centreY + float(3u * kRows), lastCentre.y) * pixelsToUv.y));
         }
+    }
     sRanges[gl_LocalInvocationIndex] = ranges;
     barrier();
     if (gl_LocalInvocationIndex != 0u) return;

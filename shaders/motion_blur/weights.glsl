@@ -66,15 +66,20 @@ SHUTTER_INLINE float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189f * fract(0.06711056f * pixel.x + 0.00583715f * pixel.y));
 }
 
-/// The longer of two motions; ties go to the greater x, then y, so that the order in which tiles
-/// are visited does not matter. `b` is passed over where its length is not finite, so that a search
+/// Whether `b` is longer than `a`; ties go to the greater x, then y, so that the order in which
+/// tiles are visited does not matter.
+/// \param la, lb their squared lengths
+SHUTTER_INLINE bool isLonger(vec2 b, float lb, vec2 a, float la) {
+    // One condition: branches per pixel would cost more than the comparison.
+    bool later = b.x > a.x || (b.x == a.x && b.y > a.y);
+    return lb > la || (lb == la && later);
+}
+
+/// The longer of two motions. `b` is passed over where its length is not finite, so that a search
 /// that starts from 0 ends with a motion that is.
 SHUTTER_INLINE vec2 longerMotion(vec2 a, vec2 b) {
-    float la = dot(a, a);
     float lb = dot(b, b);
-    // One condition and a select: branches per pixel would cost more than the comparison.
-    bool later = b.x > a.x || (b.x == a.x && b.y > a.y);
-    return isFinite(lb) && (lb > la || (lb == la && later)) ? b : a;
+    return isFinite(lb) && isLonger(b, lb, a, dot(a, a)) ? b : a;
 }
 
 /// Where the tile of a pixel's centre is in a texture of one texel a tile. In floats and for a

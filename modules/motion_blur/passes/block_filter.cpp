@@ -10,15 +10,11 @@ namespace shutter::motion_blur {
 
 namespace {
 
-gpu::ComputePipelineDesc describeFilter(
-    const std::string& name, std::span<const uint32_t> spirv, uint32_t inputCount, uint32_t list
-) {
+std::vector<VkDescriptorType> describeBindings(uint32_t inputCount) {
     std::vector<VkDescriptorType> bindings(inputCount, kSampled);
     bindings.push_back(kStorage);
     bindings.push_back(kBuffer);
-    gpu::ComputePipelineDesc desc = describePass(name, spirv, std::move(bindings));
-    desc.specialization = {list};
-    return desc;
+    return bindings;
 }
 
 } // namespace
@@ -28,11 +24,16 @@ BlockFilter::BlockFilter(
     std::string name,
     std::span<const uint32_t> spirv,
     uint32_t inputCount,
-    uint32_t list
+    uint32_t list,
+    std::vector<uint32_t> constants
 )
     : mName(std::move(name)), mInputCount(inputCount), mList(list),
-      mSampler(device.nearestSampler()),
-      mPipeline(device, describeFilter(mName, spirv, inputCount, list)) {}
+      mSampler(device.nearestSampler()) {
+    gpu::ComputePipelineDesc desc = describePass(mName, spirv, describeBindings(inputCount));
+    desc.specialization = std::move(constants);
+    desc.specialization.insert(desc.specialization.begin(), list);
+    mPipeline = gpu::Pipeline(device, desc);
+}
 
 graph::ImageHandle BlockFilter::add(
     graph::Graph& graph,

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -18,12 +19,14 @@ class BlockFilter {
     /// \param inputCount images that the shader samples at bindings 0, 1, ...; it stores to the
     /// next and has the lists at the one after (block_list.glsl)
     /// \param list shader::kUniformList ...
+    /// \param constants specialization constants 1, 2, ...
     BlockFilter(
         gpu::Device& device,
         std::string name,
         std::span<const uint32_t> spirv,
         uint32_t inputCount,
-        uint32_t list
+        uint32_t list,
+        std::vector<uint32_t> constants = {}
     );
 
     /// \param inputs as many as the shader samples (CHECKed)

@@ -24,45 +24,49 @@ gpu::ComputePipelineDesc describeSort(bool forMask) {
     return desc;
 }
 
-/// \param room lists that the buffer has room for
-BlockLists createLists(graph::Graph& graph, const char* name, uint32_t blockCount, uint32_t room) {
-    const VkDeviceSize entries = VkDeviceSize(room) * blockCount;
+/// \param words behind the head
+BlockLists createLists(graph::Graph& graph, const char* name, VkDeviceSize words, uint32_t count) {
     return {
         graph.createBuffer(
-            name, {sizeof(shader::BlockHeader) + entries * sizeof(uint32_t), kListUsage}
+            name, {sizeof(shader::BlockHeader) + words * sizeof(uint32_t), kListUsage}
         ),
         graph.createBuffer(
             fmt::format("{} arguments", name),
-            {sizeof(shader::DispatchArguments) * room, kArgumentsUsage}
+            {sizeof(shader::DispatchArguments) * count, kArgumentsUsage}
         )};
 }
 
 struct ClearData {
-    std::array<BlockLists, 2> pairs;
+    SortedBlocks sorted;
 };
 
-/// Empty lists. The last dimension of every dispatch stays 1.
+/// Empty lists, and no block flagged.
 void addClear(graph::Graph& graph, SortedBlocks& sorted) {
     const ClearData& cleared = graph.addPass<ClearData>(
         "clear block lists",
         graph::PassKind::Transfer,
         [&](graph::PassBuilder& builder, ClearData& data) {
-            data.pairs = {sorted.lists, sorted.candidates};
-            for (BlockLists& pair : data.pairs) {
-                pair.blocks = builder.write(pair.blocks, Access::TransferWrite);
-                pair.arguments = builder.write(pair.arguments, Access::TransferWrite);
+            data.sorted = sorted;
+            for (BlockLists* pair : {&data.sorted.lists, &data.sorted.candidates}) {
+                pair->blocks = builder.write(pair->blocks, Access::TransferWrite);
+                pair->arguments = builder.write(pair->arguments, Access::TransferWrite);
             }
         },
         [](const ClearData& data, graph::PassContext& context) {
-            const std::array<uint32_t, 2> rooms{shader::kListCount, 1u};
-            for (size_t i = 0; i < data.pairs.size(); ++i) {
-                const shader::BlockHeader header{};
-                clearList(context, data.pairs[i].blocks, &header, sizeof(header));
-                clearArguments(context, data.pairs[i].arguments, rooms[i]);
-            }
+            const shader::BlockHeader header{};
+            clearList(context, data.sorted.lists.blocks, &header, sizeof(header));
+            clearArguments(context, data.sorted.lists.arguments, shader::kListCount);
+            vkCmdFillBuffer(
+                context.commands,
+                context.resources.buffer(data.sorted.candidates.blocks),
+                0,
+                VK_WHOLE_SIZE,
+                0
+            );
+            clearArguments(context, data.sorted.candidates.arguments, 1);
         }
     );
-    sorted = {cleared.pairs[0], cleared.pairs[1]};
+    sorted = cleared.sorted;
 }
 
 } // namespace
@@ -70,8 +74,10 @@ void addClear(graph::Graph& graph, SortedBlocks& sorted) {
 BlockSorter::BlockSorter(gpu::Device& device)
     : mSampler(device.nearestSampler()), mSort(device, describeSort(false)),
       mSortForMask(device, describeSort(true)),
-      mHeader(device, "block counters", sizeof(shader::BlockHeader), 0, gpu::MemoryUse::Readback) {
-    std::memset(mHeader.mapped(), 0, sizeof(shader::BlockHeader));
+      mHeaders(
+          device, "block counters", 2 * sizeof(shader::BlockHeader), 0, gpu::MemoryUse::Readback
+      ) {
+    std::memset(mHeaders.mapped(), 0, mHeaders.bytes());
 }
 
 SortedBlocks BlockSorter::add(
@@ -81,10 +87,10 @@ SortedBlocks BlockSorter::add(
     bool forMask
 ) const {
     const glm::uvec2 extent = countBlocks(params);
-    const uint32_t blockCount = extent.x * extent.y;
+    const VkDeviceSize blockCount = VkDeviceSize(extent.x) * extent.y;
     SortedBlocks sorted{
-        createLists(graph, "blocks", blockCount, shader::kListCount),
-        createLists(graph, "candidate blocks", forMask ? blockCount : 1, 1)};
+        createLists(graph, "blocks", shader::kListCount * blockCount, shader::kListCount),
+        createLists(graph, "candidate blocks", forMask ? 2 * blockCount : 0, 1)};
     addClear(graph, sorted);
 
     struct Data {
@@ -120,43 +126,52 @@ SortedBlocks BlockSorter::add(
 }
 
 void BlockSorter::addCounters(
-    graph::Graph& graph, const BlockLists& lists, const shader::MotionBlurParams& params
+    graph::Graph& graph, const SortedBlocks& sorted, const shader::MotionBlurParams& params
 ) {
     struct Data {
-        graph::BufferHandle blocks;
-        graph::BufferHandle header;
+        std::array<graph::BufferHandle, 2> blocks;
+        graph::BufferHandle headers;
     };
 
     const glm::uvec2 extent = countBlocks(params);
     mBlockCount = extent.x * extent.y;
-    const auto header = graph.importBuffer("block counters", mHeader.handle(), mHeader.bytes());
+    const auto headers = graph.importBuffer("block counters", mHeaders.handle(), mHeaders.bytes());
     graph.addPass<Data>(
         "read block counters",
         graph::PassKind::Transfer,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.blocks = builder.read(lists.blocks, Access::TransferRead);
-            data.header = builder.write(header, Access::TransferWrite);
-            graph.markOutput(data.header);
+            data.blocks = {
+                builder.read(sorted.lists.blocks, Access::TransferRead),
+                builder.read(sorted.candidates.blocks, Access::TransferRead)};
+            data.headers = builder.write(headers, Access::TransferWrite);
+            graph.markOutput(data.headers);
         },
         [](const Data& data, graph::PassContext& context) {
-            const VkBufferCopy region{0, 0, sizeof(shader::BlockHeader)};
-            vkCmdCopyBuffer(
-                context.commands,
-                context.resources.buffer(data.blocks),
-                context.resources.buffer(data.header),
-                1,
-                &region
-            );
+            for (size_t i = 0; i < data.blocks.size(); ++i) {
+                const VkDeviceSize bytes = sizeof(shader::BlockHeader);
+                const VkBufferCopy region{0, i * bytes, bytes};
+                vkCmdCopyBuffer(
+                    context.commands,
+                    context.resources.buffer(data.blocks[i]),
+                    context.resources.buffer(data.headers),
+                    1,
+                    &region
+                );
+            }
         }
     );
 }
 
 BlockCounters BlockSorter::counters() const {
-    shader::BlockHeader header;
-    std::memcpy(&header, mHeader.mapped(), sizeof(header));
-    BlockCounters counters{0, header.uniformCount, header.mixedCount, header.maskedCount};
-    const uint32_t moving = counters.uniform + counters.mixed + counters.masked;
+    std::array<shader::BlockHeader, 2> headers;
+    std::memcpy(headers.data(), mHeaders.mapped(), sizeof(headers));
+    const uint32_t candidates = headers[1].uniformCount; // kCandidateList is the first of its own
+    const uint32_t moving = headers[0].uniformCount + headers[0].mixedCount + candidates;
+    BlockCounters counters;
     counters.still = mBlockCount > moving ? mBlockCount - moving : 0;
+    counters.uniform = headers[0].uniformCount;
+    counters.masked = headers[0].maskedCount;
+    counters.mixed = headers[0].mixedCount + candidates - counters.masked;
     return counters;
 }
 

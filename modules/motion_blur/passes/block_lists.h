@@ -21,8 +21,10 @@ struct BlockLists {
 };
 
 struct SortedBlocks {
-    BlockLists lists;      ///< kUniformList, kMixedList; after the ray mask kMaskedList, too
-    BlockLists candidates; ///< kCandidateList: what the ray mask has to look at
+    BlockLists lists; ///< kUniformList, kMixedList; after the ray mask kMaskedList, too
+    /// kCandidateList: what the ray mask has to look at; after the list a flag for each block of
+    /// the picture, which the ray mask sets where it has masked pixels.
+    BlockLists candidates;
 };
 
 /// Blocks of a picture by class.
@@ -46,7 +48,7 @@ class BlockSorter {
 
     /// Reads the lists' lengths back, once all passes that append are declared.
     void addCounters(
-        graph::Graph& graph, const BlockLists& lists, const shader::MotionBlurParams& params
+        graph::Graph& graph, const SortedBlocks& sorted, const shader::MotionBlurParams& params
     );
 
     /// Of the frame declared last, once the GPU is done with it; before the first all 0.
@@ -56,7 +58,7 @@ class BlockSorter {
     VkSampler mSampler;
     gpu::Pipeline mSort;
     gpu::Pipeline mSortForMask;
-    gpu::Buffer mHeader;
+    gpu::Buffer mHeaders;     ///< of the lists, of the candidates
     uint32_t mBlockCount = 0; ///< of the picture declared last
 };
 

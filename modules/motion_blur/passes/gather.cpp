@@ -13,7 +13,15 @@ Gather::Gather(gpu::Device& device)
     : mUniform(
           device, "gather uniform", motion_blur_reconstruct_uniform_comp, 2, shader::kUniformList
       ),
-      mOneLayer(device, "gather", motion_blur_reconstruct_comp, 3, shader::kMixedList),
+      mOneLayer(device, "gather", motion_blur_reconstruct_comp, 3, shader::kMixedList, {0}),
+      mOneLayerOfCandidates(
+          device,
+          "gather without mask",
+          motion_blur_reconstruct_comp,
+          3,
+          shader::kCandidateList,
+          {1}
+      ),
       mTwoLayers(
           device,
           "gather and composite",
@@ -25,33 +33,29 @@ Gather::Gather(gpu::Device& device)
 graph::ImageHandle Gather::add(
     graph::Graph& graph,
     const GatherInputs& inputs,
-    const BlockLists& lists,
+    const SortedBlocks& blocks,
     graph::ImageHandle target,
     const shader::MotionBlurParams& params
 ) const {
-    if (params.uniformMotionPx > 0.0f)
-        target =
-            mUniform.add(graph, std::array{inputs.color, inputs.dominant}, lists, target, params);
-    target = mOneLayer.add(
-        graph, std::array{inputs.color, inputs.motionDepth, inputs.dominant}, lists, target, params
-    );
+    const std::array raster{inputs.color, inputs.motionDepth, inputs.dominant};
+    if (params.uniformMotionPx > 0.0f) {
+        const std::array uniform{inputs.color, inputs.dominant};
+        target = mUniform.add(graph, uniform, blocks.lists, target, params);
+    }
+    target = mOneLayer.add(graph, raster, blocks.lists, target, params);
     if (!inputs.reveal)
         return target;
+    target = mOneLayerOfCandidates.add(graph, raster, blocks.candidates, target, params);
     const RevealedLayer& second = *inputs.reveal;
-    return mTwoLayers.add(
-        graph,
-        std::array{
-            inputs.color,
-            inputs.motionDepth,
-            inputs.dominant,
-            second.color,
-            second.motionDepth,
-            second.dominant,
-            second.mask},
-        lists,
-        target,
-        params
-    );
+    const std::array both{
+        inputs.color,
+        inputs.motionDepth,
+        inputs.dominant,
+        second.color,
+        second.motionDepth,
+        second.dominant,
+        second.mask};
+    return mTwoLayers.add(graph, both, blocks.lists, target, params);
 }
 
 } // namespace shutter::motion_blur

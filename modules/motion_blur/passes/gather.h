@@ -36,13 +36,14 @@ class Gather {
     [[nodiscard]] graph::ImageHandle
     add(graph::Graph& graph,
         const GatherInputs& inputs,
-        const BlockLists& lists,
+        const SortedBlocks& blocks,
         graph::ImageHandle target,
         const shader::MotionBlurParams& params) const;
 
   private:
     BlockFilter mUniform;
     BlockFilter mOneLayer;
+    BlockFilter mOneLayerOfCandidates;
     BlockFilter mTwoLayers;
 };
 

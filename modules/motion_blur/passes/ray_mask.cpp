@@ -212,7 +212,6 @@ RayMaskOutputs RayMask::add(
     struct Data {
         graph::ImageHandle motionDepth;
         Edges edges;
-        BlockLists candidates;
         RayMaskOutputs out;
     };
 
@@ -224,15 +223,16 @@ RayMaskOutputs RayMask::add(
             data.edges = edges;
             builder.read(edges.edges, Access::SampledCompute);
             builder.read(edges.blocks, Access::SampledCompute);
-            data.candidates = inputs.blocks.candidates;
-            builder.read(data.candidates.blocks, Access::StorageRead);
-            builder.read(data.candidates.arguments, Access::IndirectRead);
             data.out.mask = builder.write(cleared.images[2], Access::StorageWrite);
             data.out.list = builder.write(cleared.list, Access::StorageWrite);
             data.out.arguments = builder.write(cleared.arguments, Access::StorageWrite);
-            data.out.blocks = {
-                builder.write(inputs.blocks.lists.blocks, Access::StorageWrite),
-                builder.write(inputs.blocks.lists.arguments, Access::StorageWrite)};
+            const SortedBlocks& blocks = inputs.blocks;
+            data.out.blocks.lists = {
+                builder.write(blocks.lists.blocks, Access::StorageWrite),
+                builder.write(blocks.lists.arguments, Access::StorageWrite)};
+            data.out.blocks.candidates = {
+                builder.write(blocks.candidates.blocks, Access::StorageWrite),
+                builder.read(blocks.candidates.arguments, Access::IndirectRead)};
             data.out.tiles = builder.write(cleared.tiles, Access::StorageWrite);
             data.out.tileArguments = builder.write(cleared.tileArguments, Access::StorageWrite);
         },
@@ -243,15 +243,20 @@ RayMaskOutputs RayMask::add(
                 .sampled(resources.view(data.edges.edges), mSampler)
                 .sampled(resources.view(data.edges.blocks), mSampler)
                 .storage(resources.view(data.out.mask))
-                .buffer(resources.buffer(data.candidates.blocks))
+                .buffer(resources.buffer(data.out.blocks.candidates.blocks))
                 .buffer(resources.buffer(data.out.list))
                 .buffer(resources.buffer(data.out.arguments))
-                .buffer(resources.buffer(data.out.blocks.blocks))
-                .buffer(resources.buffer(data.out.blocks.arguments))
+                .buffer(resources.buffer(data.out.blocks.lists.blocks))
+                .buffer(resources.buffer(data.out.blocks.lists.arguments))
                 .buffer(resources.buffer(data.out.tiles))
                 .buffer(resources.buffer(data.out.tileArguments));
             dispatchList(
-                context, mMask, bindings, params, data.candidates.arguments, shader::kCandidateList
+                context,
+                mMask,
+                bindings,
+                params,
+                data.out.blocks.candidates.arguments,
+                shader::kCandidateList
             );
         }
     );

@@ -23,7 +23,7 @@ struct RayMaskOutputs {
     graph::ImageHandle mask;       ///< R8
     graph::BufferHandle list;      ///< MaskHeader, then the masked pixels
     graph::BufferHandle arguments; ///< DispatchArguments of the reveal
-    BlockLists blocks;             ///< all of them sorted: kMaskedList, kMixedList
+    SortedBlocks blocks;           ///< with kMaskedList, and candidates flagged
     graph::BufferHandle tiles;     ///< TileHeader, then the tiles with masked pixels
     graph::BufferHandle tileArguments; ///< DispatchArguments: a group a tile, 64 tiles a group
 };

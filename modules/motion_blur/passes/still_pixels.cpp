@@ -40,11 +40,14 @@ StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
     return last;
 }
 
-StillPixels::StillPixels(gpu::Device& device) {
-    const std::array names{"write uniform blocks", "write mixed blocks", "write masked blocks"};
-    for (uint32_t list = 0; list < shader::kListCount; ++list)
-        mCopyBack.emplace_back(device, names[list], motion_blur_copy_blocks_comp, 1, list);
-}
+StillPixels::StillPixels(gpu::Device& device)
+    : mUniform(
+          device, "write uniform blocks", motion_blur_copy_blocks_comp, 1, shader::kUniformList
+      ),
+      mMixed(device, "write mixed blocks", motion_blur_copy_blocks_comp, 1, shader::kMixedList),
+      mCandidates(
+          device, "write candidate blocks", motion_blur_copy_blocks_comp, 1, shader::kCandidateList
+      ) {}
 
 graph::ImageHandle
 StillPixels::begin(graph::Graph& graph, graph::ImageHandle color, StillPixelsBy by) const {
@@ -79,15 +82,19 @@ graph::ImageHandle StillPixels::end(
     graph::Graph& graph,
     graph::ImageHandle color,
     graph::ImageHandle filtered,
-    const BlockLists& lists,
-    uint32_t listCount,
+    const SortedBlocks& blocks,
+    bool hasCandidates,
     const shader::MotionBlurParams& params,
     StillPixelsBy by
 ) const {
     if (by == StillPixelsBy::WholeCopy)
         return filtered;
-    for (uint32_t list = 0; list < listCount; ++list)
-        color = mCopyBack[list].add(graph, std::array{filtered}, lists, color, params);
+    const std::array source{filtered};
+    if (params.uniformMotionPx > 0.0f)
+        color = mUniform.add(graph, source, blocks.lists, color, params);
+    color = mMixed.add(graph, source, blocks.lists, color, params);
+    if (hasCandidates)
+        color = mCandidates.add(graph, source, blocks.candidates, color, params);
     return color;
 }
 

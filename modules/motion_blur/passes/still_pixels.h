@@ -11,7 +11,7 @@
 #include "modules/motion_blur/passes/block_filter.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
-#include <vector>
+#include <cstdint>
 
 namespace shutter::motion_blur {
 
@@ -32,18 +32,20 @@ class StillPixels {
     graph::ImageHandle begin(graph::Graph& graph, graph::ImageHandle color, StillPixelsBy by) const;
 
     /// The whole picture.
-    /// \param listCount how many of the lists the filters went over, the first ones
+    /// \param hasCandidates whether there were some, else all that moves is in the lists
     graph::ImageHandle
     end(graph::Graph& graph,
         graph::ImageHandle color,
         graph::ImageHandle filtered,
-        const BlockLists& lists,
-        uint32_t listCount,
+        const SortedBlocks& blocks,
+        bool hasCandidates,
         const shader::MotionBlurParams& params,
         StillPixelsBy by) const;
 
   private:
-    std::vector<BlockFilter> mCopyBack; ///< one a list
+    BlockFilter mUniform;
+    BlockFilter mMixed;
+    BlockFilter mCandidates;
 };
 
 } // namespace shutter::motion_blur

@@ -42,6 +42,7 @@ const std::vector<NumberField> kNumbers = {
     {"jitter", &MotionBlurSettings::jitter, 0.0f, 1.0f},
     {"centreBias", &MotionBlurSettings::centreBias, 1.0f, 1000.0f},
     {"speedThresholdPx", &MotionBlurSettings::speedThresholdPx, 0.001f, 100.0f},
+    {"uniformMotionPx", &MotionBlurSettings::uniformMotionPx, 0.0f, 16.0f},
 };
 
 struct CountField {
@@ -101,6 +102,45 @@ TEST(MotionBlurSettings, ACountOutsideItsRangeIsRefusedByName) {
         }
 }
 
+TEST(MotionBlurSettings, TheDepthLimitMayBeInfiniteButNotNegativeOrNoNumber) {
+    for (const float metres : {0.0f, 0.01f, 1e9f, kInfinity})
+        EXPECT_TRUE(validateWith([&](auto& s) { s.maxMotionDepth = metres; }).ok()) << metres;
+    for (const float metres : {-0.01f, -kInfinity, kNan}) {
+        const core::Status valid = validateWith([&](auto& s) { s.maxMotionDepth = metres; });
+        ASSERT_FALSE(valid.ok()) << metres;
+        EXPECT_NE(valid.error().message.find("maxMotionDepth"), std::string::npos);
+    }
+    EXPECT_EQ(resolve({}, 8, 8, 1.0).maxMotionDepth, kInfinity);
+}
+
+TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
+    MotionBlurSettings settings;
+    for (const Method method : {Method::Gather, Method::Hybrid}) {
+        settings.method = method;
+        EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.5f);
+    }
+    for (const Method method :
+         {Method::OwnVelocity, Method::McGuire2012, Method::Guertin2014, Method::Jimenez2014}) {
+        settings.method = method;
+        EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.0f);
+    }
+}
+
+TEST(MotionBlurSettings, BlocksLookAsFarAsTheirFiltersDo) {
+    MotionBlurSettings settings;
+    const auto margin = [&](Method method, float jitter) {
+        settings.method = method;
+        settings.jitter = jitter;
+        return resolve(settings, 8, 8, 1.0).marginPx;
+    };
+    EXPECT_EQ(margin(Method::Gather, 1.0f), 0.0f);
+    EXPECT_EQ(margin(Method::Guertin2014, 1.0f), 10.0f) << "a quarter of a tile";
+    EXPECT_EQ(margin(Method::Guertin2014, 0.0f), 0.0f);
+    EXPECT_EQ(margin(Method::Jimenez2014, 1.0f), 10.0f);
+    settings.sampleCount = 8;
+    EXPECT_EQ(margin(Method::Jimenez2014, 0.0f), 5.0f) << "one tap's distance";
+}
+
 TEST(MotionBlurSettings, ANeighbourhoodWithoutAMiddleTileIsRefused) {
     for (uint32_t tiles = 1; tiles <= 15; ++tiles)
         EXPECT_EQ(
@@ -133,7 +173,11 @@ TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
     settings.occluderTest = OccluderTest::Velocity;
     settings.centreBias = 20.0f;
     settings.speedThresholdPx = 2.5f;
+    settings.uniformMotionPx = 0.25f;
+    settings.maxMotionDepth = 50.0f;
     const shader::MotionBlurParams params = resolve(settings, 100, 50, 0.5);
+    EXPECT_EQ(params.uniformMotionPx, 0.25f);
+    EXPECT_EQ(params.maxMotionDepth, 50.0f);
     EXPECT_EQ(params.sizePx, glm::uvec2(100, 50));
     EXPECT_EQ(params.tileCount, glm::uvec2(5, 3));
     EXPECT_EQ(params.tileSizePx, 20u);
@@ -174,6 +218,10 @@ TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
         Method::Jimenez2014};
     for (const Method method : methods) {
         EXPECT_TRUE(reads(method, "jitter"));
+        EXPECT_TRUE(reads(method, "maxMotionDepth"));
+        EXPECT_EQ(
+            reads(method, "uniformMotionPx"), method == Method::Gather || method == Method::Hybrid
+        );
         EXPECT_EQ(reads(method, "edgeThreshold"), method == Method::Hybrid);
         EXPECT_EQ(reads(method, "occluderTest"), method == Method::OwnVelocity);
         EXPECT_EQ(reads(method, "centreBias"), method == Method::Guertin2014);
