@@ -55,6 +55,8 @@ Status applyNumber(
         {"luminanceSigma", &settings.luminanceSigma},
         {"uniformMotionPx", &settings.uniformMotionPx},
         {"maxMotionDepth", &settings.maxMotionDepth},
+        {"rayShare", &settings.rayShare},
+        {"halfResolutionPx", &settings.halfResolutionPx},
     };
     const auto number = parseNumber(value);
     if (!number)

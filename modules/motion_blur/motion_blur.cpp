@@ -104,7 +104,14 @@ MotionBlurOutputs MotionBlur::addHybrid(
     const RayMaskOutputs mask = mRayMask->add(graph, maskInputs, params);
     mSorter.addCounters(graph, mask.blocks, params);
     const RayRevealInputs revealInputs{
-        inputs.color, inputs.motionDepth, inputs.meshId, mask.list, mask.arguments, *inputs.rays};
+
+        inputs.color,
+        inputs.motionDepth,
+        inputs.meshId,
+        mask.mask,
+        mask.list,
+        mask.arguments,
+        *inputs.rays};
     const RayRevealOutputs reveal = mRayReveal->add(graph, revealInputs, params);
     const RevealedLayerInputs layerInputs{
         inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
@@ -226,7 +233,7 @@ MotionBlurCounters MotionBlur::counters() const {
     if (!mRayReveal)
         return counters;
     const shader::MaskHeader header = mRayReveal->lastHeader();
-    counters.maskedPixels = header.maskedPixels;
+    counters.maskedPixels = header.listedPixels + header.sharingPixels;
     counters.raysTraced = header.raysTraced;
     return counters;
 }

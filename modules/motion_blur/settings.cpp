@@ -44,7 +44,8 @@ std::span<const std::string_view> listSettings(Method method) {
         names.insert(names.end(), more.begin(), more.end());
         return names;
     };
-    static const Names kGather = with(kTiled, {"foregroundMagnification", "uniformMotionPx"});
+    static const Names kGather =
+        with(kTiled, {"foregroundMagnification", "uniformMotionPx", "halfResolutionPx"});
     static const Names kHybrid = with(
         kGather,
         {"backgroundMagnification",
@@ -52,6 +53,7 @@ std::span<const std::string_view> listSettings(Method method) {
          "recursionLimit",
          "objectTest",
          "revealTraversal",
+         "rayShare",
          "luminanceThreshold"}
     );
     static const Names kOwnVelocity = {"jitter", "occluderTest", "maxMotionDepth"};
@@ -94,6 +96,13 @@ core::Status validate(const MotionBlurSettings& settings) {
         requireRange("filterLevels", settings.filterLevels, 0u, 8u),
         requireRange("luminanceSigma", settings.luminanceSigma, 0.01f, 100.0f),
         requireRange("uniformMotionPx", settings.uniformMotionPx, 0.0f, 16.0f),
+        requireRange("rayShare", settings.rayShare, 0.0f, 1.0f),
+        requireRange(
+            "halfResolutionPx",
+            settings.halfResolutionPx,
+            2.0f,
+            std::numeric_limits<float>::infinity()
+        ),
         requireRange(
             "maxMotionDepth", settings.maxMotionDepth, 0.0f, std::numeric_limits<float>::infinity()
         ),
@@ -124,23 +133,21 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
     params.backgroundMagnification = settings.backgroundMagnification;
     params.jitter = settings.jitter;
     params.recursionLimit = settings.recursionLimit;
-    params.objectTest = settings.objectTest == ObjectTest::MeshId ? shader::kObjectTestMeshId
-                                                                  : shader::kObjectTestLuminance;
-    // Each hit's luminance decides whether the ray goes on.
-    params.revealTraversal = settings.revealTraversal == RevealTraversal::Single &&
-                                     settings.objectTest == ObjectTest::MeshId
-                                 ? shader::kRevealTraversalSingle
-                                 : shader::kRevealTraversalStepping;
     params.luminanceThreshold = settings.luminanceThreshold;
-    params.occluderTest = settings.occluderTest == OccluderTest::Velocity
-                              ? shader::kOccluderTestVelocity
-                              : shader::kOccluderTestNone;
+    if (settings.objectTest == ObjectTest::Luminance)
+        params.choices |= shader::kChooseLuminanceTest | shader::kChooseSteppingReveal;
+    if (settings.revealTraversal == RevealTraversal::Stepping)
+        params.choices |= shader::kChooseSteppingReveal;
+    if (settings.occluderTest == OccluderTest::Velocity)
+        params.choices |= shader::kChooseVelocityOccluder;
     params.centreBias = settings.centreBias;
     params.speedThresholdPx = settings.speedThresholdPx;
     params.luminanceSigma = settings.luminanceSigma;
     const bool isGather = settings.method == Method::Gather || settings.method == Method::Hybrid;
     params.uniformMotionPx = isGather ? settings.uniformMotionPx : 0.0f;
     params.maxMotionDepth = settings.maxMotionDepth;
+    params.rayShare = settings.rayShare;
+    params.halfResolutionPx = settings.halfResolutionPx;
     params.marginPx = findMargin(settings);
     return params;
 }

@@ -70,6 +70,12 @@ struct MotionBlurSettings {
         4.0f; ///< Method::Denoised: standard deviations that count as noise, [0.01, 100]
     float uniformMotionPx = 0.5f; ///< deviation from the dominant motion within which taps of the
                                   ///< gathers read colour only, pixels, [0, 16]; 0 turns that off
+    float rayShare = 1.0f; ///< Method::Hybrid: of the masked pixels that trace, [0, 1]: below 1
+                           ///< quads share a ray, below 1/4 parts of the mask go without
+    float halfResolutionPx =
+        std::numeric_limits<float>::infinity(); ///< uniform motion from which the gathers work at
+                                                ///< half of the resolution along it, pixels, [2,
+                                                ///< infinity]
     float maxMotionDepth =
         std::numeric_limits<float>::infinity(); ///< metres along the view, [0, infinity]; what is
                                                 ///< deeper, the sky too, counts as still

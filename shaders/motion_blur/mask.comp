@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/motion_blur_shared.h"
-#include "motion_blur/weights.glsl"
+#include "motion_blur/ray_share.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 4
 #define SHUTTER_BLOCK_LIST_ACCESS // the flags are written
 #include "motion_blur/block_list.glsl"
@@ -104,12 +104,26 @@ void listBlock(uvec2 block) {
         for (uint x = firstTile.x; x <= lastTile.x; ++x) listTile(uvec2(x, y));
 }
 
+/// In a quad the pixel with even coordinates traces for all, where it is masked.
+void listPixel(ivec2 pixel, bool quads) {
+    ivec2 leader = pixel - pixel % 2;
+    if (quads && pixel != leader && isMasked(leader)) {
+        atomicAdd(uMasked.header.sharingPixels, 1u);
+        return;
+    }
+    uint index = atomicAdd(uMasked.header.listedPixels, 1u);
+    uint flag = quads && pixel == leader ? kQuadFlag : 0u;
+    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16 | flag;
+    if (index % kRevealThreads == 0u) atomicAdd(uReveal.groupsX, 1u);
+}
+
 void main() {
     ivec2 pixel;
-    if (!findPixel(params.sizePx, pixel) || !isMasked(pixel)) return;
+    if (!findPixel(params.sizePx, pixel)) return;
+    uvec2 block = uvec2(pixel) / kGroupSize;
+    uint tracing = chooseTracing(vec2(block), params.rayShare);
+    if (tracing == kTraceNothing || !isMasked(pixel)) return;
     imageStore(uMask, pixel, vec4(1.0f));
-    uint index = atomicAdd(uMasked.header.maskedPixels, 1u);
-    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16;
-    if (index % kRevealThreads == 0u) atomicAdd(uReveal.groupsX, 1u);
-    listBlock(uvec2(pixel) / kGroupSize);
+    listBlock(block);
+    listPixel(pixel, tracing == kTraceQuads);
 }

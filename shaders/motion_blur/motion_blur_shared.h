@@ -14,14 +14,10 @@ SHUTTER_CONST uint kRevealThreads = 64u; // reveal: masked pixels a group
 /// Motion shorter than this blurs less than a pixel shows: such pixels are still.
 SHUTTER_CONST float kStillPx = 0.5f;
 
-SHUTTER_CONST uint kObjectTestMeshId = 0u;
-SHUTTER_CONST uint kObjectTestLuminance = 1u;
-
-SHUTTER_CONST uint kRevealTraversalSingle = 0u;
-SHUTTER_CONST uint kRevealTraversalStepping = 1u;
-
-SHUTTER_CONST uint kOccluderTestNone = 0u;
-SHUTTER_CONST uint kOccluderTestVelocity = 1u;
+// Bits of MotionBlurParams::choices.
+SHUTTER_CONST uint kChooseLuminanceTest = 1u;    // objects are told apart by luminance, not mesh id
+SHUTTER_CONST uint kChooseSteppingReveal = 2u;   // the reveal steps from surface to surface
+SHUTTER_CONST uint kChooseVelocityOccluder = 4u; // own velocity drops what does not reach the pixel
 
 /// Push constants of every pass.
 struct MotionBlurParams {
@@ -37,20 +33,20 @@ struct MotionBlurParams {
     float backgroundMagnification;
     float jitter;                  // [0, 1]
     uint recursionLimit;
-    uint objectTest;               // kObjectTest...
+    uint choices;                  // kChoose...
     float luminanceThreshold;
     uvec2 frame;                   // address of the scene's FrameConstants (reveal only)
-    uint occluderTest;             // kOccluderTest... (own velocity only)
     float centreBias;              // kappa (Guertin only)
     float speedThresholdPx;        // gamma (Guertin only), of half velocities
     uvec2 moving;                  // address of the scene's MovingConstants (denoised only)
     float luminanceSigma;          // deviations that count as noise (denoised only)
     float stepPx;                  // between taps of one level (denoised only)
     uvec2 response;                // address of the shutter's ResponseTable; 0: a box
-    uint revealTraversal;          // kRevealTraversal... (reveal only)
     float uniformMotionPx;         // deviation that still counts as uniform motion; 0: none does
     float maxMotionDepth;          // metres; what is deeper counts as still; infinity: nothing does
     float marginPx;                // beyond a block whose tiles its pixels may look up
+    float rayShare;                // of the masked pixels that trace, [0, 1] (mask only)
+    float halfResolutionPx;        // uniform motion from which two pixels along it are one
 };
 
 // Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the
@@ -91,12 +87,16 @@ struct TileHeader {
     uint padding2;
 };
 
+/// In an entry of the list of masked pixels: what is revealed there is taken for the masked pixels of
+/// its quad, too, the first of which it is. Pictures are at most 32768 pixels high.
+SHUTTER_CONST uint kQuadFlag = 0x80000000u;
+
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.
 struct MaskHeader {
-    uint maskedPixels;
+    uint listedPixels;
     uint raysTraced;
+    uint sharingPixels; // masked, but in no list: they share a ray of their quad
     uint padding0;
-    uint padding1;
 };
 
 SHUTTER_SHADER_END

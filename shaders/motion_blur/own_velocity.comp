@@ -41,7 +41,7 @@ void main() {
             float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
             vec2 along = motion * warpTapAt(params.response, u, params.rasterShare);
             vec2 at = centre + along;
-            if (params.occluderTest == kOccluderTestVelocity &&
+            if ((params.choices & kChooseVelocityOccluder) != 0u &&
                 !passesOccluderTest(at, along, target.z))
                 continue;
             sum += textureLod(uColor, at * pixelsToUv, 0.0f).rgb;

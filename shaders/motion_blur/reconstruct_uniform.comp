@@ -16,17 +16,18 @@ layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uDominant;
 layout(binding = 2, rgba16f) uniform writeonly image2D uBlurred;
 
-void main() {
-    ivec2 pixel;
-    if (!findPixel(params.sizePx, pixel)) return;
-    vec2 centre = vec2(pixel) + 0.5f;
-    vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
+vec2 dominantAt(vec2 centre) {
     vec2 tile = tileUv(centre, params.tileSizePx, params.tileCount);
-    vec2 dominant = textureLod(uDominant, tile, 0.0f).xy; // never still: the block is uniform
+    return textureLod(uDominant, tile, 0.0f).xy; // never still: the block is uniform
+}
+
+/// \param at need not be a pixel's centre
+vec4 gatherUniform(vec2 at, vec2 dominant) {
+    vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     float range = length(dominant);
     float weight = centreWeight(range);
-    vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
-    float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
+    vec3 sum = textureLod(uColor, at * pixelsToUv, 0.0f).rgb * weight;
+    float offset = mix(0.5f, interleavedGradientNoise(floor(at)), params.jitter);
     float first = tapPosition(0u, offset, params.sampleCount, params.rasterShare);
     float perTap = 1.0f / float(params.sampleCount);
     // Of the smear's length to the side of u >= 0, and to the other, one u.
@@ -37,8 +38,39 @@ void main() {
     for (uint i = 0u; i < params.sampleCount; ++i) {
         float u = warpTapAt(params.response, first + float(i) * perTap, params.rasterShare);
         float tapWeight = uniformWeight(abs(u) * (u >= 0.0f ? perReach.x : perReach.y));
-        sum += textureLod(uColor, (centre + dominant * u) * pixelsToUv, 0.0f).rgb * tapWeight;
+        sum += textureLod(uColor, (at + dominant * u) * pixelsToUv, 0.0f).rgb * tapWeight;
         weight += tapWeight;
     }
-    imageStore(uBlurred, pixel, vec4(sum / weight, 1.0f));
+    return vec4(sum / weight, 1.0f);
+}
+
+bool isInside(ivec2 pixel) { return all(lessThan(uvec2(pixel), params.sizePx)); }
+
+/// Along a long smear neighbours differ by little: two pixels take what is seen between them. Half
+/// of the group's threads do all, the others end together.
+void gatherHalf(uvec2 block, bool alongX) {
+    uint i = gl_LocalInvocationIndex;
+    if (i >= kGroupSize * kGroupSize / 2u) return;
+    ivec2 stride = alongX ? ivec2(1, 0) : ivec2(0, 1);
+    uint perRow = alongX ? kGroupSize / 2u : kGroupSize;
+    ivec2 pixel = ivec2(block * kGroupSize) + ivec2(i % perRow, i / perRow) * (ivec2(1) + stride);
+    if (!isInside(pixel)) return;
+    vec2 centre = vec2(pixel) + 0.5f;
+    vec4 color = gatherUniform(centre + 0.5f * vec2(stride), dominantAt(centre));
+    imageStore(uBlurred, pixel, color);
+    if (isInside(pixel + stride)) imageStore(uBlurred, pixel + stride, color);
+}
+
+void main() {
+    uvec2 block;
+    if (!findBlock(params.sizePx, block)) return;
+    vec2 motion = dominantAt(vec2(block * kGroupSize) + 0.5f);
+    if (length(motion) >= params.halfResolutionPx) {
+        gatherHalf(block, abs(motion.x) >= abs(motion.y));
+        return;
+    }
+    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
+    if (!isInside(pixel)) return;
+    vec2 centre = vec2(pixel) + 0.5f;
+    imageStore(uBlurred, pixel, gatherUniform(centre, dominantAt(centre)));
 }

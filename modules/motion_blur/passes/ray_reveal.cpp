@@ -3,6 +3,7 @@
 
 #include "spirv/motion_blur/reveal.comp.h"
 #include "spirv/motion_blur/reveal.rgen.h"
+#include "spirv/motion_blur/reveal_sky.comp.h"
 #include "spirv/render/trace.rahit.h"
 #include "spirv/render/trace.rchit.h"
 #include "spirv/render/trace.rmiss.h"
@@ -21,18 +22,27 @@ gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout, bool 
     gpu::ComputePipelineDesc desc = describePass(
         "ray reveal",
         motion_blur_reveal_comp,
-        {VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
+        {kSampled,
          kSampled,
          kSampled,
          kSampled,
          kStorage,
          kStorage,
          kStorage,
-         kBuffer}
+         kBuffer,
+         VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}
     );
     desc.interface.sceneLayout = sceneLayout;
     desc.specialization = {hasBlended ? 1u : 0u};
     return desc;
+}
+
+gpu::ComputePipelineDesc describeSky() {
+    return describePass(
+        "sky reveal",
+        motion_blur_reveal_sky_comp,
+        {kSampled, kSampled, kSampled, kSampled, kStorage, kStorage, kStorage, kBuffer}
+    );
 }
 
 gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasBlended) {
@@ -56,17 +66,27 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
           device, "ray mask counters", sizeof(shader::MaskHeader), 0, gpu::MemoryUse::Readback
       ) {}
 
-void RayReveal::makePipeline(bool hasBlended) {
+const gpu::Pipeline& RayReveal::findPipeline(const RayInputs& rays) {
+    if (rays.topLevel == VK_NULL_HANDLE) {
+        if (!mSky)
+            mSky.emplace(mDevice, describeSky());
+        return *mSky;
+    }
     if (mDevice.hasRayQuery()) {
-        if (!mQueries[hasBlended])
-            mQueries[hasBlended].emplace(mDevice, describeReveal(mSceneLayout, hasBlended));
-    } else if (!mTracers[hasBlended])
-        mTracers[hasBlended].emplace(mDevice, describeTracer(mSceneLayout, hasBlended));
+        auto& query = mQueries[rays.hasBlended];
+        if (!query)
+            query.emplace(mDevice, describeReveal(mSceneLayout, rays.hasBlended));
+        return *query;
+    }
+    auto& tracer = mTracers[rays.hasBlended];
+    if (!tracer)
+        tracer.emplace(mDevice, describeTracer(mSceneLayout, rays.hasBlended));
+    return tracer->pipeline();
 }
 
 graph::BufferHandle RayReveal::addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const {
     using graph::Access;
-    if (mDevice.hasRayQuery() || !mDevice.info().tracesIndirect)
+    if (!mDevice.info().tracesIndirect)
         return {};
 
     struct Data {
@@ -90,7 +110,7 @@ graph::BufferHandle RayReveal::addLaunchSize(graph::Graph& graph, graph::BufferH
                 using Size = VkTraceRaysIndirectCommandKHR;
                 const VkBuffer target = context.resources.buffer(data.size);
                 const VkBufferCopy width{
-                    offsetof(shader::MaskHeader, maskedPixels),
+                    offsetof(shader::MaskHeader, listedPixels),
                     offsetof(Size, width),
                     sizeof(Size::width)};
                 vkCmdCopyBuffer(
@@ -116,8 +136,6 @@ void RayReveal::launch(
     graph::BufferHandle launchSize
 ) const {
     const graph::PassResources& resources = context.resources;
-    if (mDevice.hasRayQuery())
-        return vkCmdDispatchIndirect(context.commands, resources.buffer(inputs.arguments), 0);
     const gpu::RayPipeline& tracer = *mTracers[inputs.rays.hasBlended];
     if (launchSize.isValid())
         return tracer.traceIndirect(context.commands, resources.buffer(launchSize));
@@ -135,11 +153,11 @@ RayRevealOutputs RayReveal::add(
         create("reveal color", inputs.color),
         create("reveal motion depth", inputs.motionDepth),
         create("reveal mesh id", inputs.meshId)};
-    const graph::BufferHandle launchSize = addLaunchSize(graph, inputs.list);
-    const bool byQuery = mDevice.hasRayQuery();
-    makePipeline(inputs.rays.hasBlended);
-    const gpu::Pipeline& pipeline =
-        byQuery ? *mQueries[inputs.rays.hasBlended] : mTracers[inputs.rays.hasBlended]->pipeline();
+    const bool skyOnly = inputs.rays.topLevel == VK_NULL_HANDLE;
+    const bool byCompute = skyOnly || mDevice.hasRayQuery();
+    const graph::BufferHandle launchSize =
+        byCompute ? graph::BufferHandle{} : addLaunchSize(graph, inputs.list);
+    const gpu::Pipeline& pipeline = findPipeline(inputs.rays);
 
     struct RevealData {
         RayRevealInputs in;
@@ -148,11 +166,12 @@ RayRevealOutputs RayReveal::add(
     };
 
     const RevealData& revealed = graph.addPass<RevealData>(
-        "ray reveal",
-        byQuery ? graph::PassKind::Compute : graph::PassKind::RayTracing,
+        skyOnly ? "sky reveal" : "ray reveal",
+        byCompute ? graph::PassKind::Compute : graph::PassKind::RayTracing,
         [&](graph::PassBuilder& builder, RevealData& data) {
             data.in = inputs;
-            builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
+            if (!skyOnly)
+                builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
             if (inputs.rays.movingLevelBuffer.isValid())
                 builder.read(inputs.rays.movingLevelBuffer, Access::AccelerationRead);
             if (inputs.rays.shapeLevelsBuffer.isValid())
@@ -162,28 +181,36 @@ RayRevealOutputs RayReveal::add(
             builder.read(inputs.color, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
             builder.read(inputs.meshId, Access::SampledCompute);
+            builder.read(inputs.mask, Access::SampledCompute);
             data.out.color = builder.write(outputs.color, Access::StorageWrite);
             data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
             data.out.meshId = builder.write(outputs.meshId, Access::StorageWrite);
             data.list = builder.write(inputs.list, Access::StorageWrite);
-            if (byQuery)
+            if (byCompute)
                 builder.read(inputs.arguments, Access::IndirectRead);
             else if (launchSize.isValid())
                 builder.read(launchSize, Access::IndirectRead);
         },
-        [this, params, launchSize, &pipeline](const RevealData& data, graph::PassContext& context) {
+        [this, params, byCompute, launchSize, &pipeline](
+            const RevealData& data, graph::PassContext& context
+        ) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings;
-            bindings.accelerationStructure(data.in.rays.topLevel)
-                .sampled(resources.view(data.in.color), mSampler)
+            bindings.sampled(resources.view(data.in.color), mSampler)
                 .sampled(resources.view(data.in.motionDepth), mSampler)
                 .sampled(resources.view(data.in.meshId), mSampler)
+                .sampled(resources.view(data.in.mask), mSampler)
                 .storage(resources.view(data.out.color))
                 .storage(resources.view(data.out.motionDepth))
                 .storage(resources.view(data.out.meshId))
                 .buffer(resources.buffer(data.list));
+            if (data.in.rays.topLevel != VK_NULL_HANDLE)
+                bindings.accelerationStructure(data.in.rays.topLevel);
             context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.scene);
-            launch(context, data.in, params, launchSize);
+            if (byCompute)
+                vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
+            else
+                launch(context, data.in, params, launchSize);
         }
     );
 

@@ -19,9 +19,11 @@ struct RayInputs {
     graph::BufferHandle movingLevelBuffer; ///< likewise, unless it is invalid: there is no second
     graph::BufferHandle shapeLevelsBuffer; ///< likewise, unless it is invalid: nothing is bent
     graph::BufferHandle shapesBuffer;      ///< read with Access::ShaderRead, unless it is invalid
-    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE; ///< custom index: row of the entity table
-    VkDescriptorSet scene = VK_NULL_HANDLE;               ///< set 1: bindless textures
-    glm::uvec2 frame{0u};                                 ///< address of FrameConstants
+    /// Custom index: row of the entity table. Null: nothing but sky lies behind what moves, and no
+    /// ray is traced; `frame` alone counts then.
+    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
+    VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
+    glm::uvec2 frame{0u};                   ///< address of FrameConstants
     bool hasBlended = false; ///< blended surfaces lie over what is revealed, as over the raster's
 };
 
@@ -29,6 +31,7 @@ struct RayRevealInputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
     graph::ImageHandle meshId;
+    graph::ImageHandle mask;       ///< of RayMask
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
     RayInputs rays;
@@ -54,8 +57,8 @@ class RayReveal {
   private:
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
     graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
-    /// The one for the device is made for the first frame that needs it.
-    void makePipeline(bool hasBlended);
+    /// Made for the first frame that needs it.
+    const gpu::Pipeline& findPipeline(const RayInputs& rays);
     void launch(
         graph::PassContext& context,
         const RayRevealInputs& inputs,
@@ -66,6 +69,7 @@ class RayReveal {
     gpu::Device& mDevice;
     VkDescriptorSetLayout mSceneLayout;
     VkSampler mSampler;
+    std::optional<gpu::Pipeline> mSky;                       ///< for frames without rays
     std::array<std::optional<gpu::Pipeline>, 2> mQueries;    ///< without and with blended surfaces
     std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same
     gpu::Buffer mHeader;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The reveal where nothing but sky lies behind what moves: no ray has to find that.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "motion_blur/revealed_pixels.glsl"
+#include "render/view_ray.glsl"
+
+layout(local_size_x = kRevealThreads) in;
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= header.listedPixels) return;
+    vec2 centre = vec2(pixelOf(pixels[index])) + 0.5f;
+    vec2 uv = centre / vec2(params.sizePx);
+    FrameRef frame = FrameRef(params.frame);
+    bool sky = textureLod(uMeshId, uv, 0.0f).x == kNoEntity;
+    Revealed revealed = sky ? keepRaster(uv)
+                            : revealSky(frame, centre, makeViewRay(frame, centre).direction);
+    storeRevealed(pixels[index], revealed);
+}

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/budget.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+MotionBlurSettings settingsOf(Method method, uint32_t samples = 15) {
+    MotionBlurSettings settings;
+    settings.method = method;
+    settings.sampleCount = samples;
+    return settings;
+}
+
+/// What a frame takes on a device: some for the tiles, some a sample, some for rays.
+struct Load {
+    double tiles = 1.0;
+    double perSample = 1.0;
+    double rays = 30.0;
+
+    [[nodiscard]] double of(const BudgetRung& rung) const {
+        if (!rung.runs)
+            return 0.0;
+        const MotionBlurSettings& s = rung.settings;
+        const double resolution = std::isinf(s.halfResolutionPx) ? 1.0 : 0.8;
+        const double traced = s.method == Method::Hybrid ? rays * s.rayShare : 0.0;
+        return tiles + perSample * s.sampleCount * resolution + traced;
+    }
+};
+
+/// Numbers in [-1, 1) that look random and are the same everywhere.
+double noise(uint32_t& state) {
+    state = state * 1664525u + 1013904223u;
+    return (state >> 8) / double(1u << 23) - 1.0;
+}
+
+struct Drive {
+    std::vector<size_t> rungs;
+    std::vector<double> times;
+
+    [[nodiscard]] size_t changes(size_t from) const {
+        size_t count = 0;
+        for (size_t i = from + 1; i < rungs.size(); ++i)
+            count += rungs[i] != rungs[i - 1];
+        return count;
+    }
+
+    [[nodiscard]] double shareOver(double budget, size_t from) const {
+        size_t over = 0;
+        for (size_t i = from; i < times.size(); ++i)
+            over += times[i] > budget;
+        return double(over) / double(times.size() - from);
+    }
+};
+
+Drive drive(
+    BudgetController& controller,
+    const Load& load,
+    int frames,
+    double spread = 0.0,
+    uint32_t seed = 1
+) {
+    Drive result;
+    for (int i = 0; i < frames; ++i) {
+        const size_t rung = controller.rung();
+        const double time = load.of(controller.current()) * (1.0 + spread * noise(seed));
+        result.rungs.push_back(rung);
+        result.times.push_back(time);
+        controller.observe(rung, time);
+    }
+    return result;
+}
+
+constexpr Method kEveryMethod[] = {
+    Method::Gather,
+    Method::Hybrid,
+    Method::OwnVelocity,
+    Method::McGuire2012,
+    Method::Guertin2014,
+    Method::Jimenez2014,
+    Method::Denoised};
+
+} // namespace
+
+TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
+    for (const Method method : kEveryMethod)
+        for (const uint32_t samples : {1u, 4u, 15u, 256u}) {
+            const auto rungs = makeRungs(settingsOf(method, samples));
+            ASSERT_GE(rungs.size(), 2u);
+            EXPECT_TRUE(rungs.front().gaveUp.empty());
+            EXPECT_EQ(rungs.front().settings.sampleCount, samples);
+            EXPECT_EQ(rungs.front().settings.method, method);
+            EXPECT_FALSE(rungs.back().runs);
+            std::set<std::string> said;
+            for (size_t i = 1; i < rungs.size(); ++i) {
+                EXPECT_LT(rungs[i].cost, rungs[i - 1].cost) << int(method) << " rung " << i;
+                EXPECT_TRUE(validate(rungs[i].settings).ok()) << rungs[i].gaveUp;
+                EXPECT_TRUE(said.insert(rungs[i].gaveUp).second) << rungs[i].gaveUp;
+                EXPECT_LE(rungs[i].settings.rayShare, rungs[i - 1].settings.rayShare);
+            }
+        }
+}
+
+TEST(Budget, TheLadderSaysWhatItGivesUp) {
+    const auto rungs = makeRungs(settingsOf(Method::Hybrid));
+    EXPECT_EQ(rungs[1].gaveUp, "half of the resolution along long uniform motion");
+    EXPECT_EQ(
+        rungs[3].gaveUp, "half of the resolution along long uniform motion, 50 % of the rays"
+    );
+    EXPECT_EQ(
+        rungs[rungs.size() - 2].gaveUp,
+        "half of the resolution along long uniform motion, all rays, 11 of 15 samples"
+    );
+    EXPECT_EQ(rungs.back().gaveUp, "motion blur altogether");
+}
+
+TEST(Budget, OnlyATimeAboveZeroIsABudget) {
+    EXPECT_TRUE(validate(BlurBudget{}).ok());
+    EXPECT_TRUE(validate(BlurBudget{0.1}).ok());
+    for (const double wrong : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_FALSE(validate(BlurBudget{wrong}).ok()) << wrong;
+}
+
+TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
+    BudgetController controller({}, settingsOf(Method::Hybrid));
+    for (const double time : {1.0, 1e9, std::numeric_limits<double>::infinity(), 0.0})
+        for (int i = 0; i < 50; ++i) {
+            controller.observe(0, time);
+            ASSERT_EQ(controller.rung(), 0u);
+        }
+}
+
+TEST(Budget, WhatFitsIsLeftAlone) {
+    BudgetController controller({50.0}, settingsOf(Method::Hybrid));
+    EXPECT_EQ(drive(controller, {}, 500).changes(0), 0u);
+    EXPECT_EQ(controller.rung(), 0u);
+}
+
+TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
+    for (const Method method : {Method::Hybrid, Method::Gather, Method::Jimenez2014})
+        for (const double budget : {3.0, 6.0, 9.0, 12.0, 15.0, 20.0, 30.0, 40.0, 60.0}) {
+            BudgetController controller({budget}, settingsOf(method));
+            drive(controller, {}, 400);
+            const Drive later = drive(controller, {}, 1000);
+            // Now and then it tries the rung above, for two frames at most.
+            EXPECT_LT(later.shareOver(budget, 0), 0.02) << int(method) << ", " << budget << " ms";
+            // It does not give up more than two rungs that would fit.
+            const size_t better = controller.rung() >= 2 ? controller.rung() - 2 : 0;
+            if (controller.rung() >= 2)
+                EXPECT_GT(Load{}.of(makeRungs(settingsOf(method))[better]), 0.7 * budget)
+                    << int(method) << ", " << budget << " ms";
+        }
+}
+
+TEST(Budget, NoiseDoesNotMakeItPump) {
+    for (uint32_t seed = 1; seed <= 5; ++seed)
+        for (const double budget : {8.0, 15.0, 25.0, 38.0}) {
+            BudgetController controller({budget}, settingsOf(Method::Hybrid));
+            drive(controller, {}, 1000, 0.1, seed);
+            const Drive later = drive(controller, {}, 2000, 0.1, seed + 100);
+            EXPECT_LE(later.changes(0), 40u) << budget << " ms, seed " << seed;
+        }
+}
+
+TEST(Budget, OneSlowFrameIsAHiccup) {
+    BudgetController controller({50.0}, settingsOf(Method::Hybrid));
+    drive(controller, {}, 20);
+    controller.observe(0, 500.0);
+    drive(controller, {}, 20);
+    EXPECT_EQ(controller.rung(), 0u);
+}
+
+TEST(Budget, ALittleTooMuchCostsOneRungAndFarTooMuchSeveral) {
+    BudgetController little({45.0}, settingsOf(Method::Hybrid));
+    drive(little, {}, 2);
+    EXPECT_EQ(little.rung(), 1u);
+    BudgetController far({12.0}, settingsOf(Method::Hybrid));
+    drive(far, {}, 2);
+    EXPECT_GT(far.rung(), 3u);
+}
+
+TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {
+    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    drive(controller, {4.0, 3.0, 200.0}, 300);
+    EXPECT_GT(controller.rung(), 4u);
+    const Drive back = drive(controller, {0.2, 0.2, 2.0}, 3000);
+    EXPECT_EQ(controller.rung(), 0u);
+    for (size_t i = 1; i < back.rungs.size(); ++i)
+        ASSERT_LE(back.rungs[i - 1] - back.rungs[i], 1u) << "frame " << i;
+}
+
+TEST(Budget, ARungThatWouldJustFitIsNotTriedSoTheMarginStays) {
+    BudgetController controller({46.5}, settingsOf(Method::Hybrid));
+    drive(controller, {3.0, 3.0, 10.0}, 2); // 58 ms: down by one
+    ASSERT_EQ(controller.rung(), 1u);
+    // All of it would take 46 ms now.
+    EXPECT_EQ(drive(controller, {}, 1000).changes(0), 0u);
+}
+
+TEST(Budget, StepsUpThatFailedLongAgoDoNotHoldItBackForLong) {
+    BudgetController controller({18.0}, settingsOf(Method::Hybrid));
+    drive(controller, {1.0, 1.0, 60.0}, 5000);
+    ASSERT_GT(controller.rung(), 2u);
+    drive(controller, {0.2, 0.2, 2.0}, 2000);
+    EXPECT_EQ(controller.rung(), 0u);
+}
+
+TEST(Budget, ItComesBackFromNoBlurAtAll) {
+    BudgetController controller({0.5}, settingsOf(Method::Gather));
+    drive(controller, {}, 200);
+    EXPECT_FALSE(controller.current().runs);
+    drive(controller, {0.01, 0.01, 0.0}, 4000);
+    EXPECT_EQ(controller.rung(), 0u);
+}
+
+TEST(Budget, TimesOfOtherRungsAndNoNumbersArePassedOver) {
+    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    for (int i = 0; i < 10; ++i) {
+        controller.observe(3, 1e6);
+        controller.observe(0, std::numeric_limits<double>::quiet_NaN());
+        controller.observe(0, std::numeric_limits<double>::infinity());
+        controller.observe(0, -5.0);
+    }
+    EXPECT_EQ(controller.rung(), 0u);
+}
+
+} // namespace shutter::motion_blur
