@@ -80,7 +80,7 @@ MethodRenderer::MethodRenderer(
     : mShot(shot), mOptions(options), mRenderer(renderer), mTonemap(device, options.tonemap) {
     if (options.method->family == MethodFamily::MotionBlur)
         mMotionBlur = std::make_unique<motion_blur::MotionBlurPlugin>(
-            device, mRenderer.scene(), options.motionBlur
+            device, mRenderer.scene(), options.motionBlur, options.budget
         );
     if (options.method->family == MethodFamily::Accumulate)
         mAccumulate = std::make_unique<accumulate::Accumulate>(device);
@@ -130,9 +130,8 @@ core::Result<render::FrameResult> MethodRenderer::renderAccumulated(
     for (uint32_t i = 0; i < count; ++i) {
         const bool last = i + 1 == count;
         render::FrameRequest instant = request;
-        instant.view = accumulate::makeInstant(
-            request.view, i, count, mOptions.pixel, mOptions.seed
-        );
+        instant.view =
+            accumulate::makeInstant(request.view, i, count, mOptions.pixel, mOptions.seed);
         instant.wantColor = last && request.wantColor;
         instant.wantDisplay = last && request.wantDisplay;
         // Intermediates are the raster instant's, not an average: drawn below.

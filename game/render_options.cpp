@@ -146,6 +146,17 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
     return {};
 }
 
+Status parseBudget(const RenderArguments& arguments, RenderOptions& options) {
+    if (!arguments.budgetMilliseconds)
+        return {};
+    if (options.method->family != MethodFamily::MotionBlur)
+        return makeError("--budget: method {} has nothing to give up", options.method->name);
+    options.budget.milliseconds = *arguments.budgetMilliseconds;
+    if (Status valid = motion_blur::validate(options.budget); !valid)
+        return makeError("--budget: {}", valid.error().message);
+    return {};
+}
+
 Status parseAovs(const RenderArguments& arguments, RenderOptions& options) {
     if (arguments.aov.empty())
         return {};
@@ -260,6 +271,11 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("--stats", a.stats, "times and counters as JSON");
     defineDeviceOptions(command, a);
     command.add_flag("--dump-graph", a.dumpGraph, "print the render graph of the first frame");
+    command.add_option(
+        "--budget",
+        a.budgetMilliseconds,
+        "GPU ms a frame that the blur may take (it gives up quality); default: no limit"
+    );
     command.add_flag(
         "--explain", a.explain, "print of each frame why each effect and pass ran or was skipped"
     );
@@ -298,6 +314,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
           Step(parseTimes),
           Step(parseShutter),
           Step(parseMethod),
+          Step(parseBudget),
           Step(parseAovs),
           Step(parseOutput)})
         if (Status parsed = step(arguments, options); !parsed)

@@ -10,6 +10,7 @@
 #include "game/methods.h"
 #include "game/shutter_options.h"
 #include "modules/accumulate/accumulate.h"
+#include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 #include "modules/tonemap/tonemap.h"
 
@@ -54,6 +55,7 @@ struct RenderArguments : ShutterArguments {
     bool validate = false;
     bool dumpGraph = false;
     bool explain = false;
+    std::optional<double> budgetMilliseconds;
     uint32_t repeat = 1;
 };
 
@@ -80,6 +82,7 @@ struct RenderOptions {
     math::vec3 ambient{0.0f};
     tonemap::TonemapSettings tonemap;
     motion_blur::MotionBlurSettings motionBlur;
+    motion_blur::BlurBudget budget; ///< of motionBlur
     std::filesystem::path out;
     bool displayOut = false; ///< .png or .jpg: tone-mapped; otherwise linear
     std::set<std::string> aovs;

@@ -29,6 +29,8 @@ struct ViewFacts {
     double rasterShare = 1.0; ///< s of the raster instant in the exposure, [0, 1]
     bool deviceHasRays = false;
     bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced
+    /// Whether rays past what moves could find a surface (backdrop.h); skipped where nothing moves.
+    Decision reveal;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
 };
 

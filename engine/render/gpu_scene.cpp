@@ -327,6 +327,12 @@ void GpuScene::buildBottomLevels() {
     mMeshScenes.resize(mBottomLevels.size());
 }
 
+void GpuScene::releaseBottomLevels() {
+    mMeshScenes.clear();
+    mBottomLevels.clear();
+    mBottomLevelsBuilt = false;
+}
+
 void GpuScene::buildMeshScenes(std::span<const uint32_t> meshes) {
     std::set<uint32_t> missing;
     for (const uint32_t mesh : meshes)

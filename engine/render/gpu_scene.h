@@ -67,6 +67,9 @@ class GpuScene {
     /// shader, which passes or takes them.
     void buildBottomLevels();
 
+    /// Gives back every BLAS and TLAS of a mesh; whatever refers to them has to be gone first.
+    void releaseBottomLevels();
+
     /// Null (false) for a mesh without triangles that rays can meet.
     [[nodiscard]] const gpu::AccelerationStructure& bottomLevel(uint32_t mesh) const {
         return mBottomLevels[mesh];

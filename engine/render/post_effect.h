@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/frame.h"
 #include "engine/graph/graph.h"
 #include "engine/render/demand.h"
 #include "engine/render/gbuffer.h"
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,8 +76,9 @@ struct PostContext {
     graph::ImageHandle color;     ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display;   ///< display-encoded, once somebody made it
     Intermediates& intermediates;
-    VkDeviceAddress response = 0; ///< shader::ResponseTable of the shutter; 0: a box
-    Explainer& explainer;         ///< takes reasons of passes that an effect leaves out
+    VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
+    VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
+    Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
 };
 
 /// Numbers an effect reports about a frame, e.g. "rays traced".
@@ -100,6 +103,10 @@ class PostEffect {
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;
+
+    /// GPU times of the passes it declared, once the frame is done; none where it did not run.
+    /// Called each frame.
+    virtual void observe(std::span<const gpu::PassTime>) {}
 
     /// Counters of the frame declared last; called when the GPU is done with it.
     virtual void collect(Counters&) {}

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/renderer.h"
 
+#include "engine/core/check.h"
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
+#include "engine/render/backdrop.h"
 #include "engine/render/motion_cap.h"
 #include "engine/render/ray_masks.h"
 #include "engine/scene/shutter.h"
@@ -76,7 +78,7 @@ Renderer::RunningEffects Renderer::askEffects(
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
         if (!decision.run)
             continue;
-        running.effects.push_back(effect);
+        running.effects.push_back({effect});
         join(running.rays, effect->name(), rays);
         join(running.movingRays, effect->name(), movingRays);
     }
@@ -124,7 +126,7 @@ void Renderer::declareTopLevels(
     graph::Graph& graph, ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
 ) {
     mScene.buildBottomLevels();
-    const TopLevelHandles levels = mTopLevels.declare(graph, frame, mScene, shapes);
+    const TopLevelHandles levels = mTopLevels->declare(graph, frame, mScene, shapes);
     rays.topLevelBuffer = levels.buffer;
     rays.movingLevelBuffer = levels.movingBuffer;
     rays.shapeLevelsBuffer = levels.shapesBuffer;
@@ -148,12 +150,14 @@ core::Result<FrameResult> Renderer::renderFrame(
     if (!extracted)
         return extracted.error();
     ExtractedFrame& frame = *extracted.value();
-    const ViewFacts facts = stateFacts(request, frame.moves, mDevice);
+    ViewFacts facts = stateFacts(request, frame.moves, mDevice);
+    if (facts.moves && facts.exposureSeconds > 0.0)
+        facts.reveal = decideReveal(frame, mScene.layout());
     FrameResult result;
     FrameStatistics& statistics = result.statistics;
     statistics.measures["extraction ms"] = millisecondsSince(start);
     Explainer explainer;
-    const RunningEffects running = askEffects(effects, facts, explainer);
+    RunningEffects running = askEffects(effects, facts, explainer);
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
@@ -186,10 +190,12 @@ core::Result<FrameResult> Renderer::renderFrame(
     result.statistics.wallMilliseconds = millisecondsSince(start);
     result.statistics.transientBytes = mPool.heldBytes();
     result.statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
-    for (PostEffect* effect : running.effects) {
-        effect->collect(result.statistics.counters);
-        effect->measure(result.statistics.measures);
+    showTimes(effects, running, plan.value(), statistics.passes);
+    for (const RunningEffect& one : running.effects) {
+        one.effect->collect(statistics.counters);
+        one.effect->measure(statistics.measures);
     }
+    releaseIdle(frame, running);
     if (request.wantDump)
         result.dump = graph::dump(graph, plan.value());
     if (tickets.color)
@@ -199,6 +205,39 @@ core::Result<FrameResult> Renderer::renderFrame(
     for (const auto& [name, ticket] : tickets.intermediates)
         result.intermediates[name] = mReadback.take(ticket);
     return result;
+}
+
+void Renderer::showTimes(
+    std::span<PostEffect* const> effects,
+    const RunningEffects& running,
+    const graph::Plan& plan,
+    std::span<const gpu::PassTime> times
+) {
+    SHUTTER_CHECK_EQ(plan.passes.size(), times.size());
+    for (PostEffect* effect : effects) {
+        const auto runs = std::find_if(
+            running.effects.begin(),
+            running.effects.end(),
+            [&](const RunningEffect& one) { return one.effect == effect; }
+        );
+        std::vector<gpu::PassTime> own;
+        for (size_t i = 0; runs != running.effects.end() && i < times.size(); ++i)
+            if (plan.passes[i].pass >= runs->firstPass && plan.passes[i].pass < runs->endPass)
+                own.push_back(times[i]);
+        effect->observe(own);
+    }
+}
+
+void Renderer::releaseIdle(const ExtractedFrame& frame, const RunningEffects& running) {
+    const bool anyRays = running.rays.run || running.movingRays.run;
+    if (mBendingIdle.advance(!frame.deformed.empty()))
+        mDeformation.emplace(mDevice);
+    if (mRaysIdle.advance(running.rays.run))
+        mTopLevels.emplace(mDevice);
+    if (mMovingRaysIdle.advance(running.movingRays.run))
+        mMovingScene.emplace(mDevice);
+    if (mBottomLevelsIdle.advance(anyRays))
+        mScene.releaseBottomLevels();
 }
 
 core::Result<scene::MotionCap>
@@ -240,16 +279,16 @@ Renderer::Tickets Renderer::declareFrame(
     const ViewFacts& facts,
     ExtractedFrame& frame,
     const MovingTables* moving,
-    const RunningEffects& running,
+    RunningEffects& running,
     Explainer& explainer
 ) {
     explainer.beginPasses(graph, "a skin or morph target is drawn");
-    const DeformedShapes shapes = mDeformation.declare(graph, frame, mScene);
+    const DeformedShapes shapes = mDeformation->declare(graph, frame, mScene);
     std::vector<shader::Geometry> bent = shapes.rows;
     const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
     if (moving) {
         mScene.buildBottomLevels(); // instances of bent meshes ask for their masks
-        const std::vector<shader::Geometry>& keyed = mMovingScene.prepareShapes(*moving, mScene);
+        const std::vector<shader::Geometry>& keyed = mMovingScene->prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
     RayScene rays;
@@ -271,7 +310,7 @@ Renderer::Tickets Renderer::declareFrame(
     explainer.beginPasses(graph, running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {
-        movingRays = mMovingScene.declare(
+        movingRays = mMovingScene->declare(
             graph,
             *moving,
             frame,
@@ -296,10 +335,13 @@ Renderer::Tickets Renderer::declareFrame(
         {},
         intermediates,
         tables.response,
+        tables.constants,
         explainer};
-    for (PostEffect* effect : running.effects) {
-        explainer.beginPasses(graph, effect->name() + " runs");
-        effect->declare(context);
+    for (RunningEffect& one : running.effects) {
+        explainer.beginPasses(graph, one.effect->name() + " runs");
+        one.firstPass = graph.passes().size();
+        one.effect->declare(context);
+        one.endPass = graph.passes().size();
     }
 
     explainer.beginPasses(graph, "its picture is read back");

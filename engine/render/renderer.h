@@ -11,6 +11,7 @@
 #include "engine/render/frame_extractor.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/gpu_scene.h"
+#include "engine/render/idle_counter.h"
 #include "engine/render/moving_scene.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
@@ -84,9 +85,15 @@ class Renderer {
         std::map<std::string, size_t> intermediates;
     };
 
+    struct RunningEffect {
+        PostEffect* effect = nullptr;
+        size_t firstPass = 0; ///< of its own: indices into Graph::passes()
+        size_t endPass = 0;
+    };
+
     /// The effects of a frame that run, and what rays they trace.
     struct RunningEffects {
-        std::vector<PostEffect*> effects;
+        std::vector<RunningEffect> effects;
         Decision rays;
         Decision movingRays;
     };
@@ -99,9 +106,18 @@ class Renderer {
         const ViewFacts& facts,
         ExtractedFrame& frame,
         const MovingTables* moving,
-        const RunningEffects& running,
+        RunningEffects& running,
         Explainer& explainer
     );
+    /// Tells each effect what its passes took.
+    static void showTimes(
+        std::span<PostEffect* const> effects,
+        const RunningEffects& running,
+        const graph::Plan& plan,
+        std::span<const gpu::PassTime> times
+    );
+    /// Gives back what no frame wanted for a while.
+    void releaseIdle(const ExtractedFrame& frame, const RunningEffects& running);
 
     /// Where the frame's tables are.
     struct TableAddresses {
@@ -128,9 +144,14 @@ class Renderer {
     EntityTable mEntityTable;
     /// Constants, lights and, where meshes are bent, geometries of the frame, mapped.
     gpu::Buffer mTables;
-    DeformationPass mDeformation;
-    TopLevels mTopLevels;
-    MovingScene mMovingScene;
+    // Made anew once they were idle (releaseIdle).
+    std::optional<DeformationPass> mDeformation;
+    std::optional<TopLevels> mTopLevels;
+    std::optional<MovingScene> mMovingScene;
+    IdleCounter mBendingIdle;
+    IdleCounter mRaysIdle;
+    IdleCounter mMovingRaysIdle;
+    IdleCounter mBottomLevelsIdle;
     // Of the frame declared last, for statistics.
     EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;

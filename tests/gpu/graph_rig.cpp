@@ -47,7 +47,8 @@ graph::Plan GraphRig::run() {
 }
 
 EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height)
-    : context{rig.graph, facts, gbuffer, nullptr, nullptr, color, {}, intermediates, 0, explainer} {
+    : context{
+          rig.graph, facts, gbuffer, nullptr, nullptr, color, {}, intermediates, 0, 0, explainer} {
     facts.width = width;
     facts.height = height;
     facts.displayWanted = true;

@@ -1,29 +1,57 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 
+#include <fmt/format.h>
+
 namespace shutter::motion_blur {
 
+namespace {
+
+void explainBudget(render::Explainer& explainer, const BudgetController& budget) {
+    const std::string& gaveUp = budget.current().gaveUp;
+    std::string reason = "the budget is unlimited";
+    if (!budget.budget().isUnlimited())
+        reason = gaveUp.empty()
+                     ? fmt::format("all fits into {} ms", budget.budget().milliseconds)
+                     : fmt::format(
+                           "{} ms are too few: gave up {}", budget.budget().milliseconds, gaveUp
+                       );
+    explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
+}
+
+} // namespace
+
 MotionBlurPlugin::MotionBlurPlugin(
-    gpu::Device& device, const render::GpuScene& scene, const MotionBlurSettings& settings
+    gpu::Device& device,
+    const render::GpuScene& scene,
+    const MotionBlurSettings& settings,
+    const BlurBudget& budget
 )
-    : mSettings(settings), mEffect(device, scene.textureLayout()) {}
+    : mBudget(budget, settings), mEffect(device, scene.textureLayout()) {}
 
 render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
     if (!facts.moves)
         return {false, "nothing in the picture moves during the exposure"};
+    if (!mBudget.current().runs)
+        return {
+            false, fmt::format("{} ms are too few for any blur", mBudget.budget().milliseconds)};
     return {true, "something in the picture moves during the exposure"};
 }
 
-render::Decision MotionBlurPlugin::askRays(const render::ViewFacts&) const {
-    if (mSettings.method != Method::Hybrid)
+render::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
+    if (settings().method != Method::Hybrid)
         return {false, "its method reveals nothing"};
-    return {true, "a background may come into sight behind what moves"};
+    // Other tests than by mesh id, and steps that end at a limit, show an entity behind itself.
+    if (settings().objectTest != ObjectTest::MeshId ||
+        settings().revealTraversal != RevealTraversal::Single)
+        return {true, "an entity may come into sight behind itself"};
+    return facts.reveal;
 }
 
 render::Decision MotionBlurPlugin::askMovingRays(const render::ViewFacts&) const {
-    if (mSettings.method != Method::Denoised)
+    if (settings().method != Method::Denoised)
         return {false, "its method has no rays with times of their own"};
     return {true, "its method has rays with times of their own"};
 }
@@ -38,6 +66,9 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.response = render::splitAddress(context.response);
     inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
+    RayInputs sky;
+    sky.frame = render::splitAddress(context.frameConstants);
+    inputs.rays = sky;
     if (context.rays)
         inputs.rays = RayInputs{
             context.rays->topLevelBuffer,
@@ -57,7 +88,13 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.movingRays->textures,
             render::splitAddress(context.movingRays->frameConstants),
             render::splitAddress(context.movingRays->movingConstants)};
-    const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, mSettings);
+    mDrawnRung = mBudget.rung();
+    const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
+    explainBudget(context.explainer, mBudget);
+    if (settings().method == Method::Hybrid && !context.rays)
+        context.explainer.decide(
+            render::ExplainedKind::Pass, "ray reveal", {false, context.facts.reveal.reason}
+        );
     context.color = outputs.color;
     const std::pair<const char*, graph::ImageHandle> views[] = {
         {"tiles", outputs.dominant},
@@ -73,10 +110,33 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.intermediates.publish(name, image);
 }
 
-void MotionBlurPlugin::collect(render::Counters& counters) {
-    if (mSettings.method != Method::Hybrid)
+void MotionBlurPlugin::observe(std::span<const gpu::PassTime> passes) {
+    mMilliseconds = 0.0;
+    for (const gpu::PassTime& pass : passes)
+        mMilliseconds += pass.gpuMilliseconds;
+    if (!passes.empty())
+        mBudget.observe(mDrawnRung, mMilliseconds);
+    else if (!mBudget.current().runs) // and waits to be tried again
+        mBudget.observe(mBudget.rung(), 0.0);
+}
+
+void MotionBlurPlugin::measure(render::Measures& measures) {
+    if (mBudget.budget().isUnlimited())
         return;
+    measures["blur ms"] = mMilliseconds;
+    measures["blur rung"] = double(mDrawnRung);
+}
+
+void MotionBlurPlugin::collect(render::Counters& counters) {
     const MotionBlurCounters counted = mEffect.counters();
+    if (settings().method != Method::Denoised) {
+        counters["blocks still"] = counted.blocks.still;
+        counters["blocks uniform"] = counted.blocks.uniform;
+        counters["blocks mixed"] = counted.blocks.mixed;
+        counters["blocks masked"] = counted.blocks.masked;
+    }
+    if (settings().method != Method::Hybrid)
+        return;
     counters["pixels masked"] = counted.maskedPixels;
     counters["rays traced"] = counted.raysTraced;
 }
