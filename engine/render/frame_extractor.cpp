@@ -313,6 +313,7 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
         placed.row.motion =
             static_cast<uint32_t>(motions.size()) + (row.moving ? mFirstMovingMotion : 0);
         motions.push_back(placed.motion);
+        placed.row.rayMask = entry.rayMask; // until it gets another (ray_masks.h)
     }
     if (!mFrame.changes.all && std::memcmp(&entry, &placed.row, sizeof(entry)) != 0)
         mFrame.changes.rows.push_back(index);

@@ -52,6 +52,12 @@ double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bou
     return size / std::max(glm::length(placed.centre()), 1.0e-9);
 }
 
+/// A row with the mask that it had is as it was.
+void setMask(ExtractedFrame& frame, uint32_t row, uint32_t mask) {
+    if (std::exchange(frame.entities[row].rayMask, mask) != mask && !frame.changes.all)
+        frame.changes.rows.push_back(row);
+}
+
 } // namespace
 
 std::span<const uint32_t> listRayMasks() {
@@ -61,10 +67,7 @@ std::span<const uint32_t> listRayMasks() {
 
 void assignRayMasks(ExtractedFrame& frame, const SceneLayout& layout) {
     std::vector<uint32_t> rows = listMoving(frame);
-    for (const uint32_t row : rows) // all others have none
-        frame.entities[row].rayMask = 0;
-    if (!frame.changes.all)
-        frame.changes.rows.insert(frame.changes.rows.end(), rows.begin(), rows.end());
+    std::vector<uint32_t> without; // of `rows`; all others have none
     const std::span<const uint32_t> masks = listRayMasks();
     if (rows.size() > masks.size()) {
         std::vector<std::pair<double, uint32_t>> sizes;
@@ -79,11 +82,14 @@ void assignRayMasks(ExtractedFrame& frame, const SceneLayout& layout) {
             sizes.begin(), sizes.begin() + static_cast<ptrdiff_t>(masks.size()), sizes.end()
         );
         rows.clear();
-        for (size_t i = 0; i < masks.size(); ++i)
-            rows.push_back(sizes[i].second);
+        for (size_t i = 0; i < sizes.size(); ++i)
+            (i < masks.size() ? rows : without).push_back(sizes[i].second);
+        std::sort(rows.begin(), rows.end()); // who keeps a mask keeps the same, if it can
     }
     for (size_t i = 0; i < rows.size(); ++i)
-        frame.entities[rows[i]].rayMask = masks[i];
+        setMask(frame, rows[i], masks[i]);
+    for (const uint32_t row : without)
+        setMask(frame, row, 0);
 }
 
 } // namespace shutter::render

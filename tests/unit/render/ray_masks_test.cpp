@@ -87,12 +87,15 @@ TEST_F(RayMasksOfAFrame, BeforeAMovingCameraWhatStandsStillInTheWorldGetsOneToo)
     EXPECT_NE(masks[1], 0u);
 }
 
-TEST_F(RayMasksOfAFrame, RowsWithMasksCountAsChanged) {
+TEST_F(RayMasksOfAFrame, OnlyAnotherMaskChangesARow) {
     add(5.0, false);
     add(5.0, true);
     frame.changes.all = false;
-    assign();
+    (void)assign();
     EXPECT_EQ(frame.changes.rows, std::vector<uint32_t>{1});
+    frame.changes.rows.clear();
+    (void)assign();
+    EXPECT_TRUE(frame.changes.rows.empty());
 }
 
 TEST_F(RayMasksOfAFrame, WithMoreMoversThanMasksTheApparentlyLargestGetThem) {
