@@ -81,13 +81,17 @@ TEST_F(KeptFrame, ThingsFollowAnAncestorThatIsWrittenTo) {
     update();
     transformOf(root).transform.translation.x = 1.0;
     EXPECT_EQ(update().changes.rows, std::vector<uint32_t>{0});
-    world.registry.add(middle, scene::LocalTransform{{{0.0, 1.0, 0.0}, {1, 0, 0, 0}, dvec3(1.0)}});
+    world.registry.add(
+        middle, scene::LocalTransform{{{0.0, 1.0, 0.0}, {1, 0, 0, 0}, math::dvec3(1.0)}}
+    );
     EXPECT_EQ(update().changes.rows, std::vector<uint32_t>{0});
 }
 
 TEST_F(KeptFrame, WhatBecomesDrawableGetsItsRow) {
     const ecs::Entity root = world.registry.create();
-    world.registry.add(root, scene::LocalTransform{{dvec3(0.0), {1, 0, 0, 0}, dvec3(0.0)}});
+    world.registry.add(
+        root, scene::LocalTransform{{math::dvec3(0.0), {1, 0, 0, 0}, math::dvec3(0.0)}}
+    );
     const ecs::Entity leaf = addBox({0.0, 0.0, -10.0});
     world.registry.add(leaf, scene::Parent{root});
     addBox({2.0, 0.0, -10.0});
@@ -95,9 +99,9 @@ TEST_F(KeptFrame, WhatBecomesDrawableGetsItsRow) {
     EXPECT_FALSE(update().changes.all);
     transformOf(root).transform.translation.x = 1.0; // still scaled to nothing
     EXPECT_FALSE(update().changes.all);
-    transformOf(root).transform.scale = dvec3(1.0);
+    transformOf(root).transform.scale = math::dvec3(1.0);
     EXPECT_EQ(update().entities.size(), 2u);
-    transformOf(root).transform.scale = dvec3(0.0);
+    transformOf(root).transform.scale = math::dvec3(0.0);
     EXPECT_EQ(update().entities.size(), 1u);
 }
 
