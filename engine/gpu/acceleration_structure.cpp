@@ -121,6 +121,7 @@ AccelerationStructure::AccelerationStructure(
         device.functions().createAccelerationStructure(device.handle(), &info, nullptr, &mHandle),
         fmt::format("creating the acceleration structure '{}'", name)
     );
+    ++device.living().accelerationStructures;
     VkAccelerationStructureDeviceAddressInfoKHR address{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
     address.accelerationStructure = mHandle;
@@ -150,10 +151,9 @@ void AccelerationStructure::release() {
     if (!mHandle)
         return;
     // Queued before the buffer's own memory is, and so destroyed before it.
-    mDevice->retire([device = mDevice->handle(),
-                     handle = mHandle,
-                     destroy = mDevice->functions().destroyAccelerationStructure] {
-        destroy(device, handle, nullptr);
+    mDevice->retire([device = mDevice, handle = mHandle] {
+        device->functions().destroyAccelerationStructure(device->handle(), handle, nullptr);
+        --device->living().accelerationStructures;
     });
     mHandle = VK_NULL_HANDLE;
 }

@@ -51,6 +51,18 @@ struct ShaderGroupLimits {
     uint32_t baseAlignment = 1;
 };
 
+/// What exists on a device: made and not yet destroyed, so what was retired and may still be in use
+/// counts as well.
+struct LivingObjects {
+    uint64_t memoryBytes = 0;  ///< allocated
+    uint32_t memoryBlocks = 0; ///< allocations
+    uint32_t buffers = 0;
+    uint32_t images = 0;
+    uint32_t accelerationStructures = 0;
+
+    bool operator==(const LivingObjects&) const = default;
+};
+
 /// A logical device with one queue, its timeline and its retired objects. Everything made from it
 /// must be gone before it is. Not thread-safe.
 class Device {
@@ -89,6 +101,11 @@ class Device {
 
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
+
+    /// Of the classes Buffer, Image, MemoryBlock and AccelerationStructure, which keep the books.
+    [[nodiscard]] const LivingObjects& living() const { return mLiving; }
+
+    [[nodiscard]] LivingObjects& living() { return mLiving; }
 
     /// Submits and returns the timeline value that is reached when it is done.
     uint64_t submit(VkCommandBuffer commands);
@@ -133,6 +150,7 @@ class Device {
     std::filesystem::path mCacheFile;
     VkSampler mNearestSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
+    LivingObjects mLiving;
     bool mHasDebugUtils = false;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

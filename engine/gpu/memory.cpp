@@ -31,7 +31,18 @@ VkDeviceMemory allocate(
         vkAllocateMemory(device.handle(), &info, nullptr, &memory),
         fmt::format("allocating {} MiB for '{}'", (needs.size >> 20) + 1, name)
     );
+    device.living().memoryBytes += needs.size;
+    ++device.living().memoryBlocks;
     return memory;
+}
+
+/// \param memory may be null
+void freeMemory(Device& device, VkDeviceMemory memory, VkDeviceSize bytes) {
+    if (!memory)
+        return;
+    vkFreeMemory(device.handle(), memory, nullptr);
+    device.living().memoryBytes -= bytes;
+    --device.living().memoryBlocks;
 }
 
 } // namespace
@@ -59,6 +70,7 @@ Buffer::Buffer(
         vkCreateBuffer(device.handle(), &info, nullptr, &mBuffer),
         fmt::format("creating the buffer '{}'", name)
     );
+    ++device.living().buffers;
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), mBuffer, &needs);
@@ -68,6 +80,7 @@ Buffer::Buffer(
     if (use == MemoryUse::Readback)
         wish.preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     mMemory = allocate(device, needs, wish, true, name);
+    mMemoryBytes = needs.size;
     require(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0), "binding memory");
     if (use != MemoryUse::Device)
         require(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped), "mapping");
@@ -91,6 +104,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     mDevice = std::exchange(other.mDevice, nullptr);
     mBuffer = std::exchange(other.mBuffer, VK_NULL_HANDLE);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
     mBytes = std::exchange(other.mBytes, 0);
     mAddress = std::exchange(other.mAddress, 0);
     mMapped = std::exchange(other.mMapped, nullptr);
@@ -100,9 +114,10 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 void Buffer::release() {
     if (!mBuffer)
         return;
-    mDevice->retire([device = mDevice->handle(), buffer = mBuffer, memory = mMemory] {
-        vkDestroyBuffer(device, buffer, nullptr);
-        vkFreeMemory(device, memory, nullptr);
+    mDevice->retire([device = mDevice, buffer = mBuffer, memory = mMemory, bytes = mMemoryBytes] {
+        vkDestroyBuffer(device->handle(), buffer, nullptr);
+        --device->living().buffers;
+        freeMemory(*device, memory, bytes);
     });
     mBuffer = VK_NULL_HANDLE;
 }
@@ -146,6 +161,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc)
     : Image(createUnbound(device, std::move(name), desc)) {
     const VkMemoryRequirements needs = requirements();
     mMemory = allocate(device, needs, kDeviceWish, false, mName);
+    mMemoryBytes = needs.size;
     bind(mMemory, 0);
 }
 
@@ -167,6 +183,7 @@ Image Image::createUnbound(Device& device, std::string name, const ImageDesc& de
         vkCreateImage(device.handle(), &info, nullptr, &image.mImage),
         fmt::format("creating the image '{}' ({} x {})", image.mName, desc.width, desc.height)
     );
+    ++device.living().images;
     device.setName(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(image.mImage), image.mName);
     return image;
 }
@@ -189,6 +206,7 @@ Image& Image::operator=(Image&& other) noexcept {
     mImage = std::exchange(other.mImage, VK_NULL_HANDLE);
     mView = std::exchange(other.mView, VK_NULL_HANDLE);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
     return *this;
 }
 
@@ -220,11 +238,14 @@ void Image::createView() {
 void Image::release() {
     if (!mImage)
         return;
-    mDevice->retire([device = mDevice->handle(), image = mImage, view = mView, memory = mMemory] {
-        vkDestroyImageView(device, view, nullptr);
-        vkDestroyImage(device, image, nullptr);
-        vkFreeMemory(device, memory, nullptr);
-    });
+    mDevice->retire(
+        [device = mDevice, image = mImage, view = mView, memory = mMemory, bytes = mMemoryBytes] {
+            vkDestroyImageView(device->handle(), view, nullptr);
+            vkDestroyImage(device->handle(), image, nullptr);
+            --device->living().images;
+            freeMemory(*device, memory, bytes);
+        }
+    );
     mImage = VK_NULL_HANDLE;
 }
 
@@ -233,6 +254,7 @@ MemoryBlock::MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits) 
     needs.size = bytes;
     needs.memoryTypeBits = typeBits;
     mMemory = allocate(device, needs, kDeviceWish, false, "transient images");
+    mMemoryBytes = bytes;
 }
 
 MemoryBlock::~MemoryBlock() {
@@ -249,14 +271,15 @@ MemoryBlock& MemoryBlock::operator=(MemoryBlock&& other) noexcept {
     release();
     mDevice = std::exchange(other.mDevice, nullptr);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
+    mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
     return *this;
 }
 
 void MemoryBlock::release() {
     if (!mMemory)
         return;
-    mDevice->retire([device = mDevice->handle(), memory = mMemory] {
-        vkFreeMemory(device, memory, nullptr);
+    mDevice->retire([device = mDevice, memory = mMemory, bytes = mMemoryBytes] {
+        freeMemory(*device, memory, bytes);
     });
     mMemory = VK_NULL_HANDLE;
 }

@@ -67,6 +67,7 @@ class Buffer {
     Device* mDevice = nullptr;
     VkBuffer mBuffer = VK_NULL_HANDLE;
     VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkDeviceSize mMemoryBytes = 0;
     VkDeviceSize mBytes = 0;
     VkDeviceAddress mAddress = 0;
     void* mMapped = nullptr;
@@ -120,7 +121,8 @@ class Image {
     ImageDesc mDesc;
     VkImage mImage = VK_NULL_HANDLE;
     VkImageView mView = VK_NULL_HANDLE;
-    VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkDeviceMemory mMemory = VK_NULL_HANDLE; ///< null: placed into somebody else's
+    VkDeviceSize mMemoryBytes = 0;
 };
 
 /// A block of device memory that images are placed into.
@@ -139,6 +141,7 @@ class MemoryBlock {
 
     Device* mDevice = nullptr;
     VkDeviceMemory mMemory = VK_NULL_HANDLE;
+    VkDeviceSize mMemoryBytes = 0;
 };
 
 } // namespace shutter::gpu

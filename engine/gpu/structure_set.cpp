@@ -65,10 +65,9 @@ StructureSet& StructureSet::operator=(StructureSet&& other) noexcept {
 void StructureSet::release() {
     // Queued before the buffer's own memory is, and so destroyed before it.
     for (const Structure& structure : mStructures)
-        mDevice->retire([device = mDevice->handle(),
-                         handle = structure.handle,
-                         destroy = mDevice->functions().destroyAccelerationStructure] {
-            destroy(device, handle, nullptr);
+        mDevice->retire([device = mDevice, handle = structure.handle] {
+            device->functions().destroyAccelerationStructure(device->handle(), handle, nullptr);
+            --device->living().accelerationStructures;
         });
     mStructures.clear();
 }
@@ -200,6 +199,7 @@ void StructureSet::create(Device& device) {
             ),
             fmt::format("creating acceleration structure {} of {}", i, mStructures.size())
         );
+        ++device.living().accelerationStructures;
         VkAccelerationStructureDeviceAddressInfoKHR address{
             VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
         address.accelerationStructure = mStructures[i].handle;
