@@ -6,6 +6,34 @@
 
 namespace shutter::bench {
 
+std::optional<LineFit> fitLine(std::span<const CurvePoint> points) {
+    const double count = double(points.size());
+    double meanX = 0.0;
+    double meanY = 0.0;
+    for (const CurvePoint& point : points) {
+        if (!std::isfinite(point.x) || !std::isfinite(point.y))
+            return std::nullopt;
+        meanX += point.x / count;
+        meanY += point.y / count;
+    }
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    for (const CurvePoint& point : points) {
+        xx += (point.x - meanX) * (point.x - meanX);
+        xy += (point.x - meanX) * (point.y - meanY);
+        yy += (point.y - meanY) * (point.y - meanY);
+    }
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+            return a.x < b.x;
+        });
+    if (points.empty() || !(least->x < most->x))
+        return std::nullopt;
+    const double slope = xy / xx;
+    return LineFit{slope, meanY - slope * meanX, yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
+}
+
 std::optional<PowerFit> fitPower(std::span<const CurvePoint> points) {
     const double count = double(points.size());
     double meanX = 0.0;

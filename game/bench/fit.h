@@ -11,6 +11,16 @@ struct CurvePoint {
     double y = 0.0;
 };
 
+/// y = intercept + slope x.
+struct LineFit {
+    double slope = 0.0;     ///< units of y a unit of x
+    double intercept = 0.0; ///< units of y
+    double r2 = 0.0;        ///< share of the variance of y explained, [0, 1]; 1 where y is constant
+};
+
+/// Least squares. Nothing where a value is not finite or there are fewer than two different x.
+[[nodiscard]] std::optional<LineFit> fitLine(std::span<const CurvePoint> points);
+
 /// y = c x^exponent.
 struct PowerFit {
     double exponent = 0.0;

@@ -54,4 +54,47 @@ TEST(Fit, WhatHasNoLogarithmOrNoSpreadHasNoFit) {
         EXPECT_FALSE(fitPower(points));
 }
 
+TEST(LineFit, ALineIsFoundExactly) {
+    std::vector<CurvePoint> points;
+    for (double x : {5.0, 0.0, 1.0, -2.0})
+        points.push_back({x, 0.25 + 3.0 * x});
+    const auto fit = fitLine(points);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->slope, 3.0, 1e-12);
+    EXPECT_NEAR(fit->intercept, 0.25, 1e-12);
+    EXPECT_NEAR(fit->r2, 1.0, 1e-12);
+}
+
+TEST(LineFit, ScatterLowersTheShareExplained) {
+    // By hand: xx = 5, xy = 5, yy = 10.
+    const std::vector<CurvePoint> points{{0, 0}, {1, 3}, {2, 1}, {3, 4}};
+    const auto fit = fitLine(points);
+    ASSERT_TRUE(fit);
+    EXPECT_NEAR(fit->slope, 1.0, 1e-12);
+    EXPECT_NEAR(fit->intercept, 0.5, 1e-12);
+    EXPECT_NEAR(fit->r2, 0.5, 1e-12);
+}
+
+TEST(LineFit, AConstantIsExplained) {
+    const std::vector<CurvePoint> flat{{0.0, 3.0}, {2.0, 3.0}};
+    const auto fit = fitLine(flat);
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->slope, 0.0);
+    EXPECT_EQ(fit->intercept, 3.0);
+    EXPECT_EQ(fit->r2, 1.0);
+}
+
+TEST(LineFit, WhatIsNotFiniteOrHasNoSpreadHasNoFit) {
+    using Points = std::vector<CurvePoint>;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const Points& points :
+         {Points{},
+          Points{{2.0, 3.0}},
+          Points{{2.0, 3.0}, {2.0, 5.0}},
+          Points{{nan, 1.0}, {2.0, 4.0}},
+          Points{{1.0, infinity}, {2.0, 4.0}}})
+        EXPECT_FALSE(fitLine(points));
+}
+
 } // namespace shutter::bench
