@@ -252,4 +252,32 @@ GltfWriter buildMovingShareScene(float share) {
     return writer;
 }
 
+GltfWriter buildMovingRegionScene(int columns, int rows) {
+    constexpr float kPanelShare = 0.88f; // of a cell's sides: farther apart than they move
+    constexpr float kMotionPx = 8.0f;
+    columns = std::clamp(columns, 0, kPanelColumns);
+    rows = std::clamp(rows, 0, kPanelRows);
+    GltfWriter writer("moving_region");
+    addStage(writer);
+    addFlatWall(writer);
+    const vec2 half = halfView(kMoverDepth);
+    const vec2 cell = 2.0f * half / vec2(kPanelColumns, kPanelRows);
+    const MeshPart part{
+        .shape = sheet(cell / 2.0f * kPanelShare, 0.6f),
+        .material = addTextured(writer, "chevrons", chevrons(), 0.7f)};
+    const Index mesh = writer.addMesh("panel", {&part, 1});
+    for (int row = 0; row < kPanelRows; ++row)
+        for (int column = 0; column < kPanelColumns; ++column) {
+            NodeDesc panel{
+                .name = fmt::format("panel_{}_{}", column + 1, row + 1),
+                .translation = {-half + cell * (vec2(column, row) + 0.5f), -kMoverDepth},
+                .mesh = mesh};
+            if (column < columns && row < rows)
+                panel.linearVelocity =
+                    kShot.velocityFor({row % 2 == 0 ? kMotionPx : -kMotionPx, 0.0f}, kMoverDepth);
+            writer.addNode(panel);
+        }
+    return writer;
+}
+
 } // namespace shutter::generator

@@ -37,4 +37,15 @@ inline constexpr int kMaxTriangleCount = 1'000'000;
 /// \param share clamped to [0, 1]; NaN counts as 0
 [[nodiscard]] GltfWriter buildMovingShareScene(float share);
 
+inline constexpr int kPanelColumns = 16;
+inline constexpr int kPanelRows = 9;
+
+/// kPanelColumns x kPanelRows panels before a wall, each in a cell of 80 x 80 px at 1280x720. Those
+/// in the lower left `columns` x `rows` cells move by 8 px, each row against the next; the others
+/// stand still. Whatever the region, the picture and the meshes are the same, and the work in a
+/// region grows with its area: movers, background and silhouettes are in every cell.
+/// \param columns, rows clamped to [0, kPanelColumns] and [0, kPanelRows]; where one is 0 nothing
+/// moves
+[[nodiscard]] GltfWriter buildMovingRegionScene(int columns, int rows);
+
 } // namespace shutter::generator

@@ -172,6 +172,23 @@ TEST(ScalingScenes, TriangleCountsOutsideTheRangeAreClamped) {
     EXPECT_NEAR(double(countTriangles(world)), kMaxTriangleCount, 0.02 * kMaxTriangleCount);
 }
 
+TEST(ScalingScenes, ARegionOfPanelsMovesAndTheOthersStandStill) {
+    const auto count = [](int columns, int rows) {
+        const scene::World world = writeAndLoad(
+            fmt::format("region_{}_{}", columns, rows), buildMovingRegionScene(columns, rows)
+        );
+        EXPECT_EQ(countTriangles(world), 2u + 2u * kPanelColumns * kPanelRows);
+        const ecs::Entity* camera = findCamera(world, kScalingCamera);
+        EXPECT_NE(camera, nullptr);
+        return camera ? countMovers(world, *camera, -kScalingExposureSeconds, 0.0) : 0u;
+    };
+    EXPECT_EQ(count(0, 0), 0u);
+    EXPECT_EQ(count(5, 0), 0u);
+    EXPECT_EQ(count(3, 2), 6u);
+    EXPECT_EQ(count(kPanelColumns + 1, kPanelRows + 1), unsigned(kPanelColumns * kPanelRows));
+    EXPECT_EQ(count(-1, 4), 0u);
+}
+
 TEST(ScalingScenes, AShareOfNothingOrNaNHasNoPanels) {
     for (const float share : {0.0f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {
         const scene::World world = writeAndLoad("share_none", buildMovingShareScene(share));
