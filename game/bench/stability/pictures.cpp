@@ -159,6 +159,7 @@ uint64_t hashFrame(const FrameResult& frame) {
             addWord(std::bit_cast<uint32_t>(value));
     };
     addImage(frame.color);
+    addImage(frame.display);
     for (const auto& [name, picture] : frame.intermediates)
         addImage(picture);
     return hash;

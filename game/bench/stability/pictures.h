@@ -109,7 +109,7 @@ void addDifference(
     Worst& worst, const image::Image& a, const image::Image& b, std::string_view where
 );
 
-/// A hash of every value of the picture and its intermediates.
+/// A hash of every value of the pictures and the intermediates.
 [[nodiscard]] uint64_t hashFrame(const render::FrameResult& frame);
 
 /// Every method in every phase: the rows "finite" and "inside the range of what was filtered".
