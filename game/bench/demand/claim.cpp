@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/demand/claim.h"
+
+namespace shutter::demand {
+
+std::vector<Claim> listClaims() {
+    return {
+        makeStillClaim(),
+        makeMovingShareClaim(),
+        makeRevealClaim(),
+        makeEntitiesClaim(),
+        makeFullScreenClaim(),
+        makeMethodsClaim(),
+        makeTogglesClaim()};
+}
+
+} // namespace shutter::demand

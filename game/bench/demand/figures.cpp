@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/demand/figures.h"
+
+#include "game/bench/cost.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace shutter::demand {
+
+namespace {
+
+bool contains(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
+} // namespace
+
+double sumPasses(
+    const render::FrameStatistics& frame, const std::function<bool(std::string_view)>& counts
+) {
+    double sum = 0.0;
+    for (const gpu::PassTime& pass : frame.passes)
+        if (counts(pass.name))
+            sum += pass.gpuMilliseconds;
+    return sum;
+}
+
+Figure effectOf(const game::MethodInfo& method) {
+    return [&method](const render::FrameStatistics& frame) {
+        return sumPasses(frame, [&](std::string_view pass) {
+            return bench::isEffect(method, pass);
+        });
+    };
+}
+
+Figure frameTime() {
+    return [](const render::FrameStatistics& frame) { return sumPasses(frame, bench::isCounted); };
+}
+
+bool isTileMax(std::string_view pass) {
+    return pass.starts_with("tile max") || pass.starts_with("neighbour max");
+}
+
+bool isMaskOrReveal(std::string_view pass) {
+    return contains(pass, "edge") || contains(pass, "mask") || contains(pass, "reveal") ||
+           pass == "copy layer";
+}
+
+bool isReveal(std::string_view pass) {
+    return contains(pass, "reveal") && !isTileMax(pass);
+}
+
+game::Quartiles summarize(const Frames& frames, const Figure& figure) {
+    std::vector<double> values;
+    for (const render::FrameStatistics& frame : frames)
+        values.push_back(figure(frame));
+    return game::computeQuartiles(std::move(values));
+}
+
+game::Quartiles compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB) {
+    std::vector<double> ratios;
+    for (size_t round = 0; round < std::min(a.size(), b.size()); ++round) {
+        const double below = ofB(b[round]);
+        // A NaN among them would leave them without an order.
+        ratios.push_back(
+            below > 0.0 ? ofA(a[round]) / below : std::numeric_limits<double>::infinity()
+        );
+    }
+    return game::computeQuartiles(std::move(ratios));
+}
+
+std::string describeSpread(const game::Quartiles& quartiles, size_t rounds) {
+    return fmt::format("{} rounds, quartiles {:.4g} to {:.4g}", rounds, quartiles.q1, quartiles.q3);
+}
+
+stability::Measured checkMedian(
+    std::string check,
+    const game::Quartiles& quartiles,
+    double bound,
+    std::string unit,
+    size_t rounds,
+    std::string_view more
+) {
+    std::string note = describeSpread(quartiles, rounds);
+    if (!more.empty())
+        note += fmt::format("; {}", more);
+    return {std::move(check), quartiles.median, bound, std::move(unit), rounds, 0, std::move(note)};
+}
+
+stability::Measured checkLine(std::string check, const Curve& curve) {
+    constexpr double kUnexplained = 0.02;
+    stability::Measured row{std::move(check), 0.0, kUnexplained, "1 - r²", curve.points.size()};
+    if (!curve.line) {
+        row.worst = std::numeric_limits<double>::quiet_NaN();
+        row.note = "there is no line through the points";
+        return row;
+    }
+    row.worst = std::max(1.0 - curve.line->r2, 0.0);
+    row.note = fmt::format(
+        "{:.4g} {} and {:.4g} a unit of {}",
+        curve.line->intercept,
+        curve.yUnit,
+        curve.line->slope,
+        curve.xTitle
+    );
+    return row;
+}
+
+void fitLine(Curve& curve) {
+    std::vector<bench::CurvePoint> points;
+    for (const Point& point : curve.points)
+        points.push_back({point.x, point.y.median});
+    curve.line = bench::fitLine(points);
+}
+
+} // namespace shutter::demand

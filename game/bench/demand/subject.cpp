@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/demand/subject.h"
+
+namespace shutter::demand {
+
+namespace {
+
+constexpr uint32_t kUncounted = 2; ///< first pictures of a subject
+
+core::Result<game::RenderOptions>
+makeOptions(const Stage& stage, std::string_view method, uint32_t width, uint32_t height) {
+    game::RenderArguments arguments = stage.arguments;
+    arguments.method = method;
+    arguments.size = fmt::format("{}x{}", width, height);
+    arguments.out = "picture.png"; // a display-encoded picture; nothing is written there
+    return game::interpret(arguments);
+}
+
+} // namespace
+
+core::Result<std::unique_ptr<Stage>> loadStage(
+    const DemandOptions& options,
+    const std::string& name,
+    const std::function<generator::GltfWriter()>& build,
+    game::RenderArguments arguments
+) {
+    const std::filesystem::path file = options.folder / (name + ".glb");
+    if (const std::string error = build().write(file); !error.empty())
+        return core::Error{error};
+    auto stage = std::make_unique<Stage>();
+    stage->arguments = std::move(arguments);
+    stage->arguments.scene = file.string();
+    auto loading = makeOptions(*stage, "sharp", options.width, options.height);
+    if (!loading)
+        return loading.error();
+    auto shot = game::loadShot(loading.value());
+    if (!shot)
+        return shot.error();
+    stage->shot = std::move(shot).value();
+    return stage;
+}
+
+std::unique_ptr<Stage> makeStage(stability::SceneDraft& draft, double exposureSeconds) {
+    auto stage = std::make_unique<Stage>();
+    stage->arguments.scene = "a scene made in code";
+    stage->shot = std::move(draft.shot);
+    stage->shot.world.registry.add(
+        stage->shot.camera, scene::CameraShutter{exposureSeconds, scene::ShutterPhase::End}
+    );
+    return stage;
+}
+
+core::Result<std::unique_ptr<Subject>> Subject::create(
+    gpu::Device& device,
+    const Stage& stage,
+    std::string_view method,
+    uint32_t width,
+    uint32_t height
+) {
+    auto options = makeOptions(stage, method, width, height);
+    if (!options)
+        return options.error();
+    std::unique_ptr<Subject> subject(new Subject(device, stage, std::move(options).value()));
+    auto made =
+        game::MethodRenderer::create(device, subject->mRenderer, stage.shot, subject->mOptions);
+    if (!made)
+        return made.error();
+    subject->mMethod = std::move(made).value();
+    return subject;
+}
+
+Subject::Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options)
+    : mOptions(std::move(options)), mRenderer(device, stage.shot.world.assets),
+      mSeconds(mOptions.frameTimes.front()) {}
+
+core::Result<render::FrameResult> Subject::draw() {
+    auto drawn = mMethod->renderPicture(mSeconds, [] {});
+    mSeconds += mStepSeconds;
+    return drawn;
+}
+
+core::Result<std::vector<Frames>> takeTurns(const Subjects& subjects, uint32_t rounds) {
+    std::vector<Frames> frames(subjects.size());
+    for (uint32_t round = 0; round < kUncounted + rounds; ++round)
+        for (size_t i = 0; i < subjects.size(); ++i) {
+            const size_t at = round % 2 == 0 ? i : subjects.size() - 1 - i;
+            auto drawn = subjects[at]->draw();
+            if (!drawn)
+                return drawn.error();
+            if (round >= kUncounted)
+                frames[at].push_back(std::move(drawn.value().statistics));
+        }
+    return frames;
+}
+
+} // namespace shutter::demand

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Scenes drawn again and again by turns, each with a renderer of its own: what one keeps from frame
+// to frame another does not disturb.
+#pragma once
+
+#include "assets/generator/gltf_writer.h"
+#include "engine/render/renderer.h"
+#include "game/bench/demand/claim.h"
+#include "game/bench/stability/scene_draft.h"
+#include "game/method_renderer.h"
+#include "game/render_options.h"
+#include "game/shot.h"
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shutter::demand {
+
+/// A scene and its shot.
+struct Stage {
+    game::RenderArguments arguments; ///< method, size and --out are the subjects'
+    game::Shot shot;
+};
+
+/// Writes a generated scene into the options' folder and loads it as `shutter render` does.
+/// \param arguments camera, time and shutter
+[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadStage(
+    const DemandOptions& options,
+    const std::string& name,
+    const std::function<generator::GltfWriter()>& build,
+    game::RenderArguments arguments
+);
+
+/// A scene made in code, with a physical shutter that ends at the raster instant.
+[[nodiscard]] std::unique_ptr<Stage>
+makeStage(stability::SceneDraft& draft, double exposureSeconds);
+
+/// A stage drawn by one method.
+class Subject {
+  public:
+    /// \param stage outlives this
+    /// Error: the method needs rays and the device has none.
+    [[nodiscard]] static core::Result<std::unique_ptr<Subject>> create(
+        gpu::Device& device,
+        const Stage& stage,
+        std::string_view method,
+        uint32_t width,
+        uint32_t height
+    );
+
+    /// The next picture: tone mapped, read back, with the intermediates asked for.
+    [[nodiscard]] core::Result<render::FrameResult> draw();
+
+    [[nodiscard]] const game::MethodInfo& method() const { return *mOptions.method; }
+
+    /// Names as `--aov` takes them, of the pictures from now on.
+    void setIntermediates(std::set<std::string> names) { mOptions.aovs = std::move(names); }
+
+    void setDump(bool wanted) { mOptions.dumpGraph = wanted; }
+
+    /// By how much a picture's time is later than that of the one before; 0 at first.
+    void setStep(double seconds) { mStepSeconds = seconds; }
+
+  private:
+    Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options);
+
+    game::RenderOptions mOptions; ///< the method's renderer keeps a reference
+    render::Renderer mRenderer;
+    std::unique_ptr<game::MethodRenderer> mMethod;
+    double mSeconds = 0.0;
+    double mStepSeconds = 0.0;
+};
+
+using Subjects = std::vector<std::unique_ptr<Subject>>;
+using Frames = std::vector<render::FrameStatistics>;
+
+/// Draws all by turns, every other round backwards, so that a busy moment of the machine falls on
+/// all alike. Each is drawn twice before, which does not count: shaders are compiled then, and
+/// memory is taken. \return a list of `rounds` frames a subject
+[[nodiscard]] core::Result<std::vector<Frames>>
+takeTurns(const Subjects& subjects, uint32_t rounds);
+
+} // namespace shutter::demand

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/demand/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace shutter::demand {
+
+namespace {
+
+render::FrameStatistics makeFrame(std::vector<gpu::PassTime> passes) {
+    render::FrameStatistics frame;
+    frame.passes = std::move(passes);
+    return frame;
+}
+
+const render::FrameStatistics kHybrid = makeFrame(
+    {{"G-buffer", 100.0},
+     {"build top level", 1.0},
+     {"tile max", 2.0},
+     {"neighbour max", 3.0},
+     {"edge", 4.0},
+     {"ray mask", 5.0},
+     {"copy layer", 6.0},
+     {"ray reveal", 7.0},
+     {"tile max of reveal", 8.0},
+     {"gather and composite", 9.0},
+     {"tone map", 50.0},
+     {"readback display", 60.0}}
+);
+
+} // namespace
+
+TEST(Figures, PassesAreCountedOnceWhereTheyBelong) {
+    EXPECT_EQ(frameTime()(kHybrid), 145.0);
+    EXPECT_EQ(effectOf(*game::findMethod("hybrid").value())(kHybrid), 45.0);
+    EXPECT_EQ(effectOf(*game::findMethod("sharp").value())(kHybrid), 0.0);
+    EXPECT_EQ(sumPasses(kHybrid, isTileMax), 13.0);
+    EXPECT_EQ(sumPasses(kHybrid, isMaskOrReveal), 30.0);
+    EXPECT_EQ(sumPasses(kHybrid, isReveal), 7.0);
+}
+
+TEST(Figures, RatiosAreTakenRoundByRound) {
+    const auto wall = [](const render::FrameStatistics& frame) { return frame.wallMilliseconds; };
+    Frames a(3);
+    Frames b(3);
+    const double times[] = {1.0, 10.0, 100.0};
+    for (size_t i = 0; i < 3; ++i) {
+        a[i].wallMilliseconds = (2.0 + double(i)) * times[i];
+        b[i].wallMilliseconds = times[i];
+    }
+    EXPECT_EQ(compare(a, b, wall, wall).median, 3.0);
+    b[1].wallMilliseconds = 0.0;
+    const game::Quartiles ratio = compare(a, b, wall, wall);
+    EXPECT_FALSE(stability::holds(checkMedian("c", ratio, 1e9, "", 3)))
+        << "nothing to compare with";
+}
+
+TEST(Figures, AMedianBeyondItsBoundOrNoNumberBreaks) {
+    EXPECT_TRUE(stability::holds(checkMedian("c", {1.0, 0.5, 1.5}, 1.0, "", 7)));
+    EXPECT_FALSE(stability::holds(checkMedian("c", {1.01, 0.5, 1.5}, 1.0, "", 7)));
+    EXPECT_FALSE(stability::holds(checkMedian("c", {std::nan(""), 0.5, 1.5}, 1.0, "", 7)));
+    EXPECT_EQ(
+        checkMedian("c", {1.0, 0.5, 1.5}, 1.0, "", 7, "more").note,
+        "7 rounds, quartiles 0.5 to 1.5; more"
+    );
+}
+
+TEST(Figures, ALineHoldsFromR2Of098) {
+    Curve curve;
+    for (const double x : {0.0, 1.0, 2.0, 3.0})
+        curve.points.push_back({x, {2.0 * x + 1.0, 0.0, 0.0}, ""});
+    fitLine(curve);
+    ASSERT_TRUE(curve.line);
+    EXPECT_TRUE(stability::holds(checkLine("line", curve)));
+    curve.points.back().y.median = 3.0;
+    fitLine(curve);
+    EXPECT_FALSE(stability::holds(checkLine("line", curve)));
+    curve.line.reset();
+    EXPECT_FALSE(stability::holds(checkLine("line", curve)));
+}
+
+} // namespace shutter::demand
