@@ -69,12 +69,16 @@ Status keepCases(std::vector<T>& cases, const BenchArguments& arguments, std::st
     return {};
 }
 
-core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
-    if (!arguments.shot.scene.empty())
-        return makeOwnSuite(arguments.shot);
-    auto suite = findSuite(arguments.suite);
+/// Sets the size, too, where none was asked for.
+core::Result<Suite> chooseSuite(BenchArguments& arguments) {
+    auto suite =
+        arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
     if (!suite)
         return suite;
+    if (arguments.shot.size.empty())
+        arguments.shot.size = suite.value().size;
+    if (arguments.suite.empty())
+        return makeOwnSuite(arguments.shot);
     const auto applySize = [&](Case& shot) {
         shot.shot.size = shot.size.empty() ? arguments.shot.size : shot.size;
     };
@@ -84,11 +88,13 @@ core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
         for (ScalingPoint& point : axis.points)
             applySize(point.shot);
     Suite& chosen = suite.value();
-    Status kept = chosen.hardCases.empty() ? keepCases(chosen.cases, arguments, chosen.name)
-                                           : keepCases(chosen.hardCases, arguments, chosen.name);
+    const bool isHeld = !chosen.hardCases.empty() || !chosen.claims.empty();
+    Status kept = !chosen.hardCases.empty() ? keepCases(chosen.hardCases, arguments, chosen.name)
+                  : !chosen.claims.empty()  ? keepCases(chosen.claims, arguments, chosen.name)
+                                            : keepCases(chosen.cases, arguments, chosen.name);
     if (!kept)
         return kept.error();
-    if (!chosen.hardCases.empty() && !arguments.methods.empty())
+    if (isHeld && !arguments.methods.empty())
         return core::makeError(
             "--methods has no meaning for the suite {}: its cases choose their own", chosen.name
         );
@@ -177,7 +183,7 @@ int fail(int status, const core::Error& error) {
     return status;
 }
 
-int runBench(const BenchArguments& arguments) {
+int runBench(BenchArguments& arguments) {
     if (arguments.reportOnly) {
         const Status made = remakeReportPage(arguments.out);
         return made ? game::kExitDone : fail(game::kExitFailed, made.error());
@@ -210,9 +216,9 @@ namespace shutter::game {
 void addBenchCommand(CLI::App& app, int& exitStatus) {
     CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
     auto arguments = std::make_shared<bench::BenchArguments>();
-    arguments->shot.size = "640x360";
+    arguments->shot.size.clear(); // the suite's
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
-    command->add_option("--suite", arguments->suite, "paper, hard, scaling or stability");
+    command->add_option("--suite", arguments->suite, "paper, hard, scaling, stability or demand");
     command->add_option("--out", arguments->out, "folder of results.json and index.html")
         ->required();
     command->add_option("--methods", arguments->methods, "comma-separated; default: all")
@@ -228,7 +234,7 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
         ->check(CLI::Range(1u, 65536u));
     command->add_flag("--restart", arguments->restart, "measure anew what an earlier run left");
     command->add_flag("--report-only", arguments->reportOnly, "make the page from results.json");
-    command->add_option("--size", arguments->shot.size, "WxH; default 640x360");
+    command->add_option("--size", arguments->shot.size, "WxH; default 640x360, demand 1280x720");
     game::defineDeviceOptions(*command, arguments->shot);
     std::vector<CLI::Option*> shotOptions;
     const std::vector<CLI::Option*> before = command->get_options();

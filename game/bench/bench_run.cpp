@@ -20,6 +20,12 @@ namespace {
 using core::Status;
 using nlohmann::json;
 
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// The method at whose time all others are compared.
 constexpr const char* kReference = "hybrid";
 
@@ -59,12 +65,17 @@ class BenchRun {
                 return measured;
             progress.advance();
         }
+        for (const demand::Claim& claim : mSuite.claims) {
+            if (Status measured = measureClaim(claim); !measured)
+                return measured;
+            progress.advance();
+        }
         mRoot["complete"] = true;
         if (Status written = writeResults(); !written)
             return written;
         if (Status made = page ? writeReportPage(mRoot, mOptions.folder) : Status(); !made)
             return made;
-        return judgeHardCases();
+        return judge();
     }
 
   private:
@@ -72,7 +83,7 @@ class BenchRun {
         uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
         for (const ScalingAxis& axis : mSuite.axes)
             steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
-        return steps + mSuite.hardCases.size();
+        return steps + mSuite.hardCases.size() + mSuite.claims.size();
     }
 
     void describeRun() {
@@ -102,6 +113,8 @@ class BenchRun {
                                                             : "sRGB"}};
         if (!mSuite.hardCases.empty())
             mRoot["stability"] = json::array();
+        if (!mSuite.claims.empty())
+            mRoot["demand"] = json::array();
         if (mSuite.name == "paper")
             mRoot["paper"] = describePaperFigures();
     }
@@ -136,23 +149,39 @@ class BenchRun {
     }
 
     Status measureHardCase(const stability::HardCase& hard) {
-        using Clock = std::chrono::steady_clock;
         const Clock::time_point start = Clock::now();
         HeldCase held{&hard, hard.measure(mDevice)};
-        held.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        held.seconds = secondsSince(start);
         if (!holds(held))
             mBroken.push_back(hard.name);
         mRoot["stability"].push_back(describeHardCase(held));
         return mStop() ? stopEarly() : writeResults();
     }
 
-    Status judgeHardCases() const {
+    Status measureClaim(const demand::Claim& claim) {
+        demand::DemandOptions options;
+        options.width = mShot.width;
+        options.height = mShot.height;
+        options.rounds = mOptions.repeats;
+        options.folder = mOptions.folder / "scenes";
+        const Clock::time_point start = Clock::now();
+        MeasuredClaim measured{&claim, claim.measure(mDevice, options)};
+        measured.seconds = secondsSince(start);
+        if (!holds(measured))
+            mBroken.push_back(claim.name);
+        mRoot["demand"].push_back(describeClaim(measured));
+        return mStop() ? stopEarly() : writeResults();
+    }
+
+    Status judge() const {
         if (mBroken.empty())
             return {};
+        const bool isClaims = !mSuite.claims.empty();
         return core::makeError(
-            "{} of {} hard cases left their bounds: {}",
+            "{} of {} {} left their bounds: {}",
             mBroken.size(),
-            mSuite.hardCases.size(),
+            isClaims ? mSuite.claims.size() : mSuite.hardCases.size(),
+            isClaims ? "claims" : "hard cases",
             fmt::join(mBroken, ", ")
         );
     }
@@ -161,9 +190,9 @@ class BenchRun {
         return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
     }
 
-    /// What was measured is kept, but for hard cases.
+    /// What was measured is kept, but for hard cases and claims.
     Status stopEarly() const {
-        if (!mSuite.hardCases.empty())
+        if (!mSuite.hardCases.empty() || !mSuite.claims.empty())
             return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);
         return core::makeError("stopped; the same command goes on where it was");
     }
@@ -177,7 +206,7 @@ class BenchRun {
     std::vector<DialPoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
-    std::vector<std::string> mBroken; ///< hard cases that left their bounds
+    std::vector<std::string> mBroken; ///< hard cases and claims that left their bounds
     json mRoot;
 };
 

@@ -19,7 +19,7 @@ struct RunOptions {
 
 /// Measures a suite into results.json and index.html of the report's folder, whose parts exist.
 /// Error: a scene or a file; that `stop` ended it, which leaves what was measured; or, once all is
-/// written, that a hard case left its bounds.
+/// written, that a hard case or a claim left its bounds.
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
 

@@ -58,6 +58,18 @@ struct HeldCase {
 
 [[nodiscard]] nlohmann::json describeHardCase(const HeldCase& held);
 
+/// One claim against its bounds.
+struct MeasuredClaim {
+    const demand::Claim* claim = nullptr;
+    core::Result<demand::Findings> found; ///< or why it could not be measured
+    double seconds = 0.0;                 ///< that it took, on the wall's clock
+};
+
+/// Whether it was measured and every check is within its bound.
+[[nodiscard]] bool holds(const MeasuredClaim& measured);
+
+[[nodiscard]] nlohmann::json describeClaim(const MeasuredClaim& measured);
+
 /// How metrics are named and which way is better.
 [[nodiscard]] nlohmann::json describeMetrics();
 

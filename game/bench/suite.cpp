@@ -20,6 +20,7 @@ constexpr std::array kSuites = {
     SuiteRow{"hard", makeHardSuite},
     SuiteRow{"scaling", makeScalingSuite},
     SuiteRow{"stability", makeStabilitySuite},
+    SuiteRow{"demand", makeDemandSuite},
 };
 
 std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "game/bench/demand/claim.h"
 #include "game/bench/stability/measured.h"
 #include "game/methods.h"
 #include "game/render_options.h"
@@ -48,6 +49,8 @@ struct Suite {
     std::vector<Case> cases;                    ///< compared with the truth
     std::vector<ScalingAxis> axes;              ///< timed only
     std::vector<stability::HardCase> hardCases; ///< measured against bounds
+    std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
+    const char* size = "640x360";               ///< WxH of its pictures where none is asked for
     uint32_t repeats = 7;                       ///< timed pictures of each method and dial
     double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
     uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays

@@ -19,5 +19,7 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeScalingSuite();
 /// Hard cases against the bounds that keep them numerically stable.
 [[nodiscard]] Suite makeStabilitySuite();
+/// What a frame costs against what its scene calls for.
+[[nodiscard]] Suite makeDemandSuite();
 
 } // namespace shutter::bench

@@ -60,6 +60,12 @@ TEST_F(BenchCommand, WrongNamesAreAnsweredWithTheKnownOnes) {
     expectRefusal(
         {"bench", "--suite", "stability", "--case", "no", "--out", out}, 2, {"--case", "ZeroMotion"}
     );
+    expectRefusal(
+        {"bench", "--suite", "demand", "--case", "no", "--out", out}, 2, {"--case", "Still"}
+    );
+    expectRefusal(
+        {"bench", "--suite", "demand", "--methods", "gather", "--out", out}, 2, {"--methods"}
+    );
 }
 
 TEST_F(BenchCommand, ASuiteHasShotsOfItsOwn) {

@@ -14,7 +14,7 @@ import zlib
 
 WIDTH, HEIGHT = 160, 90
 
-SUITES = ("paper", "hard", "scaling", "stability")
+SUITES = ("paper", "hard", "scaling", "stability", "demand")
 
 # name, title, publication, dial, default, rays, dials, ms = a + b * dial, psnr = p + g * log2(dial)
 METHODS = [
@@ -262,6 +262,27 @@ def stability():
     ]
 
 
+def curve(name, points, line=None, x=("tiles that move", "%")):
+    return {"name": name, "title": f"Curve {name}",
+            "x": {"title": x[0], "unit": x[1]}, "y": {"title": "effect", "unit": "ms"},
+            "points": [{"x": at, "label": f"at {at}", **quartiles(y)} for at, y in points],
+            "line": line}
+
+
+def demand():
+    """A claim that holds, with two curves; one out of bounds; one that could not be measured."""
+    line = {"slope": 0.5, "intercept": 0.25, "r2": 0.999}
+    return [
+        {**hard_case("Share", [check("gather: 5 %", 0.05, 0.1, "of the full screen's cost",
+                                     note="7 rounds, quartiles 0.049 to 0.051")]),
+         "curves": [curve("gather", [(0, 0), (50, 25), (100, 50.5)], line),
+                    curve("entities", [(11, 0.2), (1000, 9), (10000, 90)],
+                          x=("entities", ""))]},
+        {**hard_case("Ratio", [check("frame", 1.6, 1.4, "of gather's")]), "curves": []},
+        {**hard_case("Rays", [], failure="the device traces no rays"), "curves": []},
+    ]
+
+
 def make(suite):
     """Results of a suite: "paper" has one case with pictures, "hard" twelve, the others none."""
     methods = METHODS
@@ -300,6 +321,8 @@ def make(suite):
         results["scaling"] = scaling()
     if suite == "stability":
         results["stability"] = stability()
+    if suite == "demand":
+        results["demand"] = demand()
     return results
 
 

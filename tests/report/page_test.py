@@ -59,6 +59,36 @@ class Page(PageCase):
                       self.find("#stability-note").text)
         self.assertNotIn("160×90", self.find("#overline").text)
 
+    # Claims about cost
+
+    def test_shows_every_claim_with_its_checks(self):
+        self.open("demand")
+        self.assertEqual(self.find("#headline").text, "1 of 3 claims about cost holds.")
+        self.assertEqual(self.find("#demand-broken").text,
+                         "Out of bounds: Title of Ratio; Title of Rays.")
+        rows = [[cell.text for cell in row.find_elements(By.CSS_SELECTOR, "th, td")]
+                for row in self.find_all("#demand-claims tbody tr")]
+        self.assertEqual(rows[0], ["gather: 5 %", "0.05", "0.1", "of the full screen's cost",
+                                   "50 %", "holds", "7 rounds, quartiles 0.049 to 0.051"])
+        self.assertEqual(rows[1][1:6], ["1.6", "1.4", "of gather's", "114 %", "broken"])
+        self.assertEqual(rows[2][0], "the device traces no rays")
+        self.assertEqual(rows[2][5], "broken")
+
+    def test_curves_have_whiskers_and_their_fitted_line(self):
+        self.open("demand")
+        sets = self.datasets("#demand-Share-gather")
+        points = self.results["demand"]["demand"][0]["curves"][0]["points"]
+        self.assertEqual(sets["Curve gather"], [[p["x"], p["median"]] for p in points])
+        self.assertEqual(sets["Curve gather, line"], [[0, 0.25], [100, 50.25]])
+        whiskers = self.js(CHART + "[0].data.map((p) => p.quartiles)", "#demand-Share-gather")
+        self.assertEqual(whiskers, [[p["q1"], p["q3"]] for p in points])
+        self.assertIn("y = 0.25 + 0.5 x, r² 0.999", self.find("#demand-Share").text)
+        # Without a line the points are joined, on logarithmic axes where they span decades.
+        self.assertEqual(list(self.datasets("#demand-Share-entities")), ["Curve entities"])
+        scales = "return Chart.getChart(document.querySelector(arguments[0])).options.scales.%s.type"
+        self.assertEqual(self.js(scales % "x", "#demand-Share-entities"), "logarithmic")
+        self.assertEqual(self.js(scales % "x", "#demand-Share-gather"), "linear")
+
     # The whole page
 
     def test_asks_nothing_of_the_network(self):
@@ -78,6 +108,7 @@ class Page(PageCase):
             "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "equal-time", "about"},
             "scaling": {"scaling", "about"},
             "stability": {"stability", "about"},
+            "demand": {"demand", "about"},
         }
         for suite, sections in expected.items():
             self.open(suite)

@@ -57,6 +57,14 @@ class Schema(unittest.TestCase):
         results["stability"][0]["checks"][0].pop("bound")
         self.assertFalse(self.validator.is_valid(results))
 
+    def test_refuses_a_curve_without_its_line_or_points(self):
+        curve = lambda r: r["demand"][0]["curves"][0]
+        for change in (lambda r: curve(r).pop("line"), lambda r: curve(r).update(points=[]),
+                       lambda r: curve(r)["points"][0].pop("q3")):
+            results = copy.deepcopy(example_results.make("demand"))
+            change(results)
+            self.assertFalse(self.validator.is_valid(results))
+
     def test_refuses_a_negative_time(self):
         frame = lambda r: r["cases"][0]["measurements"][0]["milliseconds"]["frame"]
         self.refuses(lambda r: frame(r).update(median=-1))

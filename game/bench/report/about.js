@@ -29,6 +29,11 @@ function describeMeasuring() {
         return el("ul", {}, el("li", {}, "Each case draws and measures as its checks say; what is " +
             "looked at is counted under samples. Nothing is timed but the case as a whole."));
     const {repeats, tonemap} = results.settings;
+    if (results.demand)
+        return el("ul", {}, el("li", {}, "Times of passes are the GPU's timestamps; what the CPU " +
+            "does is said where it counts."), el("li", {}, "What is compared took turns within " +
+            `one run, ${countOf(repeats, "round")} or a multiple of it, each variant with a ` +
+            "renderer of its own, after two pictures that do not count."));
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +
             `for both (${tonemap}), at 8 bits a channel.`),

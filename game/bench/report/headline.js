@@ -121,7 +121,7 @@ function drawHeadline() {
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
     const headline = pairSentence ?? writeScalingSentence() ?? writeStabilitySentence() ??
-        writeCountSentence();
+        writeDemandSentence() ?? writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
         `Shutter benchmark, suite ${results.suite}`,

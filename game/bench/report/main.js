@@ -46,12 +46,14 @@ fillToolbar();
 drawHeadline();
 drawTables();
 drawStability();
+drawDemand();
 drawAbout();
 drawChosen();
 onChoice(drawChosen);
 onTheme(() => {
     drawTradeoff();
     drawScaling();
+    drawDemandCharts();
 });
 byId("save").addEventListener("click", saveResults);
 document.documentElement.dataset.ready = "true";

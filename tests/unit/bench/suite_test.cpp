@@ -34,6 +34,20 @@ TEST(Suites, TheHardOneHasTwelveCases) {
     EXPECT_EQ(findSuite("hard").value().cases.size(), 12u);
 }
 
+TEST(Suites, ClaimsAreToldApartAndSayWhatTheyCompare) {
+    const auto suite = findSuite("demand");
+    ASSERT_TRUE(suite.ok());
+    EXPECT_STREQ(suite.value().size, "1280x720");
+    std::set<std::string> names;
+    for (const demand::Claim& claim : suite.value().claims) {
+        EXPECT_TRUE(names.insert(claim.name).second) << claim.name;
+        EXPECT_FALSE(claim.title.empty()) << claim.name;
+        EXPECT_TRUE(claim.description.ends_with('.')) << claim.name;
+        EXPECT_TRUE(claim.measure) << claim.name;
+    }
+    EXPECT_EQ(names.size(), 7u);
+}
+
 TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     const auto found = findSuite("nosuch");
     ASSERT_FALSE(found.ok());
