@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/demand/subject.h"
 
+#include <ctime>
+
 namespace shutter::demand {
 
 namespace {
 
 constexpr uint32_t kUncounted = 2; ///< first pictures of a subject
+
+double countProcessMilliseconds() {
+    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
+}
 
 core::Result<game::RenderOptions>
 makeOptions(const Stage& stage, std::string_view method, uint32_t width, uint32_t height) {
@@ -84,11 +90,15 @@ core::Result<std::vector<Frames>> takeTurns(const Subjects& subjects, uint32_t r
     for (uint32_t round = 0; round < kUncounted + rounds; ++round)
         for (size_t i = 0; i < subjects.size(); ++i) {
             const size_t at = round % 2 == 0 ? i : subjects.size() - 1 - i;
+            const double before = countProcessMilliseconds();
             auto drawn = subjects[at]->draw();
+            const double spent = countProcessMilliseconds() - before;
             if (!drawn)
                 return drawn.error();
-            if (round >= kUncounted)
-                frames[at].push_back(std::move(drawn.value().statistics));
+            if (round < kUncounted)
+                continue;
+            frames[at].push_back(std::move(drawn.value().statistics));
+            frames[at].back().measures[kProcessMilliseconds] = spent;
         }
     return frames;
 }

@@ -78,6 +78,11 @@ class Subject {
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 using Frames = std::vector<render::FrameStatistics>;
 
+/// Name in FrameStatistics::measures of what takeTurns() adds: milliseconds of processors that the
+/// whole process took for the picture, a software device's threads among them. Other programs on
+/// the machine change it far less than the time on the wall.
+inline constexpr const char* kProcessMilliseconds = "process ms";
+
 /// Draws all by turns, every other round backwards, so that a busy moment of the machine falls on
 /// all alike. Each is drawn twice before, which does not count: shaders are compiled then, and
 /// memory is taken. \return a list of `rounds` frames a subject
