@@ -11,6 +11,7 @@ std::vector<Claim> listClaims() {
         makeEntitiesClaim(),
         makeFullScreenClaim(),
         makeMethodsClaim(),
+        makeTraversalClaim(),
         makeTogglesClaim()};
 }
 

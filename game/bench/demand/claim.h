@@ -64,6 +64,7 @@ struct Claim {
 [[nodiscard]] Claim makeEntitiesClaim();
 [[nodiscard]] Claim makeFullScreenClaim();
 [[nodiscard]] Claim makeMethodsClaim();
+[[nodiscard]] Claim makeTraversalClaim();
 [[nodiscard]] Claim makeTogglesClaim();
 
 } // namespace shutter::demand

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "assets/generator/scenes.h"
 #include "game/bench/demand/figures.h"
+#include "game/bench/demand/rooms.h"
 
 #include <algorithm>
 #include <set>
@@ -41,18 +41,9 @@ std::string describePasses(const Frames& frames) {
     return text;
 }
 
-core::Status addScene(
-    Findings& findings,
-    gpu::Device& device,
-    const DemandOptions& options,
-    const std::string& name,
-    generator::GltfWriter (*build)()
-) {
-    game::RenderArguments arguments;
-    arguments.camera = "main";
-    arguments.phase = "end";
-    arguments.exposureSeconds = generator::kExposureSeconds;
-    auto stage = loadStage(options, name, build, std::move(arguments));
+core::Status
+addRoom(Findings& findings, gpu::Device& device, const DemandOptions& options, const Room& room) {
+    auto stage = loadRoom(options, room);
     if (!stage)
         return stage.error();
     Subjects subjects;
@@ -70,7 +61,7 @@ core::Status addScene(
     const Frames& hybrid = frames.value()[1];
     const bool isSoftware = device.info().kind == "software";
     findings.checks.push_back(checkMedian(
-        fmt::format("{}: hybrid's frame", name),
+        fmt::format("{}: hybrid's frame", room.name),
         compare(hybrid, gather, frameTime(), frameTime()),
         isSoftware ? kOnSoftware : kOnHardware,
         "of gather's",
@@ -86,14 +77,9 @@ core::Result<Findings> measureMethods(gpu::Device& device, const DemandOptions& 
     if (!device.hasRays())
         return core::makeError("{} traces no rays", device.info().name);
     Findings findings;
-    if (core::Status added =
-            addScene(findings, device, options, "vase", &generator::buildVaseScene);
-        !added)
-        return added.error();
-    if (core::Status added =
-            addScene(findings, device, options, "courtyard", &generator::buildCourtyardScene);
-        !added)
-        return added.error();
+    for (const Room& room : listRooms())
+        if (core::Status added = addRoom(findings, device, options, room); !added)
+            return added.error();
     return findings;
 }
 

@@ -13,10 +13,16 @@ double countProcessMilliseconds() {
     return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-core::Result<game::RenderOptions>
-makeOptions(const Stage& stage, std::string_view method, uint32_t width, uint32_t height) {
+core::Result<game::RenderOptions> makeOptions(
+    const Stage& stage,
+    std::string_view method,
+    uint32_t width,
+    uint32_t height,
+    std::vector<std::string> settings = {}
+) {
     game::RenderArguments arguments = stage.arguments;
     arguments.method = method;
+    arguments.settings = std::move(settings);
     arguments.size = fmt::format("{}x{}", width, height);
     arguments.out = "picture.png"; // a display-encoded picture; nothing is written there
     return game::interpret(arguments);
@@ -61,9 +67,10 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
     const Stage& stage,
     std::string_view method,
     uint32_t width,
-    uint32_t height
+    uint32_t height,
+    std::vector<std::string> settings
 ) {
-    auto options = makeOptions(stage, method, width, height);
+    auto options = makeOptions(stage, method, width, height, std::move(settings));
     if (!options)
         return options.error();
     std::unique_ptr<Subject> subject(new Subject(device, stage, std::move(options).value()));

@@ -43,13 +43,15 @@ makeStage(stability::SceneDraft& draft, double exposureSeconds);
 class Subject {
   public:
     /// \param stage outlives this
-    /// Error: the method needs rays and the device has none.
+    /// \param settings of the method, NAME=VALUE as `--set` takes them
+    /// Error: the method needs rays and the device has none; a setting is none of the method's.
     [[nodiscard]] static core::Result<std::unique_ptr<Subject>> create(
         gpu::Device& device,
         const Stage& stage,
         std::string_view method,
         uint32_t width,
-        uint32_t height
+        uint32_t height,
+        std::vector<std::string> settings = {}
     );
 
     /// The next picture: tone mapped, read back, with the intermediates asked for.
