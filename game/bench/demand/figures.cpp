@@ -45,12 +45,13 @@ bool isTileMax(std::string_view pass) {
 }
 
 bool isMaskOrReveal(std::string_view pass) {
-    return contains(pass, "edge") || contains(pass, "mask") || contains(pass, "reveal") ||
-           pass == "copy layer";
+    const bool isNamedSo =
+        contains(pass, "edge") || contains(pass, "mask") || contains(pass, "reveal");
+    return isNamedSo && !pass.starts_with("gather");
 }
 
 bool isReveal(std::string_view pass) {
-    return contains(pass, "reveal") && !isTileMax(pass);
+    return contains(pass, "reveal") && !contains(pass, " of reveal");
 }
 
 game::Quartiles summarize(const Frames& frames, const Figure& figure) {

@@ -33,12 +33,16 @@ Curve drawCurve(
     return curve;
 }
 
-/// A sheet that fills the picture, before and after it moves.
+/// A sheet that fills the picture, before and after it moves, in front of a wall that rays could
+/// find.
 std::unique_ptr<Stage> makeSheetStage(const stability::Stand& movement) {
     stability::SceneDraft draft;
     stability::Stand stand = movement;
     stand.position = {0, 0, -5};
     draft.add(stability::makeSheet(30, 30), draft.addLitWaves(), stand);
+    draft.add(
+        stability::makeSheet(60, 60), draft.addLitWaves(), stability::Stand{.position = {0, 0, -9}}
+    );
     draft.addSun(math::dvec3(0, 0, -1), 3.0f);
     return makeStage(draft, kExposureSeconds);
 }
