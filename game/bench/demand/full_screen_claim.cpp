@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/demand/figures.h"
+#include "game/bench/demand/floor_effect.h"
 #include "game/bench/demand/regions.h"
 
 namespace shutter::demand {
@@ -7,6 +8,29 @@ namespace shutter::demand {
 namespace {
 
 constexpr double kTileShare = 0.10;
+constexpr double kOfTheFloor = 1.5;
+
+/// GPU milliseconds of the passes of one name.
+Figure timeOf(std::string_view name) {
+    return [name](const render::FrameStatistics& frame) {
+        return sumPasses(frame, [name](std::string_view pass) { return pass == name; });
+    };
+}
+
+stability::Measured checkFloor(const Frames& gather, const Frames& floor) {
+    return checkMedian(
+        "gather: the filter itself",
+        compare(gather, floor, timeOf("gather"), timeOf("gather floor")),
+        kOfTheFloor,
+        "of its fetches alone",
+        gather.size(),
+        fmt::format(
+            "{:.4g} against {:.4g} ms",
+            summarize(gather, timeOf("gather")).median,
+            summarize(floor, timeOf("gather floor")).median
+        )
+    );
+}
 
 core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOptions& options) {
     auto stage = loadFullScreen(options);
@@ -21,6 +45,17 @@ core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOption
             return subject.error();
         subjects.push_back(std::move(subject).value());
     }
+    auto floor = Subject::createWithEffect(
+        device,
+        *stage.value(),
+        std::make_unique<FloorEffect>(device, motion_blur::MotionBlurSettings{}),
+        options.width,
+        options.height
+    );
+    if (!floor)
+        return floor.error();
+    const size_t methodCount = subjects.size();
+    subjects.push_back(std::move(floor).value());
     auto frames = takeTurns(subjects, options.rounds);
     if (!frames)
         return frames.error();
@@ -28,7 +63,7 @@ core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOption
         return sumPasses(frame, isTileMax);
     };
     Findings findings;
-    for (size_t i = 0; i < subjects.size(); ++i) {
+    for (size_t i = 0; i < methodCount; ++i) {
         const game::MethodInfo& method = subjects[i]->method();
         const Frames& own = frames.value()[i];
         findings.checks.push_back(checkMedian(
@@ -44,6 +79,7 @@ core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOption
             )
         ));
     }
+    findings.checks.push_back(checkFloor(frames.value().front(), frames.value().back()));
     return findings;
 }
 
@@ -54,7 +90,8 @@ Claim makeFullScreenClaim() {
         "FullScreen",
         "What the full screen costs",
         "Panels before a wall, all of which move, each row against the next: the passes that find "
-        "the dominant motion against the whole effect.",
+        "the dominant motion against the whole effect, and the filter against a kernel that only "
+        "fetches and averages the same taps.",
         measureFullScreen};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/demand/subject.h"
 
+#include <array>
 #include <ctime>
 
 namespace shutter::demand {
@@ -83,11 +84,36 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
 }
 
 Subject::Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options)
-    : mOptions(std::move(options)), mRenderer(device, stage.shot.world.assets),
+    : mStage(stage), mOptions(std::move(options)), mRenderer(device, stage.shot.world.assets),
       mSeconds(mOptions.frameTimes.front()) {}
 
+core::Result<std::unique_ptr<Subject>> Subject::createWithEffect(
+    gpu::Device& device,
+    const Stage& stage,
+    std::unique_ptr<render::PostEffect> effect,
+    uint32_t width,
+    uint32_t height
+) {
+    auto options = makeOptions(stage, "sharp", width, height);
+    if (!options)
+        return options.error();
+    std::unique_ptr<Subject> subject(new Subject(device, stage, std::move(options).value()));
+    subject->mEffect = std::move(effect);
+    subject->mTonemap = std::make_unique<tonemap::Tonemap>(device, subject->mOptions.tonemap);
+    return subject;
+}
+
+core::Result<render::FrameResult> Subject::drawEffect() {
+    render::FrameRequest request;
+    request.view = game::makeView(mStage.shot, mOptions, mSeconds);
+    request.wantColor = false;
+    request.wantDisplay = true;
+    const std::array<render::PostEffect*, 2> effects{mEffect.get(), mTonemap.get()};
+    return mRenderer.renderFrame(mStage.shot.world, request, effects);
+}
+
 core::Result<render::FrameResult> Subject::draw() {
-    auto drawn = mMethod->renderPicture(mSeconds, [] {});
+    auto drawn = mEffect ? drawEffect() : mMethod->renderPicture(mSeconds, [] {});
     mSeconds += mStepSeconds;
     return drawn;
 }

@@ -54,6 +54,15 @@ class Subject {
         std::vector<std::string> settings = {}
     );
 
+    /// An effect of the caller's in the place of a method's.
+    [[nodiscard]] static core::Result<std::unique_ptr<Subject>> createWithEffect(
+        gpu::Device& device,
+        const Stage& stage,
+        std::unique_ptr<render::PostEffect> effect,
+        uint32_t width,
+        uint32_t height
+    );
+
     /// The next picture: tone mapped, read back, with the intermediates asked for.
     [[nodiscard]] core::Result<render::FrameResult> draw();
 
@@ -70,9 +79,14 @@ class Subject {
   private:
     Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options);
 
+    core::Result<render::FrameResult> drawEffect();
+
+    const Stage& mStage;
     game::RenderOptions mOptions; ///< the method's renderer keeps a reference
     render::Renderer mRenderer;
-    std::unique_ptr<game::MethodRenderer> mMethod;
+    std::unique_ptr<game::MethodRenderer> mMethod; ///< or an effect
+    std::unique_ptr<render::PostEffect> mEffect;
+    std::unique_ptr<tonemap::Tonemap> mTonemap; ///< after the effect
     double mSeconds = 0.0;
     double mStepSeconds = 0.0;
 };
