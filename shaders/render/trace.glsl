@@ -75,25 +75,4 @@ uint findRayFlags(uint mask, LeftSurface left) {
 #include "render/trace_query.glsl"
 #endif
 
-#if !defined(SHUTTER_RAY_PIPELINE) || defined(SHUTTER_RAY_START)
-/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn. What moves may
-/// be in a level of its own (FrameConstants::movingLevel).
-/// \param direction unit
-/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
-RayHit traceRay(
-    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
-    float tMax, uint mask, LeftSurface left
-) {
-    RayHit hit = traceLevel(scene, frame, origin, direction, tMin, tMax, mask, left);
-    uvec2 moving = frame.value.movingLevel;
-    if ((moving.x | moving.y) == 0u) return hit;
-    RayHit nearer = traceLevel(
-        accelerationStructureEXT(moving), frame, origin, direction, tMin, hit.found ? hit.t : tMax,
-        mask, left
-    );
-    if (nearer.found) return nearer;
-    return hit;
-}
-#endif
-
 #endif

@@ -10,22 +10,38 @@
 
 layout(location = 0) rayPayloadEXT TracePayload gTraced;
 
-/// traceRay() through one level.
-RayHit traceLevel(
-    accelerationStructureEXT level, FrameRef frame, vec3 origin, vec3 direction, float tMin,
+RayHit readTraced() {
+    return RayHit(
+        gTraced.found != 0u, gTraced.t,
+        HitId(gTraced.entity, gTraced.geometry, gTraced.primitive, gTraced.barycentrics)
+    );
+}
+
+/// Nearest surface along the ray with tMin < t < tMax that raster would have drawn.
+/// \param direction unit
+/// \param mask what is met: kSolidMask (or a part of it), kBlendedMask or both
+RayHit traceRay(
+    accelerationStructureEXT scene, FrameRef frame, vec3 origin, vec3 direction, float tMin,
     float tMax, uint mask, LeftSurface left
 ) {
     gTraced.frame = uvec2(frame);
     gTraced.mask = mask;
     gTraced.leftEntity = left.entity;
     gTraced.leftUntil = left.until;
+    uint flags = findRayFlags(mask, left);
+    traceRayEXT(scene, flags, mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0);
+    RayHit nearest = readTraced();
+    // What moves may be in a level of its own (FrameConstants::movingLevel).
+    uvec2 movingLevel = frame.value.movingLevel;
+    if ((movingLevel.x | movingLevel.y) == 0u) return nearest;
+    float end = nearest.found ? nearest.t : tMax;
     traceRayEXT(
-        level, findRayFlags(mask, left), mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0
+        accelerationStructureEXT(movingLevel), flags, mask, 0u, 0u, 0u, origin, tMin, direction, end,
+        0
     );
-    return RayHit(
-        gTraced.found != 0u, gTraced.t,
-        HitId(gTraced.entity, gTraced.geometry, gTraced.primitive, gTraced.barycentrics)
-    );
+    RayHit moving = readTraced();
+    if (moving.found) nearest = moving;
+    return nearest;
 }
 
 #endif
