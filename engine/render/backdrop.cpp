@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// More movers than these are not looked at one by one.
 constexpr size_t kMostMovers = 64;
+
+constexpr double kMarginPx = 1.0;
 
 /// Where an entity is in the picture.
 struct ScreenBox {
@@ -67,16 +70,20 @@ ScreenBox findBox(const ExtractedFrame& frame, const SceneLayout& layout, uint32
             box.most[axis] = std::max(box.most[axis], double(clip[axis]) / double(clip.w));
         }
     }
-    if (crossesNear)
+    // What crosses the near plane, and what is no number, may be anywhere.
+    if (!(box.nearest <= box.farthest))
+        return {row, {-1.0, -1.0}, {1.0, 1.0}, -kInfinity, kInfinity};
+    if (crossesNear || !(box.least[0] <= box.most[0]) || !(box.least[1] <= box.most[1]))
         return {row, {-1.0, -1.0}, {1.0, 1.0}, box.nearest, box.farthest};
     for (int axis = 0; axis < 2; ++axis) {
-        box.least[axis] = std::max(box.least[axis], -1.0);
-        box.most[axis] = std::min(box.most[axis], 1.0);
+        // Raster moves corners to a grid, and covers pixels by their centres.
+        const double margin = 2.0 * kMarginPx / double(frame.constants.sizePx[axis]);
+        box.least[axis] = std::max(box.least[axis] - margin, -1.0);
+        box.most[axis] = std::min(box.most[axis] + margin, 1.0);
     }
     return box;
 }
 
-/// Written so that what is no number overlaps.
 bool liesBehind(const ScreenBox& box, const ScreenBox& mover) {
     if (box.row == mover.row || box.farthest < mover.nearest)
         return false;
@@ -86,17 +93,14 @@ bool liesBehind(const ScreenBox& box, const ScreenBox& mover) {
     return true;
 }
 
-/// Rows that are drawn, far to near, without the blended ones.
-std::vector<uint32_t> listDrawn(const ExtractedFrame& frame) {
-    std::vector<uint32_t> rows;
-    const auto append = [&](const std::vector<DrawItem>& items) {
-        for (auto item = items.rbegin(); item != items.rend(); ++item)
-            if (rows.empty() || rows.back() != item->entity)
-                rows.push_back(item->entity);
-    };
-    append(frame.opaque.still);
-    append(frame.opaque.moving);
-    return rows;
+/// Calls `visit` with each row of a list of draws, far to near, until it says true.
+template <class Visit> bool visitRows(const std::vector<DrawItem>& draws, Visit&& visit) {
+    for (auto item = draws.rbegin(); item != draws.rend(); ++item) {
+        const bool again = item != draws.rbegin() && std::prev(item)->entity == item->entity;
+        if (!again && visit(item->entity))
+            return true;
+    }
+    return false;
 }
 
 } // namespace
@@ -104,22 +108,24 @@ std::vector<uint32_t> listDrawn(const ExtractedFrame& frame) {
 Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layout) {
     if (!frame.blended.empty())
         return {true, "blended surfaces may lie before or behind what moves"};
-    const std::vector<uint32_t> drawn = listDrawn(frame);
     std::vector<ScreenBox> movers;
-    for (const uint32_t row : drawn) {
-        if (frame.entities[row].motion == shader::kNoMotion)
-            continue;
-        if (movers.size() == kMostMovers)
-            return {true, fmt::format("more than {} entities move in the picture", kMostMovers)};
-        movers.push_back(findBox(frame, layout, row));
-    }
-    for (const uint32_t row : drawn) {
+    const auto addMover = [&](uint32_t row) {
+        if (frame.entities[row].motion != shader::kNoMotion)
+            movers.push_back(findBox(frame, layout, row));
+        return movers.size() > kMostMovers;
+    };
+    const bool cameraMoves = !frame.stillMotions.empty();
+    if (visitRows(frame.opaque.moving, addMover) ||
+        (cameraMoves && visitRows(frame.opaque.still, addMover)))
+        return {true, fmt::format("more than {} entities move in the picture", kMostMovers)};
+    const auto isRevealed = [&](uint32_t row) {
         const ScreenBox box = findBox(frame, layout, row);
-        if (std::any_of(movers.begin(), movers.end(), [&](const ScreenBox& mover) {
-                return liesBehind(box, mover);
-            }))
-            return {true, "surfaces may come into sight behind what moves"};
-    }
+        return std::any_of(movers.begin(), movers.end(), [&](const ScreenBox& mover) {
+            return liesBehind(box, mover);
+        });
+    };
+    if (visitRows(frame.opaque.still, isRevealed) || visitRows(frame.opaque.moving, isRevealed))
+        return {true, "surfaces may come into sight behind what moves"};
     return {false, "nothing but sky lies behind what moves"};
 }
 

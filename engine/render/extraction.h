@@ -105,7 +105,8 @@ struct ExtractedFrame {
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows stand still; no two frame extractors have the same.
     uint64_t stillSet = 0;
-    /// Changes whenever a row that stands still changes, in eye space too: the camera moved.
+    /// Changes whenever a row that stands still changes, in eye space too: the camera moved. But for
+    /// EntityRow::rayMask, which rows that stand still in the world have only if the camera moves.
     uint64_t stillRevision = 0;
     std::vector<uint32_t> entityMeshes;     ///< one a row: index into Assets::meshes
     std::vector<ecs::Entity> entityHandles; ///< one a row: whose it is

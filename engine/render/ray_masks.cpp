@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -26,16 +27,34 @@ std::vector<uint32_t> makeRayMasks() {
     return masks;
 }
 
-/// Rows a masked pixel may show: whose motion can be longer than nothing.
+/// Rows a masked pixel may show: those in the picture whose motion can be longer than nothing.
 std::vector<uint32_t> listMoving(const ExtractedFrame& frame) {
     std::vector<uint32_t> rows;
+    const auto consider = [&](const std::vector<DrawItem>& draws) {
+        for (const DrawItem& draw : draws)
+            if (frame.entities[draw.entity].motion != shader::kNoMotion)
+                rows.push_back(draw.entity);
+    };
+    consider(frame.opaque.moving);
+    if (!frame.stillMotions.empty()) // the camera moves
+        consider(frame.opaque.still);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+}
+
+/// Rows that had a mask and now have none, since they left the picture.
+std::vector<uint32_t>
+listForgotten(const ExtractedFrame& frame, const std::vector<uint32_t>& moving) {
+    std::vector<uint32_t> rows;
     const auto consider = [&](uint32_t row) {
-        if (frame.entities[row].motion != shader::kNoMotion)
+        if (frame.entities[row].rayMask != 0 &&
+            !std::binary_search(moving.begin(), moving.end(), row))
             rows.push_back(row);
     };
     if (frame.stillMotions.empty())
         std::for_each(frame.movingRows.begin(), frame.movingRows.end(), consider);
-    else // the camera moves
+    else
         for (uint32_t row = 0; row < frame.changes.ownRows; ++row)
             consider(row);
     return rows;
@@ -49,7 +68,8 @@ double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bou
             matrix[column][r] = double(row.eyeFromObject[r][column]);
     const math::Bounds placed = math::transformBounds(matrix, bounds);
     const double size = glm::length(placed.max - placed.min);
-    return size / std::max(glm::length(placed.centre()), 1.0e-9);
+    const double share = size / std::max(glm::length(placed.centre()), 1.0e-9);
+    return std::isfinite(share) ? share : 0.0; // sorting by what is no number has no meaning
 }
 
 /// A row with the mask that it had is as it was.
@@ -67,7 +87,7 @@ std::span<const uint32_t> listRayMasks() {
 
 void assignRayMasks(ExtractedFrame& frame, const SceneLayout& layout) {
     std::vector<uint32_t> rows = listMoving(frame);
-    std::vector<uint32_t> without; // of `rows`; all others have none
+    std::vector<uint32_t> without = listForgotten(frame, rows); // all others have none
     const std::span<const uint32_t> masks = listRayMasks();
     if (rows.size() > masks.size()) {
         std::vector<std::pair<double, uint32_t>> sizes;

@@ -79,6 +79,7 @@ Renderer::RunningEffects Renderer::askEffects(
         if (!decision.run)
             continue;
         running.effects.push_back({effect});
+        running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
         join(running.movingRays, effect->name(), movingRays);
     }
@@ -182,8 +183,10 @@ core::Result<FrameResult> Renderer::renderFrame(
     statistics.counters["entity rows written"] = mWritten.rows;
     statistics.counters["entity motions written"] = mWritten.motions;
     auto plan = graph::execute(graph, mFrame, mPool);
-    if (!plan)
+    if (!plan) {
+        mTopLevels.emplace(mDevice); // what was to be built was not
         return plan.error();
+    }
     mFrame.submit();
     result.statistics.cpuMilliseconds = millisecondsSince(start);
     result.statistics.passes = mFrame.waitForTimes();
@@ -195,7 +198,8 @@ core::Result<FrameResult> Renderer::renderFrame(
         one.effect->collect(statistics.counters);
         one.effect->measure(statistics.measures);
     }
-    releaseIdle(frame, running);
+    if (!effects.empty()) // a look that measures something is no frame
+        releaseIdle(frame, running);
     if (request.wantDump)
         result.dump = graph::dump(graph, plan.value());
     if (tickets.color)
@@ -229,7 +233,8 @@ void Renderer::showTimes(
 }
 
 void Renderer::releaseIdle(const ExtractedFrame& frame, const RunningEffects& running) {
-    const bool anyRays = running.rays.run || running.movingRays.run;
+    // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
+    const bool anyRays = running.mayTrace || running.movingRays.run;
     if (mBendingIdle.advance(!frame.deformed.empty()))
         mDeformation.emplace(mDevice);
     if (mRaysIdle.advance(running.rays.run))

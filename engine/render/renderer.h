@@ -96,6 +96,7 @@ class Renderer {
         std::vector<RunningEffect> effects;
         Decision rays;
         Decision movingRays;
+        bool mayTrace = false; ///< in another frame, if not in this
     };
 
     static RunningEffects

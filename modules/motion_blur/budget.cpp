@@ -32,7 +32,8 @@ class Ladder {
 
     /// Half of the resolution where motion is long and uniform.
     void halveResolution(double cost) {
-        if (!(mNext.halfResolutionPx > kHalfResolutionPx))
+        // It is a matter of the uniform path, which may be off.
+        if (!(mNext.halfResolutionPx > kHalfResolutionPx) || !(mNext.uniformMotionPx > 0.0f))
             return;
         mNext.halfResolutionPx = kHalfResolutionPx;
         mResolution = "half of the resolution along long uniform motion";
@@ -51,8 +52,7 @@ class Ladder {
         if (count >= mNext.sampleCount)
             return;
         mNext.sampleCount = count;
-        mSamples =
-            fmt::format("{} of {} samples", mWanted.sampleCount - count, mWanted.sampleCount);
+        mSamples = fmt::format("{} of {} samples", mMostSamples - count, mMostSamples);
         add(cost);
     }
 
@@ -60,8 +60,10 @@ class Ladder {
         mNext.method = method;
         mNext.sampleCount = samples;
         mRays = givenUp;
-        if (method != mWanted.method && mWanted.method == Method::Denoised)
+        if (mWanted.method == Method::Denoised) { // whose samples were the rays
             mSamples.clear();
+            mMostSamples = samples;
+        }
         add(cost);
     }
 
@@ -83,6 +85,7 @@ class Ladder {
 
     MotionBlurSettings mWanted;
     MotionBlurSettings mNext = mWanted;
+    uint32_t mMostSamples = mWanted.sampleCount; ///< of the method that rungs have now
     std::string mResolution, mRays, mSamples;
     std::vector<BudgetRung> mRungs;
 };
@@ -171,6 +174,8 @@ void BudgetController::moveTo(size_t rung) {
 }
 
 void BudgetController::stepDown(double milliseconds) {
+    // The frames that took too long, not those before them, say how long.
+    mSmoothed = milliseconds;
     const bool trialFailed = mRungBefore > mRung && mFrames <= kTrialFrames;
     if (trialFailed)
         mWait = std::min(2 * mWait, kMostWait);
@@ -192,10 +197,11 @@ void BudgetController::observe(size_t rung, double milliseconds) {
     mSmoothed = mFrames == 0 ? milliseconds : mSmoothed + kSmoothing * (milliseconds - mSmoothed);
     ++mFrames;
     mFramesOver = milliseconds > mBudget.milliseconds ? mFramesOver + 1 : 0;
-    if (mFrames == 4 * kTrialFrames)
-        mWait = std::max(mWait / 2, kLeastWait);
+    if (mFrames == kCalmFrames && mRungBefore > mRung)
+        mWait = kLeastWait;
+    mOver = mFramesOver <= 1 ? milliseconds : std::min(mOver, milliseconds);
     if (mFramesOver >= kFramesOver && mRung + 1 < mRungs.size())
-        stepDown(mSmoothed);
+        stepDown(mOver);
     else if (mRung > 0)
         considerStepUp();
 }

@@ -72,6 +72,7 @@ class BudgetController {
     size_t mRung = 0;
     size_t mRungBefore = 0;
     double mSmoothed = 0.0;    ///< milliseconds on this rung
+    double mOver = 0.0;        ///< least of the frames in a row that took too long
     uint32_t mFrames = 0;      ///< on this rung
     uint32_t mFramesOver = 0;  ///< in a row that took too long
     uint32_t mFramesUnder = 0; ///< in a row with room for the rung above

@@ -33,8 +33,9 @@ ivec2 tileAt(vec2 positionPx) {
 /// A tile that is farther than the next one never reaches a block: motion is no longer than a tile.
 bool isReached(vec2 first, vec2 end) {
     int ring = min(params.neighbourRadius, 1);
-    ivec2 lowest = max(tileAt(first) - ring, ivec2(0));
-    ivec2 highest = min(tileAt(end - 1.0f) + ring, ivec2(params.tileCount) - 1);
+    // Pixels may look up tiles beyond their own by a margin, and take what those reach.
+    ivec2 lowest = max(tileAt(first - params.marginPx) - ring, ivec2(0));
+    ivec2 highest = min(tileAt(end - 1.0f + params.marginPx) + ring, ivec2(params.tileCount) - 1);
     float tileSize = float(params.tileSizePx);
     for (int y = lowest.y; y <= highest.y; ++y)
         for (int x = lowest.x; x <= highest.x; ++x) {

@@ -104,17 +104,28 @@ void listBlock(uvec2 block) {
         for (uint x = firstTile.x; x <= lastTile.x; ++x) listTile(uvec2(x, y));
 }
 
-/// In a quad the pixel with even coordinates traces for all, where it is masked.
+/// Whether no pixel of its quad before it is masked. Those are worked out once more, which costs less
+/// than threads that wait for each other.
+bool leadsQuad(ivec2 pixel) {
+    ivec2 first = pixel - pixel % 2;
+    int own = pixel.x % 2 + pixel.y % 2 * 2;
+    for (int i = 0; i < own; ++i)
+        if (isMasked(first + ivec2(i % 2, i / 2))) return false;
+    return true;
+}
+
+/// In a quad the first masked pixel traces for all.
 void listPixel(ivec2 pixel, bool quads) {
-    ivec2 leader = pixel - pixel % 2;
-    if (quads && pixel != leader && isMasked(leader)) {
+    if (quads && !leadsQuad(pixel)) {
         atomicAdd(uMasked.header.sharingPixels, 1u);
         return;
     }
     uint index = atomicAdd(uMasked.header.listedPixels, 1u);
-    uint flag = quads && pixel == leader ? kQuadFlag : 0u;
+    uint flag = quads ? kQuadFlag : 0u;
     uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16 | flag;
-    if (index % kRevealThreads == 0u) atomicAdd(uReveal.groupsX, 1u);
+    uint group = index / kRevealThreads;
+    atomicMax(uReveal.groupsX, min(group + 1u, kListRow));
+    if (index % (kRevealThreads * kListRow) == 0u) atomicAdd(uReveal.groupsY, 1u);
 }
 
 void main() {

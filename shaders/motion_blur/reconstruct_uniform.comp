@@ -21,7 +21,6 @@ vec2 dominantAt(vec2 centre) {
     return textureLod(uDominant, tile, 0.0f).xy; // never still: the block is uniform
 }
 
-/// \param at need not be a pixel's centre
 vec4 gatherUniform(vec2 at, vec2 dominant) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     float range = length(dominant);
@@ -46,8 +45,8 @@ vec4 gatherUniform(vec2 at, vec2 dominant) {
 
 bool isInside(ivec2 pixel) { return all(lessThan(uvec2(pixel), params.sizePx)); }
 
-/// Along a long smear neighbours differ by little: two pixels take what is seen between them. Half
-/// of the group's threads do all, the others end together.
+/// Along a long smear neighbours differ by little: two pixels take what is seen at the first of them.
+/// Half of the group's threads do all, the others end together.
 void gatherHalf(uvec2 block, bool alongX) {
     uint i = gl_LocalInvocationIndex;
     if (i >= kGroupSize * kGroupSize / 2u) return;
@@ -56,7 +55,7 @@ void gatherHalf(uvec2 block, bool alongX) {
     ivec2 pixel = ivec2(block * kGroupSize) + ivec2(i % perRow, i / perRow) * (ivec2(1) + stride);
     if (!isInside(pixel)) return;
     vec2 centre = vec2(pixel) + 0.5f;
-    vec4 color = gatherUniform(centre + 0.5f * vec2(stride), dominantAt(centre));
+    vec4 color = gatherUniform(centre, dominantAt(centre));
     imageStore(uBlurred, pixel, color);
     if (isInside(pixel + stride)) imageStore(uBlurred, pixel + stride, color);
 }
@@ -65,8 +64,11 @@ void main() {
     uvec2 block;
     if (!findBlock(params.sizePx, block)) return;
     vec2 motion = dominantAt(vec2(block * kGroupSize) + 0.5f);
-    if (length(motion) >= params.halfResolutionPx) {
-        gatherHalf(block, abs(motion.x) >= abs(motion.y));
+    vec2 along = abs(motion);
+    // Across the smear the picture keeps its detail: pixels stand side by side along it, or none do.
+    bool straight = min(along.x, along.y) <= 0.25f * max(along.x, along.y);
+    if (straight && length(motion) >= params.halfResolutionPx) {
+        gatherHalf(block, along.x >= along.y);
         return;
     }
     ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);

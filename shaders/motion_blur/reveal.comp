@@ -6,4 +6,4 @@
 
 layout(local_size_x = kRevealThreads) in;
 
-void main() { revealPixel(gl_GlobalInvocationID.x); }
+void main() { revealPixel((gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads + gl_LocalInvocationID.x); }

@@ -8,7 +8,7 @@
 layout(local_size_x = kRevealThreads) in;
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads + gl_LocalInvocationID.x;
     if (index >= header.listedPixels) return;
     vec2 centre = vec2(pixelOf(pixels[index])) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);

@@ -58,8 +58,9 @@ void storeRevealed(uint entry, Revealed revealed) {
     ivec2 pixel = pixelOf(entry);
     storeAt(pixel, revealed);
     if ((entry & kQuadFlag) == 0u) return;
-    for (int i = 1; i < 4; ++i) {
-        ivec2 sharing = pixel + ivec2(i % 2, i / 2);
+    for (int i = 1; i < 4; ++i) { // those before its own are not masked
+        ivec2 sharing = pixel - pixel % 2 + ivec2(i % 2, i / 2);
+        if (sharing == pixel) continue;
         if (any(greaterThanEqual(uvec2(sharing), params.sizePx))) continue;
         vec2 uv = (vec2(sharing) + 0.5f) / vec2(params.sizePx);
         if (textureLod(uMask, uv, 0.0f).x > 0.5f) storeAt(sharing, revealed);

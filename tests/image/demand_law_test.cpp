@@ -111,6 +111,23 @@ TEST_F(DemandLaw, BeforeTheSkyNoRayIsTracedAndThePictureIsTheSame) {
     EXPECT_TRUE(test::sameBits(frame.color, expected.color));
 }
 
+TEST_F(DemandLaw, WithoutRaysHybridIsSkippedBeforeTheSkyToo) {
+    gpu::DeviceOptions options;
+    options.validate = true;
+    options.bestTier = gpu::RayTier::None;
+    auto lower = gpu::Device::create(options);
+    ASSERT_TRUE(lower.ok());
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(
+        test::makeSphere(0.5, scene.addColor({1.0f, 0.4f, 0.1f})),
+        {.position = {0, 0, -2}, .velocity = {0.5, 0.2, 0}}
+    );
+    const auto frame = test::renderOnce(*lower.value(), scene, hybridShot());
+    EXPECT_NE(test::describeMotionBlur(frame).find("needs rays"), std::string::npos);
+    EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
+}
+
 TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
     if (!device().hasRays())
         GTEST_SKIP() << "the device traces no rays";

@@ -94,9 +94,11 @@ stability::Measured checkMedian(
 stability::Measured checkLine(std::string check, const Curve& curve) {
     constexpr double kUnexplained = 0.02;
     stability::Measured row{std::move(check), 0.0, kUnexplained, "1 - r²", curve.points.size()};
-    if (!curve.line) {
+    // Any two points lie on a line.
+    constexpr size_t kLeastPoints = 4;
+    if (!curve.line || curve.points.size() < kLeastPoints) {
         row.worst = std::numeric_limits<double>::quiet_NaN();
-        row.note = "there is no line through the points";
+        row.note = "too few points for a line";
         return row;
     }
     row.worst = std::max(1.0 - curve.line->r2, 0.0);

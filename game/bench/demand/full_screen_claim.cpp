@@ -32,6 +32,20 @@ stability::Measured checkFloor(const Frames& gather, const Frames& floor) {
     );
 }
 
+/// Without this, a filter with nothing to do would be as fast as its floor.
+stability::Measured checkFullPath(const Frames& gather) {
+    const auto& counters = gather.back().counters;
+    const auto count = [&](const char* name) { return double(counters.at(name)); };
+    const double all = count("blocks still") + count("blocks uniform") + count("blocks mixed") +
+                       count("blocks masked");
+    return {
+        "gather: blocks without the full filter",
+        1.0 - count("blocks mixed") / all,
+        0.1,
+        "of the picture's",
+        gather.size()};
+}
+
 core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOptions& options) {
     auto stage = loadFullScreen(options);
     if (!stage)
@@ -80,6 +94,7 @@ core::Result<Findings> measureFullScreen(gpu::Device& device, const DemandOption
         ));
     }
     findings.checks.push_back(checkFloor(frames.value().front(), frames.value().back()));
+    findings.checks.push_back(checkFullPath(frames.value().front()));
     return findings;
 }
 

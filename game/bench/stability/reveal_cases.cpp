@@ -51,10 +51,12 @@ class RevealEverywhere : public render::PostEffect {
             context.color,
             context.gbuffer.motionDepth,
             context.gbuffer.meshId,
+            context.color, // of the mask: read for entries that share a ray only, and none does
             context.graph.importBuffer("all pixels", mList.handle(), mList.bytes()),
             context.graph.importBuffer("all groups", mArguments.handle(), mArguments.bytes()),
             motion_blur::RayInputs{
                 .topLevelBuffer = context.rays->topLevelBuffer,
+                .movingLevelBuffer = context.rays->movingLevelBuffer,
                 .topLevel = context.rays->topLevel,
                 .scene = context.rays->textures,
                 .frame = params.frame}};

@@ -111,7 +111,7 @@ Cleared addClear(graph::Graph& graph, const shader::MotionBlurParams& params) {
                 );
             const shader::MaskHeader header{};
             clearList(context, data.list, &header, sizeof(header));
-            const shader::DispatchArguments reveal{0, 1, 1};
+            const shader::DispatchArguments reveal{0, 0, 1};
             clearList(context, data.arguments, &reveal, sizeof(reveal));
             vkCmdFillBuffer(
                 context.commands, context.resources.buffer(data.tiles), 0, VK_WHOLE_SIZE, 0

@@ -30,6 +30,8 @@ MotionBlurPlugin::MotionBlurPlugin(
     : mBudget(budget, settings), mEffect(device, scene.textureLayout()) {}
 
 render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
+    if (settings().method == Method::Hybrid && !facts.deviceHasRays)
+        return {false, "it needs rays, which the device cannot trace"};
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
     if (!facts.moves)
@@ -42,7 +44,7 @@ render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
 
 render::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
     if (settings().method != Method::Hybrid)
-        return {false, "its method reveals nothing"};
+        return {}; // it never does
     // Other tests than by mesh id, and steps that end at a limit, show an entity behind itself.
     if (settings().objectTest != ObjectTest::MeshId ||
         settings().revealTraversal != RevealTraversal::Single)
@@ -52,7 +54,7 @@ render::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const
 
 render::Decision MotionBlurPlugin::askMovingRays(const render::ViewFacts&) const {
     if (settings().method != Method::Denoised)
-        return {false, "its method has no rays with times of their own"};
+        return {}; // it never does
     return {true, "its method has rays with times of their own"};
 }
 
@@ -89,6 +91,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             render::splitAddress(context.movingRays->frameConstants),
             render::splitAddress(context.movingRays->movingConstants)};
     mDrawnRung = mBudget.rung();
+    mDrawnMethod = settings().method;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
     if (settings().method == Method::Hybrid && !context.rays)
@@ -129,13 +132,13 @@ void MotionBlurPlugin::measure(render::Measures& measures) {
 
 void MotionBlurPlugin::collect(render::Counters& counters) {
     const MotionBlurCounters counted = mEffect.counters();
-    if (settings().method != Method::Denoised) {
+    if (mDrawnMethod != Method::Denoised) {
         counters["blocks still"] = counted.blocks.still;
         counters["blocks uniform"] = counted.blocks.uniform;
         counters["blocks mixed"] = counted.blocks.mixed;
         counters["blocks masked"] = counted.blocks.masked;
     }
-    if (settings().method != Method::Hybrid)
+    if (mDrawnMethod != Method::Hybrid)
         return;
     counters["pixels masked"] = counted.maskedPixels;
     counters["rays traced"] = counted.raysTraced;

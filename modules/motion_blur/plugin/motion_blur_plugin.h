@@ -43,8 +43,9 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] const MotionBlurSettings& settings() const { return mBudget.current().settings; }
 
     BudgetController mBudget;
-    size_t mDrawnRung = 0;      ///< of the frame declared last
-    double mMilliseconds = 0.0; ///< that it took
+    Method mDrawnMethod = Method::Hybrid; ///< of the frame declared last
+    size_t mDrawnRung = 0;                ///< of the frame declared last
+    double mMilliseconds = 0.0;           ///< that it took
     MotionBlur mEffect;
 };
 

@@ -123,6 +123,22 @@ TEST(Budget, TheLadderSaysWhatItGivesUp) {
     EXPECT_EQ(rungs.back().gaveUp, "motion blur altogether");
 }
 
+TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
+    const auto rungs = makeRungs(settingsOf(Method::Denoised, 4));
+    EXPECT_EQ(rungs[1].gaveUp, "2 of 4 samples");
+    EXPECT_EQ(rungs[2].gaveUp, "3 of 4 samples");
+    EXPECT_EQ(rungs[3].gaveUp, "all rays");
+    EXPECT_EQ(rungs[3].settings.method, Method::Gather);
+    EXPECT_EQ(rungs[4].gaveUp, "all rays, 3 of 15 samples");
+}
+
+TEST(Budget, WithoutAUniformPathThereIsNoResolutionToGiveUp) {
+    MotionBlurSettings settings = settingsOf(Method::Hybrid);
+    settings.uniformMotionPx = 0.0f;
+    for (const BudgetRung& rung : makeRungs(settings))
+        EXPECT_EQ(rung.gaveUp.find("resolution"), std::string::npos) << rung.gaveUp;
+}
+
 TEST(Budget, OnlyATimeAboveZeroIsABudget) {
     EXPECT_TRUE(validate(BlurBudget{}).ok());
     EXPECT_TRUE(validate(BlurBudget{0.1}).ok());
@@ -186,6 +202,20 @@ TEST(Budget, ALittleTooMuchCostsOneRungAndFarTooMuchSeveral) {
     BudgetController far({12.0}, settingsOf(Method::Hybrid));
     drive(far, {}, 2);
     EXPECT_GT(far.rung(), 3u);
+}
+
+TEST(Budget, ASuddenLoadIsJudgedByItselfNotByTheCalmBefore) {
+    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    drive(controller, {0.2, 0.2, 2.0}, 500);
+    ASSERT_EQ(controller.rung(), 0u);
+    drive(controller, {1.0, 1.0, 40.0}, 2);
+    EXPECT_GT(controller.rung(), 3u);
+}
+
+TEST(Budget, TriesThatKeepFailingGrowRare) {
+    BudgetController controller({18.0}, settingsOf(Method::Hybrid));
+    drive(controller, {1.0, 1.0, 25.0}, 6000);
+    EXPECT_LE(drive(controller, {1.0, 1.0, 25.0}, 3000).changes(0), 8u);
 }
 
 TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {

@@ -190,18 +190,18 @@ TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
     EXPECT_EQ(params.backgroundMagnification, 6.0f);
     EXPECT_EQ(params.jitter, 0.75f);
     EXPECT_EQ(params.recursionLimit, 9u);
-    EXPECT_EQ(params.objectTest, shader::kObjectTestLuminance);
-    EXPECT_EQ(params.revealTraversal, shader::kRevealTraversalStepping); // by luminance: always
+    EXPECT_EQ(
+        params.choices,
+        shader::kChooseLuminanceTest | shader::kChooseSteppingReveal | // by luminance: always
+            shader::kChooseVelocityOccluder
+    );
     EXPECT_EQ(params.luminanceThreshold, 0.125f);
-    EXPECT_EQ(params.occluderTest, shader::kOccluderTestVelocity);
     EXPECT_EQ(params.centreBias, 20.0f);
     EXPECT_EQ(params.speedThresholdPx, 2.5f);
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).occluderTest, shader::kOccluderTestNone);
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).objectTest, shader::kObjectTestMeshId);
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).revealTraversal, shader::kRevealTraversalSingle);
-    settings.objectTest = ObjectTest::MeshId;
+    EXPECT_EQ(resolve({}, 8, 8, 1.0).choices, 0u);
+    settings = {};
     settings.revealTraversal = RevealTraversal::Stepping;
-    EXPECT_EQ(resolve(settings, 8, 8, 1.0).revealTraversal, shader::kRevealTraversalStepping);
+    EXPECT_EQ(resolve(settings, 8, 8, 1.0).choices, shader::kChooseSteppingReveal);
 }
 
 TEST(MotionBlurSettings, EachMethodListsWhatItReads) {

@@ -2,6 +2,8 @@
 #include "engine/render/backdrop.h"
 #include "tests/unit/render/extraction_fixture.h"
 
+#include <limits>
+
 namespace shutter::render {
 
 namespace {
@@ -38,6 +40,23 @@ TEST_F(Backdrop, WhatStandsBesideOrBeforeItMayNot) {
     addBox({0.0, 0.0, -4.0});   // before it, although it hides part of it
     addBox({12.0, 0.0, -20.0}); // in the picture, to the right of it
     EXPECT_FALSE(decide().run);
+}
+
+TEST_F(Backdrop, WhatAdjoinsItOnTheScreenCountsAsBehind) {
+    // Their boxes touch: the mover's right side at 1/9 of the distance, the other's left one at
+    // 2/18.
+    addMover({0.0, 0.0, -10.0});
+    addBox({3.302, 0.0, -19.0});
+    EXPECT_TRUE(decide().run);
+}
+
+TEST_F(Backdrop, WhatIsNoNumberMayBeAnywhere) {
+    addMover({0.0, 0.0, -10.0});
+    addBox({12.0, 0.0, -20.0});
+    ExtractedFrame frame = extract();
+    ASSERT_FALSE(decideReveal(frame, layout).run);
+    frame.entities[1].eyeFromObject[2][3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(decideReveal(frame, layout).run);
 }
 
 TEST_F(Backdrop, AMoverMayRevealAnotherOne) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -42,6 +44,9 @@ class RayMasksOfAFrame : public ::testing::Test {
         row.rayMask = moves ? 0x55u : 0u; // whatever an earlier frame left
         if (moves)
             frame.movingRows.push_back(static_cast<uint32_t>(frame.entities.size()));
+        DrawItem draw;
+        draw.entity = static_cast<uint32_t>(frame.entities.size());
+        (moves ? frame.opaque.moving : frame.opaque.still).push_back(draw);
         frame.entities.push_back(row);
         frame.entityMeshes.push_back(0);
         frame.changes.ownRows = frame.entities.size();
@@ -81,6 +86,7 @@ TEST_F(RayMasksOfAFrame, BeforeAMovingCameraWhatStandsStillInTheWorldGetsOneToo)
     add(5.0, false);
     add(5.0, true);
     frame.movingRows.clear(); // it moves in the picture only
+    std::swap(frame.opaque.moving, frame.opaque.still);
     frame.stillMotions.resize(1);
     const auto masks = assign();
     EXPECT_EQ(masks[0], 0u);
