@@ -13,13 +13,14 @@ namespace shutter::motion_blur {
 
 namespace {
 
-constexpr double kSmoothing = 0.25;       ///< weight of a new frame's time
-constexpr double kRoom = 0.85;            ///< of the budget, for the rung above
-constexpr double kFarOver = 1.5;          ///< of the budget: not one rung but to where it fits
-constexpr uint32_t kFramesOver = 2;       ///< one slow frame is a hiccup
-constexpr uint32_t kLeastWait = 15;       ///< frames
-constexpr uint32_t kMostWait = 960;       ///< frames
-constexpr uint32_t kTrialFrames = 30;     ///< a step up that ends within them has failed
+constexpr double kSmoothing = 0.25;   ///< weight of a new frame's time
+constexpr double kRoom = 0.85;        ///< of the budget, for the rung above
+constexpr double kFarOver = 1.5;      ///< of the budget: not one rung but to where it fits
+constexpr uint32_t kFramesOver = 2;   ///< one slow frame is a hiccup
+constexpr uint32_t kLeastWait = 15;   ///< frames
+constexpr uint32_t kMostWait = 960;   ///< frames
+constexpr uint32_t kTrialFrames = 30; ///< a step up that ends within them has failed
+constexpr uint32_t kCalmFrames = 4 * kTrialFrames; ///< after a step up: it has not failed
 constexpr float kHalfResolutionPx = 8.0f; ///< motion long enough for half of the resolution
 constexpr uint32_t kLeastSamples = 4;     ///< fewer are no blur but ghosts
 
