@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The trace layer of ray-tracing pipelines (trace.glsl includes it): for the shader in which rays
-// start. trace.rahit, trace.rchit and trace.rmiss are the others.
+// start. The pipeline that uses it has the others beside its own (motion_blur/reveal.rahit, .rchit, .rmiss).
 #ifndef SHUTTER_TRACE_PIPELINE_GLSL
 #define SHUTTER_TRACE_PIPELINE_GLSL
 

@@ -2,11 +2,11 @@
 #include "modules/motion_blur/passes/ray_reveal.h"
 
 #include "spirv/motion_blur/reveal.comp.h"
+#include "spirv/motion_blur/reveal.rahit.h"
+#include "spirv/motion_blur/reveal.rchit.h"
 #include "spirv/motion_blur/reveal.rgen.h"
+#include "spirv/motion_blur/reveal.rmiss.h"
 #include "spirv/motion_blur/reveal_sky.comp.h"
-#include "spirv/render/trace.rahit.h"
-#include "spirv/render/trace.rchit.h"
-#include "spirv/render/trace.rmiss.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
 
@@ -50,9 +50,9 @@ gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasB
     gpu::RayPipelineDesc desc;
     desc.name = shared.name;
     desc.raygenSpirv = motion_blur_reveal_rgen;
-    desc.missSpirv = render_trace_rmiss;
-    desc.closestHitSpirv = render_trace_rchit;
-    desc.anyHitSpirv = render_trace_rahit;
+    desc.missSpirv = motion_blur_reveal_rmiss;
+    desc.closestHitSpirv = motion_blur_reveal_rchit;
+    desc.anyHitSpirv = motion_blur_reveal_rahit;
     desc.interface = std::move(shared.interface);
     desc.specialization = std::move(shared.specialization);
     return desc;
