@@ -24,18 +24,10 @@ constexpr Variant kVariants[] = {
 
 core::Result<std::unique_ptr<Stage>>
 loadVariant(const DemandOptions& options, const Variant& variant) {
-    game::RenderArguments arguments;
-    arguments.camera = generator::kScalingCamera;
-    arguments.time = generator::kScalingSeconds;
-    arguments.exposureSeconds = generator::kScalingExposureSeconds;
-    arguments.phase = generator::kScalingPhase;
-    return loadStage(
+    return loadScalingStage(
         options,
         fmt::format("movers-{}{}", variant.count, variant.merged ? "-merged" : ""),
-        [variant] {
-            return generator::buildFewMoversScene(variant.count, kMovers, variant.merged);
-        },
-        std::move(arguments)
+        [variant] { return generator::buildFewMoversScene(variant.count, kMovers, variant.merged); }
     );
 }
 

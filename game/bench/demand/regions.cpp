@@ -29,16 +29,10 @@ constexpr std::array kRegions = {
 };
 
 core::Result<std::unique_ptr<Stage>> loadRegion(const DemandOptions& options, Region region) {
-    game::RenderArguments arguments;
-    arguments.camera = generator::kScalingCamera;
-    arguments.time = generator::kScalingSeconds;
-    arguments.exposureSeconds = generator::kScalingExposureSeconds;
-    arguments.phase = generator::kScalingPhase;
-    return loadStage(
+    return loadScalingStage(
         options,
         fmt::format("region-{}x{}", region.columns, region.rows),
-        [region] { return generator::buildMovingRegionScene(region.columns, region.rows); },
-        std::move(arguments)
+        [region] { return generator::buildMovingRegionScene(region.columns, region.rows); }
     );
 }
 

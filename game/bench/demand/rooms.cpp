@@ -20,4 +20,19 @@ core::Result<std::unique_ptr<Stage>> loadRoom(const DemandOptions& options, cons
     return loadStage(options, room.name, room.build, std::move(arguments));
 }
 
+core::Result<Findings> measureRooms(
+    gpu::Device& device,
+    const DemandOptions& options,
+    const std::function<core::Status(Findings&, gpu::Device&, const DemandOptions&, const Room&)>&
+        add
+) {
+    if (!device.hasRays())
+        return core::makeError("{} traces no rays", device.info().name);
+    Findings findings;
+    for (const Room& room : listRooms())
+        if (core::Status added = add(findings, device, options, room); !added)
+            return added.error();
+    return findings;
+}
+
 } // namespace shutter::demand

@@ -5,6 +5,7 @@
 #include "game/bench/demand/subject.h"
 
 #include <array>
+#include <functional>
 #include <memory>
 
 namespace shutter::demand {
@@ -20,5 +21,13 @@ struct Room {
 /// Camera `main`, at time 0, the scene's own exposure, which ends there.
 [[nodiscard]] core::Result<std::unique_ptr<Stage>>
 loadRoom(const DemandOptions& options, const Room& room);
+
+/// What `add` finds in each room. Error: the device traces no rays, or add's.
+[[nodiscard]] core::Result<Findings> measureRooms(
+    gpu::Device& device,
+    const DemandOptions& options,
+    const std::function<core::Status(Findings&, gpu::Device&, const DemandOptions&, const Room&)>&
+        add
+);
 
 } // namespace shutter::demand

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/demand/subject.h"
 
+#include "assets/generator/scaling_scenes.h"
+
 #include <array>
 #include <ctime>
 
@@ -51,6 +53,19 @@ core::Result<std::unique_ptr<Stage>> loadStage(
         return shot.error();
     stage->shot = std::move(shot).value();
     return stage;
+}
+
+core::Result<std::unique_ptr<Stage>> loadScalingStage(
+    const DemandOptions& options,
+    const std::string& name,
+    const std::function<generator::GltfWriter()>& build
+) {
+    game::RenderArguments arguments;
+    arguments.camera = generator::kScalingCamera;
+    arguments.time = generator::kScalingSeconds;
+    arguments.exposureSeconds = generator::kScalingExposureSeconds;
+    arguments.phase = generator::kScalingPhase;
+    return loadStage(options, name, build, std::move(arguments));
 }
 
 std::unique_ptr<Stage> makeStage(stability::SceneDraft& draft, double exposureSeconds) {

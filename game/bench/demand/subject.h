@@ -35,6 +35,13 @@ struct Stage {
     game::RenderArguments arguments
 );
 
+/// The same of a scene of assets/generator/scaling_scenes.h, with its own camera, time and shutter.
+[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadScalingStage(
+    const DemandOptions& options,
+    const std::string& name,
+    const std::function<generator::GltfWriter()>& build
+);
+
 /// A scene made in code, with a physical shutter that ends at the raster instant.
 [[nodiscard]] std::unique_ptr<Stage>
 makeStage(stability::SceneDraft& draft, double exposureSeconds);

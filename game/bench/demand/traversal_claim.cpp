@@ -108,13 +108,7 @@ addRoom(Findings& findings, gpu::Device& device, const DemandOptions& options, c
 }
 
 core::Result<Findings> measureTraversals(gpu::Device& device, const DemandOptions& options) {
-    if (!device.hasRays())
-        return core::makeError("{} traces no rays", device.info().name);
-    Findings findings;
-    for (const Room& room : listRooms())
-        if (core::Status added = addRoom(findings, device, options, room); !added)
-            return added.error();
-    return findings;
+    return measureRooms(device, options, addRoom);
 }
 
 } // namespace
