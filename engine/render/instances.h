@@ -42,6 +42,12 @@ class InstanceList {
         uint32_t solidMask = shader::kSolidMask);
     void add(const gpu::Instance& instance, const Box& box);
 
+    /// Empties it; the memory stays.
+    void clear() {
+        mInstances.clear();
+        mBoxes.clear();
+    }
+
     /// As they were added.
     [[nodiscard]] const std::vector<gpu::Instance>& instances() const { return mInstances; }
 

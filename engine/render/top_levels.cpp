@@ -37,7 +37,12 @@ TopLevelHandles TopLevels::declare(
     TopLevelHandles handles;
     handles.shapesBuffer = mShapeLevels.declare(graph, frame, scene, shapes);
     mShapesBuffer = handles.shapesBuffer;
-    InstanceList moving(scene);
+    // Kept from frame to frame: an allocation may have the allocator clean up behind all the draws
+    // that the driver recorded, for milliseconds.
+    if (!mMovingInstances)
+        mMovingInstances.emplace(scene);
+    InstanceList& moving = *mMovingInstances;
+    moving.clear();
     listMoving(frame, moving);
     const bool apart = frame.changes.ownRows - frame.movingRows.size() >= kStillLevelInstances;
     bool build = false;

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace shutter::render {
@@ -35,7 +36,7 @@ class TopLevels {
     explicit TopLevels(gpu::Device& device) : mDevice(device), mShapeLevels(device) {}
 
     /// Declares the builds that the frame calls for, of bent meshes too. The GPU must be done with
-    /// the last frame's. `scene` has its bottom levels.
+    /// the last frame's. `scene` has its bottom levels, and is the same in every call.
     [[nodiscard]] TopLevelHandles declare(
         graph::Graph& graph,
         const ExtractedFrame& frame,
@@ -65,6 +66,7 @@ class TopLevels {
     graph::BufferHandle mShapesBuffer; ///< of this frame
     Level mStill;                      ///< holds all, unless the movers are apart
     Level mMoving;
+    std::optional<InstanceList> mMovingInstances;
     std::vector<uint32_t> mStillOrder; ///< rows that stand still, in spatial order
     uint64_t mStillSet = 0;            ///< ExtractedFrame's, of mStillOrder
     uint64_t mStillRevision = 0;       ///< ExtractedFrame's, of mStill; 0: it holds others too
