@@ -367,6 +367,36 @@ TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
     }
 }
 
+TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
+    // A mover fills the tiles at the left; with neighbourhoods of one tile only the jitter of the
+    // look-up carries its smear over the border at x = 16.
+    constexpr uint32_t kTile = 16;
+    Scene scene = makeScene();
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            scene.motionDepth.at(x, y, 0) = x < kTile ? 14.0f : 0.0f;
+            scene.motionDepth.at(x, y, 1) = 0.0f;
+            scene.motionDepth.at(x, y, 2) = x < kTile ? 1.0f : 3.0f;
+        }
+    for (const Method method : {Method::Guertin2014, Method::Jimenez2014}) {
+        MotionBlurSettings settings;
+        settings.method = method;
+        settings.tileSizePx = kTile;
+        settings.neighbourhoodTiles = 1;
+        const Image blurred = blur(device(), scene, settings);
+        const double across =
+            test::computeMaxDifferenceWhere(blurred, scene.color, [](uint32_t x, uint32_t) {
+                return x >= kTile && x < kTile + kTile / 4;
+            });
+        EXPECT_GT(across, 0.05) << int(method);
+        const double beyond =
+            test::computeMaxDifferenceWhere(blurred, scene.color, [](uint32_t x, uint32_t) {
+                return x >= 2 * kTile;
+            });
+        EXPECT_LE(beyond, 1e-3) << int(method); // rounding to half floats
+    }
+}
+
 TEST_F(ScreenFilters, MotionThatIsNotFiniteCountsAsNone) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();

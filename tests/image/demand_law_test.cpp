@@ -43,6 +43,15 @@ SceneBuilder makeCrossing() {
     return scene;
 }
 
+/// A sheet of waves beyond the borders of 120 pixels' height, that moves in pixels a second.
+SceneBuilder makePan(const dvec3& velocity) {
+    SceneBuilder scene;
+    scene.setPixelView(120);
+    const auto waves = scene.addTextured(scene.addWaves());
+    scene.add(test::makeQuad(900.0, 900.0, waves), {.position = {0, 0, -10}, .velocity = velocity});
+    return scene;
+}
+
 Shot hybridShot() {
     return {
         .method = Method::Hybrid,
@@ -220,30 +229,20 @@ TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
 }
 
 TEST_F(DemandLaw, HalfOfTheResolutionIsForSmearsAlongRowsAndColumns) {
-    SceneBuilder scene;
-    scene.setPixelView(120);
-    const auto waves = scene.addTextured(scene.addWaves());
-    scene.add(
-        test::makeQuad(900.0, 900.0, waves), {.position = {0, 0, -10}, .velocity = {20.0, 20.0, 0}}
-    );
+    const SceneBuilder scene = makePan({20.0, 20.0, 0});
     Shot shot = hybridShot();
     shot.method = Method::Gather;
     const auto full = test::renderOnce(device(), scene, shot);
+    EXPECT_GT(full.statistics.counters.at("blocks uniform"), 200u);
     shot.settings.halfResolutionPx = 8.0f;
     EXPECT_TRUE(test::sameBits(test::renderOnce(device(), scene, shot).color, full.color));
 }
 
 TEST_F(DemandLaw, HalfOfTheResolutionAlongAPanIsHardToTell) {
-    SceneBuilder scene;
-    scene.setPixelView(120);
-    const auto waves = scene.addTextured(scene.addWaves());
-    scene.add(
-        test::makeQuad(900.0, 900.0, waves), {.position = {0, 0, -10}, .velocity = {24.0, 3.0, 0}}
-    );
+    const SceneBuilder scene = makePan({24.0, 3.0, 0});
     Shot shot = hybridShot();
     shot.method = Method::Gather;
     const auto full = test::renderOnce(device(), scene, shot);
-    EXPECT_GT(full.statistics.counters.at("blocks uniform"), 200u);
     shot.settings.halfResolutionPx = 8.0f;
     const auto half = test::renderOnce(device(), scene, shot);
     EXPECT_FALSE(test::sameBits(half.color, full.color));

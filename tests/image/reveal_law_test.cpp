@@ -78,6 +78,18 @@ Placement wall() {
         .rotation = glm::angleAxis(0.4, glm::normalize(dvec3(0.3, 1.0, 0.0)))};
 }
 
+TEST_F(RevealLaw, MorePixelsAreRevealedThanOneRowOfGroupsHolds) {
+    // A row is 256 groups of 64 pixels.
+    Shot shot = revealShot();
+    shot.width = 768;
+    shot.height = 576;
+    const auto background = [](SceneBuilder& scene) {
+        setCamera(scene);
+        scene.add(test::makeQuad(9.0, 9.0, scene.addTextured(scene.addWaves())), wall());
+    };
+    expectRevealIsRaster(device(), background, addOccluder, shot, 256 * 64 + 64);
+}
+
 TEST_F(RevealLaw, ATexturedWallIsRevealedAsRasterDrawsIt) {
     expectRevealIsRaster(
         device(),
