@@ -81,8 +81,8 @@ Placement wall() {
 TEST_F(RevealLaw, MorePixelsAreRevealedThanOneRowOfGroupsHolds) {
     // A row is 256 groups of 64 pixels.
     Shot shot = revealShot();
-    shot.width = 768;
-    shot.height = 576;
+    shot.width = 960;
+    shot.height = 720;
     const auto background = [](SceneBuilder& scene) {
         setCamera(scene);
         scene.add(test::makeQuad(9.0, 9.0, scene.addTextured(scene.addWaves())), wall());
