@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 
+#include <array>
 #include <fstream>
 #include <system_error>
 #include <unistd.h>
@@ -53,7 +54,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         if (!chosen)
             return chosen.error();
         device->mInfo = chosen.value();
-        if (core::Status made = device->createLogicalDevice(); !made)
+        if (core::Status made = device->createLogicalDevice(!options.surfaceExtensions.empty());
+            !made)
             return made.error();
         device->loadFunctions();
         device->loadLimits();
@@ -97,7 +99,7 @@ Device::~Device() {
         vkDestroyInstance(mInstance, nullptr);
 }
 
-core::Status Device::createLogicalDevice() {
+core::Status Device::createLogicalDevice(bool presents) {
     uint32_t familyCount = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(mInfo.handle, &familyCount, nullptr);
     std::vector<VkQueueFamilyProperties> families(familyCount);
@@ -154,6 +156,9 @@ core::Status Device::createLogicalDevice() {
             VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
             hasRayQuery() ? VK_KHR_RAY_QUERY_EXTENSION_NAME
                           : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+
+    if (presents)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
@@ -273,18 +278,25 @@ void Device::savePipelineCache() const {
         std::filesystem::remove(temporary, ignored);
 }
 
-uint64_t Device::submit(VkCommandBuffer commands) {
+uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores) {
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     buffer.commandBuffer = commands;
-    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    signal.semaphore = mTimeline;
-    signal.value = mLastSubmitted + 1;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    const auto at = [](VkSemaphore semaphore, uint64_t value) {
+        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        info.semaphore = semaphore;
+        info.value = value; // of timelines only
+        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        return info;
+    };
+    const VkSemaphoreSubmitInfo wait = at(semaphores.wait, 0);
+    const std::array signals{at(mTimeline, mLastSubmitted + 1), at(semaphores.signal, 0)};
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &buffer;
-    info.signalSemaphoreInfoCount = 1;
-    info.pSignalSemaphoreInfos = &signal;
+    info.waitSemaphoreInfoCount = semaphores.wait ? 1 : 0;
+    info.pWaitSemaphoreInfos = &wait;
+    info.signalSemaphoreInfoCount = semaphores.signal ? 2 : 1;
+    info.pSignalSemaphoreInfos = signals.data();
     require(vkQueueSubmit2(mQueue, 1, &info, VK_NULL_HANDLE), "submitting a frame");
     return ++mLastSubmitted;
 }

@@ -26,6 +26,15 @@ struct DeviceOptions {
     bool allowIndirectLaunch = true;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
+    /// Instance extensions of the window system; with any, the device can show pictures
+    /// (swapchain.h).
+    std::vector<std::string> surfaceExtensions;
+};
+
+/// Semaphores of one submission; null: none.
+struct SubmitSemaphores {
+    VkSemaphore wait = VK_NULL_HANDLE;   ///< the submission starts once it is signalled
+    VkSemaphore signal = VK_NULL_HANDLE; ///< signalled when the submission is done
 };
 
 /// Entry points of extensions, loaded once.
@@ -74,6 +83,8 @@ class Device {
 
     [[nodiscard]] VkDevice handle() const { return mDevice; }
 
+    [[nodiscard]] VkInstance instance() const { return mInstance; }
+
     [[nodiscard]] VkPhysicalDevice physical() const { return mInfo.handle; }
 
     [[nodiscard]] VkQueue queue() const { return mQueue; }
@@ -108,7 +119,7 @@ class Device {
     [[nodiscard]] LivingObjects& living() { return mLiving; }
 
     /// Submits and returns the timeline value that is reached when it is done.
-    uint64_t submit(VkCommandBuffer commands);
+    uint64_t submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores = {});
     void wait(uint64_t timelineValue);
     void waitIdle();
     [[nodiscard]] uint64_t completedValue() const;
@@ -125,7 +136,7 @@ class Device {
   private:
     Device() = default;
     core::Status createInstance(const DeviceOptions& options);
-    core::Status createLogicalDevice();
+    core::Status createLogicalDevice(bool presents);
     void loadFunctions();
     void loadLimits();
     void createSampler();

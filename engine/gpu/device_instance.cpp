@@ -56,6 +56,8 @@ core::Status Device::createInstance(const DeviceOptions& options) {
 
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
+    for (const std::string& wanted : options.surfaceExtensions)
+        extensions.push_back(wanted.c_str());
     mHasDebugUtils = hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (options.validate) {
         if (!hasLayer(kValidationLayer))

@@ -14,6 +14,10 @@
 
 namespace shutter::gpu {
 
+/// Most frames that the CPU may be ahead of the GPU; what the CPU reads back or writes for a frame
+/// exists as often. A frame's slot, below this, says which is its own.
+inline constexpr uint32_t kMaxFramesInFlight = 3;
+
 /// GPU time of one labelled span, milliseconds.
 struct PassTime {
     std::string name;
@@ -47,10 +51,12 @@ class Frame {
     void beginSpan(const std::string& name);
     void endSpan();
 
-    /// Waits until the GPU is done with this frame's last use and starts recording.
+    /// Waits until the GPU is done with this frame's last use and starts recording. What is
+    /// recorded starts when all that was submitted before is done: frames in flight overlap with
+    /// the CPU, not with one another, and may share what only the GPU writes.
     void begin();
     /// Ends recording and submits.
-    void submit();
+    void submit(const SubmitSemaphores& semaphores = {});
     /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
     [[nodiscard]] std::vector<PassTime> waitForTimes();
     /// Waits for this frame's submission.

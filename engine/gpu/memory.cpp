@@ -136,6 +136,7 @@ uint32_t texelBytes(VkFormat format) {
         return 1;
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_B8G8R8A8_UNORM:
     case VK_FORMAT_R16G16_SFLOAT:
     case VK_FORMAT_R32_UINT:
     case VK_FORMAT_R32_SFLOAT:
@@ -188,6 +189,17 @@ Image Image::createUnbound(Device& device, std::string name, const ImageDesc& de
     return image;
 }
 
+Image Image::adopt(Device& device, std::string name, VkImage image, const ImageDesc& desc) {
+    Image adopted;
+    adopted.mDevice = &device;
+    adopted.mName = std::move(name);
+    adopted.mDesc = desc;
+    adopted.mImage = image;
+    adopted.mAdopted = true;
+    adopted.createView();
+    return adopted;
+}
+
 Image::~Image() {
     release();
 }
@@ -207,6 +219,7 @@ Image& Image::operator=(Image&& other) noexcept {
     mView = std::exchange(other.mView, VK_NULL_HANDLE);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
     mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
+    mAdopted = other.mAdopted;
     return *this;
 }
 
@@ -238,14 +251,18 @@ void Image::createView() {
 void Image::release() {
     if (!mImage)
         return;
-    mDevice->retire(
-        [device = mDevice, image = mImage, view = mView, memory = mMemory, bytes = mMemoryBytes] {
-            vkDestroyImageView(device->handle(), view, nullptr);
-            vkDestroyImage(device->handle(), image, nullptr);
-            --device->living().images;
-            freeMemory(*device, memory, bytes);
-        }
-    );
+    mDevice->retire([device = mDevice,
+                     image = mAdopted ? VK_NULL_HANDLE : mImage,
+                     view = mView,
+                     memory = mMemory,
+                     bytes = mMemoryBytes] {
+        vkDestroyImageView(device->handle(), view, nullptr);
+        if (!image)
+            return;
+        vkDestroyImage(device->handle(), image, nullptr);
+        --device->living().images;
+        freeMemory(*device, memory, bytes);
+    });
     mImage = VK_NULL_HANDLE;
 }
 

@@ -87,7 +87,8 @@ struct ImageDesc {
 [[nodiscard]] uint32_t texelBytes(VkFormat format);
 [[nodiscard]] VkImageAspectFlags aspectOf(VkFormat format);
 
-/// A 2D image and its view. Owns its memory unless it was placed into somebody else's.
+/// A 2D image and its view. Owns its memory unless it was placed into somebody else's, and the
+/// image unless it was adopted.
 class Image {
   public:
     Image() = default;
@@ -96,6 +97,9 @@ class Image {
     /// Without memory: ask requirements(), then bind().
     [[nodiscard]] static Image
     createUnbound(Device& device, std::string name, const ImageDesc& desc);
+    /// Somebody else's image, which must outlive this and its last use; only the view is its own.
+    [[nodiscard]] static Image
+    adopt(Device& device, std::string name, VkImage image, const ImageDesc& desc);
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;
@@ -123,6 +127,7 @@ class Image {
     VkImageView mView = VK_NULL_HANDLE;
     VkDeviceMemory mMemory = VK_NULL_HANDLE; ///< null: placed into somebody else's
     VkDeviceSize mMemoryBytes = 0;
+    bool mAdopted = false;
 };
 
 /// A block of device memory that images are placed into.

@@ -79,12 +79,22 @@ struct PostContext {
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
+    uint32_t slot = 0; ///< of the frames in flight, below gpu::kMaxFramesInFlight
 };
 
 /// Numbers an effect reports about a frame, e.g. "rays traced".
 using Counters = std::map<std::string, uint64_t>;
 /// Figures an effect measures, e.g. "standard error"; a later frame's replaces an earlier one's.
 using Measures = std::map<std::string, double>;
+
+/// A frame that the GPU is done with, as one effect sees it.
+struct FinishedFrame {
+    uint32_t slot = 0; ///< PostContext::slot of it
+    bool ran = false;  ///< the effect declared passes for it
+    std::span<const gpu::PassTime> passes; ///< of those it declared
+    Counters& counters;                    ///< takes what the effect counted, if it ran
+    Measures& measures;                    ///< takes what the effect measured, if it ran
+};
 
 class PostEffect {
   public:
@@ -104,15 +114,9 @@ class PostEffect {
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;
 
-    /// GPU times of the passes it declared, once the frame is done; none where it did not run.
-    /// Called each frame.
-    virtual void observe(std::span<const gpu::PassTime>) {}
-
-    /// Counters of the frame declared last; called when the GPU is done with it.
-    virtual void collect(Counters&) {}
-
-    /// Measures of the frame declared last; called when the GPU is done with it.
-    virtual void measure(Measures&) {}
+    /// Called for each frame that the effect was asked about, in their order, once the GPU is done
+    /// with it.
+    virtual void finish(FinishedFrame&) {}
 };
 
 } // namespace shutter::render

@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+double nowMilliseconds() {
+    return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
 }
 
 VkDeviceSize alignTable(VkDeviceSize bytes) {
@@ -38,7 +38,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.rasterShare = request.view.exposure.rasterShare;
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
-    facts.displayWanted = request.wantDisplay;
+    facts.displayWanted = request.wantDisplay || request.showsDisplay;
     return facts;
 }
 
@@ -57,10 +57,20 @@ void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
 
 } // namespace
 
-Renderer::Renderer(gpu::Device& device, const scene::Assets& assets)
-    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mFrame(device),
-      mPool(device), mReadback(device), mEntityTable(device), mDeformation(device),
-      mTopLevels(device), mMovingScene(device) {}
+Renderer::Slot::Slot(gpu::Device& device)
+    : frame(device), readback(device), entityTable(device), deformation(device), topLevels(device),
+      movingScene(device) {}
+
+Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
+    : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
+    SHUTTER_CHECK(
+        framesInFlight >= 1 && framesInFlight <= gpu::kMaxFramesInFlight,
+        "{} frames in flight",
+        framesInFlight
+    );
+    for (uint32_t i = 0; i < framesInFlight; ++i)
+        mSlots.push_back(std::make_unique<Slot>(device));
+}
 
 Renderer::RunningEffects Renderer::askEffects(
     std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
@@ -87,7 +97,10 @@ Renderer::RunningEffects Renderer::askEffects(
 }
 
 Renderer::TableAddresses Renderer::uploadTables(
-    ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
+    Slot& slot,
+    ExtractedFrame& frame,
+    const ViewRequest& view,
+    std::span<const shader::Geometry> bent
 ) {
     const std::span<const shader::Geometry> own = mScene.geometryRows();
     const VkDeviceSize lightsAt = alignTable(sizeof(shader::FrameConstants));
@@ -98,36 +111,41 @@ Renderer::TableAddresses Renderer::uploadTables(
         bent.empty() ? geometriesAt
                      : geometriesAt + (own.size() + bent.size()) * sizeof(shader::Geometry);
     const auto response = scene::computeResponseTable(view.exposure.shutter.response);
-    if (mTables.bytes() < total)
-        mTables = gpu::Buffer(
+    gpu::Buffer& tables = slot.tables;
+    if (tables.bytes() < total)
+        tables = gpu::Buffer(
             mDevice,
             "frame tables",
             total + total / 2,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Upload
         );
-    frame.constants.entities = splitAddress(mEntityTable.rows());
-    frame.constants.entityMotions = splitAddress(mEntityTable.motions());
-    frame.constants.lights = splitAddress(mTables.address() + lightsAt);
+    frame.constants.entities = splitAddress(slot.entityTable.rows());
+    frame.constants.entityMotions = splitAddress(slot.entityTable.motions());
+    frame.constants.lights = splitAddress(tables.address() + lightsAt);
     frame.constants.geometries =
-        splitAddress(bent.empty() ? mScene.geometryTable() : mTables.address() + geometriesAt);
+        splitAddress(bent.empty() ? mScene.geometryTable() : tables.address() + geometriesAt);
     frame.constants.materials = splitAddress(mScene.materialTable());
-    mTables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
-    mTables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    tables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
+    tables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
     if (response)
-        mTables.writeBytes(&*response, sizeof(*response), responseAt);
+        tables.writeBytes(&*response, sizeof(*response), responseAt);
     if (!bent.empty()) {
-        mTables.write(own, geometriesAt);
-        mTables.write(bent, geometriesAt + own.size_bytes());
+        tables.write(own, geometriesAt);
+        tables.write(bent, geometriesAt + own.size_bytes());
     }
-    return {mTables.address(), response ? mTables.address() + responseAt : 0};
+    return {tables.address(), response ? tables.address() + responseAt : 0};
 }
 
 void Renderer::declareTopLevels(
-    graph::Graph& graph, ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
+    Slot& slot,
+    graph::Graph& graph,
+    ExtractedFrame& frame,
+    const DeformedShapes& shapes,
+    RayScene& rays
 ) {
     mScene.buildBottomLevels();
-    const TopLevelHandles levels = mTopLevels->declare(graph, frame, mScene, shapes);
+    const TopLevelHandles levels = slot.topLevels->declare(graph, frame, mScene, shapes);
     rays.topLevelBuffer = levels.buffer;
     rays.movingLevelBuffer = levels.movingBuffer;
     rays.shapeLevelsBuffer = levels.shapesBuffer;
@@ -146,7 +164,20 @@ void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediat
 core::Result<FrameResult> Renderer::renderFrame(
     const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
 ) {
-    const Clock::time_point start = Clock::now();
+    SHUTTER_CHECK(mPending.empty(), "{} frames are unfinished", mPending.size());
+    if (core::Status submitted = submitFrame(world, request, effects); !submitted)
+        return submitted.error();
+    return finishFrame();
+}
+
+core::Status Renderer::submitFrame(
+    const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+) {
+    SHUTTER_CHECK(mPending.size() < mSlots.size(), "{} frames are unfinished", mPending.size());
+    PendingFrame pending;
+    pending.slot = mNextSlot;
+    pending.startMilliseconds = nowMilliseconds();
+    Slot& slot = *mSlots[mNextSlot];
     auto extracted = mExtractor.update(world, mScene.layout(), request.view);
     if (!extracted)
         return extracted.error();
@@ -154,9 +185,8 @@ core::Result<FrameResult> Renderer::renderFrame(
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
     if (facts.moves && facts.exposureSeconds > 0.0)
         facts.reveal = decideReveal(frame, mScene.layout());
-    FrameResult result;
-    FrameStatistics& statistics = result.statistics;
-    statistics.measures["extraction ms"] = millisecondsSince(start);
+    FrameStatistics& statistics = pending.result.statistics;
+    statistics.measures["extraction ms"] = nowMilliseconds() - pending.startMilliseconds;
     Explainer explainer;
     RunningEffects running = askEffects(effects, facts, explainer);
     if (request.wantReasons) {
@@ -173,74 +203,95 @@ core::Result<FrameResult> Renderer::renderFrame(
         moving = std::move(computed).value();
     }
 
-    mFrame.begin();
-    mReadback.reset();
+    slot.frame.begin();
+    slot.readback.reset();
     graph::Graph graph;
-    const Tickets tickets =
-        declareFrame(graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer);
+    pending.tickets = declareFrame(
+        slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer
+    );
     statistics.measures["entity table ms"] = mTableMilliseconds;
     statistics.measures["top level ms"] = mTopLevelMilliseconds;
     statistics.counters["entity rows written"] = mWritten.rows;
     statistics.counters["entity motions written"] = mWritten.motions;
-    auto plan = graph::execute(graph, mFrame, mPool);
+    auto plan = graph::execute(graph, slot.frame, mPool);
     if (!plan) {
-        mTopLevels.emplace(mDevice); // what was to be built was not
+        slot.topLevels.emplace(mDevice); // what was to be built was not
         return plan.error();
     }
-    mFrame.submit();
-    result.statistics.cpuMilliseconds = millisecondsSince(start);
-    result.statistics.passes = mFrame.waitForTimes();
-    result.statistics.wallMilliseconds = millisecondsSince(start);
-    result.statistics.transientBytes = mPool.heldBytes();
-    result.statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
-    showTimes(effects, running, plan.value(), statistics.passes);
-    for (const RunningEffect& one : running.effects) {
-        one.effect->collect(statistics.counters);
-        one.effect->measure(statistics.measures);
-    }
+    slot.frame.submit(request.semaphores);
+    statistics.cpuMilliseconds = nowMilliseconds() - pending.startMilliseconds;
+    statistics.transientBytes = mPool.heldBytes();
+    statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
+    pending.effects = listPending(effects, running, plan.value());
+    if (request.wantDump)
+        pending.result.dump = graph::dump(graph, plan.value());
     if (!effects.empty()) // a look that measures something is no frame
         releaseIdle(frame, running);
-    if (request.wantDump)
-        result.dump = graph::dump(graph, plan.value());
+    mPending.push_back(std::move(pending));
+    mNextSlot = (mNextSlot + 1) % framesInFlight();
+    return {};
+}
+
+FrameResult Renderer::finishFrame() {
+    SHUTTER_CHECK(!mPending.empty(), "no frame is unfinished");
+    PendingFrame pending = std::move(mPending.front());
+    mPending.pop_front();
+    Slot& slot = *mSlots[pending.slot];
+    FrameResult result = std::move(pending.result);
+    FrameStatistics& statistics = result.statistics;
+    statistics.passes = slot.frame.waitForTimes();
+    statistics.wallMilliseconds = nowMilliseconds() - pending.startMilliseconds;
+    for (const PendingEffect& one : pending.effects) {
+        std::vector<gpu::PassTime> own;
+        for (const size_t index : one.times)
+            own.push_back(statistics.passes.at(index));
+        FinishedFrame finished{
+            pending.slot, one.ran, own, statistics.counters, statistics.measures};
+        one.effect->finish(finished);
+    }
+    const Tickets& tickets = pending.tickets;
     if (tickets.color)
-        result.color = mReadback.take(*tickets.color);
+        result.color = slot.readback.take(*tickets.color);
     if (tickets.display)
-        result.display = mReadback.take(*tickets.display);
+        result.display = slot.readback.take(*tickets.display);
     for (const auto& [name, ticket] : tickets.intermediates)
-        result.intermediates[name] = mReadback.take(ticket);
+        result.intermediates[name] = slot.readback.take(ticket);
     return result;
 }
 
-void Renderer::showTimes(
-    std::span<PostEffect* const> effects,
-    const RunningEffects& running,
-    const graph::Plan& plan,
-    std::span<const gpu::PassTime> times
+std::vector<Renderer::PendingEffect> Renderer::listPending(
+    std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
 ) {
-    SHUTTER_CHECK_EQ(plan.passes.size(), times.size());
+    std::vector<PendingEffect> pending;
     for (PostEffect* effect : effects) {
-        const auto runs = std::find_if(
-            running.effects.begin(),
-            running.effects.end(),
-            [&](const RunningEffect& one) { return one.effect == effect; }
-        );
-        std::vector<gpu::PassTime> own;
-        for (size_t i = 0; runs != running.effects.end() && i < times.size(); ++i)
-            if (plan.passes[i].pass >= runs->firstPass && plan.passes[i].pass < runs->endPass)
-                own.push_back(times[i]);
-        effect->observe(own);
+        PendingEffect& own = pending.emplace_back();
+        own.effect = effect;
+        for (const RunningEffect& one : running.effects) {
+            if (one.effect != effect)
+                continue;
+            own.ran = true;
+            for (size_t i = 0; i < plan.passes.size(); ++i)
+                if (plan.passes[i].pass >= one.firstPass && plan.passes[i].pass < one.endPass)
+                    own.times.push_back(i);
+        }
     }
+    return pending;
 }
 
 void Renderer::releaseIdle(const ExtractedFrame& frame, const RunningEffects& running) {
     // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
     const bool anyRays = running.mayTrace || running.movingRays.run;
-    if (mBendingIdle.advance(!frame.deformed.empty()))
-        mDeformation.emplace(mDevice);
-    if (mRaysIdle.advance(running.rays.run))
-        mTopLevels.emplace(mDevice);
-    if (mMovingRaysIdle.advance(running.movingRays.run))
-        mMovingScene.emplace(mDevice);
+    const bool bendingIdle = mBendingIdle.advance(!frame.deformed.empty());
+    const bool raysIdle = mRaysIdle.advance(running.rays.run);
+    const bool movingRaysIdle = mMovingRaysIdle.advance(running.movingRays.run);
+    for (const auto& slot : mSlots) {
+        if (bendingIdle)
+            slot->deformation.emplace(mDevice);
+        if (raysIdle)
+            slot->topLevels.emplace(mDevice);
+        if (movingRaysIdle)
+            slot->movingScene.emplace(mDevice);
+    }
     if (mBottomLevelsIdle.advance(anyRays))
         mScene.releaseBottomLevels();
 }
@@ -279,6 +330,7 @@ Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
 }
 
 Renderer::Tickets Renderer::declareFrame(
+    Slot& slot,
     graph::Graph& graph,
     const FrameRequest& request,
     const ViewFacts& facts,
@@ -288,34 +340,35 @@ Renderer::Tickets Renderer::declareFrame(
     Explainer& explainer
 ) {
     explainer.beginPasses(graph, "a skin or morph target is drawn");
-    const DeformedShapes shapes = mDeformation->declare(graph, frame, mScene);
+    const DeformedShapes shapes = slot.deformation->declare(graph, frame, mScene);
     std::vector<shader::Geometry> bent = shapes.rows;
     const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
     if (moving) {
         mScene.buildBottomLevels(); // instances of bent meshes ask for their masks
-        const std::vector<shader::Geometry>& keyed = mMovingScene->prepareShapes(*moving, mScene);
+        const std::vector<shader::Geometry>& keyed =
+            slot.movingScene->prepareShapes(*moving, mScene);
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
     RayScene rays;
     explainer.beginPasses(graph, running.rays.reason);
     mTopLevelMilliseconds = 0.0;
     if (running.rays.run) {
-        const Clock::time_point start = Clock::now();
+        const double start = nowMilliseconds();
         assignRayMasks(frame, mScene.layout());
-        declareTopLevels(graph, frame, shapes, rays);
-        mTopLevelMilliseconds = millisecondsSince(start);
+        declareTopLevels(slot, graph, frame, shapes, rays);
+        mTopLevelMilliseconds = nowMilliseconds() - start;
     }
-    const Clock::time_point start = Clock::now();
-    mWritten = mEntityTable.update(frame);
-    mTableMilliseconds = millisecondsSince(start);
-    const TableAddresses tables = uploadTables(frame, request.view, bent);
+    const double start = nowMilliseconds();
+    mWritten = slot.entityTable.update(frame);
+    mTableMilliseconds = nowMilliseconds() - start;
+    const TableAddresses tables = uploadTables(slot, frame, request.view, bent);
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
     explainer.beginPasses(graph, running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {
-        movingRays = mMovingScene->declare(
+        movingRays = slot.movingScene->declare(
             graph,
             *moving,
             frame,
@@ -341,7 +394,8 @@ Renderer::Tickets Renderer::declareFrame(
         intermediates,
         tables.response,
         tables.constants,
-        explainer};
+        explainer,
+        mNextSlot};
     for (RunningEffect& one : running.effects) {
         explainer.beginPasses(graph, one.effect->name() + " runs");
         one.firstPass = graph.passes().size();
@@ -352,11 +406,11 @@ Renderer::Tickets Renderer::declareFrame(
     explainer.beginPasses(graph, "its picture is read back");
     Tickets tickets;
     for (const auto& [name, image] : intermediates.images())
-        tickets.intermediates[name] = mReadback.add(graph, name, image);
+        tickets.intermediates[name] = slot.readback.add(graph, name, image);
     if (request.wantColor)
-        tickets.color = mReadback.add(graph, "color", context.color);
+        tickets.color = slot.readback.add(graph, "color", context.color);
     if (request.wantDisplay && context.display.isValid())
-        tickets.display = mReadback.add(graph, "display", context.display);
+        tickets.display = slot.readback.add(graph, "display", context.display);
     return tickets;
 }
 

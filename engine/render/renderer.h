@@ -17,6 +17,7 @@
 #include "engine/render/readback.h"
 #include "engine/render/top_levels.h"
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,7 +34,10 @@ struct FrameRequest {
         intermediates;        ///< names to read back; unknown ones stay out of the result
     bool wantColor = true;    ///< read the linear picture back
     bool wantDisplay = false; ///< read the display-encoded picture back
-    bool wantDump = false;    ///< describe the graph in FrameResult::dump
+    /// An effect shows the display-encoded picture: it is made although it is not read back.
+    bool showsDisplay = false;
+    gpu::SubmitSemaphores semaphores{}; ///< of the submission
+    bool wantDump = false;              ///< describe the graph in FrameResult::dump
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };
@@ -59,12 +63,29 @@ struct FrameResult {
     std::string dump;
 };
 
-/// Draws frames of one world's assets. Frames are recorded, submitted and waited for one by one
-/// (headless); effects are the caller's.
+/// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished
+/// in one order: with one frame in flight one by one, with more the CPU goes ahead of the GPU.
 class Renderer {
   public:
-    Renderer(gpu::Device& device, const scene::Assets& assets);
+    /// \param framesInFlight [1, gpu::kMaxFramesInFlight]. Each more has tables and acceleration
+    /// structures of its own, and tables are then written whole in each frame in which a row
+    /// changes
+    Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight = 1);
 
+    /// Records and submits a frame. As many as are in flight may be unfinished (CHECKed).
+    [[nodiscard]] core::Status submitFrame(
+        const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
+    );
+
+    /// Waits for the oldest frame that is unfinished (CHECKed: there is one), whose effects must
+    /// still be there.
+    [[nodiscard]] FrameResult finishFrame();
+
+    [[nodiscard]] size_t unfinishedCount() const { return mPending.size(); }
+
+    [[nodiscard]] uint32_t framesInFlight() const { return static_cast<uint32_t>(mSlots.size()); }
+
+    /// Submits and finishes a frame; none may be unfinished (CHECKed).
     [[nodiscard]] core::Result<FrameResult> renderFrame(
         const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
     );
@@ -99,9 +120,41 @@ class Renderer {
         bool mayTrace = false; ///< in another frame, if not in this
     };
 
+    /// What one frame in flight has of its own.
+    struct Slot {
+        explicit Slot(gpu::Device& device);
+
+        gpu::Frame frame;
+        Readback readback;
+        EntityTable entityTable;
+        /// Constants, lights and, where meshes are bent, geometries of the frame, mapped.
+        gpu::Buffer tables;
+        // Made anew once they were idle (releaseIdle).
+        std::optional<DeformationPass> deformation;
+        std::optional<TopLevels> topLevels;
+        std::optional<MovingScene> movingScene;
+    };
+
+    /// An effect of an unfinished frame, and which of the frame's times are its own.
+    struct PendingEffect {
+        PostEffect* effect = nullptr;
+        bool ran = false;
+        std::vector<size_t> times;
+    };
+
+    /// A frame that was submitted and not finished.
+    struct PendingFrame {
+        uint32_t slot = 0;
+        double startMilliseconds = 0.0;
+        Tickets tickets;
+        std::vector<PendingEffect> effects;
+        FrameResult result; ///< what is known of it without the GPU
+    };
+
     static RunningEffects
     askEffects(std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer);
     Tickets declareFrame(
+        Slot& slot,
         graph::Graph& graph,
         const FrameRequest& request,
         const ViewFacts& facts,
@@ -110,12 +163,8 @@ class Renderer {
         RunningEffects& running,
         Explainer& explainer
     );
-    /// Tells each effect what its passes took.
-    static void showTimes(
-        std::span<PostEffect* const> effects,
-        const RunningEffects& running,
-        const graph::Plan& plan,
-        std::span<const gpu::PassTime> times
+    static std::vector<PendingEffect> listPending(
+        std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
     /// Gives back what no frame wanted for a while.
     void releaseIdle(const ExtractedFrame& frame, const RunningEffects& running);
@@ -128,27 +177,28 @@ class Renderer {
 
     /// \param bent geometries that stand behind the scene's own
     TableAddresses uploadTables(
-        ExtractedFrame& frame, const ViewRequest& view, std::span<const shader::Geometry> bent
+        Slot& slot,
+        ExtractedFrame& frame,
+        const ViewRequest& view,
+        std::span<const shader::Geometry> bent
     );
     void declareTopLevels(
-        graph::Graph& graph, ExtractedFrame& frame, const DeformedShapes& shapes, RayScene& rays
+        Slot& slot,
+        graph::Graph& graph,
+        ExtractedFrame& frame,
+        const DeformedShapes& shapes,
+        RayScene& rays
     );
     void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
 
     gpu::Device& mDevice;
     GpuScene mScene;
     GBufferPass mGBufferPass;
-    gpu::Frame mFrame;
-    graph::TransientPool mPool;
-    Readback mReadback;
+    graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
     FrameExtractor mExtractor;
-    EntityTable mEntityTable;
-    /// Constants, lights and, where meshes are bent, geometries of the frame, mapped.
-    gpu::Buffer mTables;
-    // Made anew once they were idle (releaseIdle).
-    std::optional<DeformationPass> mDeformation;
-    std::optional<TopLevels> mTopLevels;
-    std::optional<MovingScene> mMovingScene;
+    std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
+    uint32_t mNextSlot = 0;
+    std::deque<PendingFrame> mPending; ///< oldest first
     IdleCounter mBendingIdle;
     IdleCounter mRaysIdle;
     IdleCounter mMovingRaysIdle;

@@ -35,8 +35,9 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
 }
 
 void MotionBlur::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
-    // The last frame's share is a good guess at this one's; the picture is the same either way.
-    const BlockCounters last = mSorter.counters();
+    // The share of the slot's last frame is a good guess at this one's; the picture is the same
+    // either way.
+    const BlockCounters last = mSorter.counters(inputs.slot);
     const uint32_t moving = last.uniform + last.mixed + last.masked;
     const uint32_t all = moving + last.still;
     if (!inputs.colorIsWritable || all == 0)
@@ -76,7 +77,7 @@ MotionBlurOutputs MotionBlur::addGather(
 ) {
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
-    mSorter.addCounters(graph, blocks, params);
+    mSorter.addCounters(graph, blocks, params, inputs.slot);
     const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
     const graph::ImageHandle filtered = mGather.add(
         graph, {inputs.color, inputs.motionDepth, tiles.dominant, {}}, blocks, target, params
@@ -102,7 +103,7 @@ MotionBlurOutputs MotionBlur::addHybrid(
     const RayMaskInputs maskInputs{
         inputs.motionDepth, inputs.normal, inputs.meshId, sorted, inputs.measureEdgesEverywhere};
     const RayMaskOutputs mask = mRayMask->add(graph, maskInputs, params);
-    mSorter.addCounters(graph, mask.blocks, params);
+    mSorter.addCounters(graph, mask.blocks, params, inputs.slot);
     const RayRevealInputs revealInputs{
 
         inputs.color,
@@ -111,7 +112,8 @@ MotionBlurOutputs MotionBlur::addHybrid(
         mask.mask,
         mask.list,
         mask.arguments,
-        *inputs.rays};
+        *inputs.rays,
+        inputs.slot};
     const RayRevealOutputs reveal = mRayReveal->add(graph, revealInputs, params);
     const RevealedLayerInputs layerInputs{
         inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
@@ -156,7 +158,7 @@ MotionBlurOutputs MotionBlur::addRival(
         params.neighbourRadius = 0;
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
-    mSorter.addCounters(graph, blocks, params);
+    mSorter.addCounters(graph, blocks, params, inputs.slot);
     const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
 
     MotionBlurOutputs outputs;
@@ -227,12 +229,12 @@ MotionBlurOutputs MotionBlur::addDenoised(
     return outputs;
 }
 
-MotionBlurCounters MotionBlur::counters() const {
+MotionBlurCounters MotionBlur::counters(uint32_t slot) const {
     MotionBlurCounters counters;
-    counters.blocks = mSorter.counters();
+    counters.blocks = mSorter.counters(slot);
     if (!mRayReveal)
         return counters;
-    const shader::MaskHeader header = mRayReveal->lastHeader();
+    const shader::MaskHeader header = mRayReveal->lastHeader(slot);
     counters.maskedPixels = header.listedPixels + header.sharingPixels;
     counters.raysTraced = header.raysTraced;
     return counters;

@@ -41,6 +41,9 @@ struct MotionBlurInputs {
     /// The colour image may be written in place: it is a transient, or was made with storage usage.
     /// Where little moves, still pixels are then not touched.
     bool colorIsWritable = false;
+    /// Of the frames in flight, below gpu::kMaxFramesInFlight: no other frame that the GPU is not
+    /// done with may have it.
+    uint32_t slot = 0;
 };
 
 /// The blurred picture, and every intermediate for debug views; those of a method that did not run
@@ -59,7 +62,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered
 };
 
-/// What the GPU counted in the last frame.
+/// What the GPU counted in a frame.
 struct MotionBlurCounters {
     uint32_t maskedPixels = 0;
     uint32_t raysTraced = 0;
@@ -77,8 +80,8 @@ class MotionBlur {
     MotionBlurOutputs
     add(graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurSettings& settings);
 
-    /// Of the frame declared last, once the GPU is done with it.
-    [[nodiscard]] MotionBlurCounters counters() const;
+    /// Of the frame declared last for the slot, once the GPU is done with it.
+    [[nodiscard]] MotionBlurCounters counters(uint32_t slot = 0) const;
 
   private:
     MotionBlurOutputs addGather(

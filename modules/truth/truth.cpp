@@ -180,7 +180,9 @@ void Truth::declare(render::PostContext& context) {
     );
 }
 
-void Truth::collect(render::Counters& counters) {
+void Truth::finish(render::FinishedFrame& frame) {
+    if (!frame.ran)
+        return;
     const auto* groups = static_cast<const glm::vec2*>(mGroups.mapped());
     double squares = 0.0;
     double rays = 0.0;
@@ -191,13 +193,10 @@ void Truth::collect(render::Counters& counters) {
     mStandardError = std::nullopt;
     if (mFirst + mCount >= 2)
         mStandardError = std::sqrt(squares / double(mPixels));
-    counters["rays a pixel"] = mCount;
-    counters["rays traced"] = static_cast<uint64_t>(rays);
-}
-
-void Truth::measure(render::Measures& measures) {
+    frame.counters["rays a pixel"] = mCount;
+    frame.counters["rays traced"] = static_cast<uint64_t>(rays);
     if (mStandardError)
-        measures["standard error"] = *mStandardError;
+        frame.measures["standard error"] = *mStandardError;
 }
 
 } // namespace shutter::truth

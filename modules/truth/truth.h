@@ -60,8 +60,8 @@ class Truth : public render::PostEffect {
 
     /// Publishes "error": the standard error per pixel and channel.
     void declare(render::PostContext& context) override;
-    void collect(render::Counters& counters) override;
-    void measure(render::Measures& measures) override;
+    /// One frame at a time: the next may be declared once this was called.
+    void finish(render::FinishedFrame& frame) override;
 
   private:
     struct Images {

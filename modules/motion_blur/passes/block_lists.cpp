@@ -69,14 +69,20 @@ void addClear(graph::Graph& graph, SortedBlocks& sorted) {
     sorted = cleared.sorted;
 }
 
+/// Of one slot: the lists', the candidates'.
+constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
+
 } // namespace
 
 BlockSorter::BlockSorter(gpu::Device& device)
     : mSampler(device.nearestSampler()), mSort(device, describeSort(false)),
-      mSortForMask(device, describeSort(true)),
-      mHeaders(
-          device, "block counters", 2 * sizeof(shader::BlockHeader), 0, gpu::MemoryUse::Readback
-      ) {
+      mSortForMask(device, describeSort(true)), mHeaders(
+                                                    device,
+                                                    "block counters",
+                                                    gpu::kMaxFramesInFlight * kHeaderBytes,
+                                                    0,
+                                                    gpu::MemoryUse::Readback
+                                                ) {
     std::memset(mHeaders.mapped(), 0, mHeaders.bytes());
 }
 
@@ -126,7 +132,10 @@ SortedBlocks BlockSorter::add(
 }
 
 void BlockSorter::addCounters(
-    graph::Graph& graph, const SortedBlocks& sorted, const shader::MotionBlurParams& params
+    graph::Graph& graph,
+    const SortedBlocks& sorted,
+    const shader::MotionBlurParams& params,
+    uint32_t slot
 ) {
     struct Data {
         std::array<graph::BufferHandle, 2> blocks;
@@ -134,7 +143,7 @@ void BlockSorter::addCounters(
     };
 
     const glm::uvec2 extent = countBlocks(params);
-    mBlockCount = extent.x * extent.y;
+    mBlockCounts.at(slot) = extent.x * extent.y;
     const auto headers = graph.importBuffer("block counters", mHeaders.handle(), mHeaders.bytes());
     graph.addPass<Data>(
         "read block counters",
@@ -146,10 +155,10 @@ void BlockSorter::addCounters(
             data.headers = builder.write(headers, Access::TransferWrite);
             graph.markOutput(data.headers);
         },
-        [](const Data& data, graph::PassContext& context) {
+        [slot](const Data& data, graph::PassContext& context) {
             for (size_t i = 0; i < data.blocks.size(); ++i) {
                 const VkDeviceSize bytes = sizeof(shader::BlockHeader);
-                const VkBufferCopy region{0, i * bytes, bytes};
+                const VkBufferCopy region{0, slot * kHeaderBytes + i * bytes, bytes};
                 vkCmdCopyBuffer(
                     context.commands,
                     context.resources.buffer(data.blocks[i]),
@@ -162,13 +171,18 @@ void BlockSorter::addCounters(
     );
 }
 
-BlockCounters BlockSorter::counters() const {
+BlockCounters BlockSorter::counters(uint32_t slot) const {
+    const uint32_t blockCount = mBlockCounts.at(slot);
     std::array<shader::BlockHeader, 2> headers;
-    std::memcpy(headers.data(), mHeaders.mapped(), sizeof(headers));
+    std::memcpy(
+        headers.data(),
+        static_cast<const char*>(mHeaders.mapped()) + slot * kHeaderBytes,
+        kHeaderBytes
+    );
     const uint32_t candidates = headers[1].uniformCount; // kCandidateList is the first of its own
     const uint32_t moving = headers[0].uniformCount + headers[0].mixedCount + candidates;
     BlockCounters counters;
-    counters.still = mBlockCount > moving ? mBlockCount - moving : 0;
+    counters.still = blockCount > moving ? blockCount - moving : 0;
     counters.uniform = headers[0].uniformCount;
     counters.masked = headers[0].maskedCount;
     counters.mixed = headers[0].mixedCount + candidates - counters.masked;

@@ -3,12 +3,14 @@
 // dispatched over the lists, without the CPU. Still blocks are in none.
 #pragma once
 
+#include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "shaders/motion_blur/motion_blur_shared.h"
 
+#include <array>
 #include <cstdint>
 
 namespace shutter::motion_blur {
@@ -47,19 +49,24 @@ class BlockSorter {
         bool forMask) const;
 
     /// Reads the lists' lengths back, once all passes that append are declared.
+    /// \param slot of the frames in flight, below gpu::kMaxFramesInFlight
     void addCounters(
-        graph::Graph& graph, const SortedBlocks& sorted, const shader::MotionBlurParams& params
+        graph::Graph& graph,
+        const SortedBlocks& sorted,
+        const shader::MotionBlurParams& params,
+        uint32_t slot = 0
     );
 
-    /// Of the frame declared last, once the GPU is done with it; before the first all 0.
-    [[nodiscard]] BlockCounters counters() const;
+    /// Of the frame declared last for the slot, once the GPU is done with it; before the first
+    /// all 0.
+    [[nodiscard]] BlockCounters counters(uint32_t slot = 0) const;
 
   private:
     VkSampler mSampler;
     gpu::Pipeline mSort;
     gpu::Pipeline mSortForMask;
-    gpu::Buffer mHeaders;     ///< of the lists, of the candidates
-    uint32_t mBlockCount = 0; ///< of the picture declared last
+    gpu::Buffer mHeaders; ///< by slot: of the lists, of the candidates
+    std::array<uint32_t, gpu::kMaxFramesInFlight> mBlockCounts{}; ///< by slot: of the picture
 };
 
 } // namespace shutter::motion_blur

@@ -8,6 +8,7 @@
 #include "spirv/motion_blur/reveal.rmiss.h"
 #include "spirv/motion_blur/reveal_sky.comp.h"
 
+#include "engine/core/check.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
 #include <array>
@@ -62,8 +63,12 @@ gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasB
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
     : mDevice(device), mSceneLayout(sceneLayout), mSampler(device.nearestSampler()),
-      mHeader(
-          device, "ray mask counters", sizeof(shader::MaskHeader), 0, gpu::MemoryUse::Readback
+      mHeaders(
+          device,
+          "ray mask counters",
+          gpu::kMaxFramesInFlight * sizeof(shader::MaskHeader),
+          0,
+          gpu::MemoryUse::Readback
       ) {}
 
 const gpu::Pipeline& RayReveal::findPipeline(const RayInputs& rays) {
@@ -219,7 +224,10 @@ RayRevealOutputs RayReveal::add(
         graph::BufferHandle header;
     };
 
-    const auto header = graph.importBuffer("ray mask counters", mHeader.handle(), mHeader.bytes());
+    SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
+    const VkDeviceSize headerAt = inputs.slot * sizeof(shader::MaskHeader);
+    const auto header =
+        graph.importBuffer("ray mask counters", mHeaders.handle(), mHeaders.bytes());
     graph.addPass<CountData>(
         "read ray mask counters",
         graph::PassKind::Transfer,
@@ -228,8 +236,8 @@ RayRevealOutputs RayReveal::add(
             data.header = builder.write(header, Access::TransferWrite);
             graph.markOutput(data.header);
         },
-        [](const CountData& data, graph::PassContext& context) {
-            const VkBufferCopy region{0, 0, sizeof(shader::MaskHeader)};
+        [headerAt](const CountData& data, graph::PassContext& context) {
+            const VkBufferCopy region{0, headerAt, sizeof(shader::MaskHeader)};
             vkCmdCopyBuffer(
                 context.commands,
                 context.resources.buffer(data.list),
@@ -242,8 +250,8 @@ RayRevealOutputs RayReveal::add(
     return revealed.out;
 }
 
-shader::MaskHeader RayReveal::lastHeader() const {
-    return *static_cast<const shader::MaskHeader*>(mHeader.mapped());
+shader::MaskHeader RayReveal::lastHeader(uint32_t slot) const {
+    return static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
 }
 
 } // namespace shutter::motion_blur

@@ -35,6 +35,7 @@ struct RayRevealInputs {
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
     RayInputs rays;
+    uint32_t slot = 0; ///< of the frames in flight, below gpu::kMaxFramesInFlight
 };
 
 /// Written at masked pixels only.
@@ -51,8 +52,8 @@ class RayReveal {
     RayRevealOutputs
     add(graph::Graph& graph, const RayRevealInputs& inputs, const shader::MotionBlurParams& params);
 
-    /// What the last frame counted; valid once the GPU is done with it.
-    [[nodiscard]] shader::MaskHeader lastHeader() const;
+    /// What the slot's last frame counted; valid once the GPU is done with it.
+    [[nodiscard]] shader::MaskHeader lastHeader(uint32_t slot) const;
 
   private:
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
@@ -72,7 +73,7 @@ class RayReveal {
     std::optional<gpu::Pipeline> mSky;                       ///< for frames without rays
     std::array<std::optional<gpu::Pipeline>, 2> mQueries;    ///< without and with blended surfaces
     std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same
-    gpu::Buffer mHeader;
+    gpu::Buffer mHeaders; ///< by slot
 };
 
 } // namespace shutter::motion_blur

@@ -90,8 +90,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.movingRays->textures,
             render::splitAddress(context.movingRays->frameConstants),
             render::splitAddress(context.movingRays->movingConstants)};
-    mDrawnRung = mBudget.rung();
-    mDrawnMethod = settings().method;
+    mDrawn.at(context.slot) = {settings().method, mBudget.rung()};
+    inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
     if (settings().method == Method::Hybrid && !context.rays)
@@ -113,32 +113,35 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.intermediates.publish(name, image);
 }
 
-void MotionBlurPlugin::observe(std::span<const gpu::PassTime> passes) {
-    mMilliseconds = 0.0;
-    for (const gpu::PassTime& pass : passes)
-        mMilliseconds += pass.gpuMilliseconds;
-    if (!passes.empty())
-        mBudget.observe(mDrawnRung, mMilliseconds);
+void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
+    const Drawn& drawn = mDrawn.at(frame.slot);
+    double milliseconds = 0.0;
+    for (const gpu::PassTime& pass : frame.passes)
+        milliseconds += pass.gpuMilliseconds;
+    if (!frame.passes.empty())
+        mBudget.observe(drawn.rung, milliseconds);
     else if (!mBudget.current().runs) // and waits to be tried again
         mBudget.observe(mBudget.rung(), 0.0);
-}
-
-void MotionBlurPlugin::measure(render::Measures& measures) {
+    if (!frame.ran)
+        return;
+    count(frame);
     if (mBudget.budget().isUnlimited())
         return;
-    measures["blur ms"] = mMilliseconds;
-    measures["blur rung"] = double(mDrawnRung);
+    frame.measures["blur ms"] = milliseconds;
+    frame.measures["blur rung"] = double(drawn.rung);
 }
 
-void MotionBlurPlugin::collect(render::Counters& counters) {
-    const MotionBlurCounters counted = mEffect.counters();
-    if (mDrawnMethod != Method::Denoised) {
+void MotionBlurPlugin::count(const render::FinishedFrame& frame) const {
+    const MotionBlurCounters counted = mEffect.counters(frame.slot);
+    const Method method = mDrawn.at(frame.slot).method;
+    render::Counters& counters = frame.counters;
+    if (method != Method::Denoised) {
         counters["blocks still"] = counted.blocks.still;
         counters["blocks uniform"] = counted.blocks.uniform;
         counters["blocks mixed"] = counted.blocks.mixed;
         counters["blocks masked"] = counted.blocks.masked;
     }
-    if (mDrawnMethod != Method::Hybrid)
+    if (method != Method::Hybrid)
         return;
     counters["pixels masked"] = counted.maskedPixels;
     counters["rays traced"] = counted.raysTraced;

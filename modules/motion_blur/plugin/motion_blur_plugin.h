@@ -7,8 +7,8 @@
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/motion_blur.h"
 
+#include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 
 namespace shutter::motion_blur {
@@ -34,18 +34,22 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
-    void observe(std::span<const gpu::PassTime> passes) override;
-    void collect(render::Counters& counters) override;
-    /// The rung of the budget's ladder, and what the effect took.
-    void measure(render::Measures& measures) override;
+    /// Measures, under a budget: its rung, and what the effect took.
+    void finish(render::FinishedFrame& frame) override;
 
   private:
     [[nodiscard]] const MotionBlurSettings& settings() const { return mBudget.current().settings; }
 
+    /// How a frame was declared.
+    struct Drawn {
+        Method method = Method::Hybrid;
+        size_t rung = 0;
+    };
+
+    void count(const render::FinishedFrame& frame) const;
+
     BudgetController mBudget;
-    Method mDrawnMethod = Method::Hybrid; ///< of the frame declared last
-    size_t mDrawnRung = 0;                ///< of the frame declared last
-    double mMilliseconds = 0.0;           ///< that it took
+    std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     MotionBlur mEffect;
 };
 

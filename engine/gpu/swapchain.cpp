@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/swapchain.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shutter::gpu {
+
+namespace {
+
+/// The surface's answer, or nothing once it is gone.
+std::optional<VkSurfaceCapabilitiesKHR> askSurface(const Device& device, VkSurfaceKHR surface) {
+    VkSurfaceCapabilitiesKHR capabilities{};
+    const VkResult asked =
+        vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &capabilities);
+    if (asked == VK_ERROR_SURFACE_LOST_KHR)
+        return std::nullopt;
+    require(asked, "asking the window");
+    return capabilities;
+}
+
+VkSemaphore createSemaphore(const Device& device) {
+    const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    require(vkCreateSemaphore(device.handle(), &info, nullptr, &semaphore), "making a semaphore");
+    return semaphore;
+}
+
+} // namespace
+
+core::Result<std::unique_ptr<Swapchain>>
+Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& desc) {
+    std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
+    VkBool32 supported = VK_FALSE;
+    require(
+        vkGetPhysicalDeviceSurfaceSupportKHR(
+            device.physical(), device.queueFamily(), surface, &supported
+        ),
+        "asking the window"
+    );
+    if (!supported)
+        return core::makeError("{} cannot show pictures on this display", device.info().name);
+    if (core::Status chosen = swapchain->chooseFormat(); !chosen)
+        return chosen.error();
+    for (VkSemaphore& semaphore : swapchain->mAcquired)
+        semaphore = createSemaphore(device);
+    swapchain->resize(desc);
+    return swapchain;
+}
+
+Swapchain::~Swapchain() {
+    vkDeviceWaitIdle(mDevice.handle());
+    releaseImages();
+    mDevice.collect();
+    vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    for (const VkSemaphore semaphore : mAcquired)
+        vkDestroySemaphore(mDevice.handle(), semaphore, nullptr);
+    vkDestroySurfaceKHR(mDevice.instance(), mSurface, nullptr);
+}
+
+core::Status Swapchain::chooseFormat() {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical(), mSurface, &count, nullptr);
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical(), mSurface, &count, formats.data());
+    for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
+        for (const VkSurfaceFormatKHR& format : formats)
+            if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
+                mFormat = format;
+                return {};
+            }
+    return core::makeError("{} shows no 8-bit sRGB pictures here", mDevice.info().name);
+}
+
+VkPresentModeKHR Swapchain::chooseMode(bool vsync) const {
+    if (vsync)
+        return VK_PRESENT_MODE_FIFO_KHR; // every device has it
+    uint32_t count = 0;
+    vkGetPhysicalDeviceSurfacePresentModesKHR(mDevice.physical(), mSurface, &count, nullptr);
+    std::vector<VkPresentModeKHR> modes(count);
+    vkGetPhysicalDeviceSurfacePresentModesKHR(mDevice.physical(), mSurface, &count, modes.data());
+    for (const auto mode : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR})
+        if (std::find(modes.begin(), modes.end(), mode) != modes.end())
+            return mode;
+    return VK_PRESENT_MODE_FIFO_KHR;
+}
+
+void Swapchain::releaseImages() {
+    mImages.clear();
+    for (const VkSemaphore semaphore : std::exchange(mDrawn, {}))
+        vkDestroySemaphore(mDevice.handle(), semaphore, nullptr);
+}
+
+bool Swapchain::resize(const SwapchainDesc& desc) {
+    // Images may still be on their way to the display, which no semaphore of ours tells.
+    vkDeviceWaitIdle(mDevice.handle());
+    releaseImages();
+    mDevice.collect();
+    mDesc = desc;
+    const auto surface = askSurface(mDevice, mSurface);
+    if (!surface)
+        return false;
+    // A window system that leaves the size to the program says so by all ones.
+    const bool fixed = surface->currentExtent.width != UINT32_MAX;
+    const VkExtent2D wanted = fixed ? surface->currentExtent : VkExtent2D{desc.width, desc.height};
+    mDesc.width =
+        std::clamp(wanted.width, surface->minImageExtent.width, surface->maxImageExtent.width);
+    mDesc.height =
+        std::clamp(wanted.height, surface->minImageExtent.height, surface->maxImageExtent.height);
+    if (mDesc.width == 0 || mDesc.height == 0)
+        return false;
+    createImages(*surface);
+    return true;
+}
+
+void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
+    mUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+             (surface.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = mSurface;
+    info.minImageCount = surface.minImageCount + 1;
+    if (surface.maxImageCount > 0)
+        info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
+    info.imageFormat = mFormat.format;
+    info.imageColorSpace = mFormat.colorSpace;
+    info.imageExtent = {mDesc.width, mDesc.height};
+    info.imageArrayLayers = 1;
+    info.imageUsage = mUsage;
+    info.preTransform = surface.currentTransform;
+    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+    if (!(surface.supportedCompositeAlpha & info.compositeAlpha))
+        info.compositeAlpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    info.presentMode = chooseMode(mDesc.vsync);
+    info.clipped = VK_FALSE; // pictures may be read back
+    info.oldSwapchain = mSwapchain;
+    VkSwapchainKHR made = VK_NULL_HANDLE;
+    require(vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made), "making a swapchain");
+    vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    mSwapchain = made;
+
+    uint32_t count = 0;
+    vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, nullptr);
+    std::vector<VkImage> images(count);
+    vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, &count, images.data());
+    ImageDesc desc;
+    desc.width = mDesc.width;
+    desc.height = mDesc.height;
+    desc.format = mFormat.format;
+    desc.usage = mUsage;
+    for (const VkImage image : images) {
+        mImages.push_back(Image::adopt(mDevice, "window", image, desc));
+        mDrawn.push_back(createSemaphore(mDevice));
+    }
+}
+
+std::optional<SwapchainImage> Swapchain::acquire(uint32_t slot) {
+    if (mImages.empty())
+        return std::nullopt;
+    SwapchainImage acquired;
+    acquired.semaphores.wait = mAcquired.at(slot);
+    const VkResult result = vkAcquireNextImageKHR(
+        mDevice.handle(),
+        mSwapchain,
+        UINT64_MAX,
+        acquired.semaphores.wait,
+        VK_NULL_HANDLE,
+        &acquired.index
+    );
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR)
+        return std::nullopt;
+    require(result, "asking for an image of the window");
+    acquired.image = &mImages[acquired.index];
+    acquired.semaphores.signal = mDrawn[acquired.index];
+    return acquired;
+}
+
+bool Swapchain::present(const SwapchainImage& image) {
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &image.semaphores.signal;
+    info.swapchainCount = 1;
+    info.pSwapchains = &mSwapchain;
+    info.pImageIndices = &image.index;
+    const VkResult result = vkQueuePresentKHR(mDevice.queue(), &info);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
+        result == VK_ERROR_SURFACE_LOST_KHR)
+        return false;
+    require(result, "showing a picture");
+    return true;
+}
+
+} // namespace shutter::gpu
