@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <cstring>
+#include <utility>
 
 namespace shutter::render {
 
@@ -16,6 +17,7 @@ namespace {
 struct FormatInfo {
     uint32_t channels = 0;
     enum class Type { Half, Float, Unorm8, Uint32 } type = Type::Float;
+    bool swapsRedAndBlue = false; ///< stored in the order B, G, R, A
 };
 
 FormatInfo describeFormat(VkFormat format) {
@@ -35,6 +37,8 @@ FormatInfo describeFormat(VkFormat format) {
         return {1, Type::Unorm8};
     case VK_FORMAT_R8G8B8A8_UNORM:
         return {4, Type::Unorm8};
+    case VK_FORMAT_B8G8R8A8_UNORM:
+        return {4, Type::Unorm8, true};
     case VK_FORMAT_R32_UINT:
         return {1, Type::Uint32};
     default:
@@ -122,6 +126,8 @@ image::Image Readback::take(size_t ticket) const {
     const void* data = mBuffers[entry.buffer].mapped();
     for (size_t i = 0; i < picture.pixels.size(); ++i)
         picture.pixels[i] = convert(data, i, info.type);
+    for (size_t i = 0; info.swapsRedAndBlue && i < picture.pixels.size(); i += info.channels)
+        std::swap(picture.pixels[i], picture.pixels[i + 2]);
     return picture;
 }
 

@@ -381,7 +381,9 @@ Renderer::Tickets Renderer::declareFrame(
     explainer.beginPasses(graph, "the picture is drawn");
     const GBuffer gbuffer =
         mGBufferPass.declare(graph, frame, mScene, shapes.buffer, rays.frameConstants);
-    Intermediates intermediates(request.intermediates);
+    std::set<std::string> wanted = request.intermediates;
+    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
+    Intermediates intermediates(std::move(wanted));
     publishGBuffer(gbuffer, intermediates);
     PostContext context{
         graph,
@@ -406,7 +408,8 @@ Renderer::Tickets Renderer::declareFrame(
     explainer.beginPasses(graph, "its picture is read back");
     Tickets tickets;
     for (const auto& [name, image] : intermediates.images())
-        tickets.intermediates[name] = slot.readback.add(graph, name, image);
+        if (request.intermediates.contains(name))
+            tickets.intermediates[name] = slot.readback.add(graph, name, image);
     if (request.wantColor)
         tickets.color = slot.readback.add(graph, "color", context.color);
     if (request.wantDisplay && context.display.isValid())

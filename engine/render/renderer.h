@@ -31,7 +31,9 @@ namespace shutter::render {
 struct FrameRequest {
     ViewRequest view;
     std::set<std::string>
-        intermediates;        ///< names to read back; unknown ones stay out of the result
+        intermediates; ///< names to read back; unknown ones stay out of the result
+    /// Names that an effect shows: made although they are not read back.
+    std::set<std::string> shownIntermediates;
     bool wantColor = true;    ///< read the linear picture back
     bool wantDisplay = false; ///< read the display-encoded picture back
     /// An effect shows the display-encoded picture: it is made although it is not read back.

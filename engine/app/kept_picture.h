@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// A frame's display-encoded picture, kept for a later frame to show: the other half of a split
+// screen.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/render/post_effect.h"
+
+#include <string>
+
+namespace shutter::app {
+
+/// The last effect of the frame whose picture is to be kept.
+class KeptPicture : public render::PostEffect {
+  public:
+    explicit KeptPicture(gpu::Device& device) : mDevice(device) {}
+
+    [[nodiscard]] std::string name() const override { return "keep picture"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+        return {true, "a later frame shows the picture"};
+    }
+
+    void declare(render::PostContext& context) override;
+
+    /// Of the frame declared last, in SHADER_READ_ONLY layout; null before the first.
+    [[nodiscard]] const gpu::Image* image() const { return mImage.handle() ? &mImage : nullptr; }
+
+  private:
+    gpu::Device& mDevice;
+    gpu::Image mImage;
+};
+
+} // namespace shutter::app

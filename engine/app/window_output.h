@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// The last effect of a frame that is shown: its picture onto the window's image, at its left
+// perhaps another one, and what is drawn over both.
+#pragma once
+
+#include "engine/app/overlay.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/math/math.h"
+#include "engine/render/post_effect.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace shutter::app {
+
+/// A rectangle of pixels.
+struct PixelRect {
+    math::dvec2 origin{0.0}; ///< upper left corner
+    math::dvec2 extent{0.0};
+};
+
+/// The largest rectangle of the picture's shape in the middle of the window. Both above 0; a side
+/// that is within a pixel of the window's is the window's.
+[[nodiscard]] PixelRect fitPicture(const math::uvec2& picture, const math::uvec2& window);
+
+/// One frame's window.
+struct WindowTarget {
+    /// The window system's image, in PRESENT_SRC layout afterwards; null: a transient is made.
+    const gpu::Image* image = nullptr;
+    math::uvec2 size{1u};             ///< pixels; of the image, where there is one
+    const gpu::Image* left = nullptr; ///< in SHADER_READ_ONLY layout; null: no split
+    double dividerShare = 0.5;        ///< of the window's width that shows `left`, [0, 1]
+    Overlay* overlay = nullptr;       ///< may be null
+};
+
+/// Replaces the context's display by the window's picture, so that it can be read back. Pictures of
+/// another size than the window are fitted in and filtered linearly.
+class WindowOutput : public render::PostEffect {
+  public:
+    explicit WindowOutput(gpu::Device& device);
+    ~WindowOutput() override;
+    WindowOutput(const WindowOutput&) = delete;
+    WindowOutput& operator=(const WindowOutput&) = delete;
+
+    /// To be called before each frame.
+    void setTarget(const WindowTarget& target) { mTarget = target; }
+
+    [[nodiscard]] std::string name() const override { return "window"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+        return {true, "the picture is shown"};
+    }
+
+    void declare(render::PostContext& context) override;
+
+  private:
+    const gpu::Pipeline& findPipeline(VkFormat format);
+
+    gpu::Device& mDevice;
+    VkSampler mLinear = VK_NULL_HANDLE;
+    std::map<VkFormat, gpu::Pipeline> mPipelines;
+    WindowTarget mTarget;
+};
+
+} // namespace shutter::app
