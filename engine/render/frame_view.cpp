@@ -4,6 +4,7 @@
 #include "engine/math/projection.h"
 #include "engine/math/transform.h"
 #include "engine/render/poses.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/motion.h"
 
 #include <algorithm>
@@ -22,9 +23,9 @@ using math::dvec4;
 
 static_assert(sizeof(ViewMatrices) == (4 * 16 + 3) * sizeof(double), "compared by its bytes");
 
-dmat4 makeProjection(const scene::Camera& camera, double aspect) {
+dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
     if (camera.kind == scene::CameraKind::Perspective)
-        return math::clipFromViewPerspective(camera.yFov, aspect, camera.near);
+        return math::clipFromViewPerspective(yFov, aspect, camera.near);
     return math::clipFromViewOrthographic(
         camera.yMag * aspect, camera.yMag, camera.near, camera.far
     );
@@ -80,22 +81,25 @@ bool isIdentical(const ViewMatrices& a, const ViewMatrices& b) {
 FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     : mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)) {
     const auto& camera = world.registry.get<scene::Camera>(request.camera);
-    mClipFromView = makeProjection(camera, double(request.width) / request.height);
+    const double aspect = double(request.width) / request.height;
     const std::array times{mTimes.open, mTimes.raster, mTimes.close};
     for (int i = 0; i < 3; ++i) {
         const dmat4 worldFromView = computeWorldFromView(mMotion.worldFromCamera(times[i]));
+        mClipFromView[i] = makeProjection(camera, mMotion.cameraYFov(times[i]), aspect);
         mViewFromWorld[i] = glm::inverse(worldFromView);
         mEye[i] = dvec3(worldFromView[3]);
         if (i == 1)
             mForward = -glm::normalize(dvec3(worldFromView[2]));
     }
-    mMatrices.clipFromWorldOpen = mClipFromView * mViewFromWorld[0];
-    mMatrices.clipFromWorldRaster = mClipFromView * mViewFromWorld[1];
+    mMatrices.clipFromWorldOpen = mClipFromView[0] * mViewFromWorld[0];
+    mMatrices.clipFromWorldRaster = mClipFromView[1] * mViewFromWorld[1];
     mMatrices.clipFromWorldJittered = jitterClip(request) * mMatrices.clipFromWorldRaster;
-    mMatrices.clipFromWorldClose = mClipFromView * mViewFromWorld[2];
+    mMatrices.clipFromWorldClose = mClipFromView[2] * mViewFromWorld[2];
     mMatrices.eye = mEye[1];
-    mMovesStillThings = scene::mayMove(world, request.camera) &&
-                        (anyBlurScale(world) || !request.exposure.cap.movers.empty());
+    const bool cameraMoves =
+        scene::mayMove(world, request.camera) || scene::mayZoom(world, request.camera);
+    mMovesStillThings =
+        cameraMoves && (anyBlurScale(world) || !request.exposure.cap.movers.empty());
     fillConstants(camera, request);
 }
 
@@ -103,7 +107,7 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     const dmat4 worldFromEye = glm::translate(dmat4(1.0), mEye[1]);
     const dmat4 clipFromEye = mMatrices.clipFromWorldJittered * worldFromEye;
     const auto directionMatrix = [&](int i) {
-        return math::mat4(mClipFromView * dmat4(math::dmat3(mViewFromWorld[i])));
+        return math::mat4(mClipFromView[i] * dmat4(math::dmat3(mViewFromWorld[i])));
     };
     mConstants.clipFromEye = math::mat4(clipFromEye);
     mConstants.eyeFromClip = math::mat4(glm::inverse(clipFromEye));
@@ -118,8 +122,11 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mConstants.sizePx = {float(request.width), float(request.height)};
     const double height = double(request.height);
     mConstants.pixelFootprint =
-        perspective ? math::vec2(float(2.0 * std::tan(camera.yFov / 2.0) / height), 0.0f)
-                    : math::vec2(0.0f, float(2.0 * camera.yMag / height));
+        perspective
+            ? math::vec2(
+                  float(2.0 * std::tan(mMotion.cameraYFov(mTimes.raster) / 2.0) / height), 0.0f
+              )
+            : math::vec2(0.0f, float(2.0 * camera.yMag / height));
     mConstants.lodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
     // A motion that ends where it began is one too: the raster instant tells.

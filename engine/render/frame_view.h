@@ -49,7 +49,7 @@ class FrameView {
 
     scene::ExposureMotion mMotion;
     ShapeTimes mTimes;
-    math::dmat4 mClipFromView{1.0};
+    math::dmat4 mClipFromView[3];  ///< open, raster instant, close
     math::dmat4 mViewFromWorld[3]; ///< open, raster instant, close
     math::dvec3 mEye[3];
     math::dvec3 mForward{0.0}; ///< at the raster instant

@@ -70,6 +70,32 @@ class Builder {
   private:
     dmat4 viewAt(double s) const { return computeWorldFromView(mMotion.worldFromCamera(s)); }
 
+    /// How much wider the camera sees at s than at the raster instant, across the view.
+    double lensScaleAt(double s) const {
+        return std::tan(mMotion.cameraYFov(s) / 2.0) /
+               std::tan(mMotion.cameraYFov(mRequest.exposure.rasterShare) / 2.0);
+    }
+
+    /// Of the view as the raster instant's lens sees it: what that lens has at the picture's border
+    /// is at the border at s.
+    dmat4 eyeFromViewAt(double s) const {
+        dmat4 eye = toEye(viewAt(s));
+        if (!mMotion.mayCameraZoom())
+            return eye;
+        const double scale = lensScaleAt(s);
+        eye[0] *= scale;
+        eye[1] *= scale;
+        return eye;
+    }
+
+    /// Least lensScaleAt, of 17 instants.
+    double findNarrowestLens() const {
+        double narrowest = 1.0;
+        for (uint32_t i = 0; mMotion.mayCameraZoom() && i <= kPathIntervals; ++i)
+            narrowest = std::min(narrowest, lensScaleAt(double(i) / kPathIntervals));
+        return narrowest;
+    }
+
     dmat4 toEye(dmat4 world) const {
         world[3] -= math::dvec4(mOrigin, 0.0);
         return world;
@@ -82,15 +108,17 @@ class Builder {
     void describeView() {
         const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
         const double aspect = double(mRequest.width) / mRequest.height;
-        const double halfHeight = perspective ? std::tan(mCamera.yFov / 2.0) : mCamera.yMag;
+        const double raster = mRequest.exposure.rasterShare;
+        const double halfHeight =
+            perspective ? std::tan(mMotion.cameraYFov(raster) / 2.0) : mCamera.yMag;
         const math::dvec2 half(halfHeight * aspect, halfHeight);
         mTables.view = {
             float(half.x), float(half.y), float(mCamera.near), perspective ? 1.0f : 0.0f};
-        const double pixel = 2.0 * halfHeight / mRequest.height;
+        const double pixel = 2.0 * halfHeight * findNarrowestLens() / mRequest.height;
         mTolerance.near = perspective ? mCamera.near : 0.0;
         (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
 
-        const auto eyeFromView = [&](double s) { return toEye(viewAt(s)); };
+        const auto eyeFromView = [&](double s) { return eyeFromViewAt(s); };
         auto keys = computeCameraKeys(eyeFromView, half, mTolerance);
         if (keys)
             mTables.camera = std::move(*keys);

@@ -31,10 +31,10 @@ struct MovingShape {
 };
 
 struct MovingTables {
-    std::vector<MotionKeys> rows;         ///< beside ExtractedFrame::entities
-    std::vector<MovingShape> shapes;      ///< of the rows whose mesh is bent, in their order
-    MotionKeys camera;                    ///< eyeFromView
-    math::vec4 view{0.0f};                ///< MovingConstants::view
+    std::vector<MotionKeys> rows;    ///< beside ExtractedFrame::entities
+    std::vector<MovingShape> shapes; ///< of the rows whose mesh is bent, in their order
+    MotionKeys camera;     ///< eyeFromView, widened by the lens as MovingConstants::cameraKeys
+    math::vec4 view{0.0f}; ///< MovingConstants::view
     std::vector<shader::LightRow> lights; ///< all lights at the first key, then at the next, ...
     uint32_t lightKeyCount = 1;
     std::vector<uint32_t> moving; ///< rows that move and can be met, in spatial order

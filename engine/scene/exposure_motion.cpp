@@ -4,6 +4,7 @@
 #include "engine/math/transform.h"
 #include "engine/scene/ancestors.h"
 #include "engine/scene/camera_cut.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 
 #include <algorithm>
@@ -138,11 +139,28 @@ dmat4 ExposureMotion::cameraAt(double seconds) const {
     return world;
 }
 
+double ExposureMotion::yFovAt(double seconds) const {
+    const double seen = isHeld(mCamera) ? mExposure.raster
+                                        : scaleTime(seconds, mExposure.shutter.cameraRotationScale);
+    return scene::yFovAt(mWorld, mCamera, seen);
+}
+
+double ExposureMotion::cameraYFov(double s) const {
+    return yFovAt(scaleTime(secondsAt(s), mExposure.cap.camera));
+}
+
+bool ExposureMotion::mayCameraZoom() const {
+    return mExposure.shutter.cameraRotationScale != 0.0 && mExposure.cap.camera != 0.0 &&
+           mayZoom(mWorld, mCamera) && !isHeld(mCamera);
+}
+
 dmat4 ExposureMotion::worldFromCamera(double s) const {
     return cameraAt(scaleTime(secondsAt(s), mExposure.cap.camera));
 }
 
 bool ExposureMotion::mayCameraMove() const {
+    if (mayCameraZoom())
+        return true;
     const CameraShutter& shutter = mExposure.shutter;
     return (shutter.cameraRotationScale != 0.0 || shutter.cameraTranslationScale != 0.0) &&
            mExposure.cap.camera != 0.0 && scene::mayMove(mWorld, mCamera) && !isHeld(mCamera);
@@ -169,9 +187,15 @@ dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
     const double cameraSeconds = scaleTime(seconds, mExposure.cap.camera);
     if (seen == cameraSeconds || !mayCameraMove())
         return object;
-    // On the screen as it would be at `seen`: from there into the view, and out again.
-    return math::removeScale(cameraAt(cameraSeconds)) *
-           glm::inverse(math::removeScale(cameraAt(seen))) * object;
+    // On the screen as it would be at `seen`: from there into the view, through the lens of now,
+    // and out again.
+    dmat4 view = math::removeScale(cameraAt(cameraSeconds));
+    if (mayCameraZoom()) {
+        const double wider = std::tan(yFovAt(cameraSeconds) / 2.0) / std::tan(yFovAt(seen) / 2.0);
+        view[0] *= wider;
+        view[1] *= wider;
+    }
+    return view * glm::inverse(math::removeScale(cameraAt(seen))) * object;
 }
 
 Deformation ExposureMotion::deformationAt(ecs::Entity entity, double s) const {

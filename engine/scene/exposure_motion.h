@@ -36,6 +36,11 @@ class ExposureMotion {
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
     /// Of the camera's entity; may hold scale.
     [[nodiscard]] math::dmat4 worldFromCamera(double s) const;
+    /// Vertical field of view of the camera, radians; orthographic cameras have none.
+    [[nodiscard]] double cameraYFov(double s) const;
+
+    /// False when cameraYFov answers the same at every shutter time.
+    [[nodiscard]] bool mayCameraZoom() const;
 
     /// False when worldFromEntity answers the same at every shutter time.
     [[nodiscard]] bool mayMove(ecs::Entity entity) const;
@@ -49,6 +54,7 @@ class ExposureMotion {
     /// `seconds` run `scale` times as fast away from the raster instant.
     [[nodiscard]] double scaleTime(double seconds, double scale) const;
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
+    [[nodiscard]] double yFovAt(double seconds) const;
     [[nodiscard]] bool mayCameraMove() const;
     /// Of the nearest MotionBlur upwards, [0, 2].
     [[nodiscard]] double blurScaleOf(ecs::Entity entity) const;

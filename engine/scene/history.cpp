@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/ancestors.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 
 #include <algorithm>
@@ -105,6 +106,9 @@ bool hasNoPast(const World& world, ecs::Entity entity, const TimeSpan& span) {
 
 bool isCut(const World& world, ecs::Entity camera, const TimeSpan& span) {
     if (world.startSeconds > span.after || happened<CameraCut>(world, camera, span))
+        return true;
+    const auto* lens = world.registry.find<LensMotion>(camera);
+    if (lens && hasCutWithin(*lens, span.after, span.until))
         return true;
     return findUpwards(world, camera, [&](ecs::Entity at) {
                return hasPathCut(world, at, span);

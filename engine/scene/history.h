@@ -45,8 +45,8 @@ void despawn(World& world, ecs::Entity entity);
 /// `span`.
 [[nodiscard]] bool hasNoPast(const World& world, ecs::Entity entity, const TimeSpan& span);
 
-/// True when the picture of `camera` was cut in `span`, by CameraCut, by a cut of its path or its
-/// parents', or because the world began in it or begins later.
+/// True when the picture of `camera` was cut in `span`, by CameraCut, by a cut of its lens, its
+/// path or its parents', or because the world began in it or begins later.
 [[nodiscard]] bool isCut(const World& world, ecs::Entity camera, const TimeSpan& span);
 
 } // namespace shutter::scene

@@ -2,9 +2,7 @@
 #include "engine/scene/path.h"
 
 #include "engine/core/check.h"
-#include "engine/scene/animation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -24,88 +22,11 @@ bool isFinite(const dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Keys [first, last] between two cuts.
-struct Shot {
-    size_t first = 0;
-    size_t last = 0;
-};
-
-/// Where a time lies in its shot.
-struct Place {
-    Shot shot;
-    size_t key = 0;     ///< the key before
-    double share = 0.0; ///< of the way to the next, [0, 1]; 0 where there is none
-};
-
-/// The last key at or before `seconds`, or the first.
-size_t findKey(const std::vector<PathKey>& keys, double seconds) {
-    const auto next =
-        std::upper_bound(keys.begin(), keys.end(), seconds, [](double time, const PathKey& key) {
-            return time < key.seconds;
-        });
-    return next == keys.begin() ? 0 : static_cast<size_t>(next - keys.begin()) - 1;
-}
-
-Shot findShot(const std::vector<PathKey>& keys, size_t key) {
-    Shot shot{key, key};
-    while (shot.first > 0 && !keys[shot.first].cut)
-        --shot.first;
-    while (shot.last + 1 < keys.size() && !keys[shot.last + 1].cut)
-        ++shot.last;
-    return shot;
-}
-
-Place findPlace(const PathMotion& path, double seconds) {
-    const std::vector<PathKey>& keys = path.keys;
-    Place place;
-    place.shot = findShot(keys, findKey(keys, seconds));
-    const double from = keys[place.shot.first].seconds;
-    const double to = keys[place.shot.last].seconds;
-    double time = std::clamp(seconds, from, to);
-    if (path.ease == PathEase::InOut && to > from) {
-        const double x = (time - from) / (to - from);
-        time = std::clamp(from + (to - from) * x * x * (3.0 - 2.0 * x), from, to);
-    }
-    place.key = std::clamp(findKey(keys, time), place.shot.first, place.shot.last);
-    if (place.key < place.shot.last) {
-        const double start = keys[place.key].seconds;
-        place.share = std::clamp((time - start) / (keys[place.key + 1].seconds - start), 0.0, 1.0);
-    }
-    return place;
-}
-
-/// Per second: the slope between a key's neighbours, at the ends of a shot to the only one.
-template <class Value>
-Value computeTangent(
-    const PathMotion& path,
-    const Shot& shot,
-    size_t key,
-    const std::function<Value(size_t)>& valueAt
-) {
-    const size_t before = key > shot.first ? key - 1 : key;
-    const size_t after = key < shot.last ? key + 1 : key;
-    return (valueAt(after) - valueAt(before)) /
-           (path.keys[after].seconds - path.keys[before].seconds);
-}
-
 template <class Value>
 Value interpolate(
-    const PathMotion& path, const Place& place, const std::function<Value(size_t)>& valueAt
+    const PathMotion& path, const KeyPlace& place, const std::function<Value(size_t)>& valueAt
 ) {
-    const Value from = valueAt(place.key);
-    if (place.share == 0.0)
-        return from;
-    const Value to = valueAt(place.key + 1);
-    if (path.interpolation == PathInterpolation::Linear)
-        return from + (to - from) * place.share;
-    const double interval = path.keys[place.key + 1].seconds - path.keys[place.key].seconds;
-    return interpolateHermite<Value>(
-        {from,
-         interval * computeTangent(path, place.shot, place.key, valueAt),
-         to,
-         interval * computeTangent(path, place.shot, place.key + 1, valueAt)},
-        place.share
-    );
+    return interpolateAtPlace<Value>(path.keys, path.interpolation, place, valueAt);
 }
 
 dvec4 toVector(const dquat& q) {
@@ -144,7 +65,7 @@ dquat lookAlong(const dvec3& direction, const dvec3& up) {
     return glm::quat_cast(math::dmat3(right, glm::cross(back, right), back));
 }
 
-dquat sampleRotation(const PathMotion& path, const Place& place) {
+dquat sampleRotation(const PathMotion& path, const KeyPlace& place) {
     const std::vector<PathKey>& keys = path.keys;
     if (path.interpolation == PathInterpolation::Linear && place.share > 0.0)
         return glm::slerp(
@@ -199,7 +120,7 @@ core::Status validatePath(const PathMotion& path) {
 math::Transform samplePath(const PathMotion& path, const math::Transform& rest, double seconds) {
     SHUTTER_CHECK(!path.keys.empty(), "a path without keys");
     const std::vector<PathKey>& keys = path.keys;
-    const Place place = findPlace(path, seconds);
+    const KeyPlace place = findKeyPlace(keys, path.ease, seconds);
     math::Transform pose = rest;
     pose.translation =
         interpolate<dvec3>(path, place, [&](size_t key) { return keys[key].position; });
@@ -214,9 +135,7 @@ math::Transform samplePath(const PathMotion& path, const math::Transform& rest, 
 }
 
 bool hasCutWithin(const PathMotion& path, double from, double to) {
-    return std::any_of(path.keys.begin(), path.keys.end(), [&](const PathKey& key) {
-        return key.cut && key.seconds > from && key.seconds <= to;
-    });
+    return hasCutKeyWithin(path.keys, from, to);
 }
 
 } // namespace shutter::scene

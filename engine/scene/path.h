@@ -4,22 +4,12 @@
 
 #include "engine/core/result.h"
 #include "engine/math/transform.h"
+#include "engine/scene/key_interpolation.h"
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace shutter::scene {
-
-enum class PathInterpolation : uint8_t {
-    Linear,    ///< straight from key to key, rotations by slerp; corners at keys
-    CatmullRom ///< a smooth curve through the keys (Catmull and Rom 1974), of continuous velocity
-};
-
-enum class PathEase : uint8_t {
-    None, ///< starts and stops at full speed
-    InOut ///< from rest to rest over each shot: 3 x^2 - 2 x^3 of its time
-};
 
 /// A place at a time, in the parent's space.
 struct PathKey {

@@ -26,11 +26,13 @@ struct MovingRow {
 };
 
 struct MovingConstants {
-    vec4 view;        // x, y: half the view's width and height, at distance 1 (perspective) or
-                      // anywhere (orthographic); z: near plane, metres; w: 1 perspective, 0 not
+    vec4 view;        // x, y: half the view's width and height at the raster instant, at distance 1
+                      // (perspective) or anywhere (orthographic); z: near plane, metres; w: 1
+                      // perspective, 0 not
     uvec2 rows;       // address of MovingRow[]
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
-    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView, rigid
+    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView; rigid but for x and y, which a lens that
+                      // zooms scales by how much wider it sees than at the raster instant
     uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;

@@ -4,6 +4,7 @@
 #include "engine/math/projection.h"
 #include "engine/scene/components.h"
 #include "engine/scene/deformation.h"
+#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,11 +52,12 @@ ExpectedMotion::ExpectedMotion(
     : mWidth(width), mHeight(height), mSeconds{exposure.open, exposure.raster, exposure.close},
       mPixels(size_t{width} * height) {
     const auto& lens = world.registry.get<scene::Camera>(camera);
-    const dmat4 clipFromView =
-        math::clipFromViewPerspective(lens.yFov, double(width) / height, lens.near);
     for (int i = 0; i < 3; ++i)
         mClipFromWorld[i] =
-            clipFromView * glm::inverse(scene::worldFromEntity(world, camera, mSeconds[i]));
+            math::clipFromViewPerspective(
+                scene::yFovAt(world, camera, mSeconds[i]), double(width) / height, lens.near
+            ) *
+            glm::inverse(scene::worldFromEntity(world, camera, mSeconds[i]));
     for (auto [entity, instance] : world.registry.view<scene::MeshInstance>())
         drawEntity(world, entity, world.assets.meshes[instance.mesh]);
 }
