@@ -14,13 +14,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// In the same folder, so that the rename is atomic; short, so that it fits where the name does.
-fs::path makeTemporaryPath(const fs::path& path) {
-    static std::atomic<uint32_t> sCounter{0};
-    const std::string name = fmt::format(".shutter-{}-{}.tmp", ::getpid(), sCounter.fetch_add(1));
-    return (path.has_parent_path() ? path.parent_path() : fs::path(".")) / name;
-}
-
 /// Returns an empty string, or why it failed.
 std::string writeBytes(const fs::path& path, std::span<const uint8_t> bytes) {
     errno = 0;
@@ -33,6 +26,13 @@ std::string writeBytes(const fs::path& path, std::span<const uint8_t> bytes) {
 }
 
 } // namespace
+
+fs::path makeTemporaryPath(const fs::path& path) {
+    static std::atomic<uint32_t> sCounter{0};
+    const std::string name =
+        fmt::format("{}{}-{}.tmp", kTemporaryPrefix, ::getpid(), sCounter.fetch_add(1));
+    return (path.has_parent_path() ? path.parent_path() : fs::path(".")) / name;
+}
 
 core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t maxBytes) {
     std::error_code failure;

@@ -11,6 +11,13 @@
 
 namespace shutter::io {
 
+/// How names of temporary files begin; a process that was killed leaves them.
+inline constexpr std::string_view kTemporaryPrefix = ".shutter-";
+
+/// A name of its own for what will be renamed to `path`: in the same folder, so that the rename is
+/// atomic; short, so that it fits where the name does.
+[[nodiscard]] std::filesystem::path makeTemporaryPath(const std::filesystem::path& path);
+
 /// The first `maxBytes` bytes of a regular file (all of it when it is shorter). An Error says in
 /// one sentence that the path is missing, a folder, no regular file or not readable.
 [[nodiscard]] core::Result<std::vector<uint8_t>>

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/video.h"
+
+#include "engine/io/file_bytes.h"
+#include "engine/io/process.h"
+
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace shutter::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string_view findFirstLine(std::string_view text) {
+    return text.substr(0, text.find('\n'));
+}
+
+/// That holds anything.
+std::string_view findLastLine(std::string_view text) {
+    const size_t end = text.find_last_not_of(" \r\n");
+    if (end == std::string_view::npos)
+        return "it gave no reason";
+    text = text.substr(0, end + 1);
+    const size_t start = text.rfind('\n');
+    return start == std::string_view::npos ? text : text.substr(start + 1);
+}
+
+std::vector<std::string> describeCodec(const std::string& codec) {
+    if (codec == "libx264")
+        return {"-c:v", "libx264", "-preset", "medium", "-crf", "16"};
+    return {"-c:v", "mpeg4", "-q:v", "2"};
+}
+
+std::vector<std::string>
+listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::path& target) {
+    std::vector<std::string> words = {"-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
+    const auto add = [&](const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
+    add({"-framerate", fmt::format("{}", frames.framesPerSecond), "-start_number", "0"});
+    add({"-i", frames.pattern, "-frames:v", fmt::format("{}", frames.count), "-an"});
+    add(describeCodec(encoder.codec));
+    // Players take the matrix of BT.709 for granted; swscale's own default is BT.601's.
+    add(
+        {"-vf",
+         "scale=out_color_matrix=bt709:out_range=tv:"
+         "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=yuv420p",
+         "-colorspace",
+         "bt709",
+         "-color_primaries",
+         "bt709",
+         "-color_trc",
+         "bt709",
+         "-color_range",
+         "tv"}
+    );
+    // The same bits wherever it runs: slices and versions would tell of the machine.
+    add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
+    // The protocol in front, or a name with a colon would be taken for one.
+    add({"-movflags", "+faststart", "-f", "mp4", "file:" + target.string()});
+    return words;
+}
+
+} // namespace
+
+core::Result<VideoEncoder> findVideoEncoder(const fs::path& named) {
+    VideoEncoder encoder;
+    encoder.program = named;
+    if (named.empty()) {
+        const auto found = findProgram("ffmpeg");
+        if (!found)
+            return core::makeError(
+                "an .mp4 needs the program ffmpeg, which is not on PATH: install the package "
+                "ffmpeg, or name the program with --ffmpeg"
+            );
+        encoder.program = *found;
+    }
+    const auto version = runProcess(encoder.program, {"-version"}, ".");
+    if (!version)
+        return version.error();
+    const std::string_view firstLine = findFirstLine(version.value().output);
+    if (version.value().exitStatus != 0 || !firstLine.starts_with("ffmpeg version"))
+        return core::makeError("'{}' is no ffmpeg", encoder.program.string());
+    encoder.version = firstLine;
+    const auto encoders = runProcess(encoder.program, {"-hide_banner", "-encoders"}, ".");
+    if (!encoders)
+        return encoders.error();
+    for (const char* codec : {"libx264", "mpeg4"})
+        if (encoders.value().output.find(fmt::format(" {} ", codec)) != std::string::npos) {
+            encoder.codec = codec;
+            return encoder;
+        }
+    return core::makeError(
+        "'{}' encodes neither with libx264 nor with mpeg4", encoder.program.string()
+    );
+}
+
+core::Status
+encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::path& file) {
+    std::error_code failure;
+    const fs::path target = fs::absolute(makeTemporaryPath(file), failure);
+    const auto fail = [&](std::string_view why) {
+        std::error_code ignored;
+        fs::remove(target, ignored);
+        return core::makeError("cannot write '{}': {}", file.string(), why);
+    };
+    const auto run =
+        runProcess(encoder.program, listArguments(encoder, frames, target), frames.folder);
+    if (!run)
+        return fail(run.error().message);
+    if (run.value().exitStatus != 0)
+        return fail(fmt::format(
+            "{} ended with status {}: {}",
+            encoder.program.string(),
+            run.value().exitStatus,
+            findLastLine(run.value().errors)
+        ));
+    fs::rename(target, file, failure);
+    return failure ? core::Status(fail(failure.message())) : core::Status();
+}
+
+} // namespace shutter::io
