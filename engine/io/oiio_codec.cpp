@@ -184,6 +184,8 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
     } else {
         spec.attribute("oiio:ColorSpace", "Linear");
         spec.attribute("compression", "zip");
+        // Or OpenImageIO stamps the time into the file: the same picture shall be the same bytes.
+        spec.attribute("DateTime", "1970:01:01 00:00:00");
     }
     return spec;
 }

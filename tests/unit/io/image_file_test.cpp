@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <string>
 #include <sys/resource.h>
 
 namespace shutter::io {
@@ -77,6 +78,16 @@ TEST(ImageFile, EightBitPicturesAreStoredForADisplayAndFloatsAndIdsAreNot) {
         EXPECT_FALSE(readStoredImage(folder.path() / "b.exr").value().isDisplayEncoded);
     }
     EXPECT_FALSE(readStoredImage(folder.path() / "missing.exr"));
+}
+
+TEST(ImageFile, AnExrDoesNotTellWhenItWasWritten) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(5, 3, 2)).ok());
+    std::ifstream stream(folder.path() / "a.exr", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    const size_t date = bytes.find("capDate");
+    ASSERT_NE(date, std::string::npos);
+    EXPECT_NE(bytes.substr(date, 60).find("1970:01:01 00:00:00"), std::string::npos);
 }
 
 TEST(ImageFile, AnExrKeepsInfinityAndNaN) {
