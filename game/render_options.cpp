@@ -2,6 +2,7 @@
 #include "game/render_options.h"
 
 #include "engine/io/image_file.h"
+#include "game/film.h"
 #include "game/setting_options.h"
 #include "game/tonemap_options.h"
 #include "shaders/common/numeric.glsl"
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <regex>
 #include <system_error>
@@ -25,6 +27,14 @@ using core::Status;
 constexpr uint32_t kMaxSize = 16384;
 constexpr uint32_t kMaxSamples = 65536;
 constexpr int kMaxFrames = 1000000;
+
+bool isFilm(const std::filesystem::path& out) {
+    std::string extension = out.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+        return char(std::tolower(c));
+    });
+    return extension == ".mp4";
+}
 
 /// Empty: query.
 Result<gpu::RayTier> interpretRays(const std::string& text) {
@@ -74,6 +84,12 @@ Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
         );
     if (!(arguments.fps > 0.0) || !std::isfinite(arguments.fps))
         return makeError("--fps {} must be above 0", arguments.fps);
+    options.fps = arguments.fps;
+    options.frameSeconds = 1.0 / options.fps;
+    if (arguments.frames.empty() && !arguments.flythrough.empty()) {
+        options.isSequence = true; // planned when it is read
+        return {};
+    }
     if (arguments.frames.empty()) {
         options.frameTimes = {arguments.time};
         return {};
@@ -86,21 +102,25 @@ Status parseTimes(const RenderArguments& arguments, RenderOptions& options) {
     const int last = std::stoi(match[2]);
     if (last < first)
         return makeError("--frames {}: the last comes before the first", match.str());
-    if (last - first >= kMaxFrames)
-        return makeError("--frames {} are too many", match.str());
-    if (!(std::max(std::abs(first), std::abs(last)) / arguments.fps <= kMaxSeconds))
-        return makeError(
-            "--frames {} at --fps {} lie beyond {} seconds", match.str(), arguments.fps, kMaxSeconds
-        );
     options.isSequence = true;
-    options.firstFrame = first;
-    for (int frame = first; frame <= last; ++frame)
-        options.frameTimes.push_back(frame / arguments.fps);
+    return planFrames("--frames", first, last, options);
+}
+
+Status parseFlythrough(const RenderArguments& arguments, RenderOptions& options) {
+    constexpr std::string_view kClip = "clip:";
+    if (arguments.flythrough.starts_with(kClip)) {
+        options.flythroughClip = arguments.flythrough.substr(kClip.size());
+        return {};
+    }
+    if (!arguments.flythrough.empty() && !arguments.camera.empty())
+        return makeError("--camera and --flythrough FILE exclude each other: the file is the camera"
+        );
+    options.isFlythroughShutter =
+        !arguments.exposureSeconds && !arguments.shutterAngle && arguments.shutterMode.empty();
     return {};
 }
 
 Status parseShutter(const RenderArguments& arguments, RenderOptions& options) {
-    options.frameSeconds = 1.0 / arguments.fps;
     auto shutter = interpretShutter(arguments, options.frameSeconds);
     if (!shutter)
         return shutter.error();
@@ -179,13 +199,37 @@ Status parseAovs(const RenderArguments& arguments, RenderOptions& options) {
     return {};
 }
 
+Status parseFilm(const RenderArguments& arguments, RenderOptions& options) {
+    if (!isFilm(arguments.out)) {
+        if (!arguments.ffmpeg.empty() || arguments.keepFrames)
+            return makeError(
+                "{} needs --out FILE.mp4", arguments.keepFrames ? "--keep-frames" : "--ffmpeg"
+            );
+        return {};
+    }
+    if (!options.isSequence)
+        return makeError("--out '{}' needs --frames or --flythrough", arguments.out);
+    if (!options.aovs.empty())
+        return makeError("--aov needs --out of pictures: '{}' is a film", arguments.out);
+    if (options.width % 2 != 0 || options.height % 2 != 0)
+        return makeError("--size {}: the sides of an .mp4 must be even", arguments.size);
+    options.film = arguments.out;
+    options.out = filmFrames(options.film);
+    options.ffmpeg = arguments.ffmpeg;
+    options.keepFrames = arguments.keepFrames;
+    return {};
+}
+
 Status parseOutput(const RenderArguments& arguments, RenderOptions& options) {
     options.out = arguments.out;
+    if (Status parsed = parseFilm(arguments, options); !parsed)
+        return parsed;
     auto display = io::isDisplayFormat(options.out);
     if (!display)
         return core::makeError("--out: {}", display.error().message);
     options.displayOut = display.value();
-    if (options.isSequence && options.frameTimes.size() > 1 &&
+    // A flythrough whose frames are not planned yet has more than one.
+    if (options.isSequence && options.frameTimes.size() != 1 &&
         frameFile(options.out, 0) == frameFile(options.out, 1))
         return makeError("--out '{}' needs a frame number such as %04d", arguments.out);
     auto tonemap = interpretTonemap(arguments.tonemap, arguments.exposureValue);
@@ -251,11 +295,24 @@ void defineDeviceOptions(CLI::App& command, RenderArguments& a) {
 
 void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     command.add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
-    command.add_option("--out", a.out, ".exr (linear), .png or .jpg; %04d for sequences")
+    command
+        .add_option(
+            "--out", a.out, ".exr (linear), .png or .jpg; %04d for sequences; .mp4 (by ffmpeg)"
+        )
         ->required();
     defineShotOptions(command, a);
     command.add_option("--frames", a.frames, "A:B, a frame's time is its number / F")
         ->excludes(command.get_option("--time"));
+    command
+        .add_option(
+            "--flythrough",
+            a.flythrough,
+            "FILE.json of camera keys, or clip:NAME of the scene's; all of its frames by default"
+        )
+        ->excludes(command.get_option("--time"));
+    command.add_flag("--restart", a.restart, "draw frames again that are complete on disk");
+    command.add_option("--ffmpeg", a.ffmpeg, "the program, for .mp4; default: the one on PATH");
+    command.add_flag("--keep-frames", a.keepFrames, "keep FILE.mp4.frames when the film is made");
     command.add_option("--method", a.method, "see `shutter info --methods`; default hybrid");
     command.add_option(
         "--samples",
@@ -304,6 +361,8 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.dumpGraph = arguments.dumpGraph;
     options.explain = arguments.explain;
     options.repeat = arguments.repeat;
+    options.restart = arguments.restart;
+    options.pictureOptions = arguments.pictureOptions;
     options.stats = arguments.stats;
     using Step = Status (*)(const RenderArguments&, RenderOptions&);
     const Step parseSizeOption = [](const RenderArguments& a, RenderOptions& o) {
@@ -312,6 +371,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     for (const Step step :
          {parseSizeOption,
           Step(parseTimes),
+          Step(parseFlythrough),
           Step(parseShutter),
           Step(parseMethod),
           Step(parseBudget),
@@ -330,7 +390,57 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     return options;
 }
 
+core::Status planFrames(const char* option, double first, double last, RenderOptions& options) {
+    const double fps = options.fps;
+    if (!(last - first < kMaxFrames))
+        return makeError("{}: {} frames are too many", option, last - first + 1.0);
+    // Written so that NaN fails.
+    if (!(std::max(std::abs(first), std::abs(last)) / fps <= kMaxSeconds))
+        return makeError(
+            "{}: frames {}:{} at {} a second lie beyond {} seconds",
+            option,
+            first,
+            last,
+            fps,
+            kMaxSeconds
+        );
+    options.firstFrame = int(first);
+    options.frameTimes.clear();
+    for (double frame = first; frame <= last; ++frame)
+        options.frameTimes.push_back(frame / fps);
+    return {};
+}
+
+std::string describePictureOptions(const CLI::App& command) {
+    static const std::set<std::string> kNoMatter = {
+        "scene",
+        "--out",
+        "--frames",
+        "--time",
+        "--flythrough",
+        "--device",
+        "--stats",
+        "--explain",
+        "--dump-graph",
+        "--repeat",
+        "--validate",
+        "--restart",
+        "--ffmpeg",
+        "--keep-frames"};
+    std::string all;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || kNoMatter.contains(name))
+            continue;
+        all += fmt::format("{} {} ", name, fmt::join(option->results(), " "));
+    }
+    return all;
+}
+
 core::Status checkOutputs(const RenderOptions& options) {
+    // A film's frames have a folder of their own, which is not there yet.
+    if (!options.film.empty())
+        return checkStatsWritable(options);
     if (Status writable = io::checkWritable(frameFile(options.out, options.firstFrame)); !writable)
         return core::makeError("--out: {}", writable.error().message);
     return checkStatsWritable(options);

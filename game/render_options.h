@@ -4,6 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
+#include "engine/io/flythrough.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
@@ -32,7 +33,9 @@ struct RenderArguments : ShutterArguments {
     std::string camera;
     double time = 0.0;
     std::string frames;
+    std::string flythrough;
     double fps = 24.0;
+    bool isFpsTyped = false; ///< else a flythrough's own counts
     std::vector<std::string> clips;
     bool loop = false;
     std::string method = "hybrid";
@@ -48,6 +51,9 @@ struct RenderArguments : ShutterArguments {
     std::string tonemap = "neutral";
     std::vector<std::string> settings;
     std::string out;
+    std::string ffmpeg;
+    bool keepFrames = false;
+    bool restart = false;
     std::string aov;
     std::string stats;
     std::string device;
@@ -57,18 +63,24 @@ struct RenderArguments : ShutterArguments {
     bool explain = false;
     std::optional<double> budgetMilliseconds;
     uint32_t repeat = 1;
+    std::string pictureOptions; ///< describePictureOptions() of the command line
 };
 
 /// As meant: checked, in engine terms.
 struct RenderOptions {
     std::filesystem::path scene;
     std::string camera;
-    std::vector<double> frameTimes; ///< seconds
-    int firstFrame = 0;             ///< number of the first file of a sequence
-    bool isSequence = false;        ///< --frames was given
+    std::vector<double> frameTimes;           ///< seconds
+    int firstFrame = 0;                       ///< number of the first file of a sequence
+    bool isSequence = false;                  ///< --frames or --flythrough was given
+    std::optional<io::Flythrough> flythrough; ///< of --flythrough FILE: who flies (flight.h)
+    std::string flythroughHash;               ///< of its file
+    bool isFlythroughShutter = false; ///< its keys' shutters count: no exposure was asked for
+    std::string flythroughClip;       ///< of --flythrough clip:NAME
     std::vector<std::string> clips;
     bool loop = false;
-    double frameSeconds = scene::kStillFrameSeconds; ///< a frame's duration, at --fps
+    double fps = 24.0; ///< frames a second: --fps, or the flythrough's
+    double frameSeconds = scene::kStillFrameSeconds; ///< a frame's duration, 1 / fps
     scene::CameraShutter shutter;
     const MethodInfo* method = nullptr;
     uint32_t samples = 0;
@@ -83,8 +95,13 @@ struct RenderOptions {
     tonemap::TonemapSettings tonemap;
     motion_blur::MotionBlurSettings motionBlur;
     motion_blur::BlurBudget budget; ///< of motionBlur
-    std::filesystem::path out;
-    bool displayOut = false; ///< .png or .jpg: tone-mapped; otherwise linear
+    std::filesystem::path out;      ///< of a film: its frames'
+    std::filesystem::path film;     ///< .mp4 to make of the frames; empty: none
+    std::filesystem::path ffmpeg;   ///< empty: the one on PATH
+    bool keepFrames = false;        ///< of a film, when it is made
+    bool restart = false;           ///< draw frames anew that are complete on disk
+    std::string pictureOptions;     ///< as typed, those that a picture depends on
+    bool displayOut = false;        ///< .png or .jpg: tone-mapped; otherwise linear
     std::set<std::string> aovs;
     std::filesystem::path stats;
     std::string device;
@@ -103,6 +120,15 @@ void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
 
 /// Checks everything that needs no file. Error: names the option that was used wrongly.
 [[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
+
+/// Sets frameTimes and firstFrame: frames `first` to `last`, both included, at `options.fps`.
+/// Error: names `option`, there are too many or they lie beyond all time.
+[[nodiscard]] core::Status
+planFrames(const char* option, double first, double last, RenderOptions& options);
+
+/// All options that were typed and that a picture may depend on, in one line; that is all but those
+/// known to be of no matter. The scene, the device and the flythrough's file are told by content.
+[[nodiscard]] std::string describePictureOptions(const CLI::App& command);
 
 /// Before hours of rendering: whether --out and --stats can be written where they are to go.
 [[nodiscard]] core::Status checkOutputs(const RenderOptions& options);

@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/io/gltf_loader.h"
 #include "engine/scene/framing.h"
+#include "game/flight.h"
 
 #include <algorithm>
 #include <charconv>
@@ -17,36 +18,6 @@ using core::makeError;
 std::string nameOf(const scene::World& world, ecs::Entity entity) {
     const auto* name = world.registry.find<scene::Name>(entity);
     return name ? name->value : std::string();
-}
-
-core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& options) {
-    const std::string& wanted = options.camera;
-    if (wanted.empty()) {
-        if (!world.cameras.empty())
-            return world.cameras.front();
-        const double aspect = double(options.width) / options.height;
-        return scene::addFramingCamera(world, aspect, options.frameTimes.front());
-    }
-    std::string names;
-    for (size_t i = 0; i < world.cameras.size(); ++i) {
-        const std::string& name = world.registry.get<scene::Camera>(world.cameras[i]).name;
-        const std::string entityName = nameOf(world, world.cameras[i]);
-        if (name == wanted || entityName == wanted)
-            return world.cameras[i];
-        names += fmt::format("{}{}: {}", i ? ", " : "", i, name.empty() ? entityName : name);
-    }
-    size_t index = 0;
-    const auto [end, problem] =
-        std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (problem == std::errc() && end == wanted.data() + wanted.size() &&
-        index < world.cameras.size())
-        return world.cameras[index];
-    return makeError(
-        "{}: --camera '{}' is none of its cameras ({})",
-        options.scene.string(),
-        wanted,
-        names.empty() ? "it has none" : names
-    );
 }
 
 core::Status selectClips(scene::World& world, const RenderOptions& options) {
@@ -80,6 +51,14 @@ core::Status selectClips(scene::World& world, const RenderOptions& options) {
     return {};
 }
 
+core::Result<ecs::Entity> chooseCamera(scene::World& world, const RenderOptions& options) {
+    if (options.flythrough)
+        return io::addFlythroughCamera(world, *options.flythrough);
+    if (!options.flythroughClip.empty())
+        return chooseClipCamera(world, options);
+    return findCamera(world, options);
+}
+
 /// A scene without lights gets a sun from above left of the world's axes.
 void lightUnlitScene(scene::World& world) {
     for (auto [entity, light] : world.registry.view<scene::Light>()) {
@@ -99,6 +78,36 @@ void lightUnlitScene(scene::World& world) {
 
 } // namespace
 
+core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& options) {
+    const std::string& wanted = options.camera;
+    if (wanted.empty()) {
+        if (!world.cameras.empty())
+            return world.cameras.front();
+        const double aspect = double(options.width) / options.height;
+        return scene::addFramingCamera(world, aspect, options.frameTimes.front());
+    }
+    std::string names;
+    for (size_t i = 0; i < world.cameras.size(); ++i) {
+        const std::string& name = world.registry.get<scene::Camera>(world.cameras[i]).name;
+        const std::string entityName = nameOf(world, world.cameras[i]);
+        if (name == wanted || entityName == wanted)
+            return world.cameras[i];
+        names += fmt::format("{}{}: {}", i ? ", " : "", i, name.empty() ? entityName : name);
+    }
+    size_t index = 0;
+    const auto [end, problem] =
+        std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (problem == std::errc() && end == wanted.data() + wanted.size() &&
+        index < world.cameras.size())
+        return world.cameras[index];
+    return makeError(
+        "{}: --camera '{}' is none of its cameras ({})",
+        options.scene.string(),
+        wanted,
+        names.empty() ? "it has none" : names
+    );
+}
+
 core::Result<Shot> loadShot(const RenderOptions& options) {
     auto loaded = io::loadGltf(options.scene);
     if (!loaded)
@@ -109,7 +118,7 @@ core::Result<Shot> loadShot(const RenderOptions& options) {
     shot.world = std::move(loaded.value().world);
     if (core::Status selected = selectClips(shot.world, options); !selected)
         return selected.error();
-    auto camera = findCamera(shot.world, options);
+    auto camera = chooseCamera(shot.world, options);
     if (!camera)
         return camera.error();
     shot.camera = camera.value();
@@ -121,7 +130,9 @@ core::Result<Shot> loadShot(const RenderOptions& options) {
 render::ViewRequest makeView(const Shot& shot, const RenderOptions& options, double seconds) {
     render::ViewRequest view;
     view.camera = shot.camera;
-    const auto& shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
+    auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
+    if (options.flythrough && options.isFlythroughShutter)
+        io::applyShutter(*options.flythrough, seconds, shutter);
     view.exposure = scene::computeExposure(shutter, seconds, options.frameSeconds);
     view.width = options.width;
     view.height = options.height;

@@ -14,8 +14,12 @@ struct Shot {
     ecs::Entity camera;
 };
 
-/// Loads the scene (its warnings are logged), picks or makes the camera, puts the shutter on it,
-/// selects clips, and lights a scene that has no light of its own.
+/// The camera that --camera names, the first, or one made to fit.
+[[nodiscard]] core::Result<ecs::Entity>
+findCamera(scene::World& world, const RenderOptions& options);
+
+/// Loads the scene (its warnings are logged), picks or makes the camera (a flythrough flies its
+/// own), puts the shutter on it, selects clips, and lights a scene that has no light of its own.
 [[nodiscard]] core::Result<Shot> loadShot(const RenderOptions& options);
 
 /// The shot's view of the frame at `seconds`.

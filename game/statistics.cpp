@@ -96,13 +96,16 @@ core::Status writeStatistics(
     const gpu::DeviceInfo& device,
     const std::vector<PictureStatistics>& pictures
 ) {
+    scene::CameraShutter shutter = options.shutter;
+    if (options.flythrough && options.isFlythroughShutter)
+        io::applyShutter(*options.flythrough, options.frameTimes.front(), shutter);
     nlohmann::json root = {
         {"scene", options.scene.string()},
         {"method", options.method->name},
         {"samples", options.samples},
         {"width", options.width},
         {"height", options.height},
-        {"exposure_s", scene::computeExposureSeconds(options.shutter, options.frameSeconds)},
+        {"exposure_s", scene::computeExposureSeconds(shutter, options.frameSeconds)},
         {"device", device.name},
         {"driver", device.driver},
         {"repeat", options.repeat},

@@ -199,7 +199,8 @@ TEST_F(CliRender, StatisticsAreJsonWithTheDocumentedKeys) {
 
 TEST_F(CliRender, ASequenceIsOneFileAFrame) {
     expectSuccess(renderVase({"--frames", "0:2", "--out", "f_%04d.png", "--stats", "s.json"}));
-    const std::set<std::string> expected = {"f_0000.png", "f_0001.png", "f_0002.png", "s.json"};
+    const std::set<std::string> expected = {
+        ".f_%04d.png.journal", "f_0000.png", "f_0001.png", "f_0002.png", "s.json"};
     EXPECT_EQ(listFiles(), expected);
     for (const char* file : {"f_0000.png", "f_0001.png", "f_0002.png"})
         expectPicture(file);

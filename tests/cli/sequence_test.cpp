@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Flythroughs and films as a person renders them: the same bits each time, stopped or not.
+#include "tests/cli/cli_fixture.h"
+#include "tests/cli/folder_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <sys/wait.h>
+
+namespace shutter::cli {
+
+namespace {
+
+/// Six frames at 4 a second; the lens zooms and the camera is cut.
+constexpr const char* kFlight = R"({
+  "version": 1, "fps": 4, "keys": [
+    {"time": -0.5, "position": [-0.6, 1.2, 2.3], "lookAt": [0, 0.8, -0.8], "fieldOfView": 40,
+     "shutter": {"exposure": 0.02}},
+    {"time": 0.25, "position": [-0.4, 1.1, 2.2], "lookAt": [0, 0.8, -0.8], "fieldOfView": 30},
+    {"time": 0.5, "position": [0.4, 1.1, 2.0], "lookAt": [0, 0.8, -0.8], "fieldOfView": 35,
+     "cut": true, "shutter": {"shutterAngle": 20, "phase": "centre"}},
+    {"time": 0.75, "position": [0.5, 1.0, 2.0], "lookAt": [0, 0.8, -0.8], "fieldOfView": 32}
+  ]
+})";
+
+class Sequence : public Cli {
+  protected:
+    Sequence() { writeFile("flight.json", kFlight); }
+
+    void SetUp() override { requireDevice(); }
+
+    [[nodiscard]] Arguments fly(const Arguments& more) const {
+        Arguments arguments = {"--flythrough", "flight.json"};
+        if (std::find(more.begin(), more.end(), "--method") == more.end())
+            arguments.insert(arguments.end(), {"--method", "sharp"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return renderVase(arguments);
+    }
+
+    [[nodiscard]] std::vector<std::string> readFrames(const std::string& folder) const {
+        std::vector<std::string> frames;
+        for (int frame = -2; frame <= 3; ++frame)
+            frames.push_back(readFile(fmt::format("{}/f_{:04}.png", folder, frame)));
+        return frames;
+    }
+
+    void expectFilm(const std::string& file, const std::string& frames) const {
+        const std::string command = "ffprobe -v error -count_frames -select_streams v:0 "
+                                    "-show_entries stream=nb_read_frames,width,height,pix_fmt "
+                                    "-of csv=p=0 '" +
+                                    path(file) + "' > '" + path("probe.txt") + "'";
+        ASSERT_EQ(std::system(command.c_str()), 0); // NOLINT(concurrency-mt-unsafe)
+        EXPECT_EQ(readFile("probe.txt"), "64,36,yuv420p," + frames + "\n");
+    }
+};
+
+} // namespace
+
+TEST_F(Sequence, AFlythroughRenderedTwiceIsTheSameAndTheSecondTimeInOneFolderSkipped) {
+    for (const char* folder : {"a", "b"}) {
+        fs::create_directory(path(folder));
+        const auto done = expectSuccess(fly(
+            {"--method", "hybrid", "--aov", "motion", "--out", std::string(folder) + "/f_%04d.png"}
+        ));
+        EXPECT_EQ(done.out, "");
+    }
+    const auto frames = readFrames("a");
+    EXPECT_TRUE(frames == readFrames("b"));
+    EXPECT_EQ(std::set<std::string>(frames.begin(), frames.end()).size(), frames.size());
+    EXPECT_TRUE(readFile("a/f_0001.motion.exr") == readFile("b/f_0001.motion.exr"));
+
+    const Arguments again = fly({"--method", "hybrid", "--aov", "motion", "--out", "a/f_%04d.png"});
+    EXPECT_NE(expectSuccess(again).out.find("6 of 6 frames are complete"), std::string::npos);
+    // What is not what it was is drawn again, and nothing else.
+    writeFile("a/f_0000.png", "another picture");
+    fs::remove(path("a/f_0001.motion.exr"));
+    EXPECT_NE(expectSuccess(again).out.find("4 of 6 frames are complete"), std::string::npos);
+    EXPECT_TRUE(readFrames("a") == frames);
+    EXPECT_TRUE(readFile("a/f_0001.motion.exr") == readFile("b/f_0001.motion.exr"));
+    // Whoever asks about the drawing gets it.
+    Arguments measured = again;
+    measured.insert(measured.end(), {"--stats", "s.json"});
+    EXPECT_EQ(expectSuccess(measured).out, "");
+    EXPECT_NE(readFile("s.json").find("\"time_s\": 0.75"), std::string::npos);
+}
+
+TEST_F(Sequence, OtherOptionsDrawAllAnewAndSaySo) {
+    expectSuccess(fly({"--frames", "0:1", "--out", "f_%04d.png"}));
+    const std::string first = readFile("f_0001.png");
+    // More frames of the same film: those there are kept.
+    const auto more = expectSuccess(fly({"--frames", "0:2", "--out", "f_%04d.png"}));
+    EXPECT_NE(more.out.find("2 of 3 frames are complete"), std::string::npos) << more.out;
+    const auto unlit = expectSuccess(fly({"--frames", "0:1", "--unlit", "--out", "f_%04d.png"}));
+    EXPECT_NE(unlit.out.find("drawn otherwise"), std::string::npos) << unlit.out;
+    EXPECT_EQ(unlit.out.find("complete"), std::string::npos) << unlit.out;
+    EXPECT_TRUE(readFile("f_0001.png") != first);
+    // So does another flight under the same name.
+    std::string other = kFlight;
+    other.replace(other.find("0.25"), 4, "0.26");
+    writeFile("flight.json", other);
+    const auto changed = expectSuccess(fly({"--frames", "0:1", "--unlit", "--out", "f_%04d.png"}));
+    EXPECT_NE(changed.out.find("drawn otherwise"), std::string::npos) << changed.out;
+}
+
+TEST_F(Sequence, KilledInTheMiddleAndStartedAgainItLeavesTheSameFiles) {
+    fs::create_directory(path("whole"));
+    expectSuccess(fly({"--out", "whole/f_%04d.png"}));
+    const auto whole = readFrames("whole");
+    // The journal is two events, its temporary file and the rename, and so is each picture.
+    for (const int events : {3, 6}) {
+        const std::string folder = std::to_string(events);
+        fs::create_directory(path(folder));
+        const Arguments arguments = fly({"--out", folder + "/f_%04d.png"});
+        const FolderWatch watch(path(folder));
+        const pid_t process = start(arguments);
+        watch.waitFor(events, process);
+        kill(process, SIGKILL);
+        int status = 0;
+        waitpid(process, &status, 0);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself";
+        expectSuccess(arguments);
+        EXPECT_TRUE(readFrames(folder) == whole) << events;
+    }
+}
+
+TEST_F(Sequence, AFilmHasEveryFrameAndIsTheSameEachTime) {
+    if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0) // NOLINT(concurrency-mt-unsafe)
+        GTEST_SKIP() << "ffmpeg is not installed";
+    const Arguments film = fly({"--out", "film.mp4"});
+    expectSuccess(film);
+    expectFilm("film.mp4", "6");
+    EXPECT_FALSE(fs::exists(path("film.mp4.frames")));
+    const std::string bytes = readFile("film.mp4");
+    EXPECT_NE(expectSuccess(film).out.find("film.mp4: is complete"), std::string::npos);
+    Arguments again = film;
+    again.insert(again.end(), {"--restart", "--keep-frames"});
+    expectSuccess(again);
+    EXPECT_TRUE(readFile("film.mp4") == bytes);
+    EXPECT_TRUE(fs::exists(path("film.mp4.frames/frame_000005.png")));
+    // The frames that were kept are those of a film of which less is there.
+    fs::remove(path("film.mp4"));
+    fs::remove(path("film.mp4.frames/frame_000002.png"));
+    const auto rest = expectSuccess(film);
+    EXPECT_NE(rest.out.find("5 of 6 frames are complete"), std::string::npos) << rest.out;
+    EXPECT_TRUE(readFile("film.mp4") == bytes);
+    EXPECT_FALSE(fs::exists(path("film.mp4.frames")));
+}
+
+TEST_F(Sequence, AnFfmpegThatFailsLeavesNoFilm) {
+    writeFile(
+        "failing.sh",
+        "#!/bin/sh\ncase \"$1\" in\n-version) echo ffmpeg version 1;;\n"
+        "-hide_banner) echo ' V libx264 x';;\n"
+        "*) echo first >&2; echo no room >&2; exit 3;;\nesac\n"
+    );
+    fs::permissions(path("failing.sh"), fs::perms::owner_all);
+    const Outcome outcome = run(fly({"--out", "film.mp4", "--ffmpeg", path("failing.sh")}));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("ended with status 3: no room"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("film.mp4")));
+    EXPECT_TRUE(fs::exists(path("film.mp4.frames/frame_000005.png"))) << "they may be encoded yet";
+}
+
+TEST_F(Sequence, AClipOfTheSceneFliesItsCamera) {
+    const Arguments clip = {
+        "render",
+        SHUTTER_ASSETS "/courtyard.glb",
+        "--size",
+        "64x36",
+        "--device",
+        "llvmpipe",
+        "--method",
+        "sharp",
+        "--flythrough",
+        "clip:camera_pan_linear",
+        "--fps",
+        "2",
+        "--out",
+        "f_%d.png"};
+    expectSuccess(clip);
+    EXPECT_TRUE(readFile("f_0.png") != readFile("f_1.png"));
+    EXPECT_TRUE(fs::exists(path("f_2.png")));
+    EXPECT_FALSE(fs::exists(path("f_3.png"))) << "the clip lasts a second";
+    Arguments wrong = clip;
+    wrong.insert(wrong.end(), {"--camera", "main"});
+    expectRefusal(wrong, 1, {"clip:camera_pan_linear moves no camera 'main'"});
+    wrong = clip;
+    wrong[9] = "clip:nothing";
+    expectRefusal(wrong, 1, {"clip:nothing", "camera_pan_linear"});
+}
+
+TEST_F(Sequence, ContradictionsAreRefusedBeforeAnythingIsWritten) {
+    const auto refuse = [&](const Arguments& more, const Arguments& mentions, int status = 2) {
+        expectRefusal(fly(more), status, mentions);
+    };
+    refuse({"--camera", "main", "--out", "f_%d.png"}, {"--camera", "--flythrough"});
+    refuse({"--time", "1", "--out", "f_%d.png"}, {"--time", "--flythrough"});
+    refuse({"--out", "f.png"}, {"%04d"});
+    refuse({"--out", "f.mp4", "--aov", "motion"}, {"--aov"});
+    expectRefusal(
+        {"render", "s.glb", "--flythrough", "flight.json", "--size", "63x36", "--out", "f.mp4"},
+        2,
+        {"--size 63x36", "even"}
+    );
+    refuse({"--out", "f_%d.png", "--keep-frames"}, {"--keep-frames", ".mp4"});
+    refuse({"--out", "f_%d.png", "--ffmpeg", "x"}, {"--ffmpeg", ".mp4"});
+    refuse({"--out", "f.mp4", "--ffmpeg", "no/such/ffmpeg"}, {"--ffmpeg", "no/such/ffmpeg"}, 1);
+    refuse({"--out", "no/such/f.mp4"}, {"--out", "no/such"}, 1);
+    expectRefusal(renderVase({"--out", "f.mp4"}), 2, {"--frames", "--flythrough"});
+    writeFile("flight.json", "{\"version\": 1,\n\"keys\": 3}");
+    refuse({"--out", "f_%d.png"}, {"--flythrough: flight.json:2: keys: must be an array"}, 1);
+}
+
+TEST_F(Sequence, WithoutFfmpegThePackageAndTheOptionAreNamed) {
+    const char* path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
+    const std::string before = path ? path : "";
+    setenv("PATH", "/nowhere", 1); // NOLINT(concurrency-mt-unsafe)
+    expectRefusal(fly({"--out", "f.mp4"}), 1, {"package ffmpeg", "--ffmpeg"});
+    setenv("PATH", before.c_str(), 1); // NOLINT(concurrency-mt-unsafe)
+}
+
+} // namespace shutter::cli
