@@ -54,7 +54,7 @@ TEST_F(ZoomLaw, RaysAndInstantsAgree) {
     };
     const image::Image instants = draw(Method::Accumulate);
     EXPECT_GE(image::computePsnr(draw(Method::Truth), instants), 45.0);
-    EXPECT_LE(image::computePsnr(draw(Method::Sharp), instants), 30.0) << "the zoom shows";
+    EXPECT_LE(image::computePsnr(draw(Method::Sharp), instants), 35.0) << "the zoom shows";
     // While the camera moves and turns, too.
     scene.moveCamera({.velocity = {0.2, 0.05, -0.3}, .angularVelocity = {0.02, 0.25, 0.1}});
     EXPECT_GE(image::computePsnr(draw(Method::Truth), draw(Method::Accumulate)), 45.0);
@@ -98,15 +98,18 @@ TEST_F(ZoomLaw, MotionVectorsAreRadialAtEveryDepthAndInTheSky) {
 TEST_F(ZoomLaw, ACutOfThePathAlsoCutsTheLens) {
     SceneBuilder scene = makeZoom();
     Stage stage(device(), scene);
-    const auto draw = [&](Method method) { return stage.render({.method = method}).color; };
-    EXPECT_FALSE(test::sameBits(draw(Method::Sharp), draw(Method::Hybrid)));
+    const auto draw = [&](Method method, double frameSeconds = scene::kStillFrameSeconds) {
+        return stage.render({.method = method, .frameSeconds = frameSeconds}).color;
+    };
+    // A frame of no duration has no exposure.
+    EXPECT_FALSE(test::sameBits(draw(Method::Hybrid), draw(Method::Hybrid, 0.0)));
     scene::PathMotion path;
     path.keys.resize(2);
     path.keys[0].seconds = -9.0;
     path.keys[1].cut = true; // at 0, the raster instant
     scene.world.registry.add(scene.camera, path);
     for (const Method method : {Method::Hybrid, Method::Accumulate, Method::Truth})
-        EXPECT_TRUE(test::sameBits(draw(Method::Sharp), draw(method))) << describe(method);
+        EXPECT_TRUE(test::sameBits(draw(method), draw(method, 0.0))) << describe(method);
 }
 
 TEST_F(ZoomLaw, InsideWhatIsExcludedFromBlurThePictureIsSharp) {
