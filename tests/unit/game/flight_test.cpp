@@ -143,8 +143,8 @@ TEST(PictureOptions, TellWhatAPictureDependsOnAndNothingElse) {
         CLI::App app;
         RenderArguments arguments;
         defineRenderOptions(app, arguments);
-        std::vector<std::string> words = more;
-        words.insert(words.end(), {"scene.glb", "--out", "f.png"});
+        std::vector<std::string> words = {"scene.glb", "--out", "f.png"};
+        words.insert(words.end(), more.begin(), more.end());
         std::reverse(words.begin(), words.end()); // as CLI11 takes them
         app.parse(words);
         return describePictureOptions(app);
