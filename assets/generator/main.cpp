@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// shutter_generate_assets [--all] OUT_DIR: writes OUT_DIR/vase.glb and OUT_DIR/courtyard.glb; with
-// --all also OUT_DIR/NAME.glb for each of the hard cases.
+// shutter_generate_assets [--all] OUT_DIR: writes OUT_DIR/vase.glb, OUT_DIR/courtyard.glb and those
+// of the gameplay demos; with --all also OUT_DIR/NAME.glb for each of the hard cases.
 // Exit status 0 done, 1 failed, 2 wrong usage.
+#include "assets/generator/demo_scenes.h"
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scenes.h"
 
@@ -24,7 +25,12 @@ struct Output {
 };
 
 std::vector<Output> listOutputs(bool all) {
-    std::vector<Output> outputs = {{"vase", &buildVaseScene}, {"courtyard", &buildCourtyardScene}};
+    std::vector<Output> outputs = {
+        {"vase", &buildVaseScene},
+        {"courtyard", &buildCourtyardScene},
+        {"rally", &buildRallyScene},
+        {"gallery", &buildGalleryScene},
+        {"spin", &buildSpinScene}};
     if (all) {
         for (const BenchCase& hardCase : listHardCases()) {
             outputs.push_back({hardCase.name, hardCase.build});

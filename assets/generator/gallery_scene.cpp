@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// The shooting gallery: a booth with three rails of targets before a striped wall.
+#include "assets/generator/demo_scenes.h"
+#include "assets/generator/mesh_shapes.h"
+#include "assets/generator/scenes.h"
+#include "assets/generator/textures.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace shutter::generator {
+
+namespace {
+
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+
+constexpr vec3 kX{1.0f, 0.0f, 0.0f};
+constexpr vec3 kY{0.0f, 1.0f, 0.0f};
+
+/// A rail along X. Targets stand on it.
+struct Rail {
+    vec3 middle{0.0f}; ///< of its upper side
+    float halfLength = 5.0f;
+    float targetRadius = 0.3f;
+    int targetCount = 3;
+};
+
+constexpr std::array kRails = {
+    Rail{.middle = {0.0f, 0.95f, -5.0f}, .halfLength = 4.2f, .targetRadius = 0.26f},
+    Rail{.middle = {0.0f, 1.60f, -7.5f}, .halfLength = 5.2f, .targetRadius = 0.32f},
+    Rail{.middle = {0.0f, 2.50f, -10.0f}, .halfLength = 6.2f, .targetRadius = 0.40f}};
+
+mat4 moved(vec3 by) {
+    return glm::translate(mat4(1.0f), by);
+}
+
+void addBooth(GltfWriter& writer) {
+    const Index boards = addTextured(writer, "boards", planks(), 0.8f);
+    const Index wall =
+        addTextured(writer, "wall", stripes({0.16f, 0.30f, 0.42f}, {0.80f, 0.76f, 0.66f}), 0.95f);
+    const Index dark = writer.addMaterial({.name = "dark_wood", .color = {0.15f, 0.08f, 0.05f}});
+    Shape walls;
+    append(walls, box({7.2f, 2.6f, 0.1f}, 2.4f), moved({0.0f, 2.5f, -12.1f}));
+    for (const float side : {-1.0f, 1.0f})
+        append(walls, box({0.1f, 2.6f, 7.2f}, 2.4f), moved({side * 7.2f, 2.5f, -5.0f}));
+    Shape trim;
+    append(trim, box({7.2f, 0.12f, 0.04f}, 1.0f), moved({0.0f, 0.12f, -11.98f}));
+    append(trim, box({7.2f, 0.16f, 0.06f}, 1.0f), moved({0.0f, 4.5f, -11.96f}));
+    // The counter before the player.
+    append(trim, roundedBox({2.6f, 0.06f, 0.30f}, 0.05f, 1, 1.0f), moved({0.0f, 0.86f, -0.55f}));
+    Shape floor = box({7.2f, 0.1f, 8.0f}, 2.0f);
+    const std::array parts = {
+        MeshPart{.shape = walls, .material = wall}, MeshPart{.shape = trim, .material = dark}};
+    writer.addNode({.name = "booth", .mesh = writer.addMesh("booth", parts)});
+    addObject(writer, {.name = "floor", .translation = {0.0f, -0.1f, -5.0f}}, floor, boards);
+}
+
+void addRails(GltfWriter& writer) {
+    const Index iron =
+        writer.addMaterial({.name = "iron", .color = vec3(0.25f), .roughness = 0.5f});
+    const std::array faces = {
+        addTextured(writer, "rings_red", rings(vec3(0.94f), {0.82f, 0.10f, 0.10f}), 0.6f),
+        addTextured(writer, "rings_green", rings(vec3(0.94f), {0.06f, 0.42f, 0.20f}), 0.6f),
+        addTextured(writer, "rings_blue", rings(vec3(0.94f), {0.10f, 0.20f, 0.62f}), 0.6f)};
+    const mat4 upright = glm::rotate(mat4(1.0f), glm::half_pi<float>(), kX);
+    for (size_t i = 0; i < kRails.size(); ++i) {
+        const Rail& rail = kRails[i];
+        Shape bar;
+        append(bar, box({rail.halfLength, 0.06f, 0.05f}, 1.0f));
+        for (const float side : {-0.96f, 0.0f, 0.96f}) {
+            const float height = rail.middle.y / 2.0f - 0.03f;
+            append(
+                bar,
+                box({0.04f, height, 0.04f}, 1.0f),
+                moved({side * rail.halfLength, -height, -0.02f})
+            );
+        }
+        addObject(
+            writer,
+            {.name = fmt::format("rail_{}", i), .translation = rail.middle - vec3(0, 0.06f, 0)},
+            bar,
+            iron
+        );
+        // The pivot is the foot, about which a target that is hit falls over.
+        const float stalk = 0.16f;
+        Shape face;
+        append(
+            face,
+            cylinder(rail.targetRadius, 0.05f, 24),
+            moved({0.0f, stalk + rail.targetRadius, 0.0f}) * upright
+        );
+        Shape foot = box({0.03f, stalk, 0.02f}, 1.0f);
+        Shape stand;
+        append(stand, foot, moved({0.0f, stalk, 0.0f}));
+        const std::array parts = {
+            MeshPart{.shape = face, .material = faces[i]},
+            MeshPart{.shape = stand, .material = iron}};
+        const Index mesh = writer.addMesh(fmt::format("target_{}", i), parts);
+        for (int k = 0; k < rail.targetCount; ++k) {
+            const float share =
+                (static_cast<float>(k) + 0.5f) / static_cast<float>(rail.targetCount);
+            writer.addNode(
+                {.name = fmt::format("target_{}_{}", i, k),
+                 .translation = rail.middle + kX * ((share * 2.0f - 1.0f) * rail.halfLength),
+                 .mesh = mesh}
+            );
+        }
+    }
+}
+
+/// Looks from `position` at `target`.
+void addCamera(GltfWriter& writer, const char* name, vec3 position, vec3 target, float yFov) {
+    writer.addNode(
+        {.name = name,
+         .translation = position,
+         .rotation = rotationTowards(target - position),
+         .camera = writer.addCamera(name, yFov, 0.05f)}
+    );
+}
+
+/// In the player's hand, below the line of sight: a tube that throws balls.
+void addLauncher(GltfWriter& writer, Index camera) {
+    const mat4 along = glm::rotate(mat4(1.0f), -glm::half_pi<float>(), kX);
+    Shape barrel;
+    append(barrel, cylinder(0.055f, 0.50f, 16), moved({0.0f, 0.0f, -0.25f}) * along);
+    append(barrel, torus(0.055f, 0.016f, 20, 8), moved({0.0f, 0.0f, -0.49f}) * along);
+    Shape grip;
+    append(
+        grip,
+        roundedBox({0.025f, 0.09f, 0.04f}, 0.02f, 1, 0.2f),
+        glm::rotate(moved({0.0f, -0.12f, -0.05f}), 0.3f, kX)
+    );
+    const std::array parts = {
+        MeshPart{
+            .shape = barrel,
+            .material = writer.addMaterial(
+                {.name = "brass",
+                 .color = {0.72f, 0.52f, 0.20f},
+                 .metallic = 0.2f,
+                 .roughness = 0.4f}
+            )},
+        MeshPart{
+            .shape = grip,
+            .material = writer.addMaterial({.name = "grip", .color = {0.20f, 0.10f, 0.06f}})}};
+    writer.addNode(
+        {.name = "launcher",
+         .parent = camera,
+         .translation = {0.20f, -0.20f, -0.28f},
+         .mesh = writer.addMesh("launcher", parts)}
+    );
+}
+
+} // namespace
+
+GltfWriter buildGalleryScene() {
+    GltfWriter writer("gallery");
+    const Index shooter = writer.addNode(
+        {.name = "shooter",
+         .translation = {0.0f, 1.65f, 0.9f},
+         .camera = writer.addCamera("shooter", 0.80f, 0.05f)}
+    );
+    addLauncher(writer, shooter);
+    addCamera(writer, "side", {-5.8f, 2.5f, -1.6f}, {0.5f, 1.5f, -7.0f}, 0.80f);
+    addCamera(writer, "high", {4.6f, 4.2f, 0.8f}, {-0.6f, 1.4f, -7.6f}, 0.70f);
+    addDemoSun(writer, {0.35f, -0.75f, -0.60f});
+    addBooth(writer);
+    addRails(writer);
+    // The one that others are made of.
+    addObject(
+        writer,
+        {.name = "ball", .translation = {1.4f, 1.02f, -0.55f}},
+        sphere(0.10f, 20, 12),
+        addTextured(writer, "beach_ball", beachBall(), 0.5f)
+    );
+    return writer;
+}
+
+} // namespace shutter::generator

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// The way of the rally and the land around it.
+#include "assets/generator/demo_scenes.h"
+#include "assets/generator/mesh_shapes.h"
+#include "assets/generator/scenes.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace shutter::generator {
+
+namespace {
+
+using glm::vec2;
+using glm::vec3;
+
+constexpr std::array kGates = {
+    vec2(0, 0),
+    vec2(0, -40),
+    vec2(0, -80),
+    vec2(18, -112),
+    vec2(52, -118),
+    vec2(78, -96),
+    vec2(74, -62),
+    vec2(52, -36),
+    vec2(60, -6),
+    vec2(84, 14),
+    vec2(82, 48),
+    vec2(52, 62),
+    vec2(18, 56),
+    vec2(2, 30)};
+
+constexpr float kRoadHalfWidth = 4.5f;
+constexpr vec2 kMiddle{42.0f, -28.0f}; ///< of the land
+
+vec2 gateAt(int index) {
+    const int count = static_cast<int>(kGates.size());
+    return kGates[static_cast<size_t>(((index % count) + count) % count)];
+}
+
+/// A strip beside the centre line, flat. \param from, to metres to the right
+Shape strip(float from, float to, float height, float tileMetres) {
+    constexpr int kStepsPerGate = 14;
+    Shape shape;
+    const int steps = kStepsPerGate * static_cast<int>(kGates.size());
+    float travelled = 0.0f;
+    vec2 before = findCoursePoint(0.0f).place;
+    for (int i = 0; i <= steps; ++i) {
+        const float gate = static_cast<float>(i % steps) / static_cast<float>(kStepsPerGate);
+        const CoursePoint point = findCoursePoint(gate);
+        travelled += glm::distance(point.place, before);
+        before = point.place;
+        const vec2 right(-point.direction.y, point.direction.x);
+        for (const float side : {from, to}) {
+            const vec2 place = point.place + right * side;
+            addVertex(
+                shape,
+                {place.x, height, place.y},
+                {0, 1, 0},
+                {side == from ? 0.0f : 1.0f, travelled / tileMetres}
+            );
+        }
+        if (i == 0)
+            continue;
+        const size_t a = static_cast<size_t>(i - 1) * 2;
+        addTriangle(shape, a, a + 1, a + 3);
+        addTriangle(shape, a, a + 3, a + 2);
+    }
+    return shape;
+}
+
+/// A grid, since one huge triangle would lose depth to rounding.
+Shape plain() {
+    constexpr int kCells = 20;
+    constexpr float kCellMetres = 24.0f;
+    constexpr float kTileMetres = 12.0f;
+    Shape shape;
+    for (int z = 0; z <= kCells; ++z) {
+        for (int x = 0; x <= kCells; ++x) {
+            const vec2 place =
+                (vec2(x, z) - static_cast<float>(kCells) / 2.0f) * kCellMetres + kMiddle;
+            addVertex(shape, {place.x, 0.0f, place.y}, {0, 1, 0}, place / kTileMetres);
+            if (x == 0 || z == 0)
+                continue;
+            const auto last = static_cast<size_t>(z * (kCells + 1) + x);
+            const size_t above = last - kCells - 1;
+            addTriangle(shape, last, above, above - 1);
+            addTriangle(shape, last, above - 1, last - 1);
+        }
+    }
+    return shape;
+}
+
+/// A ring of slopes that face the middle.
+Shape hills(float radius, float lowest, float highest, int seed) {
+    constexpr int kColumns = 64;
+    Shape shape;
+    for (int i = 0; i <= kColumns; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / kColumns;
+        const vec2 out(std::cos(angle), std::sin(angle));
+        const float share =
+            fractalNoise({static_cast<float>(i) / 8.0f, 0.5f}, {kColumns / 8, 1}, seed);
+        const vec2 foot = kMiddle + out * radius;
+        const vec2 top = kMiddle + out * (radius + 30.0f);
+        const vec3 normal = glm::normalize(vec3(-out.x * 0.5f, 1.0f, -out.y * 0.5f));
+        addVertex(shape, {foot.x, -0.5f, foot.y}, normal, {0, 0});
+        addVertex(shape, {top.x, glm::mix(lowest, highest, share), top.y}, normal, {0, 1});
+        if (i == 0)
+            continue;
+        const size_t a = static_cast<size_t>(i - 1) * 2;
+        addTriangle(shape, a, a + 2, a + 3);
+        addTriangle(shape, a, a + 3, a + 1);
+    }
+    return shape;
+}
+
+struct Wood {
+    Shape trunks;
+    Shape crowns;
+};
+
+Wood plantTrees() {
+    constexpr int kTries = 150;
+    constexpr std::array kCrown = {vec2(0.0f, 1.1f), vec2(1.7f, 1.3f), vec2(0.0f, 5.6f)};
+    Wood wood;
+    for (int i = 0; i < kTries; ++i) {
+        const vec2 place = kMiddle + (vec2(hash(i, 0, 331), hash(i, 1, 331)) - 0.5f) * 280.0f;
+        if (measureCourseDistance(place) < 14.0f)
+            continue;
+        const float size = 0.8f + 0.9f * hash(i, 2, 331);
+        const glm::mat4 at =
+            glm::scale(glm::translate(glm::mat4(1.0f), {place.x, 0.0f, place.y}), vec3(size));
+        append(wood.crowns, lathe(kCrown, 8), at);
+        append(wood.trunks, cylinder(0.2f, 1.6f, 5), glm::translate(at, vec3(0.0f, 0.7f, 0.0f)));
+    }
+    return wood;
+}
+
+} // namespace
+
+std::span<const vec2> listCourseGates() {
+    return kGates;
+}
+
+CoursePoint findCoursePoint(float gate) {
+    const float whole = std::floor(gate);
+    const int k = static_cast<int>(whole);
+    const float t = gate - whole;
+    const vec2 p0 = gateAt(k - 1);
+    const vec2 p1 = gateAt(k);
+    const vec2 p2 = gateAt(k + 1);
+    const vec2 p3 = gateAt(k + 2);
+    // Catmull and Rom 1974, tension 1/2, with its first two derivatives.
+    const vec2 a = 3.0f * p1 - p0 - 3.0f * p2 + p3;
+    const vec2 b = 2.0f * p0 - 5.0f * p1 + 4.0f * p2 - p3;
+    const vec2 c = p2 - p0;
+    const vec2 first = 0.5f * (c + t * (2.0f * b + t * 3.0f * a));
+    const vec2 second = 0.5f * (2.0f * b + t * 6.0f * a);
+    const float speed = glm::length(first);
+    return {
+        .place = 0.5f * (2.0f * p1 + t * (c + t * (b + t * a))),
+        .direction = first / speed,
+        .curvature = (first.x * second.y - first.y * second.x) / (speed * speed * speed)};
+}
+
+float measureCourseDistance(vec2 place) {
+    constexpr int kStepsPerGate = 40;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < kStepsPerGate * static_cast<int>(kGates.size()); ++i) {
+        const float gate = static_cast<float>(i) / kStepsPerGate;
+        nearest = std::min(nearest, glm::distance(place, findCoursePoint(gate).place));
+    }
+    return nearest;
+}
+
+void addRallyLand(GltfWriter& writer, const RallyLand& land) {
+    const auto plainColor = [&](const char* name, vec3 color) {
+        return writer.addMaterial({.name = name, .color = color, .roughness = 0.95f});
+    };
+    const Index kerb =
+        addTextured(writer, "kerb", stripes({0.85f, 0.16f, 0.13f}, {0.93f, 0.92f, 0.88f}), 0.8f);
+    // Along the strip, where the texture has its stripes across.
+    const auto kerbStrip = [](float from, float to) {
+        Shape shape = strip(from, to, 0.035f, 8.0f);
+        for (vec2& uv : shape.uvs)
+            uv = {uv.y, uv.x};
+        return shape;
+    };
+    Wood wood = plantTrees();
+    const Index grass = addTextured(writer, "meadow", meadow(), 0.95f);
+    const Index near = plainColor("near_hills", {0.13f, 0.27f, 0.10f});
+    const Index far = plainColor("far_hills", {0.20f, 0.31f, 0.34f});
+    // One mesh and so one entity: the land hides nothing of itself that motion would have to
+    // reveal.
+    // Drawn in this order: what covers the plain comes before it, so that little is shaded twice.
+    const std::array parts = {
+        MeshPart{.shape = land.fenceRails, .material = plainColor("rails", vec3(0.80f))},
+        MeshPart{.shape = land.gatePoles, .material = plainColor("gate_poles", vec3(0.55f))},
+        MeshPart{
+            .shape = land.startBanner,
+            .material = addTextured(writer, "start", checkers(vec3(0.95f), vec3(0.06f)), 0.8f)},
+        MeshPart{
+            .shape = land.banners,
+            .material = addTextured(
+                writer, "gate", checkers({0.95f, 0.72f, 0.12f}, {0.10f, 0.22f, 0.50f}), 0.8f
+            )},
+        MeshPart{
+            .shape = land.fencePosts, .material = plainColor("fence_posts", {0.26f, 0.17f, 0.10f})},
+        MeshPart{
+            .shape = strip(-kRoadHalfWidth, kRoadHalfWidth, 0.02f, 8.0f),
+            .material = addTextured(writer, "roadway", roadway(), 0.9f)},
+        MeshPart{.shape = kerbStrip(-kRoadHalfWidth - 0.45f, -kRoadHalfWidth), .material = kerb},
+        MeshPart{.shape = kerbStrip(kRoadHalfWidth, kRoadHalfWidth + 0.45f), .material = kerb},
+        MeshPart{.shape = wood.trunks, .material = plainColor("trunks", {0.16f, 0.10f, 0.06f})},
+        MeshPart{.shape = wood.crowns, .material = plainColor("crowns", {0.07f, 0.20f, 0.07f})},
+        MeshPart{.shape = hills(150.0f, 5.0f, 16.0f, 341), .material = near},
+        MeshPart{.shape = plain(), .material = grass},
+        MeshPart{.shape = hills(190.0f, 14.0f, 34.0f, 342), .material = far},
+    };
+    writer.addNode({.name = "land", .mesh = writer.addMesh("land", parts)});
+}
+
+} // namespace shutter::generator

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// A fairground of things that turn: a carousel, a fan that it drives, and a wind wheel.
+#include "assets/generator/demo_scenes.h"
+#include "assets/generator/mesh_shapes.h"
+#include "assets/generator/props.h"
+#include "assets/generator/scenes.h"
+#include "assets/generator/textures.h"
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace shutter::generator {
+
+namespace {
+
+using glm::mat4;
+using glm::vec2;
+using glm::vec3;
+
+constexpr vec3 kX{1.0f, 0.0f, 0.0f};
+constexpr vec3 kY{0.0f, 1.0f, 0.0f};
+constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
+constexpr int kSeatCount = 8;
+constexpr float kSeatRadius = 2.3f;
+
+mat4 moved(vec3 by) {
+    return glm::translate(mat4(1.0f), by);
+}
+
+Index plainMaterial(GltfWriter& writer, const char* name, vec3 color, float roughness) {
+    return writer.addMaterial({.name = name, .color = color, .roughness = roughness});
+}
+
+/// A hobby horse that looks along +X, about the middle of its trunk, with its pole.
+struct Horse {
+    Shape coat;
+    Shape tack; ///< saddle and pole
+};
+
+Horse buildHorse() {
+    Horse horse;
+    append(horse.coat, roundedBox({0.36f, 0.15f, 0.13f}, 0.09f, 2, 1.0f));
+    append(
+        horse.coat,
+        roundedBox({0.09f, 0.24f, 0.08f}, 0.05f, 1, 1.0f),
+        glm::rotate(moved({0.36f, 0.22f, 0.0f}), -0.5f, kZ)
+    );
+    append(
+        horse.coat,
+        roundedBox({0.16f, 0.075f, 0.07f}, 0.05f, 1, 1.0f),
+        glm::rotate(moved({0.54f, 0.40f, 0.0f}), -0.35f, kZ)
+    );
+    for (const float x : {-0.27f, 0.27f})
+        for (const float z : {-0.08f, 0.08f})
+            append(
+                horse.coat,
+                box({0.04f, 0.19f, 0.04f}, 1.0f),
+                glm::rotate(moved({x + 0.06f, -0.28f, z}), x > 0.0f ? 0.45f : -0.35f, kZ)
+            );
+    append(horse.tack, roundedBox({0.14f, 0.05f, 0.15f}, 0.03f, 1, 1.0f), moved({0, 0.15f, 0}));
+    append(horse.tack, cylinder(0.022f, 2.3f, 8), moved({0.0f, 0.35f, 0.0f}));
+    return horse;
+}
+
+void addSeats(GltfWriter& writer, Index carousel) {
+    const Horse horse = buildHorse();
+    const Index tack = plainMaterial(writer, "tack", {0.60f, 0.45f, 0.16f}, 0.4f);
+    const auto addHorseMesh = [&](const char* name, vec3 color) {
+        const std::array parts = {
+            MeshPart{.shape = horse.coat, .material = plainMaterial(writer, name, color, 0.5f)},
+            MeshPart{.shape = horse.tack, .material = tack}};
+        return writer.addMesh(name, parts);
+    };
+    const std::array meshes = {
+        addHorseMesh("horse_gold", {0.85f, 0.55f, 0.08f}),
+        addHorseMesh("horse_white", vec3(0.80f)),
+        addHorseMesh("horse_red", {0.60f, 0.10f, 0.08f})};
+    for (int i = 0; i < kSeatCount; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / kSeatCount;
+        const glm::quat turn = glm::angleAxis(angle, kY);
+        // Seat 0 faces +Z of the carousel; the horses run the way it turns, counter-clockwise.
+        writer.addNode(
+            {.name = fmt::format("seat_{}", i),
+             .parent = carousel,
+             .translation = turn * vec3(0.0f, 1.05f, kSeatRadius),
+             .rotation = turn,
+             .mesh = meshes[i == 0 ? 0 : (i % 2 == 0 ? 2 : 1)]}
+        );
+    }
+}
+
+Index addCarousel(GltfWriter& writer) {
+    constexpr std::array kPlatform = {vec2(0.0f, 0.45f), vec2(3.0f, 0.45f)};
+    constexpr std::array kRim = {vec2(3.0f, 0.15f), vec2(3.0f, 0.45f)};
+    constexpr std::array kRoof = {vec2(3.25f, 2.75f), vec2(1.6f, 3.25f), vec2(0.0f, 4.1f)};
+    constexpr std::array kCeiling = {vec2(0.0f, 2.75f), vec2(3.25f, 2.75f)};
+    // A run that goes outwards faces down; the deck is its mirror image, from the rim inwards.
+    constexpr std::array kDeck = {kPlatform[1], kPlatform[0]};
+    constexpr std::array kValance = {vec2(3.25f, 2.5f), vec2(3.25f, 2.75f)};
+    const Index canvas =
+        addTextured(writer, "canvas", stripes({0.84f, 0.16f, 0.14f}, {0.95f, 0.92f, 0.84f}), 0.8f);
+    const Index bunting = addTextured(
+        writer, "bunting", checkers({0.95f, 0.76f, 0.18f}, {0.14f, 0.24f, 0.56f}), 0.8f
+    );
+    const std::array parts = {
+        MeshPart{
+            .shape = withUvScale(lathe(kDeck, 32), {8.0f, 1.0f}),
+            .material = addTextured(
+                writer, "deck", stripes({0.46f, 0.28f, 0.16f}, {0.58f, 0.38f, 0.22f}), 0.8f
+            )},
+        MeshPart{.shape = withUvScale(lathe(kRim, 32), {12.0f, 1.0f}), .material = bunting},
+        MeshPart{.shape = withUvScale(lathe(kRoof, 32), {3.0f, 1.0f}), .material = canvas},
+        MeshPart{
+            .shape = lathe(kCeiling, 32),
+            .material = plainMaterial(writer, "ceiling", {0.42f, 0.33f, 0.24f}, 0.9f)},
+        MeshPart{.shape = withUvScale(lathe(kValance, 32), {16.0f, 1.0f}), .material = bunting}};
+    const Index carousel = writer.addNode(
+        {.name = "carousel",
+         .translation = {-1.6f, 0.0f, -1.0f},
+         .mesh = writer.addMesh("carousel", parts)}
+    );
+    addObject(
+        writer,
+        {.name = "hub", .parent = carousel, .translation = {0.0f, 1.6f, 0.0f}},
+        withUvScale(cylinder(0.55f, 2.3f, 24), {3.0f, 1.0f}),
+        addTextured(writer, "hub", stripes({0.12f, 0.34f, 0.40f}, {0.92f, 0.86f, 0.66f}), 0.5f)
+    );
+    addSeats(writer, carousel);
+    // On the outermost horses' way: what a rider sees.
+    writer.addNode(
+        {.name = "rider",
+         .parent = carousel,
+         .translation = glm::angleAxis(-0.42f, kY) * vec3(0.0f, 2.05f, 2.35f),
+         .rotation = glm::angleAxis(-1.15f, kY),
+         .camera = writer.addCamera("rider", 0.95f, 0.1f)}
+    );
+    return carousel;
+}
+
+void addFan(GltfWriter& writer) {
+    const Index iron = plainMaterial(writer, "iron", {0.20f, 0.22f, 0.25f}, 0.5f);
+    Shape tower;
+    append(tower, roundedBox({0.16f, 1.35f, 0.16f}, 0.03f, 1, 1.0f), moved({0, 1.35f, -0.30f}));
+    append(tower, roundedBox({0.50f, 0.10f, 0.45f}, 0.04f, 1, 1.0f), moved({0, 0.10f, -0.20f}));
+    append(
+        tower,
+        torus(1.32f, 0.045f, 40, 8),
+        glm::rotate(moved({0.0f, 2.5f, 0.0f}), glm::half_pi<float>(), kX)
+    );
+    addObject(writer, {.name = "fan_tower", .translation = {3.6f, 0.0f, -0.2f}}, tower, iron);
+    const std::array parts = {MeshPart{
+        .shape = pinwheel(1.2f, 6),
+        .material =
+            addTextured(writer, "blades", stripes({0.93f, 0.60f, 0.10f}, vec3(0.94f)), 0.5f)}};
+    writer.addNode(
+        {.name = "fan", .translation = {3.6f, 2.5f, -0.2f}, .mesh = writer.addMesh("fan", parts)}
+    );
+}
+
+void addMill(GltfWriter& writer) {
+    constexpr vec3 kFoot{6.5f, 0.0f, -9.0f};
+    constexpr std::array kTower = {vec2(1.5f, 0.0f), vec2(1.1f, 3.0f), vec2(0.9f, 5.6f)};
+    constexpr std::array kCap = {vec2(1.1f, 5.6f), vec2(0.0f, 7.0f)};
+    const std::array parts = {
+        MeshPart{
+            .shape = withUvScale(lathe(kTower, 20), {2.0f, 1.0f}),
+            .material = plainMaterial(writer, "plaster", {0.72f, 0.66f, 0.56f}, 0.9f)},
+        MeshPart{
+            .shape = lathe(kCap, 20),
+            .material = plainMaterial(writer, "thatch", {0.28f, 0.18f, 0.09f}, 0.9f)}};
+    writer.addNode(
+        {.name = "mill_tower", .translation = kFoot, .mesh = writer.addMesh("mill_tower", parts)}
+    );
+    Shape sails;
+    append(sails, cylinder(0.14f, 0.5f, 12), glm::rotate(mat4(1.0f), glm::half_pi<float>(), kX));
+    for (int i = 0; i < 4; ++i) {
+        const mat4 spoke =
+            glm::rotate(mat4(1.0f), glm::half_pi<float>() * static_cast<float>(i), kZ);
+        append(sails, box({0.06f, 1.8f, 0.04f}, 1.0f), glm::translate(spoke, vec3(0, 1.8f, 0.10f)));
+        append(
+            sails, box({0.30f, 1.3f, 0.015f}, 0.6f), glm::translate(spoke, vec3(0.34f, 2.2f, 0.10f))
+        );
+    }
+    addObject(
+        writer,
+        {.name = "mill", .translation = kFoot + vec3(0.0f, 5.3f, 1.25f)},
+        sails,
+        addTextured(writer, "sails", checkers({0.90f, 0.86f, 0.76f}, {0.70f, 0.26f, 0.18f}), 0.8f)
+    );
+}
+
+/// The brass ring that riders reach for, on a post at the carousel's front.
+void addRing(GltfWriter& writer) {
+    Shape post;
+    append(post, cylinder(0.05f, 2.0f, 10), moved({0.0f, 1.0f, 0.0f}));
+    append(post, cylinder(0.30f, 0.10f, 20), moved({0.0f, 0.05f, 0.0f}));
+    append(
+        post,
+        torus(0.20f, 0.035f, 24, 8),
+        glm::rotate(moved({0.0f, 2.2f, 0.0f}), glm::half_pi<float>(), kX)
+    );
+    addObject(
+        writer,
+        {.name = "ring", .translation = {-1.6f, 0.0f, 2.35f}},
+        post,
+        writer.addMaterial(
+            {.name = "brass", .color = {0.80f, 0.56f, 0.18f}, .metallic = 0.3f, .roughness = 0.3f}
+        )
+    );
+}
+
+void addGround(GltfWriter& writer) {
+    Shape ground = box({30.0f, 0.1f, 30.0f}, 4.0f);
+    const Index slabs = writer.addMaterial(
+        {.name = "slabs",
+         .texture =
+             writer.addTexture("slabs", checkers({0.62f, 0.58f, 0.50f}, {0.52f, 0.49f, 0.44f})),
+         .roughness = 0.95f}
+    );
+    Shape hedge;
+    for (const float x : {-1.0f, 1.0f})
+        append(hedge, box({0.6f, 1.0f, 22.0f}, 1.0f), moved({x * 15.0f, 1.0f, -6.0f}));
+    append(hedge, box({15.0f, 1.0f, 0.6f}, 1.0f), moved({0.0f, 1.0f, -16.0f}));
+    const std::array parts = {
+        MeshPart{.shape = ground, .material = slabs},
+        MeshPart{
+            .shape = hedge,
+            .material = plainMaterial(writer, "hedge", {0.08f, 0.20f, 0.06f}, 0.9f)}};
+    writer.addNode(
+        {.name = "ground",
+         .translation = {0.0f, -0.1f, 0.0f},
+         .mesh = writer.addMesh("ground", parts)}
+    );
+}
+
+} // namespace
+
+GltfWriter buildSpinScene() {
+    GltfWriter writer("spin");
+    writer.addNode(
+        {.name = "front",
+         .translation = {0.6f, 2.3f, 8.2f},
+         .rotation = glm::angleAxis(-0.03f, kX),
+         .camera = writer.addCamera("front", 0.72f, 0.1f)}
+    );
+    addDemoSun(writer, {0.40f, -0.80f, -0.55f});
+    addGround(writer);
+    addCarousel(writer);
+    addFan(writer);
+    writer.addNode(
+        {.name = "close",
+         .translation = {2.0f, 2.2f, 3.0f},
+         .rotation = rotationTowards({1.5f, 0.25f, -3.2f}),
+         .camera = writer.addCamera("close", 0.85f, 0.1f)}
+    );
+    addMill(writer);
+    addRing(writer);
+    return writer;
+}
+
+} // namespace shutter::generator
