@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "game/demos/rally_demo.h"
+
+#include "game/demos/rally_posts.h"
+#include "game/demos/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace shutter::game {
+
+namespace {
+
+constexpr int kLaps = 2;
+constexpr double kTimeLimit = 120.0; // s
+constexpr double kParSeconds = 90.0; // a faster race is worth kPerSecond a second
+constexpr int kPerSecond = 20;
+constexpr int kPerGate = 100;
+constexpr int kPerPost = -50;
+
+math::Transform restOf(const scene::World& world, ecs::Entity entity) {
+    return world.registry.get<scene::LocalTransform>(entity).transform;
+}
+
+void addPosts(scene::World& world, const std::vector<ecs::Entity>& entities) {
+    for (const ecs::Entity entity : entities) {
+        Post post;
+        post.rod.place = simulate(world, entity).transform.translation;
+        world.registry.add(entity, post);
+    }
+}
+
+} // namespace
+
+core::Result<std::unique_ptr<Demo>> RallyDemo::create(scene::World world, std::string_view file) {
+    NodeNames names(world);
+    Nodes nodes;
+    nodes.car = names.find("car");
+    nodes.body = names.find("car_body");
+    nodes.chase = names.find("chase");
+    static constexpr std::array kWheels = {"front_left", "front_right", "rear_left", "rear_right"};
+    for (size_t i = 0; i < kWheels.size(); ++i)
+        nodes.wheels[i] = {
+            names.find(std::string("wheel_") + kWheels[i]),
+            names.find(std::string("spokes_") + kWheels[i]),
+            {},
+            i < 2};
+    (void)names.find("gate_02"); // a track has three gates at least
+    if (core::Status complete = names.check(file); !complete)
+        return complete.error();
+    if (world.cameras.empty())
+        return core::makeError("{}: it has no camera", file);
+    for (Wheel& wheel : nodes.wheels)
+        wheel.rest = restOf(world, wheel.tyre);
+    std::vector<Gate> gates;
+    for (const ecs::Entity gate : names.findAll("gate_"))
+        gates.push_back(readGate(restOf(world, gate)));
+    if (gates.size() < 3)
+        return core::makeError("{}: it has {} gates, a track needs three", file, gates.size());
+    std::vector<Fence> fences;
+    for (const ecs::Entity fence : names.findAll("fence_"))
+        fences.push_back(readFence(restOf(world, fence)));
+    addPosts(world, names.findAll("post_"));
+    return std::unique_ptr<Demo>(
+        new RallyDemo(std::move(world), nodes, RallyTrack(std::move(gates)), std::move(fences))
+    );
+}
+
+RallyDemo::RallyDemo(
+    scene::World loaded, const Nodes& nodes, RallyTrack track, std::vector<Fence> fences
+)
+    : DemoBase(std::move(loaded), nodes.body), mCar(nodes.car), mNodes(nodes),
+      mBodyRest(restOf(world(), nodes.body)), mTrack(std::move(track)), mFences(std::move(fences)) {
+    const Gate& start = mTrack.gates().front();
+    CarState car;
+    car.heading = std::atan2(-start.direction.x, -start.direction.y);
+    // Before the line, so that it is passed when the race begins.
+    car.place = start.place - start.direction * 8.0;
+    mChase.heading = car.heading;
+    world().registry.add(mCar, car);
+    for (const ecs::Entity entity : {mCar, mNodes.body, mNodes.chase})
+        (void)game::simulate(world(), entity);
+    for (const Wheel& wheel : mNodes.wheels) {
+        (void)game::simulate(world(), wheel.tyre);
+        (void)game::simulate(world(), wheel.spokes);
+        // Wheels blur by their own motion, whatever is said of the body.
+        world().registry.add(wheel.tyre, scene::MotionBlur{});
+    }
+    placeCar();
+    recordStart();
+}
+
+void RallyDemo::placeCar() {
+    ecs::Registry& registry = world().registry;
+    const CarState state = car();
+    const auto place = [&](ecs::Entity entity, const math::Transform& pose) {
+        registry.get<SimulatedPose>(entity).transform = pose;
+    };
+    place(mCar, carPose(state));
+    place(mNodes.body, bodyPose(state, mBodyRest));
+    for (const Wheel& wheel : mNodes.wheels) {
+        place(wheel.tyre, wheelPose(state, wheel.rest, wheel.isFront));
+        place(wheel.spokes, spokesPose(state, wheel.isFront));
+    }
+    place(mNodes.chase, chasePose(mChase, state));
+}
+
+void RallyDemo::simulate(const DemoControls& controls) {
+    auto& state = world().registry.get<CarState>(mCar);
+    const math::dvec2 before = state.place;
+    // After the race the car rolls out.
+    const DemoControls rollOut{.drive = state.speed() > 0.5 ? -0.4 : 0.0};
+    stepCar(state, isOver() ? rollOut : controls, mTrack.isOnRoad(state.place));
+    (void)collideWithFences(state, mFences);
+    const int hits = hitPosts(world().registry, state);
+    stepPosts(world().registry);
+    stepChase(mChase, state);
+    placeCar();
+    if (isOver())
+        return;
+    mPostsHit += hits;
+    (void)advance(mProgress, mTrack, before, state.place);
+    if (mProgress.lap >= kLaps || seconds() >= kTimeLimit)
+        mEndSeconds = seconds();
+}
+
+DemoLook RallyDemo::look() const {
+    return {{0.30f, 0.52f, 0.86f}, {0.34f, 0.38f, 0.44f}};
+}
+
+bool RallyDemo::isOver() const {
+    return mEndSeconds > 0.0;
+}
+
+int RallyDemo::score() const {
+    const bool isFinished = mProgress.lap >= kLaps;
+    const double early = isFinished ? std::max(kParSeconds - mEndSeconds, 0.0) : 0.0;
+    return kPerGate * mProgress.gatesPassed + kPerPost * mPostsHit +
+           static_cast<int>(kPerSecond * early);
+}
+
+std::vector<HudLine> RallyDemo::hud() const {
+    if (isOver())
+        return {
+            {mProgress.lap >= kLaps ? "Finish" : "Out of time", true},
+            {fmt::format("Score {}", score()), true},
+            {fmt::format(
+                 "{:.1f} s, {} gates, {} posts knocked over",
+                 mEndSeconds,
+                 mProgress.gatesPassed,
+                 mPostsHit
+             ),
+             false}};
+    return {
+        {fmt::format("Score {}", score()), true},
+        {fmt::format(
+             "Lap {}/{}   {:.1f} s   {:.0f} km/h",
+             mProgress.lap + 1,
+             kLaps,
+             seconds(),
+             std::abs(car().speed()) * 3.6
+         ),
+         false},
+        {fmt::format("{} gates, {} posts knocked over", mProgress.gatesPassed, mPostsHit), false},
+        controlsLine()};
+}
+
+} // namespace shutter::game

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "game/demos/spin_demo.h"
+
+#include "game/demos/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace shutter::game {
+
+using math::dquat;
+using math::dvec3;
+
+namespace {
+
+constexpr double kRoundSeconds = 45.0;
+constexpr double kOrbitRate = 0.5; // rad/s
+constexpr double kMostOrbit = 0.7; // radians
+constexpr double kBob = 0.20;      // metres that a seat rises and sinks
+constexpr double kBobsPerTurn = 2.0;
+const dvec3 kY(0.0, 1.0, 0.0);
+const dvec3 kZ(0.0, 0.0, 1.0);
+
+} // namespace
+
+core::Result<std::unique_ptr<Demo>> SpinDemo::create(scene::World world, std::string_view file) {
+    NodeNames names(world);
+    const auto part = [&](ecs::Entity entity) {
+        const auto* rest = std::as_const(world).registry.find<scene::LocalTransform>(entity);
+        return Part{entity, rest ? rest->transform : math::Transform{}};
+    };
+    Parts parts;
+    parts.carousel = part(names.find("carousel"));
+    parts.fan = part(names.find("fan"));
+    parts.mill = part(names.find("mill"));
+    parts.front = part(names.find("front"));
+    parts.hub = names.find("hub");
+    (void)names.find("seat_0"); // the golden one
+    if (core::Status complete = names.check(file); !complete)
+        return complete.error();
+    if (world.cameras.empty())
+        return core::makeError("{}: it has no camera", file);
+    for (const ecs::Entity seat : names.findAll("seat_"))
+        parts.seats.push_back(part(seat));
+    return std::unique_ptr<Demo>(new SpinDemo(std::move(world), std::move(parts)));
+}
+
+SpinDemo::SpinDemo(scene::World loaded, Parts parts)
+    : DemoBase(std::move(loaded), parts.hub), mParts(std::move(parts)) {
+    const auto add = [&](const Part& part) { (void)game::simulate(world(), part.entity); };
+    add(mParts.carousel);
+    add(mParts.fan);
+    add(mParts.mill);
+    add(mParts.front);
+    for (const Part& seat : mParts.seats)
+        add(seat);
+    mRide.rate = 0.6; // it is turning when the game begins
+    placeParts();
+    recordStart();
+}
+
+void SpinDemo::placeParts() {
+    ecs::Registry& registry = world().registry;
+    const auto place = [&](const Part& part, const dvec3& translation, const dquat& turn) {
+        auto& pose = registry.get<SimulatedPose>(part.entity).transform;
+        pose.translation = translation;
+        pose.rotation = turn * part.rest.rotation;
+    };
+    place(mParts.carousel, mParts.carousel.rest.translation, glm::angleAxis(mRide.carousel, kY));
+    place(mParts.fan, mParts.fan.rest.translation, glm::angleAxis(-mRide.fan, kZ));
+    place(mParts.mill, mParts.mill.rest.translation, glm::angleAxis(-mRide.mill, kZ));
+    for (size_t i = 0; i < mParts.seats.size(); ++i) {
+        const Part& seat = mParts.seats[i];
+        // Neighbours rise and sink by turns.
+        const double phase =
+            kBobsPerTurn * mRide.carousel + std::numbers::pi * static_cast<double>(i % 2);
+        place(
+            seat, seat.rest.translation + kY * (kBob * std::sin(phase)), dquat(1.0, 0.0, 0.0, 0.0)
+        );
+    }
+    const dquat round = glm::angleAxis(mOrbit, kY);
+    const dvec3 middle = mParts.carousel.rest.translation;
+    place(mParts.front, middle + round * (mParts.front.rest.translation - middle), round);
+}
+
+void SpinDemo::simulate(const DemoControls& controls) {
+    constexpr double dt = kDemoStepSeconds;
+    const bool wasOver = isOver();
+    // After the end the ride runs down.
+    stepRide(mRide, wasOver ? DemoControls{.drive = -0.15} : controls);
+    mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMostOrbit, kMostOrbit);
+    placeParts();
+    // Seat 0 faces +Z, where the ring stands, at angle 0.
+    if (!wasOver)
+        stepRules(mRules, mRide, mRide.carousel, controls.action, mRandom);
+}
+
+DemoLook SpinDemo::look() const {
+    return {{0.34f, 0.55f, 0.86f}, {0.40f, 0.40f, 0.42f}};
+}
+
+bool SpinDemo::isOver() const {
+    return seconds() > kRoundSeconds;
+}
+
+std::vector<HudLine> SpinDemo::hud() const {
+    const HudLine rings{
+        fmt::format("{} rings caught, {} grabs missed", mRules.caught, mRules.missed), false};
+    if (isOver())
+        return {{"The ride is over", true}, {fmt::format("Score {}", score()), true}, rings};
+    constexpr double kPerMinute = 30.0 / std::numbers::pi;
+    const bool isKept = std::abs(mRide.rate - mRules.targetRate) <= kRateTolerance;
+    return {
+        {fmt::format("Score {}", score()), true},
+        {fmt::format(
+             "Turn {:.1f} times a minute, keep {:.1f}{}",
+             mRide.rate * kPerMinute,
+             mRules.targetRate * kPerMinute,
+             isKept ? ": kept" : ""
+         ),
+         isKept},
+        {fmt::format("{:.1f} s left", std::max(kRoundSeconds - seconds(), 0.0)), false},
+        rings,
+        controlsLine()};
+}
+
+} // namespace shutter::game
