@@ -134,7 +134,8 @@ State findStart(
     State state;
     if (record.imported) {
         state.layout = record.initialLayout;
-        state.lastWrite = kEarlierSubmissions;
+        state.lastWrite = record.before ? Half{record.before->stages, record.before->access}
+                                        : kEarlierSubmissions;
     } else if (record.isImage) {
         const auto image =
             std::find_if(plan.images.begin(), plan.images.end(), [&](const Placement& other) {
@@ -164,7 +165,21 @@ void finish(const Graph& graph, Plan& plan, uint32_t resource, const State& stat
     const ResourceRecord& record = graph.resources()[resource];
     if (!record.imported)
         return;
-    if (record.isImage) {
+    if (record.isImage && record.after) {
+        const VkImageLayout layout =
+            record.finalLayout == VK_IMAGE_LAYOUT_UNDEFINED ? state.layout : record.finalLayout;
+        if (layout == VK_IMAGE_LAYOUT_UNDEFINED) // nothing was in it, and nothing is
+            return;
+        plan.finalImageBarriers.push_back(
+            {resource,
+             state.readers.stages | state.lastWrite.stages,
+             state.lastWrite.access,
+             record.after->stages,
+             record.after->access,
+             state.layout,
+             layout}
+        );
+    } else if (record.isImage) {
         if (record.finalLayout == VK_IMAGE_LAYOUT_UNDEFINED || record.finalLayout == state.layout)
             return;
         const Half src = state.readers.stages ? Half{state.readers.stages, 0} : state.lastWrite;

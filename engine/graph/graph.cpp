@@ -68,6 +68,15 @@ ImageHandle Graph::importImage(
     return addResource<ImageHandle>(std::move(record));
 }
 
+ImageHandle Graph::importImage(
+    std::string name, const gpu::Image& image, const OutsideUse& before, const OutsideUse& after
+) {
+    const ImageHandle handle = importImage(std::move(name), image, before.layout, after.layout);
+    mResources.back().before = before;
+    mResources.back().after = after;
+    return handle;
+}
+
 BufferHandle Graph::importBuffer(std::string name, VkBuffer buffer, VkDeviceSize bytes) {
     ResourceRecord record;
     record.name = std::move(name);

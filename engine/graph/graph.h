@@ -84,6 +84,9 @@ struct ResourceRecord {
     /// Imported images: layout before and after the frame. UNDEFINED before: contents are dropped.
     VkImageLayout initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageLayout finalLayout = VK_IMAGE_LAYOUT_UNDEFINED; ///< UNDEFINED: whatever is left
+    /// Imported images whose users outside the frame were told; else any command may be one.
+    std::optional<OutsideUse> before;
+    std::optional<OutsideUse> after;
     uint32_t versionCount =
         1; ///< version 0: what is there before any pass (nothing, for transients)
 
@@ -136,6 +139,10 @@ class Graph {
         const gpu::Image& image,
         VkImageLayout initialLayout,
         VkImageLayout finalLayout
+    );
+    /// The frame waits for `before` alone, and `after` for the frame: no barrier outside is needed.
+    [[nodiscard]] ImageHandle importImage(
+        std::string name, const gpu::Image& image, const OutsideUse& before, const OutsideUse& after
     );
     /// \param bytes for the dump only
     [[nodiscard]] BufferHandle importBuffer(std::string name, VkBuffer buffer, VkDeviceSize bytes);

@@ -48,6 +48,15 @@ struct TransientBufferDesc {
     bool operator==(const TransientBufferDesc&) const = default;
 };
 
+/// What others do to an imported image before the frame or after it, as the frame must know it to
+/// stand between the two.
+struct OutsideUse {
+    /// Before: UNDEFINED drops the contents. After: UNDEFINED, whatever is left.
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkAccessFlags2 access = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+};
+
 /// How a pass touches a resource: what barriers, layouts and usage flags follow from.
 enum class Access : uint8_t {
     SampledCompute,    ///< image: texture() in a compute or ray-tracing shader

@@ -309,6 +309,77 @@ TEST(Barriers, AnImportedImageThatAnyLayoutSuitsIsLeftAsItIs) {
     EXPECT_TRUE(mustCompile(graph).finalImageBarriers.empty());
 }
 
+TEST(Barriers, AnImportedImageWithKnownUsersStandsBetweenThem) {
+    Graph graph;
+    const gpu::Image image;
+    const ImageHandle shared = graph.importImage(
+        "shared",
+        image,
+        OutsideUse{
+            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+            kColorStage,
+            VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+        OutsideUse{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kFragmentStage, kSampledRead}
+    );
+    sample(graph, "sample", shared);
+    const Plan plan = mustCompile(graph);
+    const ImageBarrier first = onlyBarrier(plan, 0);
+    expectHalves(
+        first, {kColorStage, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT}, {kComputeStage, kSampledRead}
+    );
+    expectLayouts(
+        first, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+    );
+    // The layout stays, and yet the next user need not wait for the first one by itself.
+    ASSERT_EQ(plan.finalImageBarriers.size(), 1u);
+    EXPECT_EQ(plan.finalImageBarriers[0].srcStages & kComputeStage, kComputeStage);
+    EXPECT_EQ(plan.finalImageBarriers[0].dstStages, kFragmentStage);
+    EXPECT_EQ(plan.finalImageBarriers[0].dstAccess, kSampledRead);
+    expectLayouts(
+        plan.finalImageBarriers[0],
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+    );
+}
+
+TEST(Barriers, AnImportedImageThatNobodyReadsGoesOverToItsNextUse) {
+    Graph graph;
+    const gpu::Image image;
+    (void)graph.importImage(
+        "unread",
+        image,
+        OutsideUse{
+            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+            kColorStage,
+            VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+        OutsideUse{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kFragmentStage, kSampledRead}
+    );
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.finalImageBarriers.size(), 1u);
+    expectHalves(
+        plan.finalImageBarriers[0],
+        {kColorStage, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+        {kFragmentStage, kSampledRead}
+    );
+    expectLayouts(
+        plan.finalImageBarriers[0],
+        VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+    );
+}
+
+TEST(Barriers, AnImportedImageThatNobodyReadsStaysInTheLayoutThatAnySuits) {
+    Graph graph;
+    const gpu::Image empty;
+    const gpu::Image full;
+    const VkImageLayout kept = VK_IMAGE_LAYOUT_GENERAL;
+    (void)graph.importImage("empty", empty, OutsideUse{}, OutsideUse{});
+    (void)graph.importImage("full", full, OutsideUse{kept}, OutsideUse{});
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.finalImageBarriers.size(), 1u) << "no image can go over to no layout";
+    expectLayouts(plan.finalImageBarriers[0], kept, kept);
+}
+
 TEST(Barriers, AnImportedBufferWaitsForEarlierSubmissions) {
     Graph graph;
     const BufferHandle lights = graph.importBuffer("lights", fakeBuffer(1), 64);
