@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/device.h"
 
+#include "engine/core/check.h"
 #include "engine/core/log.h"
 
 #include <array>
@@ -77,7 +78,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
 
 Device::~Device() {
     if (mDevice) {
-        vkDeviceWaitIdle(mDevice);
+        if (!mIsAdopted)
+            vkDeviceWaitIdle(mDevice);
         while (!mRetired.empty()) {
             auto destroy = std::move(mRetired.front().second);
             mRetired.pop_front();
@@ -87,7 +89,8 @@ Device::~Device() {
         vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
         vkDestroySemaphore(mDevice, mTimeline, nullptr);
-        vkDestroyDevice(mDevice, nullptr);
+        if (!mIsAdopted)
+            vkDestroyDevice(mDevice, nullptr);
     }
     if (mMessenger) {
         const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
@@ -279,6 +282,7 @@ void Device::savePipelineCache() const {
 }
 
 uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores) {
+    SHUTTER_CHECK(!mIsAdopted, "what is recorded for a host is submitted by the host");
     VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     buffer.commandBuffer = commands;
     const auto at = [](VkSemaphore semaphore, uint64_t value) {
@@ -302,6 +306,11 @@ uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaph
 }
 
 void Device::wait(uint64_t timelineValue) {
+    if (mIsAdopted) {
+        SHUTTER_CHECK(timelineValue <= completedValue(), "only the host can wait for its queue");
+        collect();
+        return;
+    }
     VkSemaphoreWaitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     info.semaphoreCount = 1;
     info.pSemaphores = &mTimeline;
@@ -315,6 +324,8 @@ void Device::waitIdle() {
 }
 
 uint64_t Device::completedValue() const {
+    if (mIsAdopted)
+        return mHandedOver.empty() ? mLastSubmitted : *mHandedOver.begin() - 1;
     uint64_t value = 0;
     require(vkGetSemaphoreCounterValue(mDevice, mTimeline, &value), "asking the timeline");
     return value;

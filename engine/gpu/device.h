@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,15 @@ struct DeviceOptions {
 struct SubmitSemaphores {
     VkSemaphore wait = VK_NULL_HANDLE;   ///< the submission starts once it is signalled
     VkSemaphore signal = VK_NULL_HANDLE; ///< signalled when the submission is done
+};
+
+/// A device that a host made, and that stays the host's: it must outlive what is made from it.
+struct HostDevice {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    /// Of the rays whose extension and features the host enabled.
+    RayTier rayTier = RayTier::None;
+    bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
 };
 
 /// Entry points of extensions, loaded once.
@@ -74,9 +84,15 @@ struct LivingObjects {
 
 /// A logical device with one queue, its timeline and its retired objects. Everything made from it
 /// must be gone before it is. Not thread-safe.
+///
+/// One around a host's device has no queue: the host submits, and the timeline is what it says of
+/// it (handOver, markDone).
 class Device {
   public:
     [[nodiscard]] static core::Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
+    /// Around a host's device. Destroys nothing of the host's and waits for nothing: when it goes,
+    /// the GPU must be done with all that was handed over.
+    [[nodiscard]] static core::Result<std::unique_ptr<Device>> adopt(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -118,11 +134,19 @@ class Device {
 
     [[nodiscard]] LivingObjects& living() { return mLiving; }
 
-    /// Submits and returns the timeline value that is reached when it is done.
+    /// Submits and returns the timeline value that is reached when it is done. Not for adopted
+    /// devices (CHECKed).
     uint64_t submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores = {});
+    /// Adopted devices wait for nothing: there the value must be complete (CHECKed).
     void wait(uint64_t timelineValue);
     void waitIdle();
     [[nodiscard]] uint64_t completedValue() const;
+
+    /// Adopted devices: counts work that was recorded for the host to submit. \return its value
+    uint64_t handOver();
+    /// Adopted devices: the GPU is done with that work, or will never see it. Values may be told in
+    /// any order, and twice; one is complete once all before it are done, too.
+    void markDone(uint64_t value);
 
     /// Runs `destroy` once everything submitted so far (and the submission being recorded now) is
     /// done. Destructors of gpu objects use it, so they may die at any time.
@@ -135,6 +159,7 @@ class Device {
 
   private:
     Device() = default;
+    core::Status adoptHost(const HostDevice& host);
     core::Status createInstance(const DeviceOptions& options);
     core::Status createLogicalDevice(bool presents);
     void loadFunctions();
@@ -145,6 +170,8 @@ class Device {
     void loadPipelineCache();
     void savePipelineCache() const;
 
+    bool mIsAdopted = false;
+    std::set<uint64_t> mHandedOver; ///< adopted: values the host has not said to be done
     VkInstance mInstance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
     VkDevice mDevice = VK_NULL_HANDLE;

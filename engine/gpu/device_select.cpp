@@ -157,6 +157,22 @@ RayTier chooseTier(const DeviceInfo& device, RayTier best) {
     return RayTier::None;
 }
 
+DeviceInfo describeDevice(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    DeviceInfo info;
+    info.handle = device;
+    info.name = properties.properties.deviceName;
+    info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    info.kind = describeKind(properties.properties.deviceType);
+    info.apiVersion = properties.properties.apiVersion;
+    info.missing = findMissing(device, info.apiVersion);
+    findRays(info);
+    info.rayTier = chooseTier(info, RayTier::RayQuery);
+    return info;
+}
+
 std::vector<DeviceInfo> listDevices(VkInstance instance) {
     uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance, &count, nullptr);
@@ -164,23 +180,8 @@ std::vector<DeviceInfo> listDevices(VkInstance instance) {
     vkEnumeratePhysicalDevices(instance, &count, handles.data());
 
     std::vector<DeviceInfo> devices;
-    for (VkPhysicalDevice handle : handles) {
-        VkPhysicalDeviceDriverProperties driver{
-            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-        VkPhysicalDeviceProperties2 properties{
-            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
-        vkGetPhysicalDeviceProperties2(handle, &properties);
-        DeviceInfo info;
-        info.handle = handle;
-        info.name = properties.properties.deviceName;
-        info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
-        info.kind = describeKind(properties.properties.deviceType);
-        info.apiVersion = properties.properties.apiVersion;
-        info.missing = findMissing(handle, info.apiVersion);
-        findRays(info);
-        info.rayTier = chooseTier(info, RayTier::RayQuery);
-        devices.push_back(std::move(info));
-    }
+    for (VkPhysicalDevice handle : handles)
+        devices.push_back(describeDevice(handle));
     return devices;
 }
 

@@ -32,6 +32,9 @@ struct DeviceInfo {
     std::string missing; ///< why the engine cannot use it, empty where it can
 };
 
+/// What one device is and can do.
+[[nodiscard]] DeviceInfo describeDevice(VkPhysicalDevice device);
+
 /// All devices of the instance, in the driver's order.
 [[nodiscard]] std::vector<DeviceInfo> listDevices(VkInstance instance);
 

@@ -33,6 +33,10 @@ Frame::Frame(Device& device) : mDevice(device), mDescriptors(device) {
     require(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries), "creating a frame");
 }
 
+std::unique_ptr<Frame> Frame::createForHost(Device& device) {
+    return std::unique_ptr<Frame>(new Frame(device, ForHost{}));
+}
+
 Frame::~Frame() {
     mDevice.retire([device = mDevice.handle(), pool = mPool, queries = mQueries] {
         vkDestroyCommandPool(device, pool, nullptr);
@@ -40,7 +44,15 @@ Frame::~Frame() {
     });
 }
 
+void Frame::beginIn(VkCommandBuffer commands) {
+    SHUTTER_CHECK(mPool == VK_NULL_HANDLE, "a frame with commands of its own starts with begin()");
+    mDescriptors.reset();
+    mSpans.clear();
+    mCommands = commands;
+}
+
 void Frame::begin() {
+    SHUTTER_CHECK(mPool != VK_NULL_HANDLE, "a host's frame starts with beginIn()");
     wait();
     mDescriptors.reset();
     mSpans.clear();
@@ -104,29 +116,32 @@ void Frame::beginSpan(const std::string& name) {
         label.pLabelName = name.c_str();
         mDevice.functions().cmdBeginDebugUtilsLabel(mCommands, &label);
     }
-    vkCmdWriteTimestamp2(
-        mCommands,
-        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        mQueries,
-        static_cast<uint32_t>(2 * mSpans.size())
-    );
+    if (mQueries)
+        vkCmdWriteTimestamp2(
+            mCommands,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            mQueries,
+            static_cast<uint32_t>(2 * mSpans.size())
+        );
     mSpans.push_back({name, 0.0, 0.0});
     mSpanStartCpuMs = nowMilliseconds();
 }
 
 void Frame::endSpan() {
     mSpans.back().cpuMilliseconds = nowMilliseconds() - mSpanStartCpuMs;
-    vkCmdWriteTimestamp2(
-        mCommands,
-        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        mQueries,
-        static_cast<uint32_t>(2 * mSpans.size() - 1)
-    );
+    if (mQueries)
+        vkCmdWriteTimestamp2(
+            mCommands,
+            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            mQueries,
+            static_cast<uint32_t>(2 * mSpans.size() - 1)
+        );
     if (mDevice.functions().cmdEndDebugUtilsLabel)
         mDevice.functions().cmdEndDebugUtilsLabel(mCommands);
 }
 
 std::vector<PassTime> Frame::waitForTimes() {
+    SHUTTER_CHECK(mQueries != VK_NULL_HANDLE, "a host's frame takes no times");
     wait();
     if (mSpans.empty())
         return {};

@@ -29,6 +29,9 @@ struct PassTime {
 class Frame {
   public:
     explicit Frame(Device& device);
+    /// One for command buffers of somebody else (beginIn), who submits them as well. Its spans are
+    /// labels alone: they take no times of the GPU.
+    [[nodiscard]] static std::unique_ptr<Frame> createForHost(Device& device);
     ~Frame();
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
@@ -55,6 +58,9 @@ class Frame {
     /// recorded starts when all that was submitted before is done: frames in flight overlap with
     /// the CPU, not with one another, and may share what only the GPU writes.
     void begin();
+    /// One for a host: starts recording into `commands`, which are being recorded. The GPU must be
+    /// done with this frame's last use.
+    void beginIn(VkCommandBuffer commands);
     /// Ends recording and submits.
     void submit(const SubmitSemaphores& semaphores = {});
     /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
@@ -63,7 +69,12 @@ class Frame {
     void wait();
 
   private:
+    struct ForHost {};
+
+    Frame(Device& device, ForHost) : mDevice(device), mDescriptors(device) {}
+
     Device& mDevice;
+    // Null for a host.
     VkCommandPool mPool = VK_NULL_HANDLE;
     VkCommandBuffer mCommands = VK_NULL_HANDLE;
     VkQueryPool mQueries = VK_NULL_HANDLE;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// A device that somebody else made and whose queue somebody else submits to.
+#include "engine/core/check.h"
+#include "engine/gpu/device.h"
+
+namespace shutter::gpu {
+
+core::Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
+    std::unique_ptr<Device> device(new Device);
+    try {
+        if (core::Status adopted = device->adoptHost(host); !adopted)
+            return adopted.error();
+    } catch (const DeviceError& error) {
+        return core::Error{error.what()};
+    }
+    return device;
+}
+
+core::Status Device::adoptHost(const HostDevice& host) {
+    mIsAdopted = true; // first: whatever fails below must not destroy the host's device
+    if (!host.physical || !host.device)
+        return core::makeError("host device: {} is null", host.physical ? "device" : "physical");
+    mInfo = describeDevice(host.physical);
+    const bool hasTier = host.rayTier == RayTier::None ||
+                         (host.rayTier == RayTier::RayQuery && mInfo.hasRayQuery) ||
+                         (host.rayTier == RayTier::Pipeline && mInfo.hasRayPipeline);
+    if (!hasTier)
+        return core::makeError(
+            "host device: rayTier is {}, which {} does not have", describe(host.rayTier), mInfo.name
+        );
+    mInfo.rayTier = host.rayTier;
+    mInfo.tracesIndirect = false; // a feature of its own, which the host need not have enabled
+    mDevice = host.device;
+    mHasDebugUtils = host.hasDebugUtils;
+    loadFunctions();
+    loadLimits();
+    createSampler();
+    loadPipelineCache();
+    return {};
+}
+
+uint64_t Device::handOver() {
+    SHUTTER_CHECK(mIsAdopted, "only a host's device takes work that is submitted elsewhere");
+    mHandedOver.insert(++mLastSubmitted);
+    return mLastSubmitted;
+}
+
+void Device::markDone(uint64_t value) {
+    mHandedOver.erase(value);
+    collect();
+}
+
+} // namespace shutter::gpu
