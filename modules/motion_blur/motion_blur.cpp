@@ -35,6 +35,11 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
 }
 
 void MotionBlur::chooseStillPixelsBy(const MotionBlurInputs& inputs) {
+    if (inputs.target.isValid()) {
+        mStillPixelsBy =
+            inputs.target == inputs.color ? StillPixelsBy::CopyBack : StillPixelsBy::WholeCopy;
+        return;
+    }
     // The share of the slot's last frame is a good guess at this one's; the picture is the same
     // either way.
     const BlockCounters last = mSorter.counters(inputs.slot);
@@ -78,7 +83,8 @@ MotionBlurOutputs MotionBlur::addGather(
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
     mSorter.addCounters(graph, blocks, params, inputs.slot);
-    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+    const graph::ImageHandle target =
+        mStillPixels.begin(graph, inputs.color, inputs.target, mStillPixelsBy);
     const graph::ImageHandle filtered = mGather.add(
         graph, {inputs.color, inputs.motionDepth, tiles.dominant, {}}, blocks, target, params
     );
@@ -123,7 +129,8 @@ MotionBlurOutputs MotionBlur::addHybrid(
         mRevealedLayer->addDominant(graph, layerInputs, params),
         mask.mask};
     const RevealedViews views = mRevealedLayer->addViews(graph, layerInputs, params);
-    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+    const graph::ImageHandle target =
+        mStillPixels.begin(graph, inputs.color, inputs.target, mStillPixelsBy);
     const graph::ImageHandle filtered = mGather.add(
         graph,
         {inputs.color, inputs.motionDepth, tiles.dominant, layer},
@@ -159,7 +166,8 @@ MotionBlurOutputs MotionBlur::addRival(
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks blocks = mSorter.add(graph, tiles, params, false);
     mSorter.addCounters(graph, blocks, params, inputs.slot);
-    const graph::ImageHandle target = mStillPixels.begin(graph, inputs.color, mStillPixelsBy);
+    const graph::ImageHandle target =
+        mStillPixels.begin(graph, inputs.color, inputs.target, mStillPixelsBy);
 
     MotionBlurOutputs outputs;
     outputs.tiles = tiles.tiles;

@@ -44,6 +44,10 @@ struct MotionBlurInputs {
     /// Of the frames in flight, below gpu::kMaxFramesInFlight: no other frame that the GPU is not
     /// done with may have it.
     uint32_t slot = 0;
+    /// Where the blurred picture shall stand: an image with storage and transfer usage that no
+    /// other input is, or `color`, which must be writable then. Invalid: wherever it is cheapest.
+    /// Method::Denoised does not read it.
+    graph::ImageHandle target;
 };
 
 /// The blurred picture, and every intermediate for debug views; those of a method that did not run

@@ -49,9 +49,12 @@ StillPixels::StillPixels(gpu::Device& device)
           device, "write candidate blocks", motion_blur_copy_blocks_comp, 1, shader::kCandidateList
       ) {}
 
-graph::ImageHandle
-StillPixels::begin(graph::Graph& graph, graph::ImageHandle color, StillPixelsBy by) const {
-    const graph::ImageHandle target = graph.createImage("blurred", graph.describeImage(color));
+graph::ImageHandle StillPixels::begin(
+    graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle wholeTarget, StillPixelsBy by
+) const {
+    const bool isGiven = by == StillPixelsBy::WholeCopy && wholeTarget.isValid();
+    const graph::ImageHandle target =
+        isGiven ? wholeTarget : graph.createImage("blurred", graph.describeImage(color));
     if (by == StillPixelsBy::CopyBack)
         return target;
 

@@ -29,7 +29,13 @@ class StillPixels {
     explicit StillPixels(gpu::Device& device);
 
     /// What the filters write to.
-    graph::ImageHandle begin(graph::Graph& graph, graph::ImageHandle color, StillPixelsBy by) const;
+    /// \param wholeTarget where WholeCopy puts the picture; invalid: into an image of its own
+    graph::ImageHandle begin(
+        graph::Graph& graph,
+        graph::ImageHandle color,
+        graph::ImageHandle wholeTarget,
+        StillPixelsBy by
+    ) const;
 
     /// The whole picture.
     /// \param hasCandidates whether there were some, else all that moves is in the lists

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/foreign/foreign_motion_blur.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
+#include "engine/graph/execute.h"
+#include "engine/graph/transient_pool.h"
+
+#include <array>
+#include <deque>
+#include <new>
+#include <string_view>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+constexpr uint32_t kMostFrames = 64;
+constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
+
+constexpr VkImageUsageFlags kRead = VK_IMAGE_USAGE_SAMPLED_BIT;
+constexpr VkImageUsageFlags kWritten = VK_IMAGE_USAGE_STORAGE_BIT;
+
+glm::uvec2 splitAddress(VkDeviceAddress address) {
+    return {static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)};
+}
+
+core::Status checkImage(const char* name, const ForeignImage& image) {
+    if (!image.image)
+        return makeError("motion blur: {}.image is null", name);
+    if (image.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return makeError("motion blur: {}.before.layout is undefined, its contents are lost", name);
+    return {};
+}
+
+/// Each given image is another one.
+core::Status checkDistinct(const ForeignInputs& inputs) {
+    struct Named {
+        const char* name;
+        VkImage image;
+    };
+
+    const std::array<Named, 5> images{
+        {{"color", inputs.color.image},
+         {"motionDepth", inputs.motionDepth.image},
+         {"normal", inputs.normal.image},
+         {"meshId", inputs.meshId.image},
+         {"output", inputs.output.image}}};
+    for (size_t i = 0; i < images.size(); ++i)
+        for (size_t j = i + 1; j < images.size(); ++j)
+            if (images[i].image && images[i].image == images[j].image)
+                return makeError(
+                    "motion blur: {}.image is {}.image{}",
+                    images[j].name,
+                    images[i].name,
+                    images[j].image == inputs.output.image
+                        ? "; to blur in place, leave output.image null"
+                        : ""
+                );
+    return {};
+}
+
+} // namespace
+
+/// What one frame in flight holds.
+struct ForeignMotionBlur::Slot {
+    explicit Slot(gpu::Device& device) : frame(gpu::Frame::createForHost(device)), pool(device) {}
+
+    std::unique_ptr<gpu::Frame> frame;
+    graph::TransientPool pool;
+    /// Views of the host's images, made anew in each frame: a handle that is the last one's need
+    /// not be the same image. A deque, since the graph points to them.
+    std::deque<gpu::Image> images;
+    uint64_t handedOver = 0; ///< timeline value of what was recorded last
+};
+
+core::Result<std::unique_ptr<ForeignMotionBlur>> ForeignMotionBlur::create(const ForeignDevice& host
+) {
+    if (!host.physical || !host.device)
+        return makeError(
+            "motion blur: ForeignDevice::{} is null", host.physical ? "device" : "physical"
+        );
+    if (host.framesInFlight < 1 || host.framesInFlight > kMostFrames)
+        return makeError(
+            "motion blur: framesInFlight is {}, it must be 1 to {}",
+            host.framesInFlight,
+            kMostFrames
+        );
+    if (host.rayTier != gpu::RayTier::None && !host.sceneLayout)
+        return makeError("motion blur: sceneLayout is null, although rayTier asks for rays");
+    const core::Status able = checkForeignDevice(host.physical, host.queueFamily, host.rayTier);
+    if (!able)
+        return able.error();
+    try {
+        auto device =
+            gpu::Device::adopt({host.physical, host.device, host.rayTier, host.hasDebugUtils});
+        if (!device)
+            return device.error();
+        return std::unique_ptr<ForeignMotionBlur>(
+            new ForeignMotionBlur(std::move(device).value(), host)
+        );
+    } catch (const gpu::DeviceError& error) {
+        return core::Error{error.what()};
+    } catch (const std::bad_alloc&) {
+        return makeError("motion blur: out of main memory");
+    }
+}
+
+ForeignMotionBlur::ForeignMotionBlur(std::unique_ptr<gpu::Device> device, const ForeignDevice& host)
+    : mDevice(std::move(device)), mHasRays(host.rayTier != gpu::RayTier::None),
+      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE) {
+    for (uint32_t i = 0; i < host.framesInFlight; ++i)
+        mSlots.push_back(std::make_unique<Slot>(*mDevice));
+}
+
+ForeignMotionBlur::~ForeignMotionBlur() = default;
+
+core::Status ForeignMotionBlur::checkMethod(
+    const ForeignInputs& inputs, const MotionBlurSettings& settings
+) const {
+    if (settings.method == Method::Denoised)
+        return makeError("motion blur: the method denoised draws no raster image; "
+                         "it is not for hosts that have one");
+    if (settings.method != Method::Hybrid)
+        return {};
+    if (!mHasRays)
+        return makeError("motion blur: the method hybrid needs rays, and ForeignDevice::rayTier "
+                         "was none");
+    for (const auto& [name, image] :
+         {std::pair{"normal", &inputs.normal}, std::pair{"meshId", &inputs.meshId}})
+        if (core::Status given = checkImage(name, *image); !given)
+            return given;
+    if (inputs.rays.frameConstants == 0)
+        return makeError("motion blur: rays.frameConstants is 0, which the method hybrid needs");
+    if (inputs.rays.topLevel && (!inputs.rays.topLevelBuffer || !inputs.rays.scene))
+        return makeError(
+            "motion blur: rays.{} is null", inputs.rays.topLevelBuffer ? "scene" : "topLevelBuffer"
+        );
+    return {};
+}
+
+core::Status ForeignMotionBlur::check(
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const ForeignInputs& inputs,
+    const MotionBlurSettings& settings
+) const {
+    if (!commands)
+        return makeError("motion blur: the command buffer is null");
+    if (frame >= mSlots.size())
+        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
+    if (inputs.width < 1 || inputs.width > kMostPixels || inputs.height < 1 ||
+        inputs.height > kMostPixels)
+        return makeError(
+            "motion blur: the size is {} x {}, both must be 1 to {}",
+            inputs.width,
+            inputs.height,
+            kMostPixels
+        );
+    if (!(inputs.rasterShare >= 0.0 && inputs.rasterShare <= 1.0))
+        return makeError("motion blur: rasterShare is {}, it must be 0 to 1", inputs.rasterShare);
+    if (core::Status given = checkImage("color", inputs.color); !given)
+        return given;
+    if (core::Status given = checkImage("motionDepth", inputs.motionDepth); !given)
+        return given;
+    if (core::Status distinct = checkDistinct(inputs); !distinct)
+        return distinct;
+    if (core::Status valid = validate(settings); !valid)
+        return valid;
+    return checkMethod(inputs, settings);
+}
+
+core::Status ForeignMotionBlur::record(
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const ForeignInputs& inputs,
+    const MotionBlurSettings& settings
+) {
+    try {
+        if (core::Status fits = check(commands, frame, inputs, settings); !fits)
+            return fits;
+        markDone(frame);
+        return recordInto(*mSlots[frame], commands, inputs, settings);
+    } catch (const gpu::DeviceError& error) {
+        return core::Error{error.what()};
+    } catch (const std::bad_alloc&) {
+        return makeError("motion blur: out of main memory");
+    }
+}
+
+void ForeignMotionBlur::markDone(uint32_t frame) {
+    SHUTTER_CHECK(frame < mSlots.size(), "frame {} of {}", frame, mSlots.size());
+    mDevice->markDone(mSlots[frame]->handedOver);
+}
+
+core::Status ForeignMotionBlur::recordInto(
+    Slot& slot,
+    VkCommandBuffer commands,
+    const ForeignInputs& inputs,
+    const MotionBlurSettings& settings
+) {
+    slot.images.clear();
+    graph::Graph graph;
+    const auto import =
+        [&](const char* name, VkFormat format, VkImageUsageFlags usage, const ForeignImage& given
+        ) -> graph::ImageHandle {
+        if (!given.image)
+            return {};
+        const gpu::Image& image = slot.images.emplace_back(gpu::Image::adopt(
+            *mDevice, name, given.image, {inputs.width, inputs.height, format, usage}
+        ));
+        return graph.importImage(name, image, given.before, given.after);
+    };
+    const bool inPlace = !inputs.output.image;
+    MotionBlurInputs own; // slot 0 in each frame: it is for counters, which nobody reads here
+    // Those the method does not read are imported as well: they go over to their next use.
+    own.color = import(
+        "color", VK_FORMAT_R16G16B16A16_SFLOAT, inPlace ? kRead | kWritten : kRead, inputs.color
+    );
+    own.motionDepth =
+        import("motion and depth", VK_FORMAT_R32G32B32A32_SFLOAT, kRead, inputs.motionDepth);
+    own.normal = import("normal", VK_FORMAT_R16G16B16A16_SFLOAT, kRead, inputs.normal);
+    own.meshId = import("mesh id", VK_FORMAT_R32_UINT, kRead, inputs.meshId);
+    own.target = import("output", VK_FORMAT_R16G16B16A16_SFLOAT, kWritten, inputs.output);
+    own.colorIsWritable = inPlace;
+    if (inPlace)
+        own.target = own.color;
+    own.rasterShare = inputs.rasterShare;
+    own.response = splitAddress(inputs.response);
+    if (settings.method == Method::Hybrid) {
+        RayInputs rays;
+        rays.frame = splitAddress(inputs.rays.frameConstants);
+        if (inputs.rays.topLevel) {
+            rays.topLevelBuffer = graph.importBuffer("top level", inputs.rays.topLevelBuffer, 0);
+            rays.topLevel = inputs.rays.topLevel;
+            rays.scene = inputs.rays.scene;
+            rays.hasBlended = inputs.rays.hasBlended;
+        }
+        own.rays = rays;
+    }
+    graph.markOutput(mEffect.add(graph, own, settings).color);
+
+    slot.frame->beginIn(commands);
+    const auto plan = graph::execute(graph, *slot.frame, slot.pool);
+    if (!plan)
+        return plan.error();
+    slot.handedOver = mDevice->handOver();
+    return {};
+}
+
+} // namespace shutter::motion_blur
