@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: MIT
-# The kinds of target in this tree: a library a folder, shaders compiled to SPIR-V, and files that
-# a program carries in itself.
+# The kinds of target in this tree: a library a folder, and what its sources are made into
+# (ShutterTools.cmake).
 
 get_filename_component(SHUTTER_ROOT ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
-
-find_program(SHUTTER_GLSLANG NAMES glslang glslangValidator REQUIRED)
+set(SHUTTER_SHADER_DIR ${SHUTTER_ROOT}/shaders)
+set(SHUTTER_SHADER_ROOT ${SHUTTER_SHADER_DIR})
+include(${CMAKE_CURRENT_LIST_DIR}/ShutterTools.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/ShutterInstall.cmake)
 
 # Settings every target of this project shares.
 function(shutter_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
-    target_include_directories(${target} PUBLIC ${SHUTTER_ROOT} ${SHUTTER_ROOT}/shaders)
+    shutter_include_roots(${target} PUBLIC)
     # No contraction into fused multiply-add: the CPU reference of a shader must round as written.
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
@@ -24,8 +26,9 @@ function(shutter_target_defaults target)
     endif()
 endfunction()
 
-# shutter_library(<name> SOURCES ... HEADERS ... LINKS ...)
+# shutter_library(<name> SOURCES ... HEADERS ... LINKS ... PRIVATE_LINKS ...)
 # One folder, one library `shutter_<name>`; LINKS are public and are the folder's allowed includes.
+# Those of engine/ and modules/ are installed.
 function(shutter_library name)
     cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;LINKS;PRIVATE_LINKS" ${ARGN})
     set(target shutter_${name})
@@ -35,34 +38,10 @@ function(shutter_library name)
         target_link_libraries(${target} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
     else()
         add_library(${target} INTERFACE)
-        target_include_directories(${target} INTERFACE ${SHUTTER_ROOT})
+        shutter_include_roots(${target} INTERFACE)
         target_link_libraries(${target} INTERFACE ${ARG_LINKS})
     endif()
-endfunction()
-
-# shutter_shaders(<target> <path below shaders/>...)
-# Compiles each GLSL file to SPIR-V at build time and makes it a header "spirv/<path>.h" that
-# defines `const uint32_t <path with _ for / and .>[]`. Rebuilt when any included file changes.
-function(shutter_shaders target)
-    foreach(shader ${ARGN})
-        string(MAKE_C_IDENTIFIER ${shader} symbol)
-        set(source ${SHUTTER_ROOT}/shaders/${shader})
-        set(output ${CMAKE_BINARY_DIR}/generated/spirv/${shader}.h)
-        get_filename_component(output_dir ${output} DIRECTORY)
-        file(MAKE_DIRECTORY ${output_dir})
-        add_custom_command(
-            OUTPUT ${output}
-            COMMAND
-                ${SHUTTER_GLSLANG} -V --target-env vulkan1.3 --quiet -I${SHUTTER_ROOT}/shaders
-                --depfile ${output}.d --vn ${symbol} -o ${output} ${source}
-            DEPENDS ${source}
-            DEPFILE ${output}.d
-            COMMENT "GLSL ${shader}"
-            VERBATIM)
-        list(APPEND outputs ${output})
-    endforeach()
-    target_sources(${target} PRIVATE ${outputs})
-    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+    shutter_install_library(${name} ${ARG_LINKS} ${ARG_PRIVATE_LINKS})
 endfunction()
 
 # shutter_double_shaders(<target> <path below shaders/>...)
@@ -83,25 +62,5 @@ function(shutter_double_shaders target)
             VERBATIM)
         list(APPEND outputs ${output})
     endforeach()
-    target_sources(${target} PRIVATE ${outputs})
-    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
-endfunction()
-
-# shutter_embed(<target> <header> <symbol> <file>)
-# Makes a file a header, named from the repository root as if it lay there, that defines
-# `constexpr char <symbol>[]`: the file's bytes and a zero. Rebuilt when the file changes.
-function(shutter_embed target header symbol source)
-    get_filename_component(source ${source} ABSOLUTE)
-    set(output ${CMAKE_BINARY_DIR}/generated/${header})
-    get_filename_component(output_dir ${output} DIRECTORY)
-    file(MAKE_DIRECTORY ${output_dir})
-    add_custom_command(
-        OUTPUT ${output}
-        COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DOUTPUT=${output} -DSYMBOL=${symbol} -P
-                ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
-        DEPENDS ${source} ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
-        COMMENT "Embedding ${header}"
-        VERBATIM)
-    target_sources(${target} PRIVATE ${output})
-    target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+    _shutter_add_generated(${target} ${outputs})
 endfunction()

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` puts where: the libraries of engine/ and modules/ with their headers as a
+# package that find_package(Shutter) finds (component Development), and the program with its scenes
+# (component Runtime; the scenes: assets/generator).
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(SHUTTER_INSTALL_HEADERS ${CMAKE_INSTALL_INCLUDEDIR}/shutter)
+set(SHUTTER_INSTALL_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/Shutter)
+set(SHUTTER_INSTALL_DATA ${CMAKE_INSTALL_DATADIR}/shutter)
+
+# Where "engine/...", "shaders/..." and "common/..." are found: in the tree, and once installed.
+function(shutter_include_roots target scope)
+    target_include_directories(
+        ${target}
+        ${scope}
+        $<BUILD_INTERFACE:${SHUTTER_ROOT}>
+        $<BUILD_INTERFACE:${SHUTTER_ROOT}/shaders>
+        $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}>
+        $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}/shaders>)
+endfunction()
+
+# The package that has a library of somebody else, by the library's name; empty for one that is
+# linked by its file or its plain name.
+function(_shutter_find_package_name library result)
+    set(${result} "" PARENT_SCOPE)
+    if(library MATCHES "^([A-Za-z0-9_]+)::")
+        set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
+    elseif(library STREQUAL "glfw")
+        set(${result} glfw3 PARENT_SCOPE)
+    endif()
+endfunction()
+
+# shutter_install_library(<name> <what it links to>...)
+# Installs shutter_<name> as Shutter::<name>, if it lies below engine/ or modules/, and notes which
+# packages it needs. Libraries of this tree that it links to are there before it.
+function(shutter_install_library name)
+    string(FIND ${CMAKE_CURRENT_SOURCE_DIR} ${SHUTTER_ROOT}/engine/ engine)
+    string(FIND ${CMAKE_CURRENT_SOURCE_DIR} ${SHUTTER_ROOT}/modules/ modules)
+    if(NOT engine EQUAL 0 AND NOT modules EQUAL 0)
+        return()
+    endif()
+    set(packages "")
+    foreach(link IN LISTS ARGN)
+        if(link MATCHES "^shutter_(.+)$")
+            get_property(below GLOBAL PROPERTY SHUTTER_PACKAGES_${CMAKE_MATCH_1})
+            list(APPEND packages ${below})
+        else()
+            _shutter_find_package_name(${link} package)
+            list(APPEND packages ${package})
+        endif()
+    endforeach()
+    list(REMOVE_DUPLICATES packages)
+    set_property(GLOBAL PROPERTY SHUTTER_PACKAGES_${name} ${packages})
+    set_property(GLOBAL APPEND PROPERTY SHUTTER_COMPONENTS ${name})
+    set_target_properties(shutter_${name} PROPERTIES EXPORT_NAME ${name})
+    install(TARGETS shutter_${name} EXPORT ShutterLibraries
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
+endfunction()
+
+# Once all libraries are declared.
+function(shutter_install_package)
+    install(DIRECTORY ${SHUTTER_ROOT}/engine ${SHUTTER_ROOT}/modules
+            DESTINATION ${SHUTTER_INSTALL_HEADERS} COMPONENT Development
+            FILES_MATCHING PATTERN "*.h")
+    install(DIRECTORY ${SHUTTER_ROOT}/shaders DESTINATION ${SHUTTER_INSTALL_HEADERS}
+            COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
+    install(EXPORT ShutterLibraries NAMESPACE Shutter:: DESTINATION ${SHUTTER_INSTALL_PACKAGE}
+            COMPONENT Development)
+
+    get_property(SHUTTER_COMPONENTS GLOBAL PROPERTY SHUTTER_COMPONENTS)
+    foreach(component IN LISTS SHUTTER_COMPONENTS)
+        get_property(packages GLOBAL PROPERTY SHUTTER_PACKAGES_${component})
+        string(APPEND SHUTTER_PACKAGES "set(_shutter_packages_${component} ${packages})\n")
+    endforeach()
+    set(folder ${CMAKE_BINARY_DIR}/package)
+    configure_package_config_file(
+        ${SHUTTER_ROOT}/cmake/ShutterConfig.cmake.in ${folder}/ShutterConfig.cmake
+        INSTALL_DESTINATION ${SHUTTER_INSTALL_PACKAGE} PATH_VARS SHUTTER_INSTALL_HEADERS)
+    # Before 1.0 a minor version may change what is there.
+    write_basic_package_version_file(${folder}/ShutterConfigVersion.cmake
+                                     COMPATIBILITY SameMinorVersion)
+    install(FILES ${folder}/ShutterConfig.cmake ${folder}/ShutterConfigVersion.cmake
+                  ${SHUTTER_ROOT}/cmake/ShutterTools.cmake ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
+            DESTINATION ${SHUTTER_INSTALL_PACKAGE} COMPONENT Development)
+
+    install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)
+    foreach(component Development Runtime)
+        install(FILES ${SHUTTER_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+                COMPONENT ${component})
+    endforeach()
+endfunction()
