@@ -232,12 +232,27 @@ std::optional<std::string> findLibraryViolation(const Part& from, std::string_vi
     return std::nullopt;
 }
 
+/// A project of its own, built against the installed package: what is installed is there, and what
+/// it makes itself.
+bool isExample(std::string_view file) {
+    return file.starts_with("game/examples/");
+}
+
+std::optional<std::string> findExampleViolation(std::string_view target) {
+    for (const std::string_view folder : {"game/", "assets/", "tests/"})
+        if (target.starts_with(folder))
+            return "what lies in " + std::string(folder) + " is not installed";
+    return std::nullopt;
+}
+
 std::optional<std::string> findReason(const Include& include, const FileExists& exists) {
     const Part from = findPart(include.file);
     if (from.kind == Kind::Unknown)
         return "the file lies in " + describe(from);
     if (include.target.empty())
         return "an include must name its file";
+    if (isExample(include.file))
+        return findExampleViolation(include.target);
     if (const auto reason = findLibraryViolation(from, include.target))
         return reason;
     const std::string path = resolve(include, exists);

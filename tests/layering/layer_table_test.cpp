@@ -215,6 +215,19 @@ TEST(LayerTable, ShadersSeeCommonThenRenderThenTheirOwn) {
     });
 }
 
+TEST(LayerTable, ExamplesAreProjectsOfTheirOwn) {
+    expectAllowed({
+        {"game/examples/bare_renderer/main.cpp", "<vulkan/vulkan_raii.hpp>"},
+        {"game/examples/new_effect/vignette.h", "<spirv/vignette.comp.h>"},
+    });
+    expectRefused({
+        {"game/main.cpp", "<vulkan/vulkan_raii.hpp>"},
+        {"game/main.cpp", "\"spirv/vignette.comp.h\""},
+        {"game/examples/new_effect/main.cpp", "\"game/shot.h\""},
+        {"game/examples/new_effect/main.cpp", "\"tests/support/stage.h\""},
+    });
+}
+
 TEST(LayerTable, TheAssetGeneratorSeesItselfAloneAndIsSeenByTheGameAlone) {
     expectAllowed({
         {"assets/generator/main.cpp", "\"assets/generator/textures.h\""},

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Motion blur in a renderer that has nothing of Shutter: its own device, images, command buffers
+// and two frames in flight, no ECS, no render graph. It draws stripes and a square that moves, and
+// writes the last frame as "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4).
+#include "modules/motion_blur/foreign/foreign_motion_blur.h"
+
+#include <glm/gtc/packing.hpp>
+#include <vulkan/vulkan_raii.hpp>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+
+using namespace shutter;
+constexpr uint32_t kWidth = 320, kHeight = 180, kInFlight = 2, kFrames = 5;
+constexpr float kSpeedPx = 24; // of the square, in a frame; its exposure is as long
+constexpr vk::Extent3D kSize(kWidth, kHeight, 1);
+constexpr vk::DeviceSize kBytes = kWidth * kHeight * 8; // of a picture in half floats
+constexpr auto kHalf = vk::Format::eR16G16B16A16Sfloat, kFull = vk::Format::eR32G32B32A32Sfloat;
+constexpr auto kTarget = vk::ImageLayout::eColorAttachmentOptimal;
+constexpr auto kSource = vk::ImageLayout::eTransferSrcOptimal;
+constexpr auto kAny = vk::PipelineStageFlagBits2::eAllCommands;
+constexpr auto kWrite = vk::AccessFlagBits2::eMemoryWrite, kRead = vk::AccessFlagBits2::eHostRead;
+constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
+// What is done to images before and after the effect, by any command: stages could be named, too.
+constexpr graph::OutsideUse kDrawn{VkImageLayout(kTarget)}, kCopied{VkImageLayout(kSource)};
+
+struct Gpu {
+    vk::raii::PhysicalDevice physical;
+    vk::raii::Device device;
+
+    vk::raii::DeviceMemory
+    allocate(vk::MemoryRequirements of, vk::MemoryPropertyFlags flags) const {
+        const auto types = physical.getMemoryProperties().memoryTypes;
+        uint32_t type = 0; // Vulkan promises one of each kind that is asked for here
+        while (!(of.memoryTypeBits >> type & 1) || (types[type].propertyFlags & flags) != flags)
+            ++type;
+        return {device, vk::MemoryAllocateInfo(of.size, type)};
+    }
+};
+
+struct Image {
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Image image = nullptr;
+    vk::raii::ImageView view = nullptr;
+
+    Image(const Gpu& gpu, vk::Format format, vk::ImageUsageFlags usage) {
+        vk::ImageCreateInfo info({}, vk::ImageType::e2D, format, kSize, 1, 1);
+        info.usage = usage | vk::ImageUsageFlagBits::eColorAttachment;
+        image = vk::raii::Image(gpu.device, info);
+        memory = gpu.allocate(image.getMemoryRequirements(), {});
+        image.bindMemory(*memory, 0);
+        view = {gpu.device, {{}, *image, vk::ImageViewType::e2D, format, {}, {kColor, 0, 1, 0, 1}}};
+    }
+};
+
+/// Clears rectangles of both images: stripes at rest, 10 m away, and the square at 5 m.
+void draw(const vk::raii::CommandBuffer& commands, const Image& color, const Image& motion, int x) {
+    std::array<vk::RenderingAttachmentInfo, 2> targets;
+    std::array<vk::ImageMemoryBarrier2, 2> barriers;
+    for (const int i : {0, 1}) {
+        const Image& image = i == 0 ? color : motion;
+        barriers[i].setSrcStageMask(kAny).setDstStageMask(kAny).setDstAccessMask(kWrite);
+        barriers[i].setNewLayout(kTarget).setImage(*image.image);
+        barriers[i].setSubresourceRange({kColor, 0, 1, 0, 1});
+        targets[i].setImageView(*image.view).setImageLayout(kTarget);
+        targets[i].setLoadOp(vk::AttachmentLoadOp::eDontCare);
+    }
+    commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barriers));
+    commands.beginRendering(vk::RenderingInfo({}, {{}, {kWidth, kHeight}}, 1, 0, targets));
+    const auto fill = [&](vk::Rect2D area, std::array<float, 4> rgba, std::array<float, 4> moved) {
+        const vk::ClearAttachment first(kColor, 0, vk::ClearColorValue(rgba));
+        const vk::ClearAttachment second(kColor, 1, vk::ClearColorValue(moved));
+        commands.clearAttachments({first, second}, vk::ClearRect(area, 0, 1));
+    };
+    for (int left = 0; left < int(kWidth); left += 10)
+        fill({{left, 0}, {10, kHeight}}, {left % 20 ? 0.1f : 0.5f, 0.3f, 0.4f, 1}, {0, 0, 10, 0});
+    fill({{x, 60}, {60, 60}}, {1, 0.3f, 0.1f, 1}, {kSpeedPx, 0, 5, 0});
+    commands.endRendering();
+}
+
+void write(const char* path, const uint64_t* halves) {
+    std::ofstream file(path, std::ios::binary);
+    file << "P6 " << kWidth << ' ' << kHeight << " 255\n";
+    for (uint32_t i = 0; i < kWidth * kHeight * 3; ++i)
+        file.put(char(255 * glm::min(glm::unpackHalf4x16(halves[i / 3])[i % 3], 1.0f) + 0.5f));
+    if (!file.flush())
+        throw std::runtime_error(std::string("cannot write ") + path);
+}
+
+int main() try {
+    const vk::raii::Context context;
+    const vk::ApplicationInfo application(nullptr, 0, nullptr, 0, VK_API_VERSION_1_3);
+    const vk::raii::Instance instance(context, vk::InstanceCreateInfo({}, &application));
+    const vk::raii::PhysicalDevice physical = vk::raii::PhysicalDevices(instance).at(0);
+    const float priority = 1.0f;
+    const vk::DeviceQueueCreateInfo queueInfo({}, 0, 1, &priority);
+    motion_blur::ForeignFeatures features; // (1) what the device must have enabled
+    features.v13.dynamicRendering = VK_TRUE;
+    const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, features.chain());
+    const Gpu gpu{physical, {physical, deviceInfo}};
+    const vk::raii::CommandPool pool(gpu.device, {{}, 0});
+    const vk::raii::CommandBuffers commands(gpu.device, {*pool, {}, kFrames});
+    std::vector<vk::raii::Fence> fences;
+    using enum vk::ImageUsageFlagBits;
+    const Image color(gpu, kHalf, eSampled | eTransferSrc);
+    const Image motion(gpu, kFull, eSampled);
+    const Image output(gpu, kHalf, eStorage | eTransferDst | eTransferSrc);
+    constexpr auto kTo = vk::BufferUsageFlagBits::eTransferDst;
+    vk::raii::Buffer copies(gpu.device, {{}, 2 * kFrames * kBytes, kTo});
+    using enum vk::MemoryPropertyFlagBits;
+    const auto memory = gpu.allocate(copies.getMemoryRequirements(), eHostVisible | eHostCoherent);
+    copies.bindMemory(*memory, 0);
+    // (2) the effect, for this device and its queue family 0
+    auto blur = motion_blur::ForeignMotionBlur::create({*physical, *gpu.device, 0, kInFlight});
+    if (!blur)
+        throw std::runtime_error(blur.error().message);
+    motion_blur::ForeignInputs inputs{kWidth, kHeight}; // (3) what it reads and writes
+    inputs.color = {*color.image, kDrawn, kCopied};
+    inputs.motionDepth = {*motion.image, kDrawn, {}};
+    inputs.output = {*output.image, {}, kCopied};
+    constexpr motion_blur::MotionBlurSettings kSettings{motion_blur::Method::Gather};
+    for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        if (frame >= kInFlight) // (4) is given the number of a frame that the GPU is done with
+            (void)gpu.device.waitForFences(*fences[frame - kInFlight], true, UINT64_MAX);
+        const vk::raii::CommandBuffer& now = commands[frame];
+        now.begin({});
+        draw(now, color, motion, 40 + int(kSpeedPx * float(frame)));
+        if (auto done = blur.value()->record(*now, frame % kInFlight, inputs, kSettings); !done)
+            throw std::runtime_error(done.error().message);
+        vk::BufferImageCopy to(2 * frame * kBytes, 0, 0, {kColor, 0, 0, 1}, {}, kSize);
+        now.copyImageToBuffer(*color.image, kSource, *copies, to);
+        to.bufferOffset += kBytes;
+        now.copyImageToBuffer(*output.image, kSource, *copies, to);
+        const vk::MemoryBarrier2 shown(kAny, kWrite, vk::PipelineStageFlagBits2::eHost, kRead);
+        now.pipelineBarrier2(vk::DependencyInfo({}, shown));
+        now.end();
+        fences.emplace_back(gpu.device, vk::FenceCreateInfo());
+        gpu.device.getQueue(0, 0).submit(vk::SubmitInfo({}, {}, *now), *fences[frame]);
+    }
+    gpu.device.waitIdle();
+    const auto* halves = static_cast<const uint64_t*>(memory.mapMemory(0, VK_WHOLE_SIZE));
+    write("before.ppm", halves + (2 * kFrames - 2) * kBytes / 8);
+    write("after.ppm", halves + (2 * kFrames - 1) * kBytes / 8);
+
+} catch (const std::exception& error) {
+
+    std::fprintf(stderr, "bare_renderer: %s\n", error.what());
+    return 1;
+}

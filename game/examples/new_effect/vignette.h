@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// A post effect of its own: darkens the picture towards its corners, in place.
+#pragma once
+#include "engine/graph/execute.h"
+#include "engine/render/post_effect.h"
+
+#include <spirv/vignette.comp.h>
+
+class Vignette : public shutter::render::PostEffect {
+    float mLoss;
+    shutter::gpu::Pipeline mPipeline;
+
+  public:
+    Vignette(shutter::gpu::Device& device, float lossInCorners)
+        : mLoss(lossInCorners),
+          mPipeline(device, {"vignette", vignette_comp, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE}, 4}}) {}
+
+    std::string name() const override { return "vignette"; }
+
+    shutter::render::Decision ask(const shutter::render::ViewFacts&) const override {
+        return {mLoss > 0.0f, "light is lost"};
+    }
+
+    void declare(shutter::render::PostContext& context) override {
+        using namespace shutter::graph;
+        const auto setup = [&](PassBuilder& builder, ImageHandle& color) {
+            color = builder.write(context.color, Access::StorageWrite);
+        };
+        const auto run = [this](const ImageHandle& color, PassContext& pass) {
+            const auto& [width, height, format, usage, levels] = pass.resources.image(color).desc();
+            shutter::gpu::BindingList bindings;
+            bindings.storage(pass.resources.view(color));
+            pass.frame.bind(mPipeline, bindings, &mLoss, sizeof(mLoss));
+            vkCmdDispatch(pass.commands, (width + 7) / 8, (height + 7) / 8, 1);
+        };
+        context.color = context.graph.addPass<ImageHandle>(name(), PassKind::Compute, setup, run);
+    }
+};
