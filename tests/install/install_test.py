@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Installs into a folder of its own, builds both examples against what is there, as projects of
+their own, and runs them under validation; their pictures must show what they promise."""
+
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import zlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "game/examples"
+BUILD = pathlib.Path(os.environ["SHUTTER_BUILD"])
+CMAKE = os.environ["SHUTTER_CMAKE"]
+MOST_LINES = {"bare_renderer": 150, "new_effect": 99}
+SOURCES = {".cpp", ".h", ".comp", ".txt"}
+
+
+def fail(what):
+    sys.exit(f"FAILED: {what}")
+
+
+def run(command, folder, env=None):
+    """What it printed, both streams; ends the test where it fails."""
+    done = subprocess.run([str(word) for word in command], cwd=folder, env=env, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    if done.returncode != 0:
+        fail(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
+def check_lengths():
+    for name, most in MOST_LINES.items():
+        files = [file for file in (EXAMPLES / name).iterdir() if file.suffix in SOURCES]
+        # bare_renderer's limit is on its C++; new_effect's on all that it consists of.
+        counted = [file for file in files if name == "new_effect" or file.suffix != ".txt"]
+        lines = [line for file in counted for line in file.read_text().splitlines()]
+        if len(lines) > most:
+            fail(f"game/examples/{name} has {len(lines)} lines, {most} are allowed")
+        if longest := [line for line in lines if len(line) > 100]:
+            fail(f"game/examples/{name} has a line of {len(longest[0])} columns: {longest[0]}")
+
+
+def check_installed(prefix):
+    for file in ("bin/shutter", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
+                 "include/shutter/modules/motion_blur/foreign/foreign_motion_blur.h",
+                 "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
+        if not (prefix / file).is_file():
+            fail(f"{file} is not installed")
+    # Nothing may lead back to where it was built.
+    for file in prefix.rglob("*.cmake"):
+        for folder in (str(ROOT), str(BUILD)):
+            if folder + "/" in file.read_text().replace(str(prefix), ""):
+                fail(f"{file.relative_to(prefix)} names {folder}")
+
+
+def check_refusals(prefix, folder):
+    """A component that does not exist is named; one that is optional does no harm."""
+    (folder / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
+        "find_package(Shutter 0.1 REQUIRED COMPONENTS core OPTIONAL_COMPONENTS teapot)\n"
+        "if(Shutter_teapot_FOUND OR NOT Shutter_core_FOUND)\n message(FATAL_ERROR wrong)\nendif()\n"
+        "find_package(Shutter QUIET COMPONENTS teapot)\n"
+        "if(Shutter_FOUND OR NOT Shutter_NOT_FOUND_MESSAGE MATCHES \"no component teapot\")\n"
+        " message(FATAL_ERROR \"teapot: ${Shutter_NOT_FOUND_MESSAGE}\")\nendif()\n")
+    run([CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], folder)
+
+
+def build_example(name, prefix, folder):
+    run([CMAKE, "-S", EXAMPLES / name, "-B", folder, "-G", os.environ["SHUTTER_GENERATOR"],
+         f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={os.environ['SHUTTER_CXX']}",
+         f"-DCMAKE_CXX_COMPILER_LAUNCHER={os.environ['SHUTTER_LAUNCHER']}",
+         f"-DCMAKE_BUILD_TYPE={os.environ['SHUTTER_CONFIG']}"], folder)
+    run([CMAKE, "--build", folder, "--parallel", "2"], folder)
+
+
+def run_validated(command, folder):
+    """Runs with core and synchronization validation, which must be there and have nothing to say."""
+    env = dict(os.environ, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
+               VK_LAYER_ENABLES="VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
+               VK_KHRONOS_VALIDATION_VALIDATE_SYNC="true", VK_LOADER_DEBUG="layer")
+    printed = run(command, folder, env)
+    if not re.search(r'Insert\w* (instance|device) layer "VK_LAYER_KHRONOS_validation"', printed):
+        fail(f"{command[0]} ran without validation:\n{printed}")
+    for word in ("VUID-", "SYNC-HAZARD", "UNASSIGNED-", "Validation Error"):
+        if word in printed:
+            fail(f"validation spoke up:\n{printed}")
+
+
+def read_ppm(file):
+    kind, width, height, largest, pixels = file.read_bytes().split(maxsplit=4)
+    if (kind, largest) != (b"P6", b"255"):
+        fail(f"{file.name} is no PPM of 8 bits")
+    width, height = int(width), int(height)
+    # split() takes away white space that belongs to the pixels.
+    pixels = file.read_bytes()[-3 * width * height:]
+    return width, height, lambda x, y: pixels[3 * (y * width + x):3 * (y * width + x) + 3]
+
+
+def check_blur(folder):
+    """The square moved by 24 px: its vertical edges are smears as long, all else is as it was."""
+    width, height, before = read_ppm(folder / "before.ppm")
+    _, _, after = read_ppm(folder / "after.ppm")
+    changed = {(x, y) for y in range(height) for x in range(width) if before(x, y) != after(x, y)}
+    # The square is 60 x 60, its left edge at 40 + 4 * 24, and nothing farther than 24 px from it
+    # (and the half pixel that a tap may reach) sees it.
+    far = [(x, y) for x, y in changed
+           if not (136 - 26 <= x < 196 + 26 and 60 - 2 <= y < 120 + 2)]
+    if far:
+        fail(f"{len(far)} pixels that the square does not pass were changed, e.g. {far[0]}")
+    # Along a row through the square's middle red falls from the square's 255 by steps.
+    row = [after(x, 90)[0] for x in range(width)]
+    levels = {value for value in row if 140 < value < 250}
+    if len(levels) < 5:
+        fail(f"the square's edges are not blurred: reds between are {sorted(levels)}")
+    if not any((x, 90) in changed for x in range(136, 196)):
+        fail("nothing inside of the square's place was blurred")
+
+
+def read_png(file):
+    """Width, height and rows of RGB or RGBA of 8 bits."""
+    data = file.read_bytes()
+    position, packed, header = 8, b"", None
+    while position < len(data):
+        size, kind = struct.unpack(">I4s", data[position:position + 8])
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", data[position + 8:position + 8 + size])
+        if kind == b"IDAT":
+            packed += data[position + 8:position + 8 + size]
+        position += size + 12
+    width, height, depth, colour = header[:4]
+    step = {2: 3, 6: 4}[colour]
+    if depth != 8:
+        fail(f"{file.name} has {depth} bits")
+    raw, rows, above = zlib.decompress(packed), [], bytes(width * step)
+    for y in range(height):
+        line = bytearray(raw[y * (width * step + 1):(y + 1) * (width * step + 1)])
+        kind, line = line[0], line[1:]
+        for i in range(len(line)):
+            left = line[i - step] if i >= step else 0
+            corner = above[i - step] if i >= step else 0
+            estimate = left + above[i] - corner
+            paeth = min((left, above[i], corner), key=lambda value: abs(estimate - value))
+            line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth)[kind]) & 255
+        rows.append(bytes(line))
+        above = line
+    return width, height, step, rows
+
+
+def check_vignette(prefix, folder, picture):
+    """Sharp and blurred pictures of the same view by the program tell what the example did."""
+    def draw(method):
+        file = folder / f"{method}.png"
+        run([prefix / "bin/shutter", "render", prefix / "share/shutter/assets/vase.glb",
+             "--ambient", "0,0,0", "--method", method, "--out", file], folder)
+        return read_png(file)
+
+    width, height, step, rows = read_png(picture)
+    pictures = {method: draw(method) for method in ("sharp", "gather")}
+    for other_width, other_height, _, _ in pictures.values():
+        if (other_width, other_height) != (width, height):
+            fail("the pictures are of different sizes")
+
+    def distance(first, second):
+        """Mean absolute difference where the vignette takes next to no light."""
+        (step_a, rows_a), (step_b, rows_b) = first, second
+        total = count = 0
+        for y in range(height * 4 // 10, height * 6 // 10):
+            for x in range(width * 4 // 10, width * 6 // 10):
+                for channel in range(3):
+                    total += abs(rows_a[y][x * step_a + channel] - rows_b[y][x * step_b + channel])
+                    count += 1
+        return total / count
+
+    own, sharp, blurred = (step, rows), pictures["sharp"][2:], pictures["gather"][2:]
+    moved, left = distance(sharp, blurred), distance(own, blurred)
+    print(f"sharp and blurred differ by {moved:.2f} in the middle, the example by {left:.2f}")
+    if not left < 0.5 * moved:
+        fail("the example's picture is not the blurred one")
+    for x, y in ((0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)):
+        before = max(blurred[1][y][x * blurred[0]:x * blurred[0] + 3])
+        after = max(rows[y][x * step:x * step + 3])
+        if before < 30 or after > before / 4:
+            fail(f"the corner {x}, {y} goes from {before} to {after}; it should be dark")
+
+
+def has_device(prefix, folder):
+    done = subprocess.run([prefix / "bin/shutter", "info", "--devices"], cwd=folder, text=True,
+                          capture_output=True, check=False)
+    return done.returncode == 0
+
+
+def main():
+    check_lengths()
+    folder = BUILD / "install_test"
+    shutil.rmtree(folder, ignore_errors=True) # what an earlier run installed must not help
+    prefix = folder / "prefix"
+    folder.mkdir(parents=True)
+    run([CMAKE, "--install", BUILD, "--prefix", prefix], folder)
+    check_installed(prefix)
+    (folder / "asks").mkdir()
+    check_refusals(prefix, folder / "asks")
+    for name in MOST_LINES:
+        build_example(name, prefix, folder / name)
+    if not has_device(prefix, folder) and not os.environ.get("SHUTTER_REQUIRE_DEVICE"):
+        print("no Vulkan device: the examples were built but not run")
+        sys.exit(77)
+    run_validated([folder / "bare_renderer/bare_renderer"], folder)
+    check_blur(folder)
+    scene = prefix / "share/shutter/assets/vase.glb"
+    run_validated([folder / "new_effect/new_effect", scene, "vignette.png"], folder)
+    check_vignette(prefix, folder, folder / "vignette.png")
+    shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    main()
