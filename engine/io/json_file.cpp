@@ -128,7 +128,7 @@ std::string JsonNode::readString(size_t maxBytes) const {
     return {};
 }
 
-size_t JsonNode::findWord(std::span<const std::string_view> words) const {
+size_t JsonNode::readWord(std::span<const std::string_view> words) const {
     const std::string word = readString(SIZE_MAX);
     const auto found = std::find(words.begin(), words.end(), word);
     if (found != words.end())
@@ -164,6 +164,10 @@ std::vector<JsonNode> JsonNode::readArray(size_t minCount, size_t maxCount) cons
 }
 
 JsonObject JsonNode::readObject(std::initializer_list<std::string_view> fields) const {
+    return readObject(std::span(fields.begin(), fields.size()));
+}
+
+JsonObject JsonNode::readObject(std::span<const std::string_view> fields) const {
     JsonObject object(JsonNode(*mTree, JsonTree::kAbsent), {fields.begin(), fields.end()});
     if (mIndex == JsonTree::kAbsent)
         return object;

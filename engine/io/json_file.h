@@ -57,6 +57,10 @@ class JsonNode {
 
     /// An object of these fields and no others.
     [[nodiscard]] JsonObject readObject(std::initializer_list<std::string_view> fields) const;
+    [[nodiscard]] JsonObject readObject(std::span<const std::string_view> fields) const;
+
+    /// Index of the word that the string is.
+    [[nodiscard]] size_t readWord(std::span<const std::string_view> words) const;
 
     /// An array of `Count` numbers.
     template <size_t Count>
@@ -75,7 +79,7 @@ class JsonNode {
         std::array<std::string_view, Count> words;
         for (size_t i = 0; i < Count; ++i)
             words[i] = choices[i].first;
-        return choices[findWord(words)].second;
+        return choices[readWord(words)].second;
     }
 
     [[nodiscard]] bool isNumber() const;
@@ -102,8 +106,6 @@ class JsonNode {
 
     JsonNode(JsonTree& tree, uint32_t index) : mTree(&tree), mIndex(index) {}
 
-    /// Index of the word that it is, 0 where it is none of them.
-    [[nodiscard]] size_t findWord(std::span<const std::string_view> words) const;
     void failKind(std::string_view wanted) const;
 
     JsonTree* mTree;
