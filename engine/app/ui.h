@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Dear ImGui on this engine's window: input goes in, an overlay comes out.
+//
+// Input comes from InputState, so that scripts drive widgets as players do, and drawing is our own:
+// the overlay is drawn within dynamic rendering, which the Vulkan backend of the oldest version
+// that we build with (1.86) does not know.
 #pragma once
 
 #include "engine/app/input.h"
@@ -9,16 +13,20 @@
 
 namespace shutter::app {
 
-/// One at a time. Widgets are declared with ImGui's own functions between begin() and end().
+/// One at a time. Widgets are declared with ImGui's own functions between begin() and end(), in
+/// pixels of the window; ImGui's font 0 is for text, font 1 is twice as large.
 class Ui : public Overlay {
   public:
+    /// The device must outlive it, and be done with all frames it was recorded into when it ends.
     explicit Ui(gpu::Device& device);
     ~Ui() override;
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    /// \param windowPx size, pixels \param scale pixels a point (Window::contentScale)
-    /// \param seconds since the last frame
+    /// Starts a frame. Where the scale changes, the font is made anew, which waits for the GPU.
+    /// \param windowPx size, pixels
+    /// \param scale pixels a point (Window::contentScale); taken into [0.5, 8], 1 where it is NaN
+    /// \param seconds since the last frame; below 0 and NaN count as 0
     void begin(const InputState& input, const math::uvec2& windowPx, double scale, double seconds);
     /// What record() draws is complete.
     void end();
@@ -28,6 +36,7 @@ class Ui : public Overlay {
     /// Text is being typed.
     [[nodiscard]] bool wantsKeys() const;
 
+    /// Draws what lies between the last begin() and end(); nothing before the first.
     void record(gpu::Frame& frame, const OverlayTarget& target) override;
 
   private:

@@ -10,7 +10,7 @@ build_packages=(
     g++ cmake ninja-build pkg-config glslang-tools
     libvulkan-dev libglfw3-dev libglm-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
-    vulkan-validationlayers libjs-chart.js
+    libimgui-dev vulkan-validationlayers libjs-chart.js
 )
 # Only the tests compare with ffmpeg and scikit-image and look at the report page in a browser.
 test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium)

@@ -38,7 +38,8 @@ const std::vector<Row> kEngineRows = {
 const Names kModulesWithEffect = {"motion_blur"};
 const Names kEffectSees = {"core", "math", "gpu", "graph"};
 
-/// Libraries that only some parts of the tree may name; "modules" stands for any module.
+/// Libraries that only some parts of the tree may name; "modules" stands for any module, "game" for
+/// all of it.
 struct LibraryRow {
     std::string_view prefix;
     Names owners;
@@ -48,6 +49,7 @@ const std::vector<LibraryRow> kLibraryRows = {
     {"tiny_gltf.h", {"io"}},
     {"OpenImageIO/", {"io"}},
     {"GLFW/", {"app"}},
+    {"imgui", {"app", "game"}},
     {"vulkan/", {"gpu", "graph", "render", "modules"}},
 };
 
@@ -224,6 +226,7 @@ std::string resolve(const Include& include, const FileExists& exists) {
 std::optional<std::string> findLibraryViolation(const Part& from, std::string_view target) {
     const bool isModule = from.kind == Kind::Module || from.kind == Kind::Effect;
     const std::string_view owner = isModule                    ? "modules"
+                                   : from.kind == Kind::Game   ? "game"
                                    : from.kind == Kind::Engine ? std::string_view(from.name)
                                                                : std::string_view();
     for (const LibraryRow& row : kLibraryRows)
