@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "game/setting_options.h"
 
+#include "game/setting_table.h"
+
+#include <fmt/ranges.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <span>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace shutter::game {
 
@@ -17,63 +19,36 @@ namespace {
 using core::makeError;
 using core::Status;
 
-/// A setting whose values are words.
-template <class T>
+using motion_blur::MotionBlurSettings;
+using Row = SettingRow<MotionBlurSettings>;
+
 Status applyWord(
-    const std::string& name,
+    const Row& row,
     const std::string& value,
-    const std::array<std::pair<const char*, T>, 2>& words,
-    T& target
+    const WordField<MotionBlurSettings>& field,
+    MotionBlurSettings& settings
 ) {
-    for (const auto& [word, meaning] : words)
-        if (value == word) {
-            target = meaning;
-            return {};
-        }
-    return makeError("--set {}: '{}' is not {} or {}", name, value, words[0].first, words[1].first);
+    const auto word = std::find(field.words.begin(), field.words.end(), value);
+    if (word == field.words.end())
+        return makeError(
+            "--set {}: '{}' is not {}", row.name, value, fmt::join(field.words, " or ")
+        );
+    field.set(settings, static_cast<size_t>(word - field.words.begin()));
+    return {};
 }
 
-/// A setting whose values are numbers; its range is checked with all others.
-Status applyNumber(
-    const std::string& name, const std::string& value, motion_blur::MotionBlurSettings& settings
-) {
-    const std::vector<std::pair<const char*, uint32_t*>> counts = {
-        {"tileSizePx", &settings.tileSizePx},
-        {"neighbourhoodTiles", &settings.neighbourhoodTiles},
-        {"recursionLimit", &settings.recursionLimit},
-        {"filterLevels", &settings.filterLevels},
-    };
-    const std::vector<std::pair<const char*, float*>> numbers = {
-        {"softDepthExtent", &settings.softDepthExtent},
-        {"edgeThreshold", &settings.edgeThreshold},
-        {"luminanceThreshold", &settings.luminanceThreshold},
-        {"foregroundMagnification", &settings.foregroundMagnification},
-        {"backgroundMagnification", &settings.backgroundMagnification},
-        {"jitter", &settings.jitter},
-        {"centreBias", &settings.centreBias},
-        {"speedThresholdPx", &settings.speedThresholdPx},
-        {"luminanceSigma", &settings.luminanceSigma},
-        {"uniformMotionPx", &settings.uniformMotionPx},
-        {"maxMotionDepth", &settings.maxMotionDepth},
-        {"rayShare", &settings.rayShare},
-        {"halfResolutionPx", &settings.halfResolutionPx},
-    };
-    const auto number = parseNumber(value);
+Status applyNumber(const Row& row, const std::string& value, MotionBlurSettings& settings) {
+    const bool isUnlimited = row.range.isUnlimited && value == kUnlimited;
+    const auto number = isUnlimited ? std::numeric_limits<double>::infinity() : parseNumber(value);
     if (!number)
-        return makeError("--set {}: '{}' is not a number", name, value);
-    for (const auto& [field, target] : counts)
-        if (name == field) {
-            if (*number < 0.0 || *number > 1e6 || *number != std::floor(*number))
-                return makeError("--set {}: {} is not a whole number", name, value);
-            *target = static_cast<uint32_t>(*number);
-            return {};
-        }
-    for (const auto& [field, target] : numbers)
-        if (name == field) {
-            *target = static_cast<float>(*number);
-            return {};
-        }
-    return makeError("--set: there is no setting '{}'", name);
+        return makeError("--set {}: '{}' is not a number", row.name, value);
+    if (row.range.step != 0.0 && *number != std::floor(*number))
+        return makeError("--set {}: {} is not a whole number", row.name, value);
+    if (!setNumber(row, settings, *number))
+        return makeError(
+            "--set {}: {} must be {}", row.name, value, describeRange(row.range, row.unit)
+        );
+    return {};
 }
 
 } // namespace
@@ -115,31 +90,13 @@ Status applySetting(
             method.name,
             fmt::join(known, ", ")
         );
-    using motion_blur::ObjectTest;
-    using motion_blur::OccluderTest;
-    using motion_blur::RevealTraversal;
-    if (name == "objectTest")
-        return applyWord<ObjectTest>(
-            name,
-            value,
-            {{{"mesh_id", ObjectTest::MeshId}, {"luminance", ObjectTest::Luminance}}},
-            settings.objectTest
-        );
-    if (name == "revealTraversal")
-        return applyWord<RevealTraversal>(
-            name,
-            value,
-            {{{"single", RevealTraversal::Single}, {"stepping", RevealTraversal::Stepping}}},
-            settings.revealTraversal
-        );
-    if (name == "occluderTest")
-        return applyWord<OccluderTest>(
-            name,
-            value,
-            {{{"none", OccluderTest::None}, {"velocity", OccluderTest::Velocity}}},
-            settings.occluderTest
-        );
-    return applyNumber(name, value, settings);
+    const auto rows = listBlurRows();
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return name == r.name; });
+    SHUTTER_CHECK(row != rows.end(), "the setting {} has no row", name);
+    if (const auto* words = std::get_if<WordField<MotionBlurSettings>>(&row->field))
+        return applyWord(*row, value, *words, settings);
+    return applyNumber(*row, value, settings);
 }
 
 } // namespace shutter::game

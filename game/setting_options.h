@@ -21,8 +21,8 @@ inline constexpr double kMaxSeconds = 1.0e9;
 /// A whole string as a finite number.
 [[nodiscard]] std::optional<double> parseNumber(const std::string& text);
 
-/// Names are MotionBlurSettings' fields, and only those that the method reads. A value's range is
-/// not checked: motion_blur::validate does. Error: names what was typed wrongly.
+/// Names are MotionBlurSettings' fields (setting_table.h), and only those that the method reads.
+/// Error: names what was typed wrongly, or the range that the value is not in.
 [[nodiscard]] core::Status applySetting(
     const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
 );
