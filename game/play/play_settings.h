@@ -4,6 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/scene/components.h"
+#include "game/methods.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
@@ -32,28 +33,39 @@ struct PlaySettings {
     double cameraBlurScale = 1.0;
     uint32_t instants = 16;       ///< of `accumulate`, a frame, [1, 256]
     uint32_t rays = 4;            ///< a pixel and frame, of `truth`, [1, 256]
+    uint32_t denoisedRays = 1;    ///< a pixel and frame, of `denoised`, whose blur.sampleCount they
+                                  ///< are, [1, 256]
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     bool showPanel = true;
 };
 
+/// What a method of modules/motion_blur gets: `blur` with the method, and with its own count where
+/// samples are rays. \param method of MethodFamily::MotionBlur (CHECKed)
+[[nodiscard]] motion_blur::MotionBlurSettings
+makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
+
 /// Named sets of the blur's own fields (sampleCount, rayShare, ...); the rest stays.
 struct Preset {
-    const char* name;        ///< "off", "performance", "balanced", "quality", "paper"
-    const char* description; ///< one line
-    const char* method;      ///< of listMethods()
-    motion_blur::MotionBlurSettings blur;
+    const char* name;                     ///< "off", "performance", "balanced", "quality", "paper"
+    const char* description;              ///< one line
+    const char* method;                   ///< of listMethods()
+    motion_blur::MotionBlurSettings blur; ///< unused where the method is sharp
 };
 
 [[nodiscard]] std::span<const Preset> listPresets();
+/// Turning the blur off leaves its settings.
 void applyPreset(const Preset& preset, PlaySettings& settings);
+/// The settings are as the preset makes them.
+[[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);
 
 /// One sentence naming the field that is out of its range.
 [[nodiscard]] core::Status validate(const PlaySettings& settings);
 
-/// Fields that the file lacks keep their defaults. Error: names file, line and field.
+/// settings.schema.json says what a file holds. Fields that it lacks keep their defaults; the file
+/// says nothing of which intermediates there are (`view`). Error: names file, line and field.
 [[nodiscard]] core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path);
-/// Renamed into place.
+/// Renamed into place. Error: settings that validate() refuses, or names the file.
 [[nodiscard]] core::Status
 savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings);
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Rows of what a player sets beside the blur's own settings (listBlurRows).
+#pragma once
+
+#include "game/play/play_settings.h"
+#include "game/setting_table.h"
+
+#include <span>
+
+namespace shutter::game {
+
+/// Longest name of an intermediate, bytes.
+inline constexpr size_t kMaxViewBytes = 64;
+
+/// But method, leftMethod and view, which are names, and what has rows of its own.
+[[nodiscard]] std::span<const SettingRow<PlaySettings>> listPlayRows();
+[[nodiscard]] std::span<const SettingRow<motion_blur::BlurBudget>> listBudgetRows();
+[[nodiscard]] std::span<const SettingRow<scene::CameraShutter>> listShutterRows();
+/// But the samples.
+[[nodiscard]] std::span<const SettingRow<scene::ShutterResponse>> listResponseRows();
+[[nodiscard]] std::span<const SettingRow<scene::CutDetection>> listCutRows();
+
+} // namespace shutter::game

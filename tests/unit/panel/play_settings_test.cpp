@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/play_settings.h"
+#include "tests/unit/panel/random_settings.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace shutter {
+namespace {
+
+using game::PlaySettings;
+
+class PlaySettingsFile : public ::testing::Test {
+  protected:
+    PlaySettingsFile()
+        : mPath(
+              std::filesystem::path(::testing::TempDir()) /
+              (std::string("play_settings_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json")
+          ) {}
+
+    ~PlaySettingsFile() override { std::filesystem::remove(mPath); }
+
+    [[nodiscard]] std::string read() const {
+        std::ostringstream text;
+        text << std::ifstream(mPath).rdbuf();
+        return text.str();
+    }
+
+    /// What loading says of that text: an error without the path, or nothing.
+    [[nodiscard]] std::string refuse(const std::string& text) const {
+        std::ofstream(mPath) << text;
+        const auto loaded = game::loadPlaySettings(mPath);
+        if (loaded)
+            return "";
+        const std::string& message = loaded.error().message;
+        EXPECT_TRUE(message.starts_with(mPath.string() + ":")) << message;
+        return message.substr(std::min(message.size(), mPath.string().size() + 1));
+    }
+
+    std::filesystem::path mPath;
+};
+
+/// Calls visit(row, owner, prefix) with all rows of all owners.
+template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
+    const auto each = [&](auto rows, auto& owner, const std::string& prefix) {
+        for (const auto& row : rows)
+            visit(row, owner, prefix);
+    };
+    each(game::listPlayRows(), settings, "");
+    each(game::listBudgetRows(), settings.budget, "budget.");
+    each(game::listBlurRows(), settings.blur, "blur.");
+    each(game::listShutterRows(), settings.shutter, "shutter.");
+    each(game::listResponseRows(), settings.shutter.response, "shutter.response.");
+    each(game::listCutRows(), settings.shutter.cuts, "shutter.cuts.");
+}
+
+/// Past the range, as any kind of number.
+template <class Owner> void force(const game::SettingRow<Owner>& row, Owner& owner, double value) {
+    if (const auto* whole = std::get_if<uint32_t Owner::*>(&row.field))
+        owner.** whole = value < 0.0 ? UINT32_MAX : static_cast<uint32_t>(value);
+    else if (const auto* single = std::get_if<float Owner::*>(&row.field))
+        owner.** single = static_cast<float>(value);
+    else
+        owner.**std::get_if<double Owner::*>(&row.field) = value;
+}
+
+TEST_F(PlaySettingsFile, IsReadBackAsItWasWritten) {
+    for (uint32_t seed = 0; seed < 100; ++seed) {
+        const PlaySettings settings = test::RandomSettings(seed).make();
+        ASSERT_TRUE(game::validate(settings).ok()) << game::validate(settings).error().message;
+        ASSERT_TRUE(game::savePlaySettings(mPath, settings).ok());
+        const std::string first = read();
+        const auto loaded = game::loadPlaySettings(mPath);
+        ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+        ASSERT_TRUE(game::savePlaySettings(mPath, loaded.value()).ok());
+        ASSERT_EQ(read(), first);
+        EXPECT_EQ(loaded.value().method, settings.method);
+        EXPECT_EQ(loaded.value().view, settings.view);
+        EXPECT_EQ(loaded.value().shutter.response.samples, settings.shutter.response.samples);
+        EXPECT_EQ(loaded.value().blur.softDepthExtent, settings.blur.softDepthExtent);
+        EXPECT_EQ(loaded.value().blur.halfResolutionPx, settings.blur.halfResolutionPx);
+        EXPECT_EQ(loaded.value().shutter.maxBlurPercent, settings.shutter.maxBlurPercent);
+    }
+}
+
+TEST_F(PlaySettingsFile, NeedsNothingButItsVersion) {
+    std::ofstream(mPath) << R"({"version": 1})";
+    const auto loaded = game::loadPlaySettings(mPath);
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    ASSERT_TRUE(game::savePlaySettings(mPath, loaded.value()).ok());
+    const std::string fromFile = read();
+    ASSERT_TRUE(game::savePlaySettings(mPath, PlaySettings{}).ok());
+    EXPECT_EQ(fromFile, read());
+}
+
+TEST_F(PlaySettingsFile, IsRefusedWithLineAndField) {
+    EXPECT_EQ(
+        refuse("{\"version\": 1,\n \"blur\": {\n  \"jitter\": 2}}"),
+        "3: blur.jitter: must lie in [0, 1], not 2"
+    );
+    EXPECT_EQ(
+        refuse("{\"version\": 1,\n \"method\": \"hybird\"}").substr(0, 26),
+        "2: method: 'hybird' is not"
+    );
+    EXPECT_EQ(refuse("{\"version\": 2}"), "1: version: must lie in [1, 1], not 2");
+    EXPECT_NE(refuse("{}"), "");
+    EXPECT_NE(
+        refuse("{\"version\": 1, \"colour\": 1}").find("colour: is not a field"), std::string::npos
+    );
+    EXPECT_NE(
+        refuse("{\"version\": 1, \"shutter\": {\"cuts\": {\"enabled\": 1}}}")
+            .find("shutter.cuts.enabled: must be true or false"),
+        std::string::npos
+    );
+    EXPECT_NE(
+        refuse("{\"version\": 1, \"blur\": {\"neighbourhoodTiles\": 4}}")
+            .find("blur.neighbourhoodTiles: must be 1 to 15 tiles in steps of 2, not 4"),
+        std::string::npos
+    );
+    EXPECT_NE(
+        refuse("{\"version\": 1, \"blur\": {\"maxMotionDepth\": \"far\"}}")
+            .find("blur.maxMotionDepth: 'far' is not one of unlimited"),
+        std::string::npos
+    );
+    EXPECT_NE(
+        refuse("{\"version\": 1, \"blur\": {\"jitter\": \"unlimited\"}}")
+            .find("blur.jitter: must be a number"),
+        std::string::npos
+    );
+}
+
+TEST_F(PlaySettingsFile, IsRefusedWhereTheResponseTakesNoLight) {
+    const auto respond = [&](const std::string& response) {
+        return refuse("{\"version\": 1, \"shutter\": {\"response\": {" + response + "}}}");
+    };
+    EXPECT_NE(
+        respond("\"shape\": \"samples\", \"samples\": [0, 0]")
+            .find("shutter.response: samples are all 0"),
+        std::string::npos
+    );
+    EXPECT_NE(
+        respond("\"shape\": \"trapezoid\", \"openShare\": 0.6, \"closeShare\": 0.6")
+            .find("are more than the exposure"),
+        std::string::npos
+    );
+    EXPECT_NE(
+        respond("\"samples\": [1, -1]").find("shutter.response.samples[1]"), std::string::npos
+    );
+    EXPECT_EQ(respond("\"samples\": []"), "");
+}
+
+TEST_F(PlaySettingsFile, IsNotWrittenOfWrongSettings) {
+    PlaySettings settings;
+    settings.dividerShare = 1.5;
+    const core::Status saved = game::savePlaySettings(mPath, settings);
+    ASSERT_FALSE(saved.ok());
+    EXPECT_NE(saved.error().message.find("dividerShare is 1.5"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(mPath));
+}
+
+TEST(PlaySettings, EveryFieldOutOfItsRangeIsNamed) {
+    PlaySettings counted;
+    int numbers = 0;
+    visitRows(counted, [&](const auto& row, auto&, const std::string& prefix) {
+        if (!game::isNumber(row))
+            return;
+        ++numbers;
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        for (const double bad : {row.range.lowest - 1.0, row.range.highest * 2.0 + 1.0, kNone}) {
+            const bool isWhole = row.range.step != 0.0;
+            if (isWhole && std::isnan(bad))
+                continue;
+            PlaySettings settings;
+            visitRows(settings, [&](const auto& other, auto& owner, const std::string&) {
+                if constexpr (std::is_same_v<decltype(other), decltype(row)>)
+                    if (&other == &row)
+                        force(other, owner, bad);
+            });
+            const core::Status valid = game::validate(settings);
+            ASSERT_FALSE(valid.ok()) << prefix << row.name << " " << bad;
+            EXPECT_TRUE(valid.error().message.starts_with(prefix + row.name + " is "))
+                << valid.error().message;
+        }
+    });
+    EXPECT_GT(numbers, 30);
+}
+
+TEST(PlaySettings, NamesThatThereAreNotAreRefused) {
+    PlaySettings settings;
+    EXPECT_TRUE(game::validate(settings).ok());
+    settings.leftMethod = "nosuch";
+    EXPECT_NE(game::validate(settings).error().message.find("leftMethod"), std::string::npos);
+    settings.leftMethod = "sharp";
+    settings.view = std::string(game::kMaxViewBytes + 1, 'a');
+    EXPECT_NE(game::validate(settings).error().message.find("view"), std::string::npos);
+}
+
+TEST(PlaySettings, ReducedMotionTakesTheCamerasPartAlone) {
+    PlaySettings settings;
+    settings.shutter.cameraRotationScale = 0.8;
+    settings.shutter.cameraTranslationScale = 1.5;
+    settings.shutter.objectScale = 1.2;
+    settings.cameraBlurScale = 0.5;
+    const scene::CameraShutter shutter = game::makeShutter(settings);
+    EXPECT_DOUBLE_EQ(shutter.cameraRotationScale, 0.4);
+    EXPECT_DOUBLE_EQ(shutter.cameraTranslationScale, 0.75);
+    EXPECT_EQ(shutter.objectScale, 1.2);
+    settings.cameraBlurScale = 0.0;
+    EXPECT_EQ(game::makeShutter(settings).cameraRotationScale, 0.0);
+    EXPECT_EQ(game::makeShutter(settings).cameraTranslationScale, 0.0);
+    EXPECT_EQ(game::makeShutter(settings).objectScale, 1.2);
+}
+
+TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
+    PlaySettings settings;
+    settings.blur.sampleCount = 31;
+    settings.denoisedRays = 2;
+    const auto count = [&](const char* method) {
+        return game::makeBlurSettings(settings, *game::findMethod(method).value()).sampleCount;
+    };
+    EXPECT_EQ(count("hybrid"), 31u);
+    EXPECT_EQ(count("denoised"), 2u);
+    EXPECT_EQ(
+        game::makeBlurSettings(settings, *game::findMethod("gather").value()).method,
+        motion_blur::Method::Gather
+    );
+}
+
+TEST(Presets, AreValidDistinctAndApplied) {
+    for (const game::Preset& preset : game::listPresets()) {
+        PlaySettings settings = test::RandomSettings(1).make();
+        const scene::CameraShutter shutter = settings.shutter;
+        game::applyPreset(preset, settings);
+        EXPECT_TRUE(game::validate(settings).ok()) << preset.name;
+        EXPECT_EQ(settings.shutter.angleDegrees, shutter.angleDegrees);
+        for (const game::Preset& other : game::listPresets())
+            EXPECT_EQ(game::isApplied(other, settings), &other == &preset)
+                << preset.name << " and " << other.name;
+    }
+    EXPECT_EQ(game::listPresets().size(), 5u);
+}
+
+TEST(Presets, TurningTheBlurOffKeepsItsSettings) {
+    PlaySettings settings;
+    settings.blur.sampleCount = 77;
+    game::applyPreset(game::listPresets().front(), settings);
+    EXPECT_EQ(settings.method, "sharp");
+    EXPECT_EQ(settings.blur.sampleCount, 77u);
+}
+
+} // namespace
+} // namespace shutter
