@@ -6,13 +6,12 @@
 #include "engine/app/ui.h"
 #include "engine/render/renderer.h"
 #include "game/demos/demo.h"
+#include "game/play/pass_history.h"
 #include "game/play/play_settings.h"
 
-#include <deque>
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace shutter::game {
 
@@ -21,8 +20,10 @@ struct PanelFacts {
     std::string title;            ///< of the demo or scene
     std::span<const HudLine> hud; ///< of a demo
     std::string message;          ///< one line, e.g. what could not be done; empty: none
-    const render::FrameStatistics* right = nullptr; ///< the last finished frame's; null: none yet
-    const render::FrameStatistics* left = nullptr;  ///< of a split; null: no split
+    /// The last finished frame's; null: none yet. Passes and work say why they ran where the frame
+    /// was asked for reasons (FrameRequest::wantReasons).
+    const render::FrameStatistics* right = nullptr;
+    const render::FrameStatistics* left = nullptr; ///< of a split; null: no split
     double frameMilliseconds = 0.0;   ///< wall time of a frame, mean of the last second's
     math::uvec2 pictureSize{1u};      ///< pixels
     scene::ExposureInterval exposure; ///< of the frame
@@ -42,24 +43,17 @@ struct PanelWishes {
     bool toggleRecording = false;
     bool toggleFullScreen = false;
     bool quit = false;
-    std::optional<double> speed;
+    std::optional<double> speed; ///< [1/64, 1]
 };
 
 class Panel {
   public:
     /// Declares the user interface of one frame (between Ui::begin and Ui::end). Changes
-    /// `settings`, whose values stay in their ranges.
+    /// `settings`, which are valid before and after.
     PanelWishes draw(const PanelFacts& facts, PlaySettings& settings);
 
   private:
-    /// Pass times of the last frames, for the stacked graph.
-    struct PassHistory {
-        std::vector<std::string> names;              ///< in the order of the frame
-        std::deque<std::vector<float>> milliseconds; ///< by frame, oldest first; beside names
-        void add(const render::FrameStatistics& statistics);
-    };
-
-    PassHistory mHistory;
+    PassHistory mHistory; ///< of the right side
 };
 
 } // namespace shutter::game

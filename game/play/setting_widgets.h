@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// A widget a row of settings: name, value with its unit, range, and a tooltip that says more.
+#pragma once
+
+#include "game/setting_table.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace shutter::game {
+
+/// What a widget shows beside its value.
+struct WidgetLook {
+    const char* name;
+    const char* unit;
+    const char* meaning;
+    std::string fallback; ///< the default, in words
+};
+
+enum class WidgetEvent : uint8_t {
+    None,
+    Changed,
+    Reset, ///< a click with the right button asked for the default
+};
+
+/// Begins a table of rows. False where it is out of sight: no rows then, and no endRows().
+[[nodiscard]] bool beginRows(const char* id);
+void endRows();
+
+/// The value, where it changed, lies in the range: what a player types beyond it is clamped, and
+/// what is no number is dropped.
+[[nodiscard]] WidgetEvent
+drawNumber(const WidgetLook& look, const NumberRange& range, double& value);
+[[nodiscard]] WidgetEvent
+drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size_t& index);
+[[nodiscard]] WidgetEvent drawSwitch(const WidgetLook& look, bool& value);
+
+/// Shown while the pointer is over the last item, a disabled one too.
+void drawTooltip(const std::string& text);
+
+/// A slider's whole number in steps, or the value itself where the range has no steps.
+[[nodiscard]] double snapToRange(const NumberRange& range, double value);
+
+/// The row's field as a widget. \param defaults where a click with the right button leads
+template <class Owner>
+void drawRow(const SettingRow<Owner>& row, Owner& owner, const Owner& defaults) {
+    const WidgetLook look{row.name, row.unit, row.meaning, describeValue(row, defaults)};
+    if (const auto* yes = std::get_if<bool Owner::*>(&row.field)) {
+        if (drawSwitch(look, owner.**yes) == WidgetEvent::Reset)
+            owner.** yes = defaults.**yes;
+        return;
+    }
+    if (const auto* words = std::get_if<WordField<Owner>>(&row.field)) {
+        size_t index = words->get(owner);
+        const WidgetEvent event = drawChoice(look, words->words, index);
+        if (event != WidgetEvent::None)
+            words->set(owner, event == WidgetEvent::Reset ? words->get(defaults) : index);
+        return;
+    }
+    double value = getNumber(row, owner);
+    const WidgetEvent event = drawNumber(look, row.range, value);
+    if (event != WidgetEvent::None)
+        setNumber(row, owner, event == WidgetEvent::Reset ? getNumber(row, defaults) : value);
+}
+
+/// All rows in a table of their own.
+template <class Owner>
+void drawRows(
+    const char* id,
+    std::span<const SettingRow<Owner>> rows,
+    Owner& owner,
+    const Owner& defaults = Owner{}
+) {
+    if (!beginRows(id))
+        return;
+    for (const SettingRow<Owner>& row : rows)
+        drawRow(row, owner, defaults);
+    endRows();
+}
+
+/// The row of that name (CHECKed).
+template <class Owner>
+[[nodiscard]] const SettingRow<Owner>&
+findRow(std::span<const SettingRow<Owner>> rows, std::string_view name) {
+    for (const SettingRow<Owner>& row : rows)
+        if (row.name == name)
+            return row;
+    SHUTTER_CHECK(false, "there is no row {}", name);
+    return rows.front();
+}
+
+} // namespace shutter::game

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// The panel: nothing changes by itself, and whatever is clicked, settings stay valid.
+#include "engine/app/window_output.h"
+#include "engine/io/image_file.h"
+#include "game/play/panel.h"
+#include "game/play/panel_sections.h"
+#include "game/play/pass_groups.h"
+#include "game/play/setting_widgets.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <random>
+
+namespace shutter {
+namespace {
+
+constexpr const char* kHeaders[] = {
+    "Play",
+    "Method",
+    "Reduced motion",
+    "Settings of the blur",
+    "Shutter",
+    "Times of passes",
+    "Why"};
+
+/// Something of everything that a frame can tell.
+render::FrameStatistics makeStatistics() {
+    render::FrameStatistics statistics;
+    statistics.passes = {
+        {"G-buffer", 6.0, 0.1},
+        {"tile max", 0.6, 0.1},
+        {"neighbour max", 0.3, 0.1},
+        {"sort blocks", 0.4, 0.1},
+        {"ray mask", 1.2, 0.1},
+        {"ray reveal", 3.1, 0.1},
+        {"gather", 4.4, 0.1},
+        {"tone map", 2.2, 0.1},
+        {"window", 1.5, 0.1}};
+    statistics.counters = {
+        {"blocks still", 2000},
+        {"blocks uniform", 900},
+        {"blocks mixed", 600},
+        {"blocks masked", 100},
+        {"pixels masked", 4321},
+        {"rays traced", 2222}};
+    using render::ExplainedKind;
+    statistics.explanations = {
+        {ExplainedKind::Effect,
+         "motion blur",
+         {true, "something in the picture moves during the exposure"}},
+        {ExplainedKind::Work, "bend meshes", {false, "no skin or morph target is drawn"}},
+        {ExplainedKind::Pass, "ray reveal", {true, "motion blur runs"}}};
+    return statistics;
+}
+
+class PanelOnWindow : public test::GpuTest {
+  protected:
+    void SetUp() override {
+        GpuTest::SetUp();
+        if (IsSkipped())
+            return;
+        for (const game::MethodInfo& method : game::listMethods())
+            mMethods.emplace_back(method.name);
+        mFacts.title = "vase";
+        mFacts.hud = mHud;
+        mFacts.right = &mStatistics;
+        mFacts.frameMilliseconds = 41.7;
+        mFacts.pictureSize = {640, 360};
+        mFacts.exposure = scene::computeExposure(game::makePlayShutter(), 1.0, 1.0 / 24.0);
+        mFacts.methods = mMethods;
+        mFacts.views = mViews;
+    }
+
+    game::PanelWishes draw(
+        app::Ui& ui, game::Panel& panel, game::PlaySettings& settings, const app::InputState& input
+    ) {
+        ui.begin(input, mSize, mScale, 1.0 / 30.0);
+        const game::PanelWishes wishes = panel.draw(mFacts, settings);
+        ui.end();
+        return wishes;
+    }
+
+    /// Folds the panel's headers; the panel must have been drawn once.
+    void unfold(std::initializer_list<const char*> open) const {
+        ImGuiWindow* window = ImGui::FindWindowByName((mFacts.title + "###panel").c_str());
+        ASSERT_NE(window, nullptr);
+        for (const char* header : kHeaders)
+            window->StateStorage.SetInt(window->GetID(header), 0);
+        for (const char* header : open)
+            window->StateStorage.SetInt(window->GetID(header), 1);
+    }
+
+    math::uvec2 mSize{1280, 720};
+    double mScale = 1.0;
+    render::FrameStatistics mStatistics = makeStatistics();
+    std::vector<std::string> mMethods;
+    std::vector<std::string> mViews = {"motion", "tiles", "mask"};
+    std::vector<game::HudLine> mHud = {{"Score 1250", true}, {"Time 0:42"}};
+    game::PanelFacts mFacts;
+};
+
+TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
+    app::Ui ui(device());
+    game::Panel panel;
+    game::PlaySettings settings;
+    draw(ui, panel, settings, {});
+    unfold(
+        {"Play",
+         "Method",
+         "Reduced motion",
+         "Settings of the blur",
+         "Shutter",
+         "Times of passes",
+         "Why"}
+    );
+    const scene::ShutterResponse responses[] = {
+        {},
+        {scene::ResponseShape::Trapezoid, 0.3, 0.7, {}},
+        {scene::ResponseShape::Sampled, 0.0, 0.0, {0.0, 3.0, 0.1}}};
+    for (size_t i = 0; i < mMethods.size(); ++i) {
+        game::PlaySettings given;
+        given.method = mMethods[i];
+        given.leftMethod = mMethods[mMethods.size() - 1 - i];
+        given.split = i % 2 == 0;
+        given.blur.softDepthExtent = 0.012345678f; // more digits than a widget shows
+        given.blur.halfResolutionPx = i % 3 == 0 ? 1000.0f : given.blur.halfResolutionPx;
+        given.shutter.response = responses[i % 3];
+        mFacts.left = given.split ? &mStatistics : nullptr;
+        settings = given;
+        for (int frame = 0; frame < 3; ++frame) {
+            const game::PanelWishes wishes = draw(ui, panel, settings, {});
+            EXPECT_FALSE(
+                wishes.save || wishes.load || wishes.togglePause || wishes.singleStep ||
+                wishes.toggleRecording || wishes.toggleFullScreen || wishes.quit || wishes.speed
+            );
+        }
+        const auto same = [&](auto rows, const auto& a, const auto& b) {
+            EXPECT_TRUE(game::areEqual(rows, a, b)) << given.method;
+        };
+        same(game::listBlurRows(), given.blur, settings.blur);
+        EXPECT_EQ(settings.method, given.method);
+        EXPECT_EQ(settings.shutter.response.openShare, given.shutter.response.openShare);
+        EXPECT_EQ(settings.shutter.response.closeShare, given.shutter.response.closeShare);
+        EXPECT_EQ(settings.shutter.response.samples, given.shutter.response.samples);
+        EXPECT_EQ(settings.shutter.angleDegrees, given.shutter.angleDegrees);
+    }
+}
+
+TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
+    app::Ui ui(device());
+    game::Panel panel;
+    game::PlaySettings settings;
+    app::InputCollector input;
+    std::mt19937 random(7);
+    const auto below = [&](uint32_t count) {
+        return std::uniform_int_distribution<uint32_t>(0, count - 1)(random);
+    };
+    draw(ui, panel, settings, {});
+    int changed = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        if (frame % 50 == 0)
+            unfold({kHeaders[below(7)], kHeaders[below(7)], "Settings of the blur"});
+        if (below(5) == 0)
+            input.movePointer({840.0 + below(440), 60.0 + below(620)});
+        for (const app::MouseButton button : {app::MouseButton::Left, app::MouseButton::Right})
+            if (below(2) == 0)
+                input.setButton(button, below(2) == 0);
+        input.setKey(app::Key::Control, below(6) == 0);
+        input.setKey(app::Key::Enter, below(5) == 0);
+        if (below(10) == 0)
+            input.turnWheel(double(below(5)) - 2.0);
+        for (const char c : std::string_view(below(2) == 0 ? "nan" : "-7e9").substr(below(4)))
+            input.type(uint32_t(c));
+        mFacts.left = settings.split ? &mStatistics : nullptr;
+        const game::PlaySettings before = settings;
+        draw(ui, panel, settings, input.take());
+        const core::Status valid = game::validate(settings);
+        ASSERT_TRUE(valid.ok()) << "frame " << frame << ": " << valid.error().message;
+        settings.showPanel = true;
+        changed += !game::areEqual(game::listBlurRows(), before.blur, settings.blur);
+    }
+    EXPECT_GT(changed, 10) << "the clicks reached too little";
+}
+
+TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
+    test::SceneBuilder scene;
+    scene.add(
+        test::makeQuad(0.5, 0.5, scene.addColor({1, 0, 0})),
+        {.position = {0, 0, -2}, .velocity = {0.5, 0, 0}}
+    );
+    scene.add(test::makeQuad(8, 8, scene.addColor({0, 0, 1})), {.position = {0, 0, -3}});
+    test::Stage stage(device(), scene);
+    app::WindowOutput window(device());
+    window.setTarget({.size = {96, 64}});
+    const auto namesOf = [&](test::Method method) {
+        std::vector<std::string> names;
+        const auto result = stage.render({.method = method, .wantDisplay = true, .last = &window});
+        for (const gpu::PassTime& pass : result.statistics.passes)
+            names.push_back(pass.name);
+        return names;
+    };
+    const auto sharp = namesOf(test::Method::Sharp);
+    ASSERT_GE(sharp.size(), 4u);
+    for (const test::Method method : {test::Method::OwnVelocity, test::Method::Hybrid}) {
+        const game::MethodInfo& info = *game::findMethod(test::describe(method)).value();
+        size_t blurs = 0;
+        for (const std::string& name : namesOf(method)) {
+            const bool isSharps = std::find(sharp.begin(), sharp.end(), name) != sharp.end();
+            const bool isBlurs = game::groupOf(info, name) == game::PassGroup::Blur;
+            EXPECT_NE(isSharps, isBlurs) << info.name << ": " << name;
+            blurs += isBlurs;
+        }
+        EXPECT_GE(blurs, method == test::Method::OwnVelocity ? 1u : 3u) << info.name;
+    }
+}
+
+/// Look at it: with SHUTTER_PICTURES set to a folder, what is drawn is written there.
+TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
+    struct Look {
+        const char* name;
+        math::uvec2 size;
+        double scale;
+        std::initializer_list<const char*> open;
+    };
+
+    const Look looks[] = {
+        {"settings",
+         {1280, 720},
+         1.0,
+         {"Play", "Method", "Reduced motion", "Settings of the blur"}},
+        {"shutter", {1280, 720}, 1.0, {"Shutter"}},
+        {"times", {1280, 720}, 1.0, {"Times of passes"}},
+        {"why", {1280, 720}, 1.0, {"Why"}},
+        {"small", {640, 360}, 1.0, {"Method", "Settings of the blur"}},
+        {"large", {1920, 1080}, 2.0, {"Play", "Method", "Settings of the blur"}}};
+    const char* folder = std::getenv("SHUTTER_PICTURES");
+    test::SceneBuilder scene;
+    test::Stage stage(device(), scene);
+    app::WindowOutput window(device());
+    app::Ui ui(device());
+    game::Panel panel;
+    for (const Look& look : looks) {
+        // Without a folder one picture is enough.
+        if (!folder && look.name != looks[0].name)
+            break;
+        mSize = look.size;
+        mScale = look.scale;
+        game::PlaySettings settings;
+        settings.split = true;
+        settings.shutter.response = {scene::ResponseShape::Trapezoid, 0.3, 0.2, {}};
+        mFacts.left = &mStatistics;
+        mFacts.message = "settings.json:12: blur.jitter: must lie in [0, 1], not 2";
+        std::mt19937 random(1);
+        for (int frame = 0; frame < 250; ++frame) {
+            mStatistics = makeStatistics();
+            for (gpu::PassTime& pass : mStatistics.passes)
+                pass.gpuMilliseconds *= std::uniform_real_distribution<double>(0.8, 1.3)(random);
+            draw(ui, panel, settings, {});
+            if (frame == 0)
+                unfold(look.open);
+        }
+        window.setTarget({.size = look.size, .overlay = &ui});
+        const auto result = stage.render(
+            {.width = look.size.x,
+             .height = look.size.y,
+             .background = math::vec3(0.5f, 0.35f, 0.2f),
+             .wantDisplay = true,
+             .last = &window}
+        );
+        if (folder) {
+            const auto file = std::filesystem::path(folder) / (std::string(look.name) + ".png");
+            ASSERT_TRUE(io::writeImage(file, result.display).ok());
+        }
+        // Left of the panel, below the score, the picture is what it was.
+        const image::Image& shown = result.display;
+        const uint32_t x = look.size.x / 20;
+        const uint32_t y = look.size.y / 2;
+        const uint32_t panelX = look.size.x - look.size.x / 40;
+        EXPECT_GT(shown.at(x, y, 0), shown.at(panelX, y, 0)) << look.name;
+    }
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/pass_groups.h"
+#include "game/play/pass_history.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace shutter {
+namespace {
+
+using game::PassHistory;
+
+render::FrameStatistics makeFrame(const std::vector<std::pair<const char*, double>>& passes) {
+    render::FrameStatistics frame;
+    for (const auto& [name, milliseconds] : passes)
+        frame.passes.push_back({name, milliseconds, 0.0});
+    return frame;
+}
+
+std::vector<std::string> namesOf(const PassHistory& history) {
+    return {history.names().begin(), history.names().end()};
+}
+
+using Names = std::vector<std::string>;
+
+TEST(PassHistory, PassesComeAndGoInTheOrderOfTheFrame) {
+    PassHistory history;
+    EXPECT_EQ(history.frameCount(), 0u);
+    history.add(makeFrame({{"a", 1.0}, {"c", 3.0}}));
+    history.add(makeFrame({{"a", 1.5}, {"b", 2.0}, {"c", 3.5}, {"d", 4.0}}));
+    history.add(makeFrame({}));
+    EXPECT_EQ(namesOf(history), (Names{"a", "b", "c", "d"}));
+    const float expected[3][4] = {
+        {1.0f, 0.0f, 3.0f, 0.0f}, {1.5f, 2.0f, 3.5f, 4.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
+    for (size_t frame = 0; frame < 3; ++frame)
+        for (size_t pass = 0; pass < 4; ++pass)
+            EXPECT_EQ(history.milliseconds(frame, pass), expected[frame][pass]);
+    EXPECT_EQ(history.findMedian(0), 1.0f);
+    EXPECT_EQ(history.findMedian(3), 0.0f);
+}
+
+TEST(PassHistory, PassesOfOneNameAddUpAndWhatIsNoTimeIsNone) {
+    PassHistory history;
+    history.add(makeFrame(
+        {{"a", 1.0},
+         {"a", 2.0},
+         {"b", std::numeric_limits<double>::quiet_NaN()},
+         {"c", std::numeric_limits<double>::infinity()},
+         {"d", -1.0}}
+    ));
+    EXPECT_EQ(history.milliseconds(0, 0), 3.0f);
+    for (size_t pass = 1; pass < 4; ++pass)
+        EXPECT_EQ(history.milliseconds(0, pass), 0.0f);
+}
+
+TEST(PassHistory, ForgetsOldFramesAndPassesThatNoFrameHas) {
+    PassHistory history;
+    history.add(makeFrame({{"once", 1.0}, {"always", 0.0}}));
+    for (size_t i = 1; i < PassHistory::kFrames; ++i)
+        history.add(makeFrame({{"always", double(i)}}));
+    EXPECT_EQ(namesOf(history), (Names{"once", "always"}));
+    history.add(makeFrame({{"always", 1000.0}}));
+    EXPECT_EQ(history.frameCount(), PassHistory::kFrames);
+    EXPECT_EQ(namesOf(history), (Names{"always"}));
+    EXPECT_EQ(history.milliseconds(0, 0), 1.0f);
+    EXPECT_EQ(history.milliseconds(PassHistory::kFrames - 1, 0), 1000.0f);
+}
+
+TEST(PassGroups, AMethodThatDrawsManyFramesAddsAllOfThem) {
+    const auto groupOf = [](const char* method, const char* pass) {
+        return game::groupOf(*game::findMethod(method).value(), pass);
+    };
+    using game::PassGroup;
+    EXPECT_EQ(groupOf("sharp", "G-buffer"), PassGroup::Scene);
+    EXPECT_EQ(groupOf("hybrid", "G-buffer"), PassGroup::Scene);
+    EXPECT_EQ(groupOf("hybrid", "ray mask"), PassGroup::Blur);
+    EXPECT_EQ(groupOf("accumulate", "G-buffer"), PassGroup::Blur);
+    for (const char* pass : {"tone map", "window", "readback display"})
+        EXPECT_EQ(groupOf("accumulate", pass), PassGroup::Display);
+}
+
+} // namespace
+} // namespace shutter
