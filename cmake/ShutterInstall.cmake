@@ -21,11 +21,13 @@ function(shutter_include_roots target scope)
         $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}/shaders>)
 endfunction()
 
-# The package that has a library of somebody else, by the library's name; empty for one that is
-# linked by its file or its plain name.
+# The package that has a library of somebody else, by the library's name: <name>.pc for one that
+# pkg-config knows; empty for one that is linked by its file or its plain name.
 function(_shutter_find_package_name library result)
     set(${result} "" PARENT_SCOPE)
-    if(library MATCHES "^([A-Za-z0-9_]+)::")
+    if(library MATCHES "^PkgConfig::(.+)")
+        set(${result} ${CMAKE_MATCH_1}.pc PARENT_SCOPE)
+    elseif(library MATCHES "^([A-Za-z0-9_]+)::")
         set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
     elseif(library STREQUAL "glfw")
         set(${result} glfw3 PARENT_SCOPE)
