@@ -58,19 +58,25 @@ def check_installed(prefix):
                 fail(f"{file.relative_to(prefix)} names {folder}")
 
 
-def check_refusals(prefix, folder):
-    """A component that does not exist is named; one that is optional does no harm."""
+def check_components(prefix, folder):
+    """All link; one that does not exist is named where it is required, and else does no harm."""
+    folder.mkdir()
+    (folder / "main.cpp").write_text("int main() {}\n")
     (folder / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
         "find_package(Shutter 0.1 REQUIRED COMPONENTS core OPTIONAL_COMPONENTS teapot)\n"
         "if(Shutter_teapot_FOUND OR NOT Shutter_core_FOUND)\n message(FATAL_ERROR wrong)\nendif()\n"
+        "find_package(Shutter REQUIRED)\nadd_executable(asks main.cpp)\n"
+        "target_link_libraries(asks PRIVATE Shutter::app Shutter::truth Shutter::accumulate)\n"
         "find_package(Shutter QUIET COMPONENTS teapot)\n"
         "if(Shutter_FOUND OR NOT Shutter_NOT_FOUND_MESSAGE MATCHES \"no component teapot\")\n"
         " message(FATAL_ERROR \"teapot: ${Shutter_NOT_FOUND_MESSAGE}\")\nendif()\n")
     run([CMAKE, "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], folder)
+    run([CMAKE, "--build", folder / "build"], folder)
 
 
 def build_example(name, prefix, folder):
+    folder.mkdir()
     run([CMAKE, "-S", EXAMPLES / name, "-B", folder, "-G", os.environ["SHUTTER_GENERATOR"],
          f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={os.environ['SHUTTER_CXX']}",
          f"-DCMAKE_CXX_COMPILER_LAUNCHER={os.environ['SHUTTER_LAUNCHER']}",
@@ -202,8 +208,7 @@ def main():
     folder.mkdir(parents=True)
     run([CMAKE, "--install", BUILD, "--prefix", prefix], folder)
     check_installed(prefix)
-    (folder / "asks").mkdir()
-    check_refusals(prefix, folder / "asks")
+    check_components(prefix, folder / "asks")
     for name in MOST_LINES:
         build_example(name, prefix, folder / name)
     if not has_device(prefix, folder) and not os.environ.get("SHUTTER_REQUIRE_DEVICE"):
