@@ -17,7 +17,8 @@ namespace shutter::motion_blur {
 using shader::MotionBlurParams;
 
 MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-    : mTileMotion(device), mSorter(device), mStillPixels(device), mGather(device),
+    : mTileMotion(device), mSorter(device), mStillPixels(device), mCostView(device),
+      mGather(device),
       mOwnVelocity(device, "own velocity", motion_blur_own_velocity_comp, 2, shader::kMixedList),
       mMcGuire(device, "mcguire2012", motion_blur_mcguire2012_comp, 3, shader::kMixedList),
       mGuertinTiles(device),
@@ -93,6 +94,7 @@ MotionBlurOutputs MotionBlur::addGather(
     outputs.tiles = tiles.tiles;
     outputs.dominant = tiles.dominant;
     outputs.blocks = blocks;
+    outputs.cost = mCostView.add(graph, inputs.motionDepth, {}, blocks, params);
     outputs.color =
         mStillPixels.end(graph, inputs.color, filtered, blocks, false, params, mStillPixelsBy);
     return outputs;
@@ -148,6 +150,7 @@ MotionBlurOutputs MotionBlur::addHybrid(
     outputs.revealMotionDepth = views.motionDepth;
     outputs.revealMeshId = reveal.meshId;
     outputs.blocks = mask.blocks;
+    outputs.cost = mCostView.add(graph, inputs.motionDepth, mask.mask, mask.blocks, params);
     outputs.color =
         mStillPixels.end(graph, inputs.color, filtered, mask.blocks, true, params, mStillPixelsBy);
     return outputs;
@@ -199,6 +202,7 @@ MotionBlurOutputs MotionBlur::addRival(
             params
         );
     }
+    outputs.cost = mCostView.add(graph, inputs.motionDepth, {}, blocks, params);
     outputs.color =
         mStillPixels.end(graph, inputs.color, filtered, blocks, false, params, mStillPixelsBy);
     return outputs;

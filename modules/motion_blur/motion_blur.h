@@ -11,6 +11,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/block_filter.h"
 #include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/cost_view.h"
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/guertin_tiles.h"
 #include "modules/motion_blur/passes/ray_mask.h"
@@ -63,6 +64,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle revealMotionDepth; ///< RGBA32F
     graph::ImageHandle revealMeshId;      ///< R32_UINT; written inside the mask only
     SortedBlocks blocks;                  ///< what the filters go over; not of Method::Denoised
+    graph::ImageHandle cost;              ///< R32F: fetches a pixel; not of Method::Denoised
     graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered
 };
 
@@ -113,6 +115,7 @@ class MotionBlur {
     TileMotion mTileMotion;
     BlockSorter mSorter;
     StillPixels mStillPixels;
+    CostView mCostView;
     StillPixelsBy mStillPixelsBy = StillPixelsBy::WholeCopy;
     Gather mGather;
     BlockFilter mOwnVelocity;

@@ -79,6 +79,8 @@ struct MotionBlurSettings {
     float maxMotionDepth =
         std::numeric_limits<float>::infinity(); ///< metres along the view, [0, infinity]; what is
                                                 ///< deeper, the sky too, counts as still
+
+    bool operator==(const MotionBlurSettings&) const = default;
 };
 
 /// Names of the MotionBlurSettings that a method reads, sampleCount apart, which each does.

@@ -27,7 +27,13 @@ MotionBlurPlugin::MotionBlurPlugin(
     const MotionBlurSettings& settings,
     const BlurBudget& budget
 )
-    : mBudget(budget, settings), mEffect(device, scene.textureLayout()) {}
+    : mWanted(settings), mBudget(budget, settings), mEffect(device, scene.textureLayout()) {}
+
+void MotionBlurPlugin::configure(const MotionBlurSettings& settings, const BlurBudget& budget) {
+    if (settings != mWanted || budget.milliseconds != mBudget.budget().milliseconds)
+        mBudget = BudgetController(budget, settings);
+    mWanted = settings;
+}
 
 render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (settings().method == Method::Hybrid && !facts.deviceHasRays)
@@ -107,6 +113,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         {"reveal", outputs.revealColor},
         {"reveal_motion", outputs.revealMotionDepth},
         {"reveal_id", outputs.revealMeshId},
+        {"cost", outputs.cost},
         {"noisy", outputs.noisy}};
     for (const auto& [name, image] : views)
         if (image.isValid())
@@ -125,10 +132,9 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
     if (!frame.ran)
         return;
     count(frame);
-    if (mBudget.budget().isUnlimited())
-        return;
     frame.measures["blur ms"] = milliseconds;
-    frame.measures["blur rung"] = double(drawn.rung);
+    if (!mBudget.budget().isUnlimited())
+        frame.measures["blur rung"] = double(drawn.rung);
 }
 
 void MotionBlurPlugin::count(const render::FinishedFrame& frame) const {

@@ -23,6 +23,9 @@ class MotionBlurPlugin : public render::PostEffect {
         const BlurBudget& budget = {}
     );
 
+    /// For the frames to come; both must be valid. The budget starts anew where either changed.
+    void configure(const MotionBlurSettings& settings, const BlurBudget& budget);
+
     [[nodiscard]] std::string name() const override { return "motion blur"; }
 
     /// Skipped when nothing moves, the exposure is 0, or the budget is too small for any blur.
@@ -34,7 +37,7 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
-    /// Measures, under a budget: its rung, and what the effect took.
+    /// Measures what the effect took and, under a budget, its rung.
     void finish(render::FinishedFrame& frame) override;
 
   private:
@@ -48,6 +51,7 @@ class MotionBlurPlugin : public render::PostEffect {
 
     void count(const render::FinishedFrame& frame) const;
 
+    MotionBlurSettings mWanted;
     BudgetController mBudget;
     std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     MotionBlur mEffect;
