@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "modules/debug_view/debug_view.h"
+
+#include "spirv/debug_view/debug_view.comp.h"
+
+#include "engine/gpu/frame.h"
+#include "engine/graph/execute.h"
+#include "shaders/debug_view/debug_view_shared.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace shutter::debug_view {
+
+namespace {
+
+struct View {
+    ViewInfo info;
+    uint32_t kind;
+    const char* values;   ///< intermediate of floats; null: none
+    const char* ids;      ///< of mesh ids; null: none
+    const char* otherIds; ///< of mesh ids; null: none
+};
+
+constexpr float kLongestPx = 40.0f;
+constexpr float kHeatMax = 400.0f;
+
+const std::vector<View>& views() {
+    using namespace shader;
+    static const std::vector<View> kViews = {
+        {{"motion", "motion over the exposure: hue is the direction, full brightness 40 px"},
+         kShowMotion,
+         "motion",
+         nullptr,
+         nullptr},
+        {{"depth", "distance: white 10 cm, black 10 km, logarithmic"},
+         kShowDepth,
+         "depth",
+         nullptr,
+         nullptr},
+        {{"normal", "surface normals as the ray mask reads them"},
+         kShowNormal,
+         "normal",
+         nullptr,
+         nullptr},
+        {{"mesh_id", "rows of the entity table, a colour each"},
+         kShowIds,
+         nullptr,
+         "mesh_id",
+         nullptr},
+        {{"tiles", "dominant motion of each tile's neighbourhood, coloured as motion"},
+         kShowMotion,
+         "tiles",
+         nullptr,
+         nullptr},
+        {{"variance", "Guertin's variance of directions in the neighbourhood, white 1"},
+         kShowGrey,
+         "variance",
+         nullptr,
+         nullptr},
+        {{"edge", "red: candidates of the ray mask; green: edge measure; blue: edges"},
+         kShowMasks,
+         "edge",
+         nullptr,
+         nullptr},
+        {{"mask", "pixels whose background rays fetch"}, kShowGrey, "mask", nullptr, nullptr},
+        {{"reveal", "what rays found behind; outside the mask the raster"},
+         kShowColor,
+         "reveal",
+         nullptr,
+         nullptr},
+        {{"unresolved", "grey: masked; white: of these, where no other object was found behind"},
+         kShowUnresolved,
+         "mask",
+         "mesh_id",
+         "reveal_id"},
+        {{"noisy", "rays of the denoised method, unfiltered"},
+         kShowColor,
+         "noisy",
+         nullptr,
+         nullptr},
+        {{"cost", "fetches a pixel: black 0, blue, red, yellow, white 400; a ray counts 300"},
+         kShowHeat,
+         "cost",
+         nullptr,
+         nullptr},
+    };
+    return kViews;
+}
+
+const View* findView(std::string_view name) {
+    const auto found = std::find_if(views().begin(), views().end(), [&](const View& view) {
+        return name == view.info.name;
+    });
+    return found == views().end() ? nullptr : &*found;
+}
+
+gpu::ComputePipelineDesc describePipeline() {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "debug view";
+    desc.spirv = debug_view_debug_view_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::DebugViewParams);
+    return desc;
+}
+
+} // namespace
+
+std::span<const ViewInfo> listViews() {
+    static const std::vector<ViewInfo> kInfos = [] {
+        std::vector<ViewInfo> infos;
+        for (const View& view : views())
+            infos.push_back(view.info);
+        return infos;
+    }();
+    return kInfos;
+}
+
+std::set<std::string> listSources(std::string_view name) {
+    std::set<std::string> sources;
+    if (const View* view = findView(name))
+        for (const char* source : {view->values, view->ids, view->otherIds})
+            if (source)
+                sources.insert(source);
+    return sources;
+}
+
+DebugView::DebugView(gpu::Device& device)
+    : mSampler(device.nearestSampler()), mPipeline(device, describePipeline()) {}
+
+render::Decision DebugView::ask(const render::ViewFacts&) const {
+    if (mView.empty())
+        return {false, "no intermediate is to be shown"};
+    return {true, "an intermediate is shown: " + mView};
+}
+
+void DebugView::declare(render::PostContext& context) {
+    const View* view = findView(mView);
+    const auto& made = context.intermediates.images();
+    const std::set<std::string> sources = listSources(mView);
+    const bool hasAll = std::all_of(sources.begin(), sources.end(), [&](const std::string& name) {
+        return made.contains(name);
+    });
+    if (!view || !hasAll) {
+        context.explainer.decide(
+            render::ExplainedKind::Pass, "debug view", {false, "no effect made " + mView}
+        );
+        return;
+    }
+
+    struct Data {
+        std::array<graph::ImageHandle, 3> sources;
+        graph::ImageHandle display;
+    };
+
+    shader::DebugViewParams params{};
+    params.sizePx = {context.facts.width, context.facts.height};
+    params.kind = view->kind;
+    params.longestPx = kLongestPx;
+    params.heatMax = kHeatMax;
+    const auto find = [&](const char* name, graph::ImageHandle none) {
+        return name ? made.at(name) : none;
+    };
+    const std::array from{
+        find(view->values, context.gbuffer.motionDepth),
+        find(view->ids, context.gbuffer.meshId),
+        find(view->otherIds, context.gbuffer.meshId)};
+    const Data& pass = context.graph.addPass<Data>(
+        "debug view",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            for (size_t i = 0; i < from.size(); ++i)
+                data.sources[i] = builder.read(from[i], graph::Access::SampledCompute);
+            const auto display = context.graph.createImage(
+                "debug view", {params.sizePx.x, params.sizePx.y, VK_FORMAT_R8G8B8A8_UNORM}
+            );
+            data.display = builder.write(display, graph::Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& recording) {
+            gpu::BindingList bindings;
+            for (const graph::ImageHandle source : data.sources)
+                bindings.sampled(recording.resources.view(source), mSampler);
+            bindings.storage(recording.resources.view(data.display));
+            recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
+            vkCmdDispatch(
+                recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
+            );
+        }
+    );
+    context.display = pass.display;
+}
+
+} // namespace shutter::debug_view

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Intermediates on the screen: motion, tiles, masks and what else the effects of a frame publish,
+// in the place of the picture.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/render/post_effect.h"
+
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace shutter::debug_view {
+
+struct ViewInfo {
+    const char* name;
+    const char* description; ///< one line: what it shows and how it is to be read
+};
+
+/// In the order of the frame.
+[[nodiscard]] std::span<const ViewInfo> listViews();
+
+/// Intermediates that the view is made of (FrameRequest::shownIntermediates). Empty for a name that
+/// is none of listViews().
+[[nodiscard]] std::set<std::string> listSources(std::string_view view);
+
+/// After the tone mapper. Where an intermediate was not made in this frame, the picture stays.
+class DebugView : public render::PostEffect {
+  public:
+    explicit DebugView(gpu::Device& device);
+
+    /// \param view one of listViews(), or empty: none
+    void setView(std::string_view view) { mView = view; }
+
+    [[nodiscard]] std::string name() const override { return "debug view"; }
+
+    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    void declare(render::PostContext& context) override;
+
+  private:
+    VkSampler mSampler;
+    gpu::Pipeline mPipeline;
+    std::string mView;
+};
+
+} // namespace shutter::debug_view
