@@ -153,11 +153,11 @@ void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
     }
 }
 
-std::optional<SwapchainImage> Swapchain::acquire(uint32_t slot) {
+std::optional<SwapchainImage> Swapchain::acquire() {
     if (mImages.empty())
         return std::nullopt;
     SwapchainImage acquired;
-    acquired.semaphores.wait = mAcquired.at(slot);
+    acquired.semaphores.wait = mAcquired[mNextAcquired];
     const VkResult result = vkAcquireNextImageKHR(
         mDevice.handle(),
         mSwapchain,
@@ -169,6 +169,7 @@ std::optional<SwapchainImage> Swapchain::acquire(uint32_t slot) {
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR)
         return std::nullopt;
     require(result, "asking for an image of the window");
+    mNextAcquired = (mNextAcquired + 1) % mAcquired.size();
     acquired.image = &mImages[acquired.index];
     acquired.semaphores.signal = mDrawn[acquired.index];
     return acquired;

@@ -43,9 +43,10 @@ class Swapchain {
     /// area now: then nothing can be acquired until it has one.
     bool resize(const SwapchainDesc& desc);
 
-    /// Nothing where the images no longer fit the window, or there are none: resize() first.
-    /// \param slot of the frames in flight whose last frame the GPU is done with
-    [[nodiscard]] std::optional<SwapchainImage> acquire(uint32_t slot);
+    /// Nothing where the images no longer fit the window, or there are none: resize() first. Of what
+    /// was drawn on images acquired before, the GPU must be done with all but the last
+    /// kMaxFramesInFlight - 1.
+    [[nodiscard]] std::optional<SwapchainImage> acquire();
 
     /// Shows an image once its submission's semaphore is signalled. False: resize() before the next
     /// acquire().
@@ -74,7 +75,8 @@ class Swapchain {
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     std::vector<Image> mImages;
     std::vector<VkSemaphore> mDrawn; ///< one an image: its submission is done
-    std::array<VkSemaphore, kMaxFramesInFlight> mAcquired{};
+    std::array<VkSemaphore, kMaxFramesInFlight> mAcquired{}; ///< used in turns
+    size_t mNextAcquired = 0;
 };
 
 } // namespace shutter::gpu
