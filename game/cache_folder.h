@@ -15,4 +15,14 @@ namespace shutter::game {
     return {};
 }
 
+/// Where this user's settings belong (the same); empty where nowhere.
+[[nodiscard]] inline std::filesystem::path findSettingsFile() {
+    const std::filesystem::path file = std::filesystem::path("shutter") / "settings.json";
+    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config)
+        return config / file;
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return std::filesystem::path(home) / ".config" / file;
+    return {};
+}
+
 } // namespace shutter::game

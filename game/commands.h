@@ -17,5 +17,6 @@ void addRenderCommand(CLI::App& app, int& exitStatus);
 void addCompareCommand(CLI::App& app, int& exitStatus);
 void addInfoCommand(CLI::App& app, int& exitStatus);
 void addBenchCommand(CLI::App& app, int& exitStatus); ///< game/bench
+void addPlayCommand(CLI::App& app, int& exitStatus);  ///< game/play
 
 } // namespace shutter::game

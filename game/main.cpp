@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     game::addCompareCommand(app, exitStatus);
     game::addInfoCommand(app, exitStatus);
     game::addBenchCommand(app, exitStatus);
+    game::addPlayCommand(app, exitStatus);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help

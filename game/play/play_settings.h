@@ -19,13 +19,17 @@ namespace shutter::game {
 /// frames a second, so that a slow machine does not smear.
 [[nodiscard]] scene::CameraShutter makePlayShutter();
 
+/// The blur of a new player: the preset "balanced".
+[[nodiscard]] motion_blur::MotionBlurSettings makePlayBlur();
+
 struct PlaySettings {
     std::string method = "hybrid";    ///< of the picture, right of a split; a name of listMethods()
     std::string leftMethod = "sharp"; ///< left of a split
     bool split = false;
     double dividerShare = 0.5; ///< of the window's width, [0, 1]
     std::string view; ///< the intermediate that is shown (debug_view.h); empty: the picture
-    motion_blur::MotionBlurSettings blur; ///< of every method that reads the field; `method` unused
+    motion_blur::MotionBlurSettings blur =
+        makePlayBlur(); ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
     scene::CameraShutter shutter = makePlayShutter();
     /// Of the blur by the camera's own motion, [0, 1]: for players whom it makes sick. 0 leaves the

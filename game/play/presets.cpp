@@ -52,6 +52,10 @@ bool isSharp(const Preset& preset) {
 
 } // namespace
 
+MotionBlurSettings makePlayBlur() {
+    return makeBalanced();
+}
+
 std::span<const Preset> listPresets() {
     static const std::vector<Preset> kPresets = {
         {"off", "no motion blur: the raster image", "sharp", {}},

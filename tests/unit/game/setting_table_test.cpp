@@ -68,7 +68,10 @@ TEST(SettingTable, ANumberOutsideOfItsRangeChangesNothing) {
             continue;
         const double before = game::getNumber(row, settings);
         for (const double bad :
-             {row.range.lowest - 1.0, 2.0 * row.range.highest + 1.0, double(NAN), -double(INFINITY)})
+             {row.range.lowest - 1.0,
+              2.0 * row.range.highest + 1.0,
+              double(NAN),
+              -double(INFINITY)})
             EXPECT_FALSE(game::setNumber(row, settings, bad)) << row.name << " " << bad;
         EXPECT_EQ(game::setNumber(row, settings, INFINITY), row.range.isUnlimited) << row.name;
         EXPECT_TRUE(game::setNumber(row, settings, before)) << row.name;

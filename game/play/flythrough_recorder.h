@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// A camera's way as it is flown, for a file that replays it.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/io/flythrough.h"
+#include "engine/scene/world.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace shutter::game {
+
+/// Seconds of game time between keys: at 10 keys a second a curve through them is within
+/// millimetres of a hand's flight.
+inline constexpr double kRecordedKeySeconds = 0.1;
+
+class FlythroughRecorder {
+  public:
+    [[nodiscard]] bool isRecording() const { return mFlight.has_value(); }
+
+    void start();
+
+    /// Takes the camera's place, if the last key is long enough ago. Another camera than before is
+    /// a cut. \param seconds game time, not falling
+    void addFrame(const scene::World& world, ecs::Entity camera, double seconds);
+
+    /// Ends, and writes flythrough_NNN.json, the first number that is free, into the folder. Times
+    /// start at 0. Error: nothing was recorded, or the file cannot be written.
+    [[nodiscard]] core::Result<std::filesystem::path> finish(const std::filesystem::path& folder);
+
+  private:
+    std::optional<io::Flythrough> mFlight;
+    ecs::Entity mCamera;                    ///< of the last frame
+    double mStartSeconds = 0.0;             ///< game time of the first key
+    std::optional<io::FlythroughKey> mLast; ///< of the last frame, where it is no key
+};
+
+} // namespace shutter::game

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/components.h"
+#include "engine/scene/motion.h"
+#include "game/play/flythrough_recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace shutter::game {
+namespace {
+
+class Recorder : public testing::Test {
+  protected:
+    Recorder() {
+        std::filesystem::remove_all(mFolder);
+        std::filesystem::create_directories(mFolder);
+        for (ecs::Entity& camera : mCameras) {
+            camera = mWorld.registry.create();
+            mWorld.registry.add(camera, scene::Camera{});
+            mWorld.registry.add(camera, scene::LocalTransform{});
+        }
+        mWorld.registry.add(mCameras[0], scene::LinearVelocity{{2.0, 0.0, -1.0}});
+        mWorld.registry.add(mCameras[0], scene::AngularVelocity{{0.0, 0.3, 0.0}});
+    }
+
+    ~Recorder() override { std::filesystem::remove_all(mFolder); }
+
+    scene::World mWorld;
+    ecs::Entity mCameras[2];
+    FlythroughRecorder mRecorder;
+    std::filesystem::path mFolder =
+        std::filesystem::path(testing::TempDir()) / "flythrough_recorder_test";
+};
+
+TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
+    mRecorder.start();
+    for (int i = 0; i <= 60; ++i)
+        mRecorder.addFrame(mWorld, mCameras[0], 5.0 + i / 60.0);
+    const auto file = mRecorder.finish(mFolder);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_FALSE(mRecorder.isRecording());
+    const auto flight = io::readFlythrough(file.value());
+    ASSERT_TRUE(flight) << flight.error().message;
+    EXPECT_EQ(flight.value().keys.size(), 11u);
+    scene::World other;
+    const ecs::Entity flies = io::addFlythroughCamera(other, flight.value());
+    for (double t = 0.0; t <= 1.0; t += 0.05) {
+        const math::dmat4 own = worldFromEntity(mWorld, mCameras[0], 5.0 + t);
+        const math::dmat4 replayed = worldFromEntity(other, flies, t);
+        EXPECT_LT(glm::distance(math::dvec3(own[3]), math::dvec3(replayed[3])), 1e-6) << t;
+        EXPECT_LT(glm::distance(math::dvec3(own[2]), math::dvec3(replayed[2])), 1e-4) << t;
+    }
+}
+
+TEST_F(Recorder, AnotherCameraIsACut) {
+    mRecorder.start();
+    mRecorder.addFrame(mWorld, mCameras[0], 0.0);
+    mRecorder.addFrame(mWorld, mCameras[0], 0.05);
+    mRecorder.addFrame(mWorld, mCameras[1], 0.07);
+    const auto flight = io::readFlythrough(mRecorder.finish(mFolder).value()).value();
+    ASSERT_EQ(flight.keys.size(), 3u);
+    EXPECT_NEAR(flight.keys[1].seconds, 0.05, 1e-12);
+    EXPECT_FALSE(flight.keys[1].cut);
+    EXPECT_TRUE(flight.keys[2].cut);
+}
+
+TEST_F(Recorder, APauseAddsNothingAndNoTimeIsNoFlight) {
+    EXPECT_FALSE(mRecorder.isRecording());
+    mRecorder.start();
+    EXPECT_FALSE(mRecorder.finish(mFolder));
+    mRecorder.start();
+    for (int i = 0; i < 5; ++i)
+        mRecorder.addFrame(mWorld, mCameras[0], 1.0);
+    const auto first = mRecorder.finish(mFolder);
+    ASSERT_TRUE(first) << first.error().message;
+    EXPECT_EQ(io::readFlythrough(first.value()).value().keys.size(), 1u);
+    mRecorder.start();
+    mRecorder.addFrame(mWorld, mCameras[0], 1.0);
+    EXPECT_NE(mRecorder.finish(mFolder).value(), first.value()); // nothing is written over
+}
+
+} // namespace
+} // namespace shutter::game

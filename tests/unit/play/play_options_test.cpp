@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/play_options.h"
+
+#include <gtest/gtest.h>
+
+namespace shutter::game {
+namespace {
+
+void expectRefused(const PlayArguments& arguments, const std::string& told) {
+    const auto options = interpret(arguments);
+    ASSERT_FALSE(options) << told;
+    EXPECT_NE(options.error().message.find(told), std::string::npos) << options.error().message;
+}
+
+TEST(PlayOptions, WithoutASceneADemoStarts) {
+    const auto options = interpret(PlayArguments());
+    ASSERT_TRUE(options) << options.error().message;
+    EXPECT_EQ(options.value().demo, "rally");
+    EXPECT_EQ(options.value().shot.width, 960u);
+    EXPECT_TRUE(options.value().hasWindow);
+}
+
+TEST(PlayOptions, ANameOfADemoWinsOverAFile) {
+    PlayArguments arguments;
+    arguments.shot.scene = "spin";
+    EXPECT_EQ(interpret(arguments).value().demo, "spin");
+    arguments.shot.scene = "spin.glb";
+    EXPECT_EQ(interpret(arguments).value().demo, "");
+}
+
+TEST(PlayOptions, WrongUseIsToldByOption) {
+    PlayArguments arguments;
+    arguments.method = "nothing";
+    expectRefused(arguments, "--method");
+    arguments = {};
+    arguments.vsync = "maybe";
+    expectRefused(arguments, "--vsync");
+    arguments = {};
+    arguments.film = "film.png";
+    expectRefused(arguments, "--film");
+    arguments.film = "film%04d.exr";
+    expectRefused(arguments, "--film");
+    arguments = {};
+    arguments.noWindow = true;
+    expectRefused(arguments, "--no-window");
+    arguments.frames = 3;
+    EXPECT_TRUE(interpret(arguments));
+    arguments = {};
+    arguments.shot.camera = "left";
+    expectRefused(arguments, "--camera");
+    arguments = {};
+    arguments.shot.size = "0x5";
+    expectRefused(arguments, "--size");
+}
+
+} // namespace
+} // namespace shutter::game
