@@ -12,8 +12,9 @@ build_packages=(
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
     libimgui-dev vulkan-validationlayers libjs-chart.js
 )
-# Only the tests compare with ffmpeg and scikit-image and look at the report page in a browser.
-test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium)
+# Only the tests compare with ffmpeg and scikit-image, look at the report page in a browser and at
+# windows on a display without a screen.
+test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox)
 # Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
 debian_test_packages=(chromium chromium-driver)
 # lavapipe traces rays from this version of Mesa on.

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Each demo in a window: every method, 200 sizes, minimised and back, and no validation message."""
+
+import subprocess
+import unittest
+
+import play_case
+from play_case import EXECUTABLE, PlayCase, Script
+
+
+def list_methods():
+    listed = subprocess.run([EXECUTABLE, "info", "--methods"], capture_output=True, text=True)
+    return listed.stdout.split()
+
+
+def toggle_everything(script):
+    """All methods on both sides, the split, its divider, all views, pause, step and slow motion."""
+    for _ in list_methods():
+        script.tap("m").wait()
+    script.tap("x")
+    script.add(pointer=[0.5, 0.5]).wait().add(button="left", action="press").wait()
+    script.add(pointer=[0.3, 0.5]).wait().add(button="left", action="release").wait()
+    for _ in list_methods():
+        script.tap("n")
+    script.tap("x")
+    for _ in range(13):
+        script.tap("v")
+    for key in ("p", "period", "p", "comma", "slash", "b", "b", "1", "3", "f1", "f1", "c", "e"):
+        script.tap(key)
+
+
+def resize(script, times):
+    for i in range(times):
+        script.add(resize=[140 + i * 37 % 130, 90 + i * 53 % 70]).wait()
+    script.add(resize=[192, 108]).wait(3)
+
+
+def hide_and_show(script):
+    script.add(window="minimise").wait(20).add(window="restore").wait(20)
+    script.add(window="full_screen").wait(3).add(window="windowed").wait(3)
+
+
+class Window(PlayCase):
+    def check_demo(self, demo):
+        script = Script()
+        script.add(key="w", action="press").wait(5)
+        toggle_everything(script)
+        resize(script, 200)
+        hide_and_show(script)
+        script.add(screenshot="end.png").wait(2).add(window="quit")
+        statistics = self.play(demo, script)
+        self.assertEqual(statistics["validationMessages"], 0)
+        # Out of sight nothing is drawn; all else is.
+        self.assertGreater(statistics["frames"], 240)
+        self.assertLess(statistics["frames"], script.frame)
+        self.assertGreater((self.folder / "end.png").stat().st_size, 2000)
+
+    def test_rally(self):
+        self.check_demo("rally")
+
+    def test_gallery(self):
+        self.check_demo("gallery")
+
+    def test_spin(self):
+        self.check_demo("spin")
+
+
+if __name__ == "__main__":
+    unittest.main()
