@@ -77,7 +77,8 @@ Sorted sortBlocks(
     const auto poison = rig.upload(makePicture(motion.width, motion.height, kPoison));
     std::array<size_t, 3> tickets{};
     for (size_t i = 0; i < tickets.size(); ++i) {
-        const auto target = still.begin(rig.graph, poison, motion_blur::StillPixelsBy::WholeCopy);
+        const auto target =
+            still.begin(rig.graph, poison, {}, motion_blur::StillPixelsBy::WholeCopy);
         tickets[i] = rig.want(copies[i].add(
             rig.graph, std::array{ones}, i == 2 ? blocks.candidates : blocks.lists, target, params
         ));
@@ -276,7 +277,7 @@ class Effect {
         motion_blur::MotionBlurInputs inputs;
         // A transient: its usage follows from the passes.
         inputs.color =
-            mStill.begin(rig.graph, rig.upload(color), motion_blur::StillPixelsBy::WholeCopy);
+            mStill.begin(rig.graph, rig.upload(color), {}, motion_blur::StillPixelsBy::WholeCopy);
         inputs.motionDepth = rig.upload(motion);
         inputs.colorIsWritable = writable;
         const auto outputs = mEffect.add(rig.graph, inputs, settings);
