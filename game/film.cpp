@@ -16,24 +16,6 @@ namespace {
 
 constexpr const char* kPattern = "frame_%06d.png";
 
-/// Only what we put there: a folder that holds more stays.
-void removeFrames(const RenderOptions& options, const fs::path& framesJournal) {
-    std::error_code ignored;
-    const fs::path folder = options.out.parent_path();
-    for (size_t i = 0; i < options.frameTimes.size(); ++i)
-        fs::remove(frameFile(options.out, int(i)), ignored);
-    fs::remove(framesJournal, ignored);
-    std::vector<fs::path> left;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
-            left.push_back(entry.path()); // of a run that was killed
-    for (const fs::path& file : left)
-        fs::remove(file, ignored);
-    fs::remove(folder, ignored);
-    if (fs::exists(folder, ignored))
-        core::logWarning("'{}' holds other files and is kept", folder.string());
-}
-
 } // namespace
 
 fs::path filmFrames(const fs::path& film) {
@@ -71,9 +53,7 @@ core::Status makeFilmFolder(const RenderOptions& options) {
     return {};
 }
 
-core::Status finishFilm(
-    const io::VideoEncoder& encoder, const RenderOptions& options, const fs::path& framesJournal
-) {
+core::Status encodeFilm(const io::VideoEncoder& encoder, const RenderOptions& options) {
     io::VideoFrames frames;
     frames.folder = options.out.parent_path();
     frames.pattern = kPattern;
@@ -81,9 +61,26 @@ core::Status finishFilm(
     frames.framesPerSecond = options.fps;
     if (core::Status encoded = io::encodeVideo(encoder, frames, options.film); !encoded)
         return core::makeError("--out: {}", encoded.error().message);
-    if (!options.keepFrames)
-        removeFrames(options, framesJournal);
     return {};
+}
+
+void removeFilmFrames(const RenderOptions& options, const fs::path& framesJournal) {
+    if (options.keepFrames)
+        return;
+    std::error_code ignored;
+    const fs::path folder = options.out.parent_path();
+    for (size_t i = 0; i < options.frameTimes.size(); ++i)
+        fs::remove(frameFile(options.out, int(i)), ignored);
+    fs::remove(framesJournal, ignored);
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
+            left.push_back(entry.path()); // of a run that was killed
+    for (const fs::path& file : left)
+        fs::remove(file, ignored);
+    fs::remove(folder, ignored);
+    if (fs::exists(folder, ignored))
+        core::logWarning("'{}' holds other files and is kept", folder.string());
 }
 
 } // namespace shutter::game

@@ -21,11 +21,12 @@ namespace shutter::game {
 /// Makes the frames' folder.
 [[nodiscard]] core::Status makeFilmFolder(const RenderOptions& options);
 
-/// Encodes the frames, all complete, and removes their folder unless it is to be kept.
-[[nodiscard]] core::Status finishFilm(
-    const io::VideoEncoder& encoder,
-    const RenderOptions& options,
-    const std::filesystem::path& framesJournal
-);
+/// Encodes the frames, all complete.
+[[nodiscard]] core::Status
+encodeFilm(const io::VideoEncoder& encoder, const RenderOptions& options);
+
+/// Removes the frames of a film that is complete, and their folder, unless they are to be kept.
+/// Only what we put there: a folder that holds more stays.
+void removeFilmFrames(const RenderOptions& options, const std::filesystem::path& framesJournal);
 
 } // namespace shutter::game

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <regex>
 #include <system_error>
 #include <unistd.h>
@@ -404,6 +405,8 @@ core::Status planFrames(const char* option, double first, double last, RenderOpt
             fps,
             kMaxSeconds
         );
+    if (!(std::max(std::abs(first), std::abs(last)) < double(std::numeric_limits<int>::max())))
+        return makeError("{}: frames {:.0f}:{:.0f} have no numbers", option, first, last);
     options.firstFrame = int(first);
     options.frameTimes.clear();
     for (double frame = first; frame <= last; ++frame)

@@ -254,6 +254,8 @@ core::Status renderFilm(
         return journal.error();
     if (maySkip(options) && journal.value().isComplete(0)) {
         fmt::print("{}: is complete and skipped (--restart draws it)\n", options.film.string());
+        if (options.keepFrames && !std::filesystem::exists(options.out.parent_path()))
+            core::logWarning("--keep-frames: its frames are gone; --restart draws them");
         return {};
     }
     if (core::Status made = makeFilmFolder(options); !made)
@@ -262,8 +264,13 @@ core::Status renderFilm(
         return opened;
     if (core::Status drawn = sequence.draw(); !drawn)
         return drawn;
-    core::Status finished = finishFilm(encoder, options, sequence.journal()->file());
-    return finished ? journal.value().add(0, {options.film}) : finished;
+    if (core::Status encoded = encodeFilm(encoder, options); !encoded)
+        return encoded;
+    // Known to be complete before its frames go: a run that ends here draws nothing again.
+    if (core::Status added = journal.value().add(0, {options.film}); !added)
+        return added;
+    removeFilmFrames(options, sequence.journal()->file());
+    return {};
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/json_file.h"
+#include "game/render_options.h"
 
 #include <nlohmann/json.hpp>
 
@@ -72,9 +73,13 @@ core::Status appendLine(const fs::path& file, const std::string& line) {
 } // namespace
 
 fs::path journalFile(const fs::path& pattern) {
-    fs::path folder = pattern.parent_path();
-    while (folder.filename().string().find('%') != std::string::npos)
-        folder = folder.parent_path(); // a folder a frame
+    // Above the first part that has the frame's number: a folder a frame, perhaps.
+    fs::path folder;
+    for (const fs::path& part : pattern.parent_path()) {
+        if (frameFile(part, 0) != part)
+            break;
+        folder /= part;
+    }
     std::string name = pattern.lexically_relative(folder.empty() ? "." : folder).string();
     std::replace(name.begin(), name.end(), '/', '_');
     if (name.size() > kMaxNameBytes)

@@ -64,7 +64,8 @@ writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough)
 [[nodiscard]] std::optional<scene::LensMotion> makeLens(const Flythrough& flythrough);
 
 /// `shutter` as it is at `seconds`: the last key at or before that tells one counts, and the first
-/// that does before it. What no key tells stays as it is.
+/// that does before it. What that key's shutter does not tell stays as it is: earlier keys' no
+/// longer count.
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter);
 
 /// A new camera that flies. Its lens is that of the world's first camera, or Camera's own default

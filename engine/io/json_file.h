@@ -27,7 +27,7 @@ namespace shutter::io {
 struct JsonLimits {
     uint64_t maxBytes = uint64_t{64} << 20;
     uint32_t maxDepth = 32;         ///< objects and arrays within one another
-    uint32_t maxValues = 1'000'000; ///< all together
+    uint32_t maxValues = 2'000'000; ///< all together; 100000 keys of a flythrough fit
 };
 
 /// What a number may be.

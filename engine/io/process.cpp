@@ -74,8 +74,11 @@ void collect(Pipe& output, Pipe& errors, ProcessResult& result) {
     std::array<pollfd, 2> waited{{{output.reading(), POLLIN, 0}, {errors.reading(), POLLIN, 0}}};
     const std::array<std::string*, 2> texts{&result.output, &result.errors};
     while (waited[0].fd >= 0 || waited[1].fd >= 0) {
-        if (::poll(waited.data(), waited.size(), -1) < 0 && errno != EINTR)
-            return;
+        if (::poll(waited.data(), waited.size(), -1) < 0) {
+            if (errno == EINTR)
+                continue; // what stands in `revents` is of the round before
+            break;
+        }
         for (size_t i = 0; i < waited.size(); ++i) {
             if (waited[i].fd < 0 || waited[i].revents == 0)
                 continue;

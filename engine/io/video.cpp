@@ -4,6 +4,9 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/process.h"
 
+#include <array>
+#include <cstdio>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -36,7 +39,9 @@ std::vector<std::string> describeCodec(const std::string& codec) {
 
 std::vector<std::string>
 listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::path& target) {
-    std::vector<std::string> words = {"-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
+    // Without -xerror a full disk and a damaged frame end with status 0.
+    std::vector<std::string> words = {
+        "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y"};
     const auto add = [&](const std::vector<std::string>& more) {
         words.insert(words.end(), more.begin(), more.end());
     };
@@ -62,6 +67,18 @@ listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::
     // The protocol in front, or a name with a colon would be taken for one.
     add({"-movflags", "+faststart", "-f", "mp4", "file:" + target.string()});
     return words;
+}
+
+std::optional<fs::path> findMissingFrame(const VideoFrames& frames) {
+    std::error_code ignored;
+    for (uint32_t i = 0; i < frames.count; ++i) {
+        std::array<char, 256> name{};
+        std::snprintf(name.data(), name.size(), frames.pattern.c_str(), int(i));
+        const fs::path file = frames.folder / name.data();
+        if (!fs::is_regular_file(file, ignored))
+            return file;
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -107,6 +124,8 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
         fs::remove(target, ignored);
         return core::makeError("cannot write '{}': {}", file.string(), why);
     };
+    if (const auto missing = findMissingFrame(frames))
+        return fail(fmt::format("the frame '{}' is missing", missing->string()));
     const auto run =
         runProcess(encoder.program, listArguments(encoder, frames, target), frames.folder);
     if (!run)
@@ -118,6 +137,15 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
             run.value().exitStatus,
             findLastLine(run.value().errors)
         ));
+    // It says nothing where all is well, and of frames that are missing it says nothing at all.
+    if (!run.value().errors.empty())
+        return fail(
+            fmt::format("{} says: {}", encoder.program.string(), findLastLine(run.value().errors))
+        );
+    if (const auto missing = findMissingFrame(frames))
+        return fail(fmt::format("the frame '{}' is missing", missing->string()));
+    if (fs::file_size(target, failure) == 0 || failure)
+        return fail("ffmpeg wrote nothing");
     fs::rename(target, file, failure);
     return failure ? core::Status(fail(failure.message())) : core::Status();
 }

@@ -164,6 +164,24 @@ TEST_F(Sequence, AnFfmpegThatFailsLeavesNoFilm) {
     EXPECT_TRUE(fs::exists(path("film.mp4.frames/frame_000005.png"))) << "they may be encoded yet";
 }
 
+TEST_F(Sequence, AnFfmpegThatComplainsAndEndsWellLeavesNoFilm) {
+    writeFile("film.mp4", "the one before");
+    writeFile(
+        "lying.sh",
+        "#!/bin/sh\ncase \"$1\" in\n-version) echo ffmpeg version 1;;\n"
+        "-hide_banner) echo ' V libx264 x';;\n"
+        "*) for last; do :; done; echo half > \"${last#file:}\"; echo disk is full >&2; exit 0;;\n"
+        "esac\n"
+    );
+    fs::permissions(path("lying.sh"), fs::perms::owner_all);
+    const Outcome outcome =
+        run(fly({"--out", "film.mp4", "--frames", "0:1", "--ffmpeg", path("lying.sh")}));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("disk is full"), std::string::npos) << outcome.err;
+    EXPECT_EQ(fs::file_size(path("film.mp4")), 14u) << "the film from before stays";
+    EXPECT_TRUE(fs::exists(path("film.mp4.frames/frame_000001.png")));
+}
+
 TEST_F(Sequence, AClipOfTheSceneFliesItsCamera) {
     const Arguments clip = {
         "render",
