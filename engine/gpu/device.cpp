@@ -80,11 +80,7 @@ Device::~Device() {
     if (mDevice) {
         if (!mIsAdopted)
             vkDeviceWaitIdle(mDevice);
-        while (!mRetired.empty()) {
-            auto destroy = std::move(mRetired.front().second);
-            mRetired.pop_front();
-            destroy();
-        }
+        destroyRetired();
         savePipelineCache();
         vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
@@ -333,6 +329,20 @@ uint64_t Device::completedValue() const {
 
 void Device::retire(std::function<void()> destroy) {
     mRetired.emplace_back(mLastSubmitted + 1, std::move(destroy));
+}
+
+void Device::collectIdle() {
+    SHUTTER_CHECK(!mIsAdopted, "what the host submitted is not known");
+    vkDeviceWaitIdle(mDevice); // of a lost device, at once
+    destroyRetired();
+}
+
+void Device::destroyRetired() {
+    while (!mRetired.empty()) {
+        auto destroy = std::move(mRetired.front().second);
+        mRetired.pop_front();
+        destroy();
+    }
 }
 
 void Device::collect() {

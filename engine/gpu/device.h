@@ -153,6 +153,9 @@ class Device {
     void retire(std::function<void()> destroy);
     /// Destroys what is no longer in use.
     void collect();
+    /// Waits until the device is idle and destroys all that was retired. Not of a host's device
+    /// (CHECKed).
+    void collectIdle();
 
     /// Name shown by validation messages and debuggers.
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;
@@ -164,6 +167,7 @@ class Device {
     core::Status createLogicalDevice(bool presents);
     void loadFunctions();
     void loadLimits();
+    void destroyRetired();
     void createSampler();
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;

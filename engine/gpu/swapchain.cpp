@@ -49,9 +49,8 @@ Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& des
 }
 
 Swapchain::~Swapchain() {
-    vkDeviceWaitIdle(mDevice.handle());
+    mDevice.collectIdle();
     releaseImages();
-    mDevice.collect();
     vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
     for (const VkSemaphore semaphore : mAcquired)
         vkDestroySemaphore(mDevice.handle(), semaphore, nullptr);
@@ -87,15 +86,15 @@ VkPresentModeKHR Swapchain::chooseMode(bool vsync) const {
 
 void Swapchain::releaseImages() {
     mImages.clear();
+    mDevice.collectIdle(); // their views, before the swapchain goes
     for (const VkSemaphore semaphore : std::exchange(mDrawn, {}))
         vkDestroySemaphore(mDevice.handle(), semaphore, nullptr);
 }
 
 bool Swapchain::resize(const SwapchainDesc& desc) {
     // Images may still be on their way to the display, which no semaphore of ours tells.
-    vkDeviceWaitIdle(mDevice.handle());
+    mDevice.collectIdle();
     releaseImages();
-    mDevice.collect();
     mDesc = desc;
     const auto surface = askSurface(mDevice, mSurface);
     if (!surface)
