@@ -94,8 +94,10 @@ class ForeignMotionBlur {
         const MotionBlurSettings& settings
     );
 
-    /// Tells the same of `frame` as recording it anew, for a host that wants memory back early:
-    /// what resizing left over is destroyed once every frame recorded until then is done. CHECKed.
+    /// Tells the same of `frame` as recording it anew. To be called for a number that will not be
+    /// recorded again (a view was closed, fewer frames are in flight): what was retired after it,
+    /// by any frame, is kept until then. Also for a host that wants memory back early: what
+    /// resizing left over is destroyed once every frame recorded until then is done. CHECKed.
     void markDone(uint32_t frame);
 
     /// Device memory, images and the like that are held now.
