@@ -70,6 +70,10 @@ struct InputState {
         return buttons[static_cast<size_t>(button)];
     }
 
+    [[nodiscard]] bool wasClicked(MouseButton button) const {
+        return clicked[static_cast<size_t>(button)];
+    }
+
     [[nodiscard]] bool wasPressed(PadButton button) const {
         return padPressed[static_cast<size_t>(button)];
     }

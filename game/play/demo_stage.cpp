@@ -48,7 +48,9 @@ class DemoStage : public Stage {
         const DemoControls read = readControls(input);
         mPressed.switchCamera = mPressed.switchCamera || read.switchCamera;
         mPressed.toggleExclusion = mPressed.toggleExclusion || read.toggleExclusion;
-        mPressed.action = mPressed.action || input.wasPressed(Key::Space);
+        mPressed.action = mPressed.action || input.wasPressed(Key::Space) ||
+                          input.wasClicked(app::MouseButton::Left) ||
+                          input.wasPressed(PadButton::A);
         for (uint32_t i = 0; i < frame.time.steps; ++i) {
             // What was tapped, in a frame without steps even, belongs to one step.
             DemoControls controls = read;

@@ -11,12 +11,13 @@ namespace shutter::game {
 
 namespace fs = std::filesystem;
 
-core::Result<std::unique_ptr<FilmWriter>> FilmWriter::open(const fs::path& out, double fps) {
+core::Result<std::unique_ptr<FilmWriter>>
+FilmWriter::open(const fs::path& out, const fs::path& ffmpeg, double fps) {
     std::unique_ptr<FilmWriter> writer(new FilmWriter);
     writer->mPattern = out;
     writer->mFps = fps;
     if (out.extension() == ".mp4") {
-        auto encoder = io::findVideoEncoder({});
+        auto encoder = io::findVideoEncoder(ffmpeg);
         if (!encoder)
             return core::makeError("--film: {}", encoder.error().message);
         writer->mEncoder = std::move(encoder).value();

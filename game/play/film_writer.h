@@ -15,10 +15,11 @@ namespace shutter::game {
 class FilmWriter {
   public:
     /// \param out NAME%04d.png, .jpg, or .mp4, whose frames go to a folder beside it first
+    /// \param ffmpeg the program, for a film; empty: the one on PATH
     /// \param fps frames a second of the film, above 0
     /// Error: ffmpeg is missing, or nothing can be written there.
     [[nodiscard]] static core::Result<std::unique_ptr<FilmWriter>>
-    open(const std::filesystem::path& out, double fps);
+    open(const std::filesystem::path& out, const std::filesystem::path& ffmpeg, double fps);
 
     /// The next picture. Error: it cannot be written, or has another size than a film's first.
     [[nodiscard]] core::Status add(const image::Image& picture);

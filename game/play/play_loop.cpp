@@ -34,8 +34,10 @@ math::uvec2 scaledSize(const math::uvec2& window, double scale) {
 PlayLoop::PlayLoop(const PlayOptions& options) : mOptions(options), mStart(Clock::now()) {}
 
 PlayLoop::~PlayLoop() {
-    if (mRenderer)
-        mRenderer->finishAll();
+    releaseDrawing();
+}
+
+void PlayLoop::releaseDrawing() {
     mRenderer.reset();
     mUi.reset();
     mSwapchain.reset(); // before the window that it shows on
@@ -70,7 +72,7 @@ core::Status PlayLoop::openSettings() {
         if (!loaded && !isOwn)
             return loaded.error();
         if (!loaded)
-            mMessage = loaded.error().message;
+            refuseSettings(loaded.error().message);
         else
             mSettings = std::move(loaded).value();
     }
@@ -78,6 +80,8 @@ core::Status PlayLoop::openSettings() {
         mSettings.method = *mOptions.method;
     if (mOptions.vsync)
         mSettings.vsync = *mOptions.vsync;
+    if (!mOptions.film.empty() && mOptions.settings.empty())
+        mSettings.showPanel = false;
     return {};
 }
 
@@ -164,7 +168,7 @@ core::Status PlayLoop::openFilm() {
     if (mOptions.film.empty())
         return {};
     const double fps = mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps;
-    auto film = FilmWriter::open(mOptions.film, fps);
+    auto film = FilmWriter::open(mOptions.film, mOptions.shot.ffmpeg, fps);
     if (!film)
         return film.error();
     mFilm = std::move(film).value();
@@ -185,10 +189,12 @@ core::Status PlayLoop::finish() {
         SessionFacts facts{mStage->title(), mDevice->info().name, mSettings.method, size};
         facts.score = mStage->score();
         facts.isOver = mStage->isOver();
+        releaseDrawing(); // validation looks at that, too
         facts.validationMessages = mDevice->validationMessageCount();
         if (core::Status written = mRecord.write(mOptions.stats, facts); !written)
             return written;
     }
+    releaseDrawing();
     if (const uint32_t messages = mDevice->validationMessageCount(); messages > 0)
         return core::makeError("{} Vulkan validation messages", messages);
     return {};
@@ -198,12 +204,19 @@ math::uvec2 PlayLoop::windowSize() const {
     return mWindow ? mWindow->framebufferSize() : mHeadlessSize;
 }
 
+app::InputCollector& PlayLoop::collector() {
+    // What a window hears besides, an absent gamepad too, must not mix with a script.
+    return mScript || !mWindow ? mInput : mWindow->input();
+}
+
 double PlayLoop::measureFrame() {
     const Clock::time_point now = Clock::now();
     const double seconds =
         mLastTurn ? std::chrono::duration<double>(now - *mLastTurn).count() : 1.0 / 60.0;
-    if (mLastTurn && mRecord.hasStarted())
+    // A frame's time is that from one picture to the next.
+    if (mLastTurn && mHasDrawn && mRecord.pictureCount() > 1)
         mRecord.addFrame(seconds);
+    mHasDrawn = false;
     mLastTurn = now;
     if (mScript)
         return mScript->frameSeconds();
@@ -219,7 +232,7 @@ core::Status PlayLoop::advance() {
     applyScript();
     mQuit = mQuit || (mWindow && mWindow->closeRequested());
     const double wallSeconds = measureFrame();
-    app::InputState input = mWindow ? mWindow->input().take() : mInput.take();
+    app::InputState input = collector().take();
     if (hidden) { // the game rests with it
         if (mScript)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -233,7 +246,7 @@ core::Status PlayLoop::advance() {
     mStage->advance(input, {mTime, wallSeconds, double(size.y), mClock.isPaused()});
     if (core::Status drawn = drawPicture(mTime.duration); !drawn)
         return drawn;
-    if (mOptions.frames > 0 && mRecord.frameCount() >= mOptions.frames)
+    if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
     return takePictures();
 }
@@ -241,9 +254,8 @@ core::Status PlayLoop::advance() {
 void PlayLoop::applyScript() {
     if (!mScript)
         return;
-    app::InputCollector& input = mWindow ? mWindow->input() : mInput;
     const math::uvec2 size = glm::max(windowSize(), math::uvec2(1u));
-    for (const app::ScriptEvent& event : mScript->takeFrame(input, size)) {
+    for (const app::ScriptEvent& event : mScript->takeFrame(collector(), size)) {
         if (const auto* resize = std::get_if<app::ResizeEvent>(&event.what)) {
             mHeadlessSize = resize->size;
             if (mWindow)
@@ -298,7 +310,7 @@ void PlayLoop::dragDivider(const app::InputState& input) {
     const double width = std::max(windowSize().x, 1u);
     const double atPx = mSettings.dividerShare * width;
     const bool grabs = mSettings.split && !mUi->wantsPointer() &&
-                       input.clicked[static_cast<size_t>(app::MouseButton::Left)] &&
+                       input.wasClicked(app::MouseButton::Left) &&
                        std::abs(input.pointerPx.x - atPx) <= kGrabPx;
     mDraggingDivider =
         input.isDown(app::MouseButton::Left) && (grabs || mDraggingDivider) && mSettings.split;
@@ -314,9 +326,11 @@ void PlayLoop::drawPanel(const app::InputState& input, double wallSeconds, Panel
     facts.title = mStage->title();
     facts.hud = hud;
     facts.message = mMessage;
-    facts.right = mRenderer->statistics(PlaySide::Right);
-    facts.left = mSettings.split ? mRenderer->statistics(PlaySide::Left) : nullptr;
-    facts.frameMilliseconds = mRecord.meanMilliseconds();
+    if (!mFilm) { // times differ from one session to the next, a film's pictures do not
+        facts.right = mRenderer->statistics(PlaySide::Right);
+        facts.left = mSettings.split ? mRenderer->statistics(PlaySide::Left) : nullptr;
+        facts.frameMilliseconds = mRecord.meanMilliseconds();
+    }
     facts.pictureSize = scaledSize(size, mSettings.resolutionScale);
     facts.exposure = mExposure;
     facts.paused = mClock.isPaused();
@@ -379,17 +393,31 @@ void PlayLoop::saveSettings() {
     std::error_code ignored;
     if (mOptions.settings.empty())
         std::filesystem::create_directories(mSettingsFile.parent_path(), ignored);
+    if (mSettingsRefused) {
+        mMessage =
+            mSettingsFile.string() + " is not written over: it was refused and holds a mistake";
+        return;
+    }
     const core::Status saved = savePlaySettings(mSettingsFile, mSettings);
     mMessage = saved ? "saved " + mSettingsFile.string() : saved.error().message;
+}
+
+void PlayLoop::refuseSettings(const std::string& why) {
+    mSettingsRefused = true;
+    mMessage = why;
+    core::logWarning("{}", why);
 }
 
 void PlayLoop::loadSettings() {
     if (mSettingsFile.empty())
         return;
     auto loaded = loadPlaySettings(mSettingsFile);
-    mMessage = loaded ? "loaded " + mSettingsFile.string() : loaded.error().message;
-    if (!loaded)
+    if (!loaded) {
+        refuseSettings(loaded.error().message);
         return;
+    }
+    mMessage = "loaded " + mSettingsFile.string();
+    mSettingsRefused = false;
     mSettings = std::move(loaded).value();
     replaceMissingMethods();
 }
@@ -466,8 +494,8 @@ core::Status PlayLoop::drawPicture(double duration) {
         mWantedFiles.push_back(file);
     if (picture.readBack)
         mWantedFiles.emplace_back();
-    if (!mRecord.hasStarted())
-        mRecord.setStart(std::chrono::duration<double>(Clock::now() - mStart).count());
+    mHasDrawn = true;
+    mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))
         mRecord.addStatistics(*statistics);
     return {};

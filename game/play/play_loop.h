@@ -63,6 +63,9 @@ class PlayLoop {
     [[nodiscard]] math::uvec2 windowSize() const;
     void loadSettings();
     void saveSettings();
+    void refuseSettings(const std::string& why);
+    void releaseDrawing();
+    [[nodiscard]] app::InputCollector& collector();
     void toggleRecording();
     core::Status finish();
     /// Of the time now, for a frame that takes `duration` of game time.
@@ -76,7 +79,7 @@ class PlayLoop {
     std::filesystem::path mSettingsFile; ///< empty: nowhere to keep them
     std::optional<app::ScriptPlayer> mScript;
     std::unique_ptr<app::Window> mWindow;
-    app::InputCollector mInput; ///< without a window
+    app::InputCollector mInput; ///< a script's, and without a window
     std::unique_ptr<gpu::Device> mDevice;
     std::unique_ptr<gpu::Swapchain> mSwapchain;
     std::unique_ptr<Stage> mStage;
@@ -97,6 +100,8 @@ class PlayLoop {
     FlythroughRecorder mRecorder;
     std::unique_ptr<FilmWriter> mFilm;
     bool mDraggingDivider = false;
+    bool mHasDrawn = false;        ///< in the last turn
+    bool mSettingsRefused = false; ///< the file is there and wrong
     bool mQuit = false;
 };
 

@@ -72,6 +72,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option(
         "--fps", a.shot.fps, "of --film and --no-window without a script; default 30"
     );
+    command.add_option("--ffmpeg", a.shot.ffmpeg, "program that makes an .mp4; default: on PATH");
     command.add_option("--frames", a.frames, "end after as many frames")
         ->check(CLI::Range(1u, kMaxFrames));
     command.add_option("--stats", a.stats, "frame times, score and more as JSON, at the end");

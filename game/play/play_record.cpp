@@ -52,7 +52,7 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     json.key("method").value(facts.method);
     json.key("width").integer(facts.size.x);
     json.key("height").integer(facts.size.y);
-    json.key("frames").integer(frameCount());
+    json.key("frames").integer(mPictureCount);
     json.key("startSeconds").value(mStartSeconds);
     writeQuartiles(json, "frameMilliseconds", mMilliseconds);
     writeQuartiles(json, "blurMilliseconds", mBlurMilliseconds);

@@ -27,22 +27,21 @@ struct SessionFacts {
 
 class PlayRecord {
   public:
-    /// A frame was shown. \param wallSeconds since the one before
+    /// \param wallSeconds from one picture to the next
     void addFrame(double wallSeconds);
     /// Statistics of a frame that was finished.
     void addStatistics(const render::FrameStatistics& statistics);
 
-    /// The first picture was shown. \param seconds after the program's start
-    void setStart(double seconds) { mStartSeconds = seconds; }
+    /// A picture was drawn. \param seconds after the program's start; the first one's counts
+    void addPicture(double seconds) {
+        if (mPictureCount++ == 0)
+            mStartSeconds = seconds;
+    }
 
-    [[nodiscard]] bool hasStarted() const { return mStartSeconds > 0.0; }
+    [[nodiscard]] uint32_t pictureCount() const { return mPictureCount; }
 
     /// Mean of the last second's frames; 0 before the first.
     [[nodiscard]] double meanMilliseconds() const;
-
-    [[nodiscard]] uint32_t frameCount() const {
-        return static_cast<uint32_t>(mMilliseconds.size());
-    }
 
     /// Renamed into place; schema in game/play/README.md, "Statistics".
     [[nodiscard]] core::Status
@@ -54,6 +53,7 @@ class PlayRecord {
     std::deque<double> mRecent;            ///< milliseconds of the last second
     double mRecentSum = 0.0;
     double mStartSeconds = 0.0;
+    uint32_t mPictureCount = 0;
 };
 
 } // namespace shutter::game

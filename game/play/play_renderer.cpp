@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/play_renderer.h"
 
-#include "engine/core/check.h"
+#include "engine/core/log.h"
 #include "game/statistics.h"
 
 #include <cmath>
@@ -20,7 +20,11 @@ PlayRenderer::PlayRenderer(gpu::Device& device, const scene::Assets& assets)
       mLeftView(device), mRightView(device), mKept(device), mWindow(device) {}
 
 PlayRenderer::~PlayRenderer() {
-    finishAll();
+    try {
+        finishAll();
+    } catch (const gpu::DeviceError& error) { // of a device that was lost before
+        core::logWarning("{}", error.what());
+    }
 }
 
 void PlayRenderer::finishOldest() {
