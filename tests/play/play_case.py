@@ -51,7 +51,7 @@ class PlayCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def run_shutter(self, arguments, display=True):
-        command = [EXECUTABLE, "play", *arguments]
+        command = [EXECUTABLE, "play", *arguments, *(() if display else ("--no-window",))]
         if display:
             # A window manager minimises and restores; a bare display would not.
             inner = 'openbox >/dev/null 2>&1 & "$@"; status=$?; kill $! 2>/dev/null; exit $status'
