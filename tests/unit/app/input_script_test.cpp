@@ -23,7 +23,10 @@ class InputScriptFile : public testing::Test {
         EXPECT_NE(script.error().message.find(":2"), std::string::npos) << script.error().message;
     }
 
-    std::filesystem::path mPath = testing::TempDir() + "input_script_test.json";
+    // Of its own: tests run side by side.
+    std::filesystem::path mPath = testing::TempDir() +
+                                  testing::UnitTest::GetInstance()->current_test_info()->name() +
+                                  ".input_script.json";
 };
 
 TEST_F(InputScriptFile, EventsComeInTheFrameOfTheirTime) {

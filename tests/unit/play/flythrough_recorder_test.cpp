@@ -30,7 +30,9 @@ class Recorder : public testing::Test {
     ecs::Entity mCameras[2];
     FlythroughRecorder mRecorder;
     std::filesystem::path mFolder =
-        std::filesystem::path(testing::TempDir()) / "flythrough_recorder_test";
+        std::filesystem::path(testing::TempDir()) /
+        (std::string("recorder_") + testing::UnitTest::GetInstance()->current_test_info()->name()
+        ); // tests run side by side
 };
 
 TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
