@@ -19,6 +19,8 @@ namespace {
 using app::Key;
 
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
+/// Of a player without settings: a third of a frame at 20 frames a second.
+constexpr double kFirstBudgetMilliseconds = 16.0;
 /// The divider can be grabbed this far beside it.
 constexpr double kGrabPx = 8.0;
 
@@ -76,6 +78,9 @@ core::Status PlayLoop::openSettings() {
         else
             mSettings = std::move(loaded).value();
     }
+    // A person's first session keeps its rate; scripts and films depend on no clock.
+    if (isOwn && mOptions.film.empty() && !std::filesystem::exists(mSettingsFile, ignored))
+        mSettings.budget.milliseconds = kFirstBudgetMilliseconds;
     if (mOptions.method)
         mSettings.method = *mOptions.method;
     if (mOptions.vsync)
