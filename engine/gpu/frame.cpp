@@ -2,6 +2,7 @@
 #include "engine/gpu/frame.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/upload.h"
 
 #include <chrono>
 
@@ -61,15 +62,7 @@ void Frame::begin() {
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     require(vkBeginCommandBuffer(mCommands, &info), "starting a frame");
-    VkMemoryBarrier2 earlier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    earlier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    earlier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    earlier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    earlier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &earlier;
-    vkCmdPipelineBarrier2(mCommands, &dependency);
+    fullBarrier(mCommands);
 }
 
 void Frame::submit(const SubmitSemaphores& semaphores) {
