@@ -16,8 +16,6 @@ namespace shutter::game {
 
 namespace {
 
-using app::Key;
-
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
 /// Of a player without settings: a third of a frame at 20 frames a second.
 constexpr double kFirstBudgetMilliseconds = 16.0;

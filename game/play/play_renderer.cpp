@@ -154,6 +154,27 @@ core::Status PlayRenderer::drawSide(
     );
 }
 
+core::Status PlayRenderer::submitPart(
+    const scene::World& world,
+    const SidePicture& picture,
+    render::FrameRequest request,
+    size_t index,
+    size_t count
+) {
+    const bool last = index + 1 == count;
+    if (!last) {
+        request.showsDisplay = request.wantDisplay = false;
+        request.semaphores = {};
+        request.shownIntermediates.clear();
+    }
+    return submit(
+        world,
+        request,
+        last ? picture.ending : std::vector{picture.ending.front()},
+        {picture.side, index == 0, last, request.wantDisplay}
+    );
+}
+
 core::Status PlayRenderer::drawInstants(
     const scene::World& world, SidePicture& picture, const PlaySettings& settings
 ) {
@@ -163,25 +184,12 @@ core::Status PlayRenderer::drawInstants(
     picture.ending.insert(picture.ending.begin(), own.accumulate.get());
     const uint32_t count = settings.instants;
     for (uint32_t i = 0; i < count; ++i) {
-        const bool last = i + 1 == count;
         render::FrameRequest instant = picture.request;
         instant.view = accumulate::makeInstant(
             picture.request.view, i, count, accumulate::PixelModel::Centre, 0
         );
         own.accumulate->setInstant(i, count);
-        if (!last) {
-            instant.showsDisplay = instant.wantDisplay = false;
-            instant.semaphores = {};
-            instant.shownIntermediates.clear();
-        }
-        const std::vector<render::PostEffect*> adding = {own.accumulate.get()};
-        core::Status drawn = submit(
-            world,
-            instant,
-            last ? picture.ending : adding,
-            {picture.side, i == 0, last, instant.wantDisplay}
-        );
-        if (!drawn)
+        if (core::Status drawn = submitPart(world, picture, instant, i, count); !drawn)
             return drawn;
     }
     return {};
@@ -200,23 +208,10 @@ core::Status PlayRenderer::drawRays(
     const auto batches = truth::planBatches(uint64_t(view.width) * view.height, settings.rays, {});
     uint32_t done = 0;
     for (size_t i = 0; i < batches.size(); ++i) {
-        const bool last = i + 1 == batches.size();
         finishAll(); // what it counts of a batch is read before the next
         own.truth->setBatch(done, batches[i]);
         done += batches[i];
-        render::FrameRequest batch = picture.request;
-        if (!last) {
-            batch.showsDisplay = batch.wantDisplay = false;
-            batch.semaphores = {};
-            batch.shownIntermediates.clear();
-        }
-        const std::vector<render::PostEffect*> adding = {own.truth.get()};
-        core::Status drawn = submit(
-            world,
-            batch,
-            last ? picture.ending : adding,
-            {picture.side, i == 0, last, batch.wantDisplay}
-        );
+        core::Status drawn = submitPart(world, picture, picture.request, i, batches.size());
         if (!drawn)
             return drawn;
     }

@@ -97,6 +97,14 @@ class PlayRenderer {
     );
     core::Status
     drawSide(const scene::World& world, SidePicture& picture, const PlaySettings& settings);
+    /// One of the frames of a picture whose first effect adds them up; the last one shows it.
+    core::Status submitPart(
+        const scene::World& world,
+        const SidePicture& picture,
+        render::FrameRequest request,
+        size_t index,
+        size_t count
+    );
     core::Status
     drawInstants(const scene::World& world, SidePicture& picture, const PlaySettings& settings);
     core::Status
