@@ -40,10 +40,6 @@ constexpr std::array kRails = {
     RailRules{"rail_2", "target_2_", 6.2, 0.40, 6.0, 12.0}};
 constexpr double kStalk = 0.16; // metres, from the rail to the face's rim
 
-math::Transform restOf(const scene::World& world, ecs::Entity entity) {
-    return world.registry.get<scene::LocalTransform>(entity).transform;
-}
-
 void addTargets(scene::World& world, NodeNames& names, Random& random) {
     for (size_t i = 0; i < kRails.size(); ++i) {
         const RailRules& rules = kRails[i];

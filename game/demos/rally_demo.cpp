@@ -22,10 +22,6 @@ constexpr int kPerSecond = 20;
 constexpr int kPerGate = 100;
 constexpr int kPerPost = -50;
 
-math::Transform restOf(const scene::World& world, ecs::Entity entity) {
-    return world.registry.get<scene::LocalTransform>(entity).transform;
-}
-
 void addPosts(scene::World& world, const std::vector<ecs::Entity>& entities) {
     for (const ecs::Entity entity : entities) {
         Post post;

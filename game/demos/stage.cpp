@@ -23,6 +23,10 @@ core::Result<scene::World> loadDemoScene(const std::filesystem::path& file) {
     return world;
 }
 
+math::Transform restOf(const scene::World& world, ecs::Entity entity) {
+    return world.registry.get<scene::LocalTransform>(entity).transform;
+}
+
 NodeNames::NodeNames(const scene::World& world) : mWorld(world) {
     for (auto [entity, name, rest] : world.registry.view<scene::Name, scene::LocalTransform>())
         mEntities.emplace(name.value, entity);
