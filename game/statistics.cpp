@@ -17,9 +17,10 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
     const render::FrameStatistics& frame = picture.frame;
     nlohmann::json passes = nlohmann::json::array();
     double gpu = 0.0;
-    for (const gpu::PassTime& pass : frame.passes) {
+    for (const render::PassTime& pass : frame.passes) {
         passes.push_back(
             {{"name", pass.name},
+             {"owner", render::describe(pass.owner)},
              {"gpu_ms", pass.gpuMilliseconds},
              {"cpu_ms", pass.cpuMilliseconds}}
         );
@@ -50,9 +51,9 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
 } // namespace
 
 void addStatistics(render::FrameStatistics& total, const render::FrameStatistics& frame) {
-    for (const gpu::PassTime& pass : frame.passes) {
+    for (const render::PassTime& pass : frame.passes) {
         const auto known = std::find_if(total.passes.begin(), total.passes.end(), [&](auto& p) {
-            return p.name == pass.name;
+            return p.name == pass.name && p.owner == pass.owner;
         });
         if (known == total.passes.end()) {
             total.passes.push_back(pass);

@@ -11,7 +11,8 @@
 
 namespace shutter::game {
 
-/// Adds times pass by pass (by name) and counters; explanations and measures are the later frame's.
+/// Adds times pass by pass (by name and owner) and counters; explanations and measures are the
+/// later frame's.
 void addStatistics(render::FrameStatistics& total, const render::FrameStatistics& frame);
 
 /// Medians pass by pass of frames that ran the same passes; the rest is the last frame's.

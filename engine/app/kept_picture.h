@@ -17,6 +17,8 @@ class KeptPicture : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "keep picture"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
+
     [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
         return {true, "a later frame shows the picture"};
     }

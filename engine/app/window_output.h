@@ -49,6 +49,8 @@ class WindowOutput : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "window"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
+
     [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
         return {true, "the picture is shown"};
     }

@@ -28,6 +28,20 @@ const char* describe(ExplainedKind kind) {
     return "";
 }
 
+const char* describe(PassOwner owner) {
+    switch (owner) {
+    case PassOwner::Scene:
+        return "scene";
+    case PassOwner::Rays:
+        return "rays";
+    case PassOwner::Effect:
+        return "effect";
+    case PassOwner::Display:
+        return "display";
+    }
+    return "";
+}
+
 std::string describe(const Decision& decision) {
     return (decision.run ? "ran: " : "skipped: ") + decision.reason;
 }
@@ -69,8 +83,24 @@ void Explainer::decide(ExplainedKind kind, std::string subject, Decision decisio
     mDecided.push_back({kind, std::move(subject), std::move(decision)});
 }
 
-void Explainer::beginPasses(const graph::Graph& graph, std::string reason) {
-    mRanges.push_back({graph.passes().size(), std::move(reason)});
+void Explainer::beginPasses(const graph::Graph& graph, PassOwner owner, std::string reason) {
+    mRanges.push_back({graph.passes().size(), owner, std::move(reason)});
+}
+
+const Explainer::PassRange* Explainer::findRange(size_t pass) const {
+    const auto next = std::find_if(mRanges.begin(), mRanges.end(), [&](const PassRange& range) {
+        return range.first > pass;
+    });
+    return next == mRanges.begin() ? nullptr : &*std::prev(next);
+}
+
+std::vector<PassOwner> Explainer::listOwners(const graph::Plan& plan) const {
+    std::vector<PassOwner> owners;
+    for (const graph::PlannedPass& planned : plan.passes) {
+        const PassRange* range = findRange(planned.pass);
+        owners.push_back(range ? range->owner : PassOwner::Scene);
+    }
+    return owners;
 }
 
 std::vector<Explanation>
@@ -85,12 +115,12 @@ Explainer::finish(const graph::Graph& graph, const graph::Plan& plan, bool passe
     if (!passes)
         return all;
     for (const graph::PlannedPass& planned : plan.passes) {
-        const auto next = std::find_if(mRanges.begin(), mRanges.end(), [&](const PassRange& range) {
-            return range.first > planned.pass;
-        });
-        const std::string reason =
-            next == mRanges.begin() ? "the frame needs it" : std::prev(next)->reason;
-        all.push_back({ExplainedKind::Pass, graph.passes()[planned.pass].name, {true, reason}});
+        const PassRange* range = findRange(planned.pass);
+        all.push_back(
+            {ExplainedKind::Pass,
+             graph.passes()[planned.pass].name,
+             {true, range ? range->reason : "the frame needs it"}}
+        );
     }
     std::copy_if(
         mDecided.begin(),

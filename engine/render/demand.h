@@ -42,6 +42,17 @@ enum class ExplainedKind : uint8_t {
 
 [[nodiscard]] const char* describe(ExplainedKind kind);
 
+/// What a pass works for, so that its time is counted where it belongs.
+enum class PassOwner : uint8_t {
+    Scene,   ///< any picture needs it: deformed meshes, G-buffer
+    Rays,    ///< acceleration structures that effects trace rays through
+    Effect,  ///< a post effect that changes the linear picture
+    Display, ///< brings the linear picture to a screen, a file or memory
+};
+
+/// "scene", "rays", "effect" or "display".
+[[nodiscard]] const char* describe(PassOwner owner);
+
 /// Why one thing ran or was skipped.
 struct Explanation {
     ExplainedKind kind = ExplainedKind::Effect;
@@ -69,8 +80,11 @@ struct SurfaceDemand {
 class Explainer {
   public:
     void decide(ExplainedKind kind, std::string subject, Decision decision);
-    /// Passes declared from here on run for this reason, where nothing was decided about them.
-    void beginPasses(const graph::Graph& graph, std::string reason);
+    /// Passes declared from here on work for `owner` and run for `reason`, unless something else
+    /// was decided about them.
+    void beginPasses(const graph::Graph& graph, PassOwner owner, std::string reason);
+    /// Owners of the plan's passes, in execution order.
+    [[nodiscard]] std::vector<PassOwner> listOwners(const graph::Plan& plan) const;
     /// Effects and work as decided; with `passes`, the passes too: those of the plan in execution
     /// order, then what was left out or culled.
     [[nodiscard]] std::vector<Explanation>
@@ -79,8 +93,12 @@ class Explainer {
   private:
     struct PassRange {
         size_t first = 0; ///< index into Graph::passes()
+        PassOwner owner = PassOwner::Scene;
         std::string reason;
     };
+
+    /// Null for passes declared before the first beginPasses().
+    [[nodiscard]] const PassRange* findRange(size_t pass) const;
 
     std::vector<Explanation> mDecided;
     std::vector<PassRange> mRanges; ///< by rising first

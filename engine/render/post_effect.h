@@ -7,6 +7,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/graph.h"
 #include "engine/render/demand.h"
+#include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
 
 #include <cstdint>
@@ -79,18 +80,13 @@ struct PostContext {
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
-    uint32_t slot = 0; ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    uint32_t slot = 0;                  ///< of the frames in flight, below gpu::kMaxFramesInFlight
 };
-
-/// Numbers an effect reports about a frame, e.g. "rays traced".
-using Counters = std::map<std::string, uint64_t>;
-/// Figures an effect measures, e.g. "standard error"; a later frame's replaces an earlier one's.
-using Measures = std::map<std::string, double>;
 
 /// A frame that the GPU is done with, as one effect sees it.
 struct FinishedFrame {
-    uint32_t slot = 0; ///< PostContext::slot of it
-    bool ran = false;  ///< the effect declared passes for it
+    uint32_t slot = 0;                     ///< PostContext::slot of it
+    bool ran = false;                      ///< the effect declared passes for it
     std::span<const gpu::PassTime> passes; ///< of those it declared
     Counters& counters;                    ///< takes what the effect counted, if it ran
     Measures& measures;                    ///< takes what the effect measured, if it ran
@@ -101,6 +97,10 @@ class PostEffect {
     virtual ~PostEffect() = default;
 
     [[nodiscard]] virtual std::string name() const = 0;
+
+    /// What its passes count as: PassOwner::Display for one that shows or keeps the picture.
+    [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Effect; }
+
     /// Pure: depends on the facts and the effect's settings only.
     [[nodiscard]] virtual Decision ask(const ViewFacts& facts) const = 0;
 

@@ -223,6 +223,7 @@ core::Status Renderer::submitFrame(
     statistics.transientBytes = mPool.heldBytes();
     statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
     pending.effects = listPending(effects, running, plan.value());
+    pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
     if (!effects.empty()) // a look that measures something is no frame
@@ -239,7 +240,10 @@ FrameResult Renderer::finishFrame() {
     Slot& slot = *mSlots[pending.slot];
     FrameResult result = std::move(pending.result);
     FrameStatistics& statistics = result.statistics;
-    statistics.passes = slot.frame.waitForTimes();
+    for (gpu::PassTime& time : slot.frame.waitForTimes()) {
+        const PassOwner owner = pending.owners.at(statistics.passes.size());
+        statistics.passes.push_back({std::move(time), owner});
+    }
     statistics.wallMilliseconds = nowMilliseconds() - pending.startMilliseconds;
     for (const PendingEffect& one : pending.effects) {
         std::vector<gpu::PassTime> own;
@@ -339,7 +343,7 @@ Renderer::Tickets Renderer::declareFrame(
     RunningEffects& running,
     Explainer& explainer
 ) {
-    explainer.beginPasses(graph, "a skin or morph target is drawn");
+    explainer.beginPasses(graph, PassOwner::Scene, "a skin or morph target is drawn");
     const DeformedShapes shapes = slot.deformation->declare(graph, frame, mScene);
     std::vector<shader::Geometry> bent = shapes.rows;
     const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
@@ -350,7 +354,7 @@ Renderer::Tickets Renderer::declareFrame(
         bent.insert(bent.end(), keyed.begin(), keyed.end());
     }
     RayScene rays;
-    explainer.beginPasses(graph, running.rays.reason);
+    explainer.beginPasses(graph, PassOwner::Rays, running.rays.reason);
     mTopLevelMilliseconds = 0.0;
     if (running.rays.run) {
         const double start = nowMilliseconds();
@@ -365,7 +369,7 @@ Renderer::Tickets Renderer::declareFrame(
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    explainer.beginPasses(graph, running.movingRays.reason);
+    explainer.beginPasses(graph, PassOwner::Rays, running.movingRays.reason);
     MovingRays movingRays;
     if (moving) {
         movingRays = slot.movingScene->declare(
@@ -378,7 +382,7 @@ Renderer::Tickets Renderer::declareFrame(
         );
         movingRays.shapesBuffer = shapes.buffer;
     }
-    explainer.beginPasses(graph, "the picture is drawn");
+    explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     const GBuffer gbuffer =
         mGBufferPass.declare(graph, frame, mScene, shapes.buffer, rays.frameConstants);
     std::set<std::string> wanted = request.intermediates;
@@ -399,13 +403,13 @@ Renderer::Tickets Renderer::declareFrame(
         explainer,
         mNextSlot};
     for (RunningEffect& one : running.effects) {
-        explainer.beginPasses(graph, one.effect->name() + " runs");
+        explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
         one.firstPass = graph.passes().size();
         one.effect->declare(context);
         one.endPass = graph.passes().size();
     }
 
-    explainer.beginPasses(graph, "its picture is read back");
+    explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
     Tickets tickets;
     for (const auto& [name, image] : intermediates.images())
         if (request.intermediates.contains(name))

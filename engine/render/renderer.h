@@ -9,6 +9,7 @@
 #include "engine/render/entity_table.h"
 #include "engine/render/extraction.h"
 #include "engine/render/frame_extractor.h"
+#include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/gpu_scene.h"
 #include "engine/render/idle_counter.h"
@@ -42,19 +43,6 @@ struct FrameRequest {
     bool wantDump = false;              ///< describe the graph in FrameResult::dump
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
-};
-
-struct FrameStatistics {
-    std::vector<gpu::PassTime> passes; ///< in execution order
-    double cpuMilliseconds = 0.0;      ///< extraction, declaring, compiling, recording
-    double wallMilliseconds = 0.0;     ///< the whole frame with waiting for the GPU
-    /// The effects', and "entity rows written" and "entity motions written".
-    Counters counters;
-    /// The effects', and the CPU's part of cpuMilliseconds for "extraction ms", "entity table ms"
-    /// and "top level ms".
-    Measures measures;
-    std::vector<Explanation> explanations; ///< in the order in which things were decided
-    uint64_t transientBytes = 0;           ///< memory of the graph's images
 };
 
 struct FrameResult {
@@ -150,7 +138,8 @@ class Renderer {
         double startMilliseconds = 0.0;
         Tickets tickets;
         std::vector<PendingEffect> effects;
-        FrameResult result; ///< what is known of it without the GPU
+        std::vector<PassOwner> owners; ///< per pass, in execution order
+        FrameResult result;            ///< what is known of it without the GPU
     };
 
     static RunningEffects

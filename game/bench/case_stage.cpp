@@ -146,8 +146,8 @@ Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult&
 
 Status CaseStage::keepSample(const DialPoint& point, const render::FrameResult& drawn) {
     Sample sample;
-    for (const gpu::PassTime& pass : drawn.statistics.passes)
-        sample.passes.push_back({pass.name, pass.gpuMilliseconds});
+    for (const render::PassTime& pass : drawn.statistics.passes)
+        sample.passes.push_back({pass.name, pass.gpuMilliseconds, pass.owner});
     sample.wallMilliseconds = drawn.statistics.wallMilliseconds;
     return mJournal.addSample(makeKey(point), std::move(sample));
 }

@@ -30,7 +30,7 @@ json packRecord(const Record& record) {
     for (const Sample& sample : record.samples) {
         json passes = json::array();
         for (const PassSample& pass : sample.passes)
-            passes.push_back({pass.name, pass.milliseconds});
+            passes.push_back({pass.name, pass.milliseconds, render::describe(pass.owner)});
         samples.push_back({{"passes", passes}, {"wall", sample.wallMilliseconds}});
     }
     json packed = {{"samples", samples}, {"skipped", record.skipped}};
@@ -47,13 +47,21 @@ json packRecord(const Record& record) {
     return packed;
 }
 
+render::PassOwner unpackOwner(const json& word) {
+    using Owner = render::PassOwner;
+    for (const Owner owner : {Owner::Scene, Owner::Rays, Owner::Effect})
+        if (word == render::describe(owner))
+            return owner;
+    return Owner::Display;
+}
+
 Record unpackRecord(const json& packed) {
     Record record;
     for (const json& from : packed.at("samples")) {
         Sample sample;
         sample.wallMilliseconds = from.at("wall");
         for (const json& pass : from.at("passes"))
-            sample.passes.push_back({pass.at(0), pass.at(1)});
+            sample.passes.push_back({pass.at(0), pass.at(1), unpackOwner(pass.at(2))});
         record.samples.push_back(std::move(sample));
     }
     record.skipped = packed.at("skipped");

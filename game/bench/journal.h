@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/render/frame_statistics.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,6 +20,7 @@ namespace shutter::bench {
 struct PassSample {
     std::string name;
     double milliseconds = 0.0;
+    render::PassOwner owner = render::PassOwner::Scene;
 };
 
 /// One timed picture.

@@ -4,6 +4,7 @@
 #include "engine/scene/shutter.h"
 #include "game/bench/cost.h"
 #include "game/bench/fit.h"
+#include "game/pass_groups.h"
 #include "game/quartiles.h"
 #include "game/shutter_options.h"
 
@@ -53,7 +54,7 @@ json describePasses(const game::MethodInfo& method, const std::vector<Sample>& s
             return timeOfPass(sample, pass.name);
         });
         row["name"] = pass.name;
-        row["effect"] = isEffect(method, pass.name);
+        row["effect"] = game::groupOf(method, pass.owner) == game::PassGroup::Blur;
         passes.push_back(std::move(row));
     }
     return passes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/hud.h"
 
-#include "game/play/pass_groups.h"
+#include "game/pass_groups.h"
 
 #include <algorithm>
 #include <cmath>

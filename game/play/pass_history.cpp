@@ -14,11 +14,11 @@ auto at(auto& values, size_t index) {
 
 } // namespace
 
-size_t PassHistory::findOrInsert(const std::string& name, size_t after) {
-    const auto known = std::find(mNames.begin(), mNames.end(), name);
-    if (known != mNames.end())
-        return static_cast<size_t>(known - mNames.begin());
-    mNames.insert(at(mNames, after), name);
+size_t PassHistory::findOrInsert(const Pass& pass, size_t after) {
+    const auto known = std::find(mPasses.begin(), mPasses.end(), pass);
+    if (known != mPasses.end())
+        return static_cast<size_t>(known - mPasses.begin());
+    mPasses.insert(at(mPasses, after), pass);
     for (std::vector<float>& frame : mFrames)
         frame.insert(at(frame, after), 0.0f);
     for (std::vector<bool>& frame : mHas)
@@ -27,7 +27,7 @@ size_t PassHistory::findOrInsert(const std::string& name, size_t after) {
 }
 
 void PassHistory::forget(size_t pass) {
-    mNames.erase(at(mNames, pass));
+    mPasses.erase(at(mPasses, pass));
     for (std::vector<float>& frame : mFrames)
         frame.erase(at(frame, pass));
     for (std::vector<bool>& frame : mHas)
@@ -39,17 +39,17 @@ void PassHistory::add(const render::FrameStatistics& statistics) {
         mFrames.pop_front();
         mHas.pop_front();
     }
-    mFrames.emplace_back(mNames.size(), 0.0f);
-    mHas.emplace_back(mNames.size(), false);
+    mFrames.emplace_back(mPasses.size(), 0.0f);
+    mHas.emplace_back(mPasses.size(), false);
     size_t next = 0; // where a pass that is new belongs: behind the one before it
-    for (const gpu::PassTime& pass : statistics.passes) {
-        const size_t index = findOrInsert(pass.name, next);
+    for (const render::PassTime& pass : statistics.passes) {
+        const size_t index = findOrInsert({pass.name, pass.owner}, next);
         next = index + 1;
         mHas.back()[index] = true;
         if (std::isfinite(pass.gpuMilliseconds) && pass.gpuMilliseconds > 0.0)
             mFrames.back()[index] += static_cast<float>(pass.gpuMilliseconds);
     }
-    for (size_t pass = mNames.size(); pass-- > 0;)
+    for (size_t pass = mPasses.size(); pass-- > 0;)
         if (std::none_of(mHas.begin(), mHas.end(), [&](const auto& has) { return has[pass]; }))
             forget(pass);
 }

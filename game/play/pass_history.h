@@ -16,17 +16,24 @@ class PassHistory {
   public:
     static constexpr size_t kFrames = 240;
 
-    /// The newest frame. Times of passes of one name are added up; a time that is no number or
-    /// below 0 counts as 0.
+    /// Adds the newest frame. Times of passes with the same name and owner are added up; a time
+    /// that is NaN, infinite or below 0 counts as 0.
     void add(const render::FrameStatistics& statistics);
 
     [[nodiscard]] size_t frameCount() const { return mFrames.size(); }
 
-    /// Of the passes that at least one of the frames has, in the order of the frame.
-    [[nodiscard]] std::span<const std::string> names() const { return mNames; }
+    struct Pass {
+        std::string name;
+        render::PassOwner owner = render::PassOwner::Scene;
+
+        bool operator==(const Pass&) const = default;
+    };
+
+    /// The passes that at least one of the frames has, in the order of the frame.
+    [[nodiscard]] std::span<const Pass> passes() const { return mPasses; }
 
     /// GPU milliseconds; 0 where the frame did not have the pass.
-    /// \param frame 0 is the oldest \param pass index into names()
+    /// \param frame 0 is the oldest \param pass index into passes()
     [[nodiscard]] float milliseconds(size_t frame, size_t pass) const {
         return mFrames[frame][pass];
     }
@@ -35,11 +42,11 @@ class PassHistory {
     [[nodiscard]] float findMedian(size_t pass) const;
 
   private:
-    size_t findOrInsert(const std::string& name, size_t after);
+    size_t findOrInsert(const Pass& pass, size_t after);
     void forget(size_t pass);
 
-    std::vector<std::string> mNames;
-    std::deque<std::vector<float>> mFrames; ///< oldest first; milliseconds beside mNames
+    std::vector<Pass> mPasses;
+    std::deque<std::vector<float>> mFrames; ///< oldest first; milliseconds beside mPasses
     std::deque<std::vector<bool>> mHas;     ///< likewise: the frame had the pass
 };
 

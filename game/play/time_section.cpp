@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "game/pass_groups.h"
 #include "game/play/panel_sections.h"
-#include "game/play/pass_groups.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +57,7 @@ ImU32 colorOf(PassGroup group, std::string_view name) {
 }
 
 struct Band {
-    size_t pass = 0; ///< index into PassHistory::names()
+    size_t pass = 0; ///< index into PassHistory::passes()
     PassGroup group = PassGroup::Scene;
     ImU32 color = 0;
 };
@@ -66,9 +66,9 @@ struct Band {
 std::vector<Band> listBands(const PassHistory& history, const MethodInfo& method) {
     std::vector<Band> bands;
     for (const PassGroup group : kGroups)
-        for (size_t pass = 0; pass < history.names().size(); ++pass) {
-            const std::string& name = history.names()[pass];
-            if (groupOf(method, name) == group)
+        for (size_t pass = 0; pass < history.passes().size(); ++pass) {
+            const auto& [name, owner] = history.passes()[pass];
+            if (groupOf(method, owner) == group)
                 bands.push_back({pass, group, colorOf(group, name)});
         }
     return bands;
@@ -190,7 +190,10 @@ void drawLegend(const PassHistory& history, std::span<const Band> bands) {
         for (const Band& band : bands)
             if (band.group == group)
                 drawLegendRow(
-                    band.color, history.names()[band.pass], history.findMedian(band.pass), false
+                    band.color,
+                    history.passes()[band.pass].name,
+                    history.findMedian(band.pass),
+                    false
                 );
     }
     ImGui::EndTable();

@@ -35,6 +35,8 @@ class DebugView : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "debug view"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
+
     [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 

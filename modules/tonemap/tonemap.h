@@ -30,6 +30,8 @@ class Tonemap : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "tone map"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
+
     [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 

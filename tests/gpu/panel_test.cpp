@@ -2,9 +2,9 @@
 // The panel: nothing changes by itself, and whatever is clicked, settings stay valid.
 #include "engine/app/window_output.h"
 #include "engine/io/image_file.h"
+#include "game/pass_groups.h"
 #include "game/play/panel.h"
 #include "game/play/panel_sections.h"
-#include "game/play/pass_groups.h"
 #include "game/play/setting_widgets.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
@@ -197,22 +197,21 @@ TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
     test::Stage stage(device(), scene);
     app::WindowOutput window(device());
     window.setTarget({.size = {96, 64}});
-    const auto namesOf = [&](test::Method method) {
-        std::vector<std::string> names;
-        const auto result = stage.render({.method = method, .wantDisplay = true, .last = &window});
-        for (const gpu::PassTime& pass : result.statistics.passes)
-            names.push_back(pass.name);
-        return names;
+    const auto passesOf = [&](test::Method method) {
+        return stage.render({.method = method, .wantDisplay = true, .last = &window})
+            .statistics.passes;
     };
-    const auto sharp = namesOf(test::Method::Sharp);
+    const auto sharp = passesOf(test::Method::Sharp);
     ASSERT_GE(sharp.size(), 4u);
     for (const test::Method method : {test::Method::OwnVelocity, test::Method::Hybrid}) {
         const game::MethodInfo& info = *game::findMethod(test::describe(method)).value();
         size_t blurs = 0;
-        for (const std::string& name : namesOf(method)) {
-            const bool isSharps = std::find(sharp.begin(), sharp.end(), name) != sharp.end();
-            const bool isBlurs = game::groupOf(info, name) == game::PassGroup::Blur;
-            EXPECT_NE(isSharps, isBlurs) << info.name << ": " << name;
+        for (const render::PassTime& pass : passesOf(method)) {
+            const bool isSharps = std::any_of(sharp.begin(), sharp.end(), [&](const auto& other) {
+                return other.name == pass.name && other.owner == pass.owner;
+            });
+            const bool isBlurs = game::groupOf(info, pass.owner) == game::PassGroup::Blur;
+            EXPECT_NE(isSharps, isBlurs) << info.name << ": " << pass.name;
             blurs += isBlurs;
         }
         EXPECT_GE(blurs, method == test::Method::OwnVelocity ? 1u : 3u) << info.name;

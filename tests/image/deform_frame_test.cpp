@@ -9,7 +9,9 @@
 #include "tests/support/stage.h"
 
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace shutter {
 namespace {
@@ -96,6 +98,27 @@ TEST_F(DeformFrame, WithoutBentMeshesNothingIsBent) {
         EXPECT_TRUE(mentions(frame, "G-buffer") || mentions(frame, "truth rays"));
         EXPECT_FALSE(mentions(frame, "bent"));
         EXPECT_FALSE(mentions(frame, "bend"));
+    }
+}
+
+TEST_F(DeformFrame, TimeSpentOnBentMeshesIsTheScenesAndNotTheBlurs) {
+    using Owner = render::PassOwner;
+    const SceneBuilder scene = makeScene(true);
+    Frames frames(device(), scene);
+    std::map<std::string, Owner> owners;
+    for (const render::PassTime& pass : frames.hybrid(0.0).statistics.passes)
+        owners[pass.name] = pass.owner;
+    const std::pair<const char*, Owner> expected[] = {
+        {"bend meshes", Owner::Scene},
+        {"build bent meshes", Owner::Rays},
+        {"build top level", Owner::Rays},
+        {"G-buffer", Owner::Scene},
+        {"ray reveal", Owner::Effect},
+        {"gather and composite", Owner::Effect},
+        {"readback color", Owner::Display}};
+    for (const auto& [name, owner] : expected) {
+        ASSERT_TRUE(owners.contains(name)) << name;
+        EXPECT_EQ(owners.at(name), owner) << name;
     }
 }
 

@@ -34,8 +34,9 @@ loadVariant(const DemandOptions& options, const Variant& variant) {
 /// What a frame does because there are entities: extraction, entity table and top levels on the
 /// CPU, and the GPU's builds of acceleration structures.
 double entityWork(const render::FrameStatistics& frame) {
-    double milliseconds =
-        sumPasses(frame, [](std::string_view pass) { return pass.starts_with("build"); });
+    double milliseconds = sumPasses(frame, [](const render::PassTime& pass) {
+        return pass.owner == render::PassOwner::Rays;
+    });
     for (const char* name : {"extraction ms", "entity table ms", "top level ms"})
         milliseconds += frame.measures.at(name);
     return milliseconds;
@@ -49,7 +50,9 @@ std::string describeParts(const Frames& frames) {
                                                      return frame.measures.at(name);
                                                  }).median);
     const auto builds = summarize(frames, [](const render::FrameStatistics& frame) {
-        return sumPasses(frame, [](std::string_view pass) { return pass.starts_with("build"); });
+        return sumPasses(frame, [](const render::PassTime& pass) {
+            return pass.owner == render::PassOwner::Rays;
+        });
     });
     return text + fmt::format("builds ms {:.3g}", builds.median);
 }

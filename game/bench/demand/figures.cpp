@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/demand/figures.h"
 
-#include "game/bench/cost.h"
+#include "game/pass_groups.h"
 
 #include <fmt/format.h>
 
@@ -19,39 +19,37 @@ bool contains(std::string_view text, std::string_view part) {
 } // namespace
 
 double sumPasses(
-    const render::FrameStatistics& frame, const std::function<bool(std::string_view)>& counts
+    const render::FrameStatistics& frame, const std::function<bool(const render::PassTime&)>& counts
 ) {
     double sum = 0.0;
-    for (const gpu::PassTime& pass : frame.passes)
-        if (counts(pass.name))
+    for (const render::PassTime& pass : frame.passes)
+        if (counts(pass))
             sum += pass.gpuMilliseconds;
     return sum;
 }
 
 Figure effectOf(const game::MethodInfo& method) {
     return [&method](const render::FrameStatistics& frame) {
-        return sumPasses(frame, [&](std::string_view pass) {
-            return bench::isEffect(method, pass);
-        });
+        return game::sumBlurMilliseconds(method, frame);
     };
 }
 
 Figure frameTime() {
-    return [](const render::FrameStatistics& frame) { return sumPasses(frame, bench::isCounted); };
+    return game::sumFrameMilliseconds;
 }
 
-bool isTileMax(std::string_view pass) {
-    return pass.starts_with("tile max") || pass.starts_with("neighbour max");
+bool isTileMax(const render::PassTime& pass) {
+    return pass.name.starts_with("tile max") || pass.name.starts_with("neighbour max");
 }
 
-bool isMaskOrReveal(std::string_view pass) {
+bool isMaskOrReveal(const render::PassTime& pass) {
     const bool isNamedSo =
-        contains(pass, "edge") || contains(pass, "mask") || contains(pass, "reveal");
-    return isNamedSo && !pass.starts_with("gather");
+        contains(pass.name, "edge") || contains(pass.name, "mask") || contains(pass.name, "reveal");
+    return isNamedSo && !pass.name.starts_with("gather");
 }
 
-bool isReveal(std::string_view pass) {
-    return contains(pass, "reveal") && !contains(pass, " of reveal");
+bool isReveal(const render::PassTime& pass) {
+    return contains(pass.name, "reveal") && !contains(pass.name, " of reveal");
 }
 
 game::Quartiles summarize(const Frames& frames, const Figure& figure) {

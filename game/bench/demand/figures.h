@@ -14,9 +14,9 @@ namespace shutter::demand {
 /// A number taken from one frame.
 using Figure = std::function<double(const render::FrameStatistics&)>;
 
-/// GPU milliseconds of the passes that `counts` picks by name.
+/// GPU milliseconds of the passes that `counts` picks.
 [[nodiscard]] double sumPasses(
-    const render::FrameStatistics& frame, const std::function<bool(std::string_view)>& counts
+    const render::FrameStatistics& frame, const std::function<bool(const render::PassTime&)>& counts
 );
 
 /// GPU milliseconds that a method adds to the sharp frame, as everywhere in the benchmark.
@@ -25,12 +25,12 @@ using Figure = std::function<double(const render::FrameStatistics&)>;
 [[nodiscard]] Figure frameTime();
 
 /// Longest motion of tiles and of their neighbourhoods.
-[[nodiscard]] bool isTileMax(std::string_view pass);
+[[nodiscard]] bool isTileMax(const render::PassTime& pass);
 /// Finding what will be revealed, and revealing it; what `hybrid` does beyond `gather`, apart from
 /// the top level and the second layer of the last pass.
-[[nodiscard]] bool isMaskOrReveal(std::string_view pass);
+[[nodiscard]] bool isMaskOrReveal(const render::PassTime& pass);
 /// Tracing and shading the rays.
-[[nodiscard]] bool isReveal(std::string_view pass);
+[[nodiscard]] bool isReveal(const render::PassTime& pass);
 
 [[nodiscard]] game::Quartiles summarize(const Frames& frames, const Figure& figure);
 

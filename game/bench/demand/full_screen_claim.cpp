@@ -13,7 +13,7 @@ constexpr double kOfTheFloor = 1.5;
 /// GPU milliseconds of the passes of one name.
 Figure timeOf(std::string_view name) {
     return [name](const render::FrameStatistics& frame) {
-        return sumPasses(frame, [name](std::string_view pass) { return pass == name; });
+        return sumPasses(frame, [name](const render::PassTime& pass) { return pass.name == name; });
     };
 }
 

@@ -19,15 +19,14 @@ constexpr double kOnHardware = 1.25;
 std::string describePasses(const Frames& frames) {
     std::vector<std::pair<double, std::string>> rows;
     std::set<std::string> names;
-    for (const gpu::PassTime& pass : frames.back().passes)
-        if (pass.name != "tone map" && !pass.name.starts_with("readback") &&
-            names.insert(pass.name).second)
+    for (const render::PassTime& pass : frames.back().passes)
+        if (pass.owner != render::PassOwner::Display && names.insert(pass.name).second)
             rows.emplace_back(
                 summarize(
                     frames,
                     [&](const render::FrameStatistics& frame) {
-                        return sumPasses(frame, [&](std::string_view name) {
-                            return name == pass.name;
+                        return sumPasses(frame, [&](const render::PassTime& other) {
+                            return other.name == pass.name;
                         });
                     }
                 ).median,

@@ -18,7 +18,7 @@ Curve drawCurve(
     std::string name,
     std::string title,
     const std::vector<Frames>& frames,
-    bool (*counts)(std::string_view)
+    bool (*counts)(const render::PassTime&)
 ) {
     Curve curve{std::move(name), std::move(title), "pixels masked", "", "time", "ms", {}};
     const Figure time = [counts](const render::FrameStatistics& frame) {

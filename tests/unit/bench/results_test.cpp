@@ -20,7 +20,9 @@ Record makeRecord(double gatherMs, double psnr) {
     Record record;
     for (double factor : {1.0, 2.0, 3.0})
         record.samples.push_back(
-            {{{"G-buffer", 10.0}, {"gather and composite", gatherMs * factor}, {"tone map", 5.0}},
+            {{{"G-buffer", 10.0},
+              {"gather and composite", gatherMs * factor, render::PassOwner::Effect},
+              {"tone map", 5.0, render::PassOwner::Display}},
              40.0}
         );
     record.hasPicture = true;
@@ -47,9 +49,14 @@ nlohmann::json describeThree() {
 
 } // namespace
 
-TEST(Cost, ToneMapAndReadBackDoNotCountAndTheGBufferIsNoEffect) {
+TEST(Cost, TheDisplayDoesNotCountAndTheSceneIsNoEffect) {
+    using render::PassOwner;
     const Sample sample{
-        {{"G-buffer", 10.0}, {"ray reveal", 3.0}, {"tone map", 5.0}, {"readback display", 1.0}},
+        {{"bend meshes", 4.0, PassOwner::Scene},
+         {"G-buffer", 6.0, PassOwner::Scene},
+         {"ray reveal", 3.0, PassOwner::Effect},
+         {"tone map", 5.0, PassOwner::Display},
+         {"readback display", 1.0, PassOwner::Display}},
         0.0};
     EXPECT_EQ(computeFrameTime(sample), 13.0);
     EXPECT_EQ(computeEffectTime(*game::findMethod("hybrid").value(), sample), 3.0);

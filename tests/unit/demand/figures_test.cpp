@@ -9,25 +9,27 @@ namespace shutter::demand {
 
 namespace {
 
-render::FrameStatistics makeFrame(std::vector<gpu::PassTime> passes) {
+using render::PassOwner;
+
+render::FrameStatistics makeFrame(std::vector<render::PassTime> passes) {
     render::FrameStatistics frame;
     frame.passes = std::move(passes);
     return frame;
 }
 
 const render::FrameStatistics kHybrid = makeFrame(
-    {{"G-buffer", 100.0},
-     {"build top level", 1.0},
-     {"tile max", 2.0},
-     {"neighbour max", 3.0},
-     {"edge", 4.0},
-     {"ray mask", 5.0},
-     {"gather without mask", 6.0},
-     {"ray reveal", 7.0},
-     {"tiles of reveal", 8.0},
-     {"gather and composite", 9.0},
-     {"tone map", 50.0},
-     {"readback display", 60.0}}
+    {{{"G-buffer", 100.0}, PassOwner::Scene},
+     {{"build top level", 1.0}, PassOwner::Rays},
+     {{"tile max", 2.0}, PassOwner::Effect},
+     {{"neighbour max", 3.0}, PassOwner::Effect},
+     {{"edge", 4.0}, PassOwner::Effect},
+     {{"ray mask", 5.0}, PassOwner::Effect},
+     {{"gather without mask", 6.0}, PassOwner::Effect},
+     {{"ray reveal", 7.0}, PassOwner::Effect},
+     {{"tiles of reveal", 8.0}, PassOwner::Effect},
+     {{"gather and composite", 9.0}, PassOwner::Effect},
+     {{"tone map", 50.0}, PassOwner::Display},
+     {{"readback display", 60.0}, PassOwner::Display}}
 );
 
 } // namespace

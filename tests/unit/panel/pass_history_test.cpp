@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/pass_groups.h"
 #include "game/play/pass_history.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,10 @@ render::FrameStatistics makeFrame(const std::vector<std::pair<const char*, doubl
 }
 
 std::vector<std::string> namesOf(const PassHistory& history) {
-    return {history.names().begin(), history.names().end()};
+    std::vector<std::string> names;
+    for (const PassHistory::Pass& pass : history.passes())
+        names.push_back(pass.name);
+    return names;
 }
 
 using Names = std::vector<std::string>;
@@ -65,19 +67,6 @@ TEST(PassHistory, ForgetsOldFramesAndPassesThatNoFrameHas) {
     EXPECT_EQ(namesOf(history), (Names{"always"}));
     EXPECT_EQ(history.milliseconds(0, 0), 1.0f);
     EXPECT_EQ(history.milliseconds(PassHistory::kFrames - 1, 0), 1000.0f);
-}
-
-TEST(PassGroups, AMethodThatDrawsManyFramesAddsAllOfThem) {
-    const auto groupOf = [](const char* method, const char* pass) {
-        return game::groupOf(*game::findMethod(method).value(), pass);
-    };
-    using game::PassGroup;
-    EXPECT_EQ(groupOf("sharp", "G-buffer"), PassGroup::Scene);
-    EXPECT_EQ(groupOf("hybrid", "G-buffer"), PassGroup::Scene);
-    EXPECT_EQ(groupOf("hybrid", "ray mask"), PassGroup::Blur);
-    EXPECT_EQ(groupOf("accumulate", "G-buffer"), PassGroup::Blur);
-    for (const char* pass : {"tone map", "window", "readback display"})
-        EXPECT_EQ(groupOf("accumulate", pass), PassGroup::Display);
 }
 
 } // namespace

@@ -64,10 +64,10 @@ TEST(Demand, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     auto kept = graph.createBuffer("kept", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     auto unread = graph.createBuffer("unread", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
     explainer.decide(ExplainedKind::Effect, "blur", {true, "something moves"});
-    explainer.beginPasses(graph, "the picture is drawn");
+    explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     addPass(graph, "draw", kept);
-    explainer.beginPasses(graph, "nobody declared a pass for this");
-    explainer.beginPasses(graph, "blur runs");
+    explainer.beginPasses(graph, PassOwner::Rays, "nobody declared a pass for this");
+    explainer.beginPasses(graph, PassOwner::Effect, "blur runs");
     addPass(graph, "blur", kept);
     addPass(graph, "lost", unread);
     explainer.decide(ExplainedKind::Pass, "rays", {false, "only sky lies behind"});
@@ -88,6 +88,8 @@ TEST(Demand, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     EXPECT_FALSE(all[4].decision.reason.empty());
 
     EXPECT_EQ(explainer.finish(graph, plan, false).size(), 1u);
+    EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Effect}))
+        << "of \"draw\" and \"blur\"";
     // The pass of the same name is not what was decided.
     ASSERT_NE(findDecision(all, "blur"), nullptr);
     EXPECT_EQ(findDecision(all, "blur")->reason, "something moves");

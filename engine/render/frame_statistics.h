@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What a frame took and counted, and why.
+#pragma once
+
+#include "engine/gpu/frame.h"
+#include "engine/render/demand.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+/// Numbers an effect reports about a frame, e.g. "rays traced".
+using Counters = std::map<std::string, uint64_t>;
+/// Figures an effect measures, e.g. "standard error"; a later frame's replaces an earlier one's.
+using Measures = std::map<std::string, double>;
+
+/// Time of one pass, and what it was spent for.
+struct PassTime : gpu::PassTime {
+    PassOwner owner = PassOwner::Scene;
+};
+
+struct FrameStatistics {
+    std::vector<PassTime> passes;  ///< in execution order
+    double cpuMilliseconds = 0.0;  ///< extraction, declaring, compiling, recording
+    double wallMilliseconds = 0.0; ///< the whole frame, including the wait for the GPU
+    /// The effects' counters, and "entity rows written" and "entity motions written".
+    Counters counters;
+    /// The effects' measures, and the CPU's part of cpuMilliseconds for "extraction ms", "entity
+    /// table ms" and "top level ms".
+    Measures measures;
+    std::vector<Explanation> explanations; ///< in the order in which things were decided
+    uint64_t transientBytes = 0;           ///< memory of the graph's images
+};
+
+} // namespace shutter::render
