@@ -2,11 +2,9 @@
 #include "game/bench/case_setup.h"
 
 #include "engine/io/content_hash.h"
+#include "engine/io/gltf_content.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <vector>
+#include <fmt/ranges.h>
 
 namespace shutter::bench {
 
@@ -21,29 +19,6 @@ core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
     if (core::Status written = shot.writeScene(file); !written)
         return written.error();
     return file;
-}
-
-/// A .gltf names other files; all that lies in its folder counts as its content.
-core::Result<std::string> hashScene(const fs::path& scene) {
-    auto own = io::computeFileHash(scene);
-    if (!own || scene.extension() != ".gltf")
-        return own;
-    std::vector<fs::path> files;
-    std::error_code failure;
-    for (const auto& entry : fs::recursive_directory_iterator(
-             scene.has_parent_path() ? scene.parent_path() : fs::path("."), failure
-         ))
-        if (entry.is_regular_file())
-            files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    std::string all;
-    for (const fs::path& file : files) {
-        auto hash = io::computeFileHash(file);
-        if (!hash)
-            return hash;
-        all += hash.value();
-    }
-    return io::computeContentHash(all);
 }
 
 /// Every option that changes a picture; the order is part of the hash.
@@ -76,7 +51,7 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto scene = writeScene(shot, folder);
     if (!scene)
         return scene.error();
-    auto sceneHash = hashScene(scene.value());
+    auto sceneHash = io::computeSceneHash(scene.value());
     if (!sceneHash)
         return sceneHash.error();
     auto program = io::computeFileHash("/proc/self/exe");
