@@ -37,6 +37,8 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     const scene::World& world, const SceneLayout& layout, const ViewRequest& request
 ) {
     SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
+    if (core::Status valid = mKeyedMotion.check(world.registry); !valid)
+        return valid.error();
     // Rows of another's making stand behind our own.
     mFrame.entities.resize(mRows.size());
     mFrame.entityMeshes.resize(mRows.size());

@@ -99,6 +99,7 @@ class FrameExtractor {
     std::vector<uint32_t> mRowOfEntity; ///< by entity index: a row, kLatent or kNone
     std::vector<uint32_t> mJoining;     ///< rows that count as moving ones from this frame on
     WorldWatch mWatch;
+    KeyedMotionCheck mKeyedMotion;
     Descendants mDescendants;
     ViewMatrices mView;
     const SceneLayout* mLayout = nullptr;

@@ -314,19 +314,21 @@ Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
     look.view.instant.reset();
     look.intermediates = {"motion", "mesh_id"};
     look.wantColor = false;
-    const scene::ExposureMotion uncapped(world, view.camera, look.view.exposure);
     const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
+    std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
     for (int i = 0; i < kLooks; ++i) {
         look.view.exposure.cap = cap;
         auto frame = extractFrame(world, mScene.layout(), look.view);
         if (!frame)
             return frame.error();
+        if (!uncapped)
+            uncapped.emplace(world, view.camera, look.view.exposure);
         auto seen = renderFrame(world, look, {});
         if (!seen)
             return seen.error();
         const auto& images = seen.value().intermediates;
         if (!tightenCap(
-                cap, frame.value(), images.at("motion"), images.at("mesh_id"), uncapped, maxPx
+                cap, frame.value(), images.at("motion"), images.at("mesh_id"), *uncapped, maxPx
             ))
             break;
     }

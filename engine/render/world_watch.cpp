@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/world_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace shutter::render {
@@ -17,7 +20,49 @@ void forEachType(const ecs::Registry& registry, Cursors& cursors, Use&& use) {
     std::apply([&](auto&... each) { (one(each), ...); }, cursors.all);
 }
 
+std::string describe(const ecs::Registry& registry, ecs::Entity entity) {
+    const auto* name = registry.find<scene::Name>(entity);
+    return name && !name->value.empty() ? fmt::format("'{}'", name->value)
+                                        : fmt::format("entity {}", entity.index);
+}
+
+/// Validates each component of type T that may have changed since `cursor`, which moves on unless
+/// one is not valid.
+template <class T, class Validate>
+core::Status
+checkChanged(const ecs::Registry& registry, ecs::ChangeCursor& cursor, Validate validate) {
+    ecs::ChangeCursor next = cursor;
+    const ecs::Changes changes = registry.changesSince<T>(next);
+    const auto checkOne = [&](ecs::Entity entity, const T& component) -> core::Status {
+        if (core::Status valid = validate(component); !valid)
+            return core::makeError("{}: {}", describe(registry, entity), valid.error().message);
+        return {};
+    };
+    if (changes.all) {
+        for (auto [entity, component] : registry.view<T>())
+            if (core::Status valid = checkOne(entity, component); !valid)
+                return valid;
+    } else {
+        for (const ecs::Entity entity : changes.entities) {
+            const T* component = registry.isAlive(entity) ? registry.find<T>(entity) : nullptr;
+            if (!component)
+                continue;
+            if (core::Status valid = checkOne(entity, *component); !valid)
+                return valid;
+        }
+    }
+    cursor = next;
+    return {};
+}
+
 } // namespace
+
+core::Status KeyedMotionCheck::check(const ecs::Registry& registry) {
+    if (core::Status paths = checkChanged<scene::PathMotion>(registry, mPaths, scene::validatePath);
+        !paths)
+        return paths;
+    return checkChanged<scene::LensMotion>(registry, mLenses, scene::validateLens);
+}
 
 WorldChanges WorldWatch::look(const ecs::Registry& registry) {
     WorldChanges changes;

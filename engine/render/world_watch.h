@@ -2,8 +2,10 @@
 // What became of a world's entities since the last look, as extraction has to know it.
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/ecs/registry.h"
 #include "engine/scene/components.h"
+#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 
 #include <cstddef>
@@ -50,6 +52,18 @@ class WorldWatch {
     /// These are there or not; with one more or less, other rows are drawn, or in another way.
     Cursors<scene::Hidden, scene::Skinned, scene::MorphWeights> mPresence;
     ecs::ChangeCursor mDrawn;
+};
+
+/// Checks paths and lenses when they change, so that whatever a game writes into them is refused
+/// before anything samples them.
+class KeyedMotionCheck {
+  public:
+    /// Error: names the entity whose path or lens is not valid (scene::validatePath, validateLens).
+    [[nodiscard]] core::Status check(const ecs::Registry& registry);
+
+  private:
+    ecs::ChangeCursor mPaths;
+    ecs::ChangeCursor mLenses;
 };
 
 /// Children of all entities of a registry.

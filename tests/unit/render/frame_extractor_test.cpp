@@ -147,4 +147,34 @@ TEST_F(KeptFrame, RowsThatOthersAppendedAreDropped) {
     EXPECT_EQ(update().entities.size(), 1u);
 }
 
+TEST_F(KeptFrame, APathThatIsNotValidIsRefusedByNameUntilItIsMended) {
+    const ecs::Entity box = addBox({0.0, 0.0, -10.0});
+    world.registry.add(box, scene::Name{"lift"});
+    world.registry.add(box, scene::PathMotion{{{0.0}, {1.0}}});
+    update();
+    world.registry.get<scene::PathMotion>(box).keys[1].seconds = 0.0;
+    for (int frame = 0; frame < 2; ++frame) {
+        const auto refused = extractor.update(world, layout, request);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(
+            refused.error().message,
+            "'lift': path: key 1 at 0 s does not come after the one before, at 0 s"
+        );
+    }
+    world.registry.get<scene::PathMotion>(box).keys.clear();
+    EXPECT_FALSE(extractor.update(world, layout, request).ok()) << "no keys";
+    world.registry.get<scene::PathMotion>(box).keys = {{0.0}, {2.0}};
+    EXPECT_TRUE(extractor.update(world, layout, request).ok());
+}
+
+TEST_F(KeptFrame, ALensThatIsNotValidIsRefused) {
+    world.registry.add(camera, scene::LensMotion{{{0.0, 0.8}, {1.0, 4.0}}});
+    const auto refused = extractor.update(world, layout, request);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().message.find("lens: the field of view of key 1"), std::string::npos)
+        << refused.error().message;
+    world.registry.get<scene::LensMotion>(camera).keys[1].yFov = 1.0;
+    EXPECT_TRUE(extractor.update(world, layout, request).ok());
+}
+
 } // namespace shutter::render
