@@ -3,6 +3,7 @@
 
 #include "engine/io/image_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -53,8 +54,12 @@ image::Image renderWithShutter(
     const std::filesystem::path picture = folder / (name + extension);
     const std::filesystem::path messages = folder / (name + ".log");
     std::filesystem::remove(picture);
-    std::string command = quote(SHUTTER_EXECUTABLE) + " render " + quote(scene.string()) +
-                          " --validate --out " + quote(picture.string());
+    std::string command = fmt::format(
+        "{} render {} --validate --out {}",
+        quote(SHUTTER_EXECUTABLE),
+        quote(scene.string()),
+        quote(picture.string())
+    );
     for (const std::string& argument : arguments)
         command += " " + quote(argument);
     command += " > " + quote(messages.string()) + " 2>&1";
