@@ -39,13 +39,12 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
     for (const std::string& aov : options.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
-            const render::Decision* blur =
+            const core::Decision* blur =
                 render::findDecision(result.statistics.explanations, "motion blur");
             core::logWarning(
                 "--aov {} is not written: {}",
                 aov,
-                blur ? "motion blur was " + render::describe(*blur)
-                     : "one ray a pixel shows no error"
+                blur ? "motion blur was " + core::describe(*blur) : "one ray a pixel shows no error"
             );
             continue;
         }

@@ -127,8 +127,8 @@ core::Result<Shot> loadShot(const RenderOptions& options) {
     return shot;
 }
 
-render::ViewRequest makeView(const Shot& shot, const RenderOptions& options, double seconds) {
-    render::ViewRequest view;
+extract::ViewRequest makeView(const Shot& shot, const RenderOptions& options, double seconds) {
+    extract::ViewRequest view;
     view.camera = shot.camera;
     auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
     if (options.flythrough && options.isFlythroughShutter)

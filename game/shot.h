@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/render/extraction.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/scene/world.h"
 #include "game/render_options.h"
 
@@ -23,7 +23,7 @@ findCamera(scene::World& world, const RenderOptions& options);
 [[nodiscard]] core::Result<Shot> loadShot(const RenderOptions& options);
 
 /// The shot's view of the frame at `seconds`.
-[[nodiscard]] render::ViewRequest
+[[nodiscard]] extract::ViewRequest
 makeView(const Shot& shot, const RenderOptions& options, double seconds);
 
 } // namespace shutter::game

@@ -35,7 +35,7 @@ nlohmann::json describePicture(const PictureStatistics& picture) {
     nlohmann::json decisions = nlohmann::json::object();
     for (const render::Explanation& line : frame.explanations)
         if (line.kind == render::ExplainedKind::Effect)
-            decisions[line.subject] = render::describe(line.decision);
+            decisions[line.subject] = core::describe(line.decision);
     return {
         {"time_s", picture.seconds},
         {"gpu_ms", gpu},

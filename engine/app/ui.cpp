@@ -6,6 +6,7 @@
 
 #include "engine/app/ui_input.h"
 #include "engine/core/check.h"
+#include "engine/gpu/address.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
 #include "shaders/app/ui_shared.h"
@@ -217,8 +218,7 @@ void Ui::record(gpu::Frame& frame, const OverlayTarget& target) {
     State::Slot& slot = mState->slots.at(target.slot);
     mState->copy(data, slot);
     shader::UiParams params{};
-    const VkDeviceAddress address = slot.vertices.address();
-    params.vertices = {static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)};
+    params.vertices = gpu::splitAddress(slot.vertices.address());
     params.clipPerPixel = {2.0f / data.DisplaySize.x, 2.0f / data.DisplaySize.y};
     gpu::BindingList bindings;
     bindings.sampled(mState->font.view(), mState->device.nearestSampler());

@@ -51,7 +51,7 @@ class WindowOutput : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
         return {true, "the picture is shown"};
     }
 

@@ -58,7 +58,7 @@ VkAccelerationStructureInstanceKHR makeRecord(const Instance& instance) {
     if (instance.flipFacing)
         flags |= VK_GEOMETRY_INSTANCE_TRIANGLE_FLIP_FACING_BIT_KHR;
     record.flags = flags & 0xFFu;
-    record.accelerationStructureReference = instance.bottomLevel;
+    record.accelerationStructureReference = instance.blas;
     return record;
 }
 

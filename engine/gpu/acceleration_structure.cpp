@@ -70,7 +70,7 @@ struct BoxBuild : SingleBuild {
 };
 
 /// Everything one BLAS build needs; addresses into `geometries` stay valid while it lives.
-struct BottomLevelBuild {
+struct BlasBuild {
     std::vector<VkAccelerationStructureGeometryKHR> geometries;
     std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
     VkAccelerationStructureBuildGeometryInfoKHR info{
@@ -78,7 +78,7 @@ struct BottomLevelBuild {
     VkAccelerationStructureBuildSizesInfoKHR sizes{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
 
-    BottomLevelBuild(const Device& device, const std::vector<TriangleGeometry>& mesh) {
+    BlasBuild(const Device& device, const std::vector<TriangleGeometry>& mesh) {
         std::vector<uint32_t> counts;
         for (const TriangleGeometry& triangles : mesh) {
             geometries.push_back(describeTriangles(triangles));
@@ -159,7 +159,7 @@ void AccelerationStructure::release() {
 }
 
 std::vector<AccelerationStructure>
-buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> meshes) {
+buildBlas(Device& device, std::span<const std::vector<TriangleGeometry>> meshes) {
     std::vector<AccelerationStructure> structures(meshes.size());
     for (size_t i = 0; i < meshes.size(); ++i) {
         uint64_t triangleCount = 0;
@@ -167,7 +167,7 @@ buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> 
             triangleCount += triangles.triangleCount;
         if (triangleCount == 0)
             continue;
-        BottomLevelBuild build(device, meshes[i]);
+        BlasBuild build(device, meshes[i]);
         structures[i] = AccelerationStructure(
             device,
             fmt::format("BLAS {}", i),
@@ -185,7 +185,7 @@ buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> 
     return structures;
 }
 
-void TopLevel::prepare(Device& device, std::span<const Instance> instances) {
+void Tlas::prepare(Device& device, std::span<const Instance> instances) {
     mCount = static_cast<uint32_t>(instances.size());
     const bool grow = !mStructure || mCount > mCapacity;
     if (grow)
@@ -215,13 +215,12 @@ void TopLevel::prepare(Device& device, std::span<const Instance> instances) {
     mScratch = makeScratch(device, "TLAS scratch", sizes.buildScratchSize);
 }
 
-void TopLevel::record(const Device& device, VkCommandBuffer commands) const {
+void Tlas::record(const Device& device, VkCommandBuffer commands) const {
     InstanceBuild(mInstances.address())
         .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
 }
 
-std::vector<AccelerationStructure>
-buildTopLevels(Device& device, std::span<const Instance> instances) {
+std::vector<AccelerationStructure> buildTlas(Device& device, std::span<const Instance> instances) {
     std::vector<VkAccelerationStructureInstanceKHR> records;
     records.reserve(instances.size());
     for (const Instance& instance : instances)
@@ -252,7 +251,7 @@ buildTopLevels(Device& device, std::span<const Instance> instances) {
     return structures;
 }
 
-void BoxLevel::prepare(Device& device, std::span<const BoxGeometry> boxes) {
+void BoxBlas::prepare(Device& device, std::span<const BoxGeometry> boxes) {
     SHUTTER_CHECK(!boxes.empty(), "a structure of no boxes");
     mCount = static_cast<uint32_t>(boxes.size());
     const bool grow = mCount > mCapacity;
@@ -260,7 +259,7 @@ void BoxLevel::prepare(Device& device, std::span<const BoxGeometry> boxes) {
         mCapacity = std::max(mCount + mCount / 2, 16u);
         mBoxes = Buffer(
             device,
-            "moving boxes",
+            "swept boxes",
             mCapacity * sizeof(BoxGeometry),
             kBuildInputUsage,
             MemoryUse::Upload
@@ -279,7 +278,7 @@ void BoxLevel::prepare(Device& device, std::span<const BoxGeometry> boxes) {
     mScratch = makeScratch(device, "box scratch", sizes.buildScratchSize);
 }
 
-void BoxLevel::record(const Device& device, VkCommandBuffer commands) {
+void BoxBlas::record(const Device& device, VkCommandBuffer commands) {
     BoxBuild(mBoxes.address())
         .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
 }

@@ -52,7 +52,7 @@ class AccelerationStructure {
 /// One BLAS a mesh, built and waited for: load time only. A mesh whose geometries hold no triangle
 /// gets an empty structure (false).
 [[nodiscard]] std::vector<AccelerationStructure>
-buildBottomLevel(Device& device, std::span<const std::vector<TriangleGeometry>> meshes);
+buildBlas(Device& device, std::span<const std::vector<TriangleGeometry>> meshes);
 
 /// An instance of a BLAS.
 struct Instance {
@@ -61,14 +61,14 @@ struct Instance {
     bool cullDisabled = true;    ///< double sided
     bool flipFacing = false;     ///< front faces run clockwise: their vertices were mirrored
     uint32_t mask = 0xFF;        ///< rays whose cull mask shares a bit meet it
-    VkDeviceAddress bottomLevel = 0;
+    VkDeviceAddress blas = 0;
 
     bool operator==(const Instance&) const = default;
 };
 
 /// One TLAS an instance, built and waited for: load time only.
 [[nodiscard]] std::vector<AccelerationStructure>
-buildTopLevels(Device& device, std::span<const Instance> instances);
+buildTlas(Device& device, std::span<const Instance> instances);
 
 /// An axis-aligned box; finite, min at or below max.
 struct BoxGeometry {
@@ -78,7 +78,7 @@ struct BoxGeometry {
 
 /// A BLAS of boxes whose contents shaders decide about, rebuilt whenever they moved. A box's index
 /// is its primitive index. Keeps its buffers and grows them.
-class BoxLevel {
+class BoxBlas {
   public:
     /// Writes the boxes, at least one, and (re)creates buffers; call before record(). The GPU must
     /// be done with the last build's boxes.
@@ -97,10 +97,10 @@ class BoxLevel {
 };
 
 /// A TLAS that is rebuilt whenever its instances moved. Keeps its buffers and grows them.
-class TopLevel {
+class Tlas {
   public:
     /// Writes the instances and (re)creates buffers; call before record(). The GPU must be done
-    /// with the last build's instances (one TopLevel a frame in flight).
+    /// with the last build's instances (one Tlas a frame in flight).
     void prepare(Device& device, std::span<const Instance> instances);
     /// Records the build. The caller places barriers (build reads and writes
     /// ACCELERATION_STRUCTURE_BUILD).

@@ -10,12 +10,12 @@ namespace shutter::gpu {
 
 namespace {
 
-constexpr MemoryWish kDeviceWish{0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+constexpr MemoryRequirement kDeviceWish{0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
 
 VkDeviceMemory allocate(
     Device& device,
     const VkMemoryRequirements& needs,
-    const MemoryWish& wish,
+    const MemoryRequirement& wish,
     bool addressable,
     const std::string& name
 ) {
@@ -47,7 +47,7 @@ void freeMemory(Device& device, VkDeviceMemory memory, VkDeviceSize bytes) {
 
 } // namespace
 
-uint32_t findMemoryType(const Device& device, uint32_t typeBits, const MemoryWish& wish) {
+uint32_t findMemoryType(const Device& device, uint32_t typeBits, const MemoryRequirement& wish) {
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
     for (const VkMemoryPropertyFlags properties : {wish.required | wish.preferred, wish.required})
@@ -74,7 +74,7 @@ Buffer::Buffer(
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), mBuffer, &needs);
-    MemoryWish wish = kDeviceWish;
+    MemoryRequirement wish = kDeviceWish;
     if (use != MemoryUse::Device)
         wish = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0};
     if (use == MemoryUse::Readback)

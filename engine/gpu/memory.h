@@ -19,14 +19,14 @@ enum class MemoryUse : uint8_t {
     Readback, ///< mapped, read by the CPU
 };
 
-struct MemoryWish {
+struct MemoryRequirement {
     VkMemoryPropertyFlags required = 0;
     VkMemoryPropertyFlags preferred = 0; ///< taken where there is such memory
 };
 
 /// First memory type in `typeBits` that fits the wish. Throws DeviceError where none does.
 [[nodiscard]] uint32_t
-findMemoryType(const Device& device, uint32_t typeBits, const MemoryWish& wish);
+findMemoryType(const Device& device, uint32_t typeBits, const MemoryRequirement& wish);
 
 class Buffer {
   public:

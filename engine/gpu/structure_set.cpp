@@ -85,18 +85,16 @@ VkAccelerationStructureBuildGeometryInfoKHR StructureSet::describe(const Build& 
     return info;
 }
 
-bool StructureSet::prepareBottomLevels(
-    Device& device, std::vector<BottomLevelDesc> levels, bool refits
-) {
+bool StructureSet::prepareBlas(Device& device, std::vector<BlasDesc> levels, bool refits) {
     std::vector<Build> builds;
-    for (const BottomLevelDesc& level : levels) {
+    for (const BlasDesc& level : levels) {
         SHUTTER_CHECK(level.triangles.empty() || level.boxes.empty(), "two kinds in a level");
         Build& build = builds.emplace_back();
         for (const TriangleGeometry& triangles : level.triangles) {
             build.geometries.push_back(describeTriangles(triangles));
             build.ranges.push_back({triangles.triangleCount, 0, 0, 0});
         }
-        for (const BottomLevelDesc::Boxes& boxes : level.boxes) {
+        for (const BlasDesc::Boxes& boxes : level.boxes) {
             build.geometries.push_back(describeBoxes(boxes.boxes));
             build.ranges.push_back({boxes.count, 0, 0, 0});
         }
@@ -122,7 +120,7 @@ bool StructureSet::prepareBottomLevels(
     return false;
 }
 
-void StructureSet::prepareTopLevels(Device& device, std::span<const Instance> instances) {
+void StructureSet::prepareTlas(Device& device, std::span<const Instance> instances) {
     std::vector<VkAccelerationStructureInstanceKHR> records;
     records.reserve(instances.size());
     for (const Instance& instance : instances)

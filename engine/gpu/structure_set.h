@@ -12,7 +12,7 @@
 namespace shutter::gpu {
 
 /// What a bottom level is made of: triangles or boxes, one kind only.
-struct BottomLevelDesc {
+struct BlasDesc {
     struct Boxes {
         VkDeviceAddress boxes = 0; ///< of BoxGeometry[] on the device
         uint32_t count = 0;
@@ -38,11 +38,10 @@ class StructureSet {
     /// Makes room for bottom levels; record() builds them. Geometries without triangles or boxes
     /// are fine. \param refits allow BuildAction::Refit \return true: as many as before of the same
     /// sizes, what was built last is still there
-    bool
-    prepareBottomLevels(Device& device, std::vector<BottomLevelDesc> levels, bool refits = false);
+    bool prepareBlas(Device& device, std::vector<BlasDesc> levels, bool refits = false);
     /// Makes room for top levels of one instance each and writes the instances. The GPU must be
     /// done with the last ones.
-    void prepareTopLevels(Device& device, std::span<const Instance> instances);
+    void prepareTlas(Device& device, std::span<const Instance> instances);
     /// Records the builds; the caller places barriers.
     /// \param actions one a structure
     void record(

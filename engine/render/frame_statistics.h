@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/gpu/frame.h"
-#include "engine/render/demand.h"
+#include "engine/render/explainer.h"
 
 #include <cstdint>
 #include <map>
@@ -29,7 +29,7 @@ struct FrameStatistics {
     /// The effects' counters, and "entity rows written" and "entity motions written".
     Counters counters;
     /// The effects' measures, and the CPU's part of cpuMilliseconds for "extraction ms", "entity
-    /// table ms" and "top level ms".
+    /// table ms" and "TLAS ms".
     Measures measures;
     std::vector<Explanation> explanations; ///< in the order in which things were decided
     uint64_t transientBytes = 0;           ///< memory of the graph's images

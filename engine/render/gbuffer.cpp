@@ -6,6 +6,7 @@
 #include "spirv/render/sky.frag.h"
 #include "spirv/render/sky.vert.h"
 
+#include "engine/gpu/address.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 
@@ -18,12 +19,13 @@ namespace {
 constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kMotionDepthFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kMeshIdFormat = VK_FORMAT_R32_UINT;
+constexpr VkFormat kEntityIdFormat = VK_FORMAT_R32_UINT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 using Variant = GBufferPass::Variant;
 
-gpu::GraphicsPipelineDesc describeGeometry(const GpuScene& scene, Variant variant, bool moves) {
+gpu::GraphicsPipelineDesc
+describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "G-buffer";
     desc.vertexSpirv = render_gbuffer_vert;
@@ -31,14 +33,14 @@ gpu::GraphicsPipelineDesc describeGeometry(const GpuScene& scene, Variant varian
     desc.interface.pushConstantBytes = sizeof(shader::DrawConstants);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {variant == Variant::Masked, variant == Variant::Blended, moves};
-    desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kMeshIdFormat};
+    desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthWrite = variant != Variant::Blended;
     desc.blendFirstOnly = variant == Variant::Blended;
     return desc;
 }
 
-gpu::GraphicsPipelineDesc describeSky(const GpuScene& scene) {
+gpu::GraphicsPipelineDesc describeSky(const gpu_scene::GpuScene& scene) {
     gpu::GraphicsPipelineDesc desc = describeGeometry(scene, Variant::Opaque, false);
     desc.name = "sky";
     desc.vertexSpirv = render_sky_vert;
@@ -54,11 +56,12 @@ class Recorder {
   public:
     Recorder(
         gpu::Frame& commands,
-        const ExtractedFrame& frame,
-        const GpuScene& scene,
+        const extract::ExtractedFrame& frame,
+        const gpu_scene::GpuScene& scene,
         VkDeviceAddress constants
     )
-        : mCommands(commands), mFrame(frame), mScene(scene), mConstants(splitAddress(constants)) {}
+        : mCommands(commands), mFrame(frame), mScene(scene),
+          mConstants(gpu::splitAddress(constants)) {}
 
     /// Binds the pipeline unless it is bound.
     void bind(const gpu::Pipeline& pipeline) {
@@ -66,8 +69,8 @@ class Recorder {
             mCommands.bind(pipeline, {}, nullptr, 0, mScene.textureSet());
     }
 
-    void draw(const GBufferPass::Pipelines& pipelines, const DrawItem& item) {
-        const SceneLayout::GeometryInfo& info = mScene.layout().geometries[item.geometry];
+    void draw(const GBufferPass::Pipelines& pipelines, const extract::DrawItem& item) {
+        const extract::SceneLayout::GeometryInfo& info = mScene.layout().geometries[item.geometry];
         const bool moves = mFrame.entities[item.entity].motion != shader::kNoMotion;
         bind(moves ? pipelines.moving : pipelines.still);
         push(item.entity, item.geometryRow);
@@ -99,26 +102,28 @@ class Recorder {
     }
 
     gpu::Frame& mCommands;
-    const ExtractedFrame& mFrame;
-    const GpuScene& mScene;
+    const extract::ExtractedFrame& mFrame;
+    const gpu_scene::GpuScene& mScene;
     math::uvec2 mConstants;
     const gpu::Pipeline* mBound = nullptr;
 };
 
 } // namespace
 
-GBufferPass::Pipelines::Pipelines(gpu::Device& device, const GpuScene& scene, Variant variant)
+GBufferPass::Pipelines::Pipelines(
+    gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant
+)
     : still(device, describeGeometry(scene, variant, false)),
       moving(device, describeGeometry(scene, variant, true)) {}
 
-GBufferPass::GBufferPass(gpu::Device& device, const GpuScene& scene)
+GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : mOpaque(device, scene, Variant::Opaque), mMasked(device, scene, Variant::Masked),
       mBlended(device, scene, Variant::Blended), mSky(device, describeSky(scene)) {}
 
 GBuffer GBufferPass::declare(
     graph::Graph& graph,
-    const ExtractedFrame& frame,
-    const GpuScene& scene,
+    const extract::ExtractedFrame& frame,
+    const gpu_scene::GpuScene& scene,
     graph::BufferHandle shapes,
     VkDeviceAddress frameConstants
 ) const {
@@ -128,7 +133,7 @@ GBuffer GBufferPass::declare(
     targets.color = graph.createImage("color", {width, height, kColorFormat});
     targets.normal = graph.createImage("normal", {width, height, kNormalFormat});
     targets.motionDepth = graph.createImage("motion depth", {width, height, kMotionDepthFormat});
-    targets.meshId = graph.createImage("mesh id", {width, height, kMeshIdFormat});
+    targets.entityId = graph.createImage("entity id", {width, height, kEntityIdFormat});
     const auto depth = graph.createImage("depth buffer", {width, height, kDepthFormat});
 
     struct Data {};
@@ -143,21 +148,23 @@ GBuffer GBufferPass::declare(
             targets.color = builder.colorTarget(targets.color, zero);
             targets.normal = builder.colorTarget(targets.normal, zero);
             targets.motionDepth = builder.colorTarget(targets.motionDepth, zero);
-            targets.meshId =
-                builder.colorTarget(targets.meshId, graph::ClearColor::uints(shader::kNoEntity));
+            targets.entityId =
+                builder.colorTarget(targets.entityId, graph::ClearColor::uints(shader::kNoEntity));
             (void)builder.depthTarget(depth, 0.0f);
         },
         [this, &frame, &scene, frameConstants](const Data&, graph::PassContext& context) {
             Recorder recorder(context.frame, frame, scene, frameConstants);
             vkCmdBindIndexBuffer(context.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
             for (const bool masked : {false, true})
-                frame.opaque.forEach([&](const DrawItem& item) {
+                frame.opaque.forEach([&](const extract::DrawItem& item) {
                     if ((item.alphaMode == scene::AlphaMode::Mask) == masked)
                         recorder.draw(masked ? mMasked : mOpaque, item);
                 });
             recorder.bind(mSky);
             recorder.drawScreen();
-            frame.blended.forEach([&](const DrawItem& item) { recorder.draw(mBlended, item); });
+            frame.blended.forEach([&](const extract::DrawItem& item) {
+                recorder.draw(mBlended, item);
+            });
         }
     );
     return targets;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/graph.h"
-#include "engine/render/extraction.h"
-#include "engine/render/gpu_scene.h"
 
 #include <cstdint>
 
@@ -17,7 +17,7 @@ struct GBuffer {
     graph::ImageHandle normal; ///< RGBA16F, xyz unit, world axes; 0 where nothing is
     graph::ImageHandle
         motionDepth; ///< RGBA32F: motion.xy pixels open to close, depth metres along the view
-    graph::ImageHandle meshId; ///< R32_UINT: row of the entity table, or kNoEntity
+    graph::ImageHandle entityId; ///< R32_UINT: row of the entity table, or kNoEntity
 };
 
 /// The pipelines of the G-buffer; one a scene (they know its texture table).
@@ -27,20 +27,20 @@ class GBufferPass {
 
     /// Of one variant.
     struct Pipelines {
-        Pipelines(gpu::Device& device, const GpuScene& scene, Variant variant);
+        Pipelines(gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant);
 
         gpu::Pipeline still;  ///< of entities that have no motion: works out none and writes 0
         gpu::Pipeline moving; ///< of the others
     };
 
-    GBufferPass(gpu::Device& device, const GpuScene& scene);
+    GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);
 
     /// Declares the pass. `frame` and `scene` must live until it has been recorded.
-    /// \param shapes vertices of bent meshes; invalid: there are none
+    /// \param shapes vertices of deformed meshes; invalid: there are none
     [[nodiscard]] GBuffer declare(
         graph::Graph& graph,
-        const ExtractedFrame& frame,
-        const GpuScene& scene,
+        const extract::ExtractedFrame& frame,
+        const gpu_scene::GpuScene& scene,
         graph::BufferHandle shapes,
         VkDeviceAddress frameConstants
     ) const;

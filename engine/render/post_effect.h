@@ -6,7 +6,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/graph.h"
-#include "engine/render/demand.h"
+#include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
 
@@ -19,31 +19,19 @@
 
 namespace shutter::render {
 
-/// What rays need; handles of this frame.
-struct RayScene {
-    graph::BufferHandle topLevelBuffer;    ///< read it with Access::AccelerationRead
-    graph::BufferHandle movingLevelBuffer; ///< likewise, unless it is invalid: there is no second
-    /// Levels of bent meshes, read with AccelerationRead, and their vertices, read with ShaderRead;
-    /// invalid where nothing is bent.
-    graph::BufferHandle shapeLevelsBuffer;
-    graph::BufferHandle shapesBuffer;
-    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
-    VkDescriptorSet textures = VK_NULL_HANDLE;
-    VkDeviceAddress frameConstants = 0;
-    bool hasBlended = false; ///< blended surfaces may be in the picture
-};
-
-/// What rays that each have their own time need (moving_scene.h); handles of this frame.
-struct MovingRays {
-    graph::BufferHandle topLevelBuffer; ///< read it with Access::AccelerationRead
-    graph::BufferHandle boxesBuffer;    ///< the same, unless it is invalid: then nothing moves
-    /// Vertices of bent meshes at the raster instant, open and close (where their motion is told
-    /// from); read it with Access::ShaderRead, unless it is invalid: then nothing is bent.
-    graph::BufferHandle shapesBuffer;
-    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
-    VkDescriptorSet textures = VK_NULL_HANDLE;
-    VkDeviceAddress frameConstants = 0;
-    VkDeviceAddress movingConstants = 0; ///< shader::MovingConstants
+/// What an effect may base its decision on.
+struct ViewFacts {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool moves = false; ///< something in the picture, or the camera, moves
+    double exposureSeconds = 0.0;
+    double rasterTime = 1.0; ///< s of the raster instant in the exposure, [0, 1]
+    bool deviceHasRays = false;
+    bool deviceHasRayQuery = false; ///< rays that each have their own time can be traced
+    /// Whether rays past what moves could find a surface (extract::decideReveal); skipped where
+    /// nothing moves.
+    core::Decision reveal;
+    bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
 };
 
 /// Named intermediates that somebody asked to see (`--aov`).
@@ -72,10 +60,10 @@ struct PostContext {
     graph::Graph& graph;
     const ViewFacts& facts;
     const GBuffer& gbuffer;
-    const RayScene* rays;         ///< null where no effect asked for rays
-    const MovingRays* movingRays; ///< null where no effect asked for moving rays
-    graph::ImageHandle color;     ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display;   ///< display-encoded, once somebody made it
+    const graph::RayScene* rays;       ///< null where no effect asked for rays
+    const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
+    graph::ImageHandle color;          ///< linear HDR so far; an effect replaces it
+    graph::ImageHandle display;        ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
@@ -102,14 +90,14 @@ class PostEffect {
     [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Effect; }
 
     /// Pure: depends on the facts and the effect's settings only.
-    [[nodiscard]] virtual Decision ask(const ViewFacts& facts) const = 0;
+    [[nodiscard]] virtual core::Decision ask(const ViewFacts& facts) const = 0;
 
     /// Whether it traces rays at the raster instant; counts when it runs. Pure, as ask(). Without a
     /// reason it never does.
-    [[nodiscard]] virtual Decision askRays(const ViewFacts&) const { return {}; }
+    [[nodiscard]] virtual core::Decision askRays(const ViewFacts&) const { return {}; }
 
     /// The same for rays at any time of the exposure.
-    [[nodiscard]] virtual Decision askMovingRays(const ViewFacts&) const { return {}; }
+    [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;

@@ -2,11 +2,12 @@
 #include "engine/render/renderer.h"
 
 #include "engine/core/check.h"
+#include "engine/extract/demand.h"
+#include "engine/extract/instance_masks.h"
+#include "engine/extract/motion_cap.h"
+#include "engine/gpu/address.h"
 #include "engine/graph/dump.h"
 #include "engine/graph/execute.h"
-#include "engine/render/backdrop.h"
-#include "engine/render/motion_cap.h"
-#include "engine/render/ray_masks.h"
 #include "engine/scene/shutter.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.moves = moves;
     if (!request.view.instant)
         facts.exposureSeconds = request.view.exposure.close - request.view.exposure.open;
-    facts.rasterShare = request.view.exposure.rasterShare;
+    facts.rasterTime = request.view.exposure.rasterTime;
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
     facts.displayWanted = request.wantDisplay || request.showsDisplay;
@@ -43,14 +44,14 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
 }
 
 /// What all effects together want: the first that wants it, or the last that says why not.
-void join(Decision& all, const std::string& effect, const Decision& own) {
+void join(core::Decision& all, const std::string& effect, const core::Decision& own) {
     if (!all.run && !own.reason.empty())
         all = {own.run, effect + ": " + own.reason};
 }
 
-void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
-    const SurfaceDemand surfaces = decideSurfaces(frame);
-    explainer.decide(ExplainedKind::Work, "bent meshes", surfaces.bending);
+void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer) {
+    const extract::SurfaceDemand surfaces = extract::decideSurfaces(frame);
+    explainer.decide(ExplainedKind::Work, "deformed meshes", surfaces.deformation);
     explainer.decide(ExplainedKind::Work, "alpha mask", surfaces.alphaMask);
     explainer.decide(ExplainedKind::Work, "blending", surfaces.blending);
 }
@@ -58,8 +59,8 @@ void explainSurfaces(const ExtractedFrame& frame, Explainer& explainer) {
 } // namespace
 
 Renderer::Slot::Slot(gpu::Device& device)
-    : frame(device), readback(device), entityTable(device), deformation(device), topLevels(device),
-      movingScene(device) {}
+    : frame(device), readback(device), entityTable(device), deformation(device), frameTlas(device),
+      timedScene(device) {}
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
@@ -76,14 +77,14 @@ Renderer::RunningEffects Renderer::askEffects(
     std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
 ) {
     RunningEffects running;
-    running.rays = running.movingRays = {false, "no effect that runs traces any"};
+    running.rays = running.timedRays = {false, "no effect that runs traces any"};
     for (PostEffect* effect : effects) {
-        Decision decision = effect->ask(facts);
-        const Decision rays = effect->askRays(facts);
-        const Decision movingRays = effect->askMovingRays(facts);
-        if (decision.run && (rays.run || movingRays.run) && !facts.deviceHasRays)
+        core::Decision decision = effect->ask(facts);
+        const core::Decision rays = effect->askRays(facts);
+        const core::Decision timedRays = effect->askTimedRays(facts);
+        if (decision.run && (rays.run || timedRays.run) && !facts.deviceHasRays)
             decision = {false, "it needs rays, which the device cannot trace"};
-        if (decision.run && movingRays.run && !facts.deviceHasRayQuery)
+        if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
             decision = {false, "it needs ray queries, which the device lacks"};
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
         if (!decision.run)
@@ -91,16 +92,16 @@ Renderer::RunningEffects Renderer::askEffects(
         running.effects.push_back({effect});
         running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
-        join(running.movingRays, effect->name(), movingRays);
+        join(running.timedRays, effect->name(), timedRays);
     }
     return running;
 }
 
 Renderer::TableAddresses Renderer::uploadTables(
     Slot& slot,
-    ExtractedFrame& frame,
-    const ViewRequest& view,
-    std::span<const shader::Geometry> bent
+    extract::ExtractedFrame& frame,
+    const extract::ViewRequest& view,
+    std::span<const shader::Geometry> deformed
 ) {
     const std::span<const shader::Geometry> own = mScene.geometryRows();
     const VkDeviceSize lightsAt = alignTable(sizeof(shader::FrameConstants));
@@ -108,8 +109,8 @@ Renderer::TableAddresses Renderer::uploadTables(
     const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
     const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
     const VkDeviceSize total =
-        bent.empty() ? geometriesAt
-                     : geometriesAt + (own.size() + bent.size()) * sizeof(shader::Geometry);
+        deformed.empty() ? geometriesAt
+                         : geometriesAt + (own.size() + deformed.size()) * sizeof(shader::Geometry);
     const auto response = scene::computeResponseTable(view.exposure.shutter.response);
     gpu::Buffer& tables = slot.tables;
     if (tables.bytes() < total)
@@ -120,45 +121,46 @@ Renderer::TableAddresses Renderer::uploadTables(
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Upload
         );
-    frame.constants.entities = splitAddress(slot.entityTable.rows());
-    frame.constants.entityMotions = splitAddress(slot.entityTable.motions());
-    frame.constants.lights = splitAddress(tables.address() + lightsAt);
-    frame.constants.geometries =
-        splitAddress(bent.empty() ? mScene.geometryTable() : tables.address() + geometriesAt);
-    frame.constants.materials = splitAddress(mScene.materialTable());
+    frame.constants.entities = gpu::splitAddress(slot.entityTable.rows());
+    frame.constants.entityMotions = gpu::splitAddress(slot.entityTable.motions());
+    frame.constants.lights = gpu::splitAddress(tables.address() + lightsAt);
+    frame.constants.geometries = gpu::splitAddress(
+        deformed.empty() ? mScene.geometryTable() : tables.address() + geometriesAt
+    );
+    frame.constants.materials = gpu::splitAddress(mScene.materialTable());
     tables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
     tables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
     if (response)
         tables.writeBytes(&*response, sizeof(*response), responseAt);
-    if (!bent.empty()) {
+    if (!deformed.empty()) {
         tables.write(own, geometriesAt);
-        tables.write(bent, geometriesAt + own.size_bytes());
+        tables.write(deformed, geometriesAt + own.size_bytes());
     }
     return {tables.address(), response ? tables.address() + responseAt : 0};
 }
 
-void Renderer::declareTopLevels(
+void Renderer::declareTlas(
     Slot& slot,
     graph::Graph& graph,
-    ExtractedFrame& frame,
-    const DeformedShapes& shapes,
-    RayScene& rays
+    extract::ExtractedFrame& frame,
+    const gpu_scene::DeformedMeshes& shapes,
+    graph::RayScene& rays
 ) {
-    mScene.buildBottomLevels();
-    const TopLevelHandles levels = slot.topLevels->declare(graph, frame, mScene, shapes);
-    rays.topLevelBuffer = levels.buffer;
-    rays.movingLevelBuffer = levels.movingBuffer;
-    rays.shapeLevelsBuffer = levels.shapesBuffer;
-    rays.shapesBuffer = shapes.buffer;
-    rays.topLevel = levels.level;
-    frame.constants.movingLevel = splitAddress(levels.movingLevel);
+    mScene.buildAllBlas();
+    const rays::TlasHandles levels = slot.frameTlas->declare(graph, frame, mScene, shapes);
+    rays.tlasBuffer = levels.buffer;
+    rays.movingTlasBuffer = levels.movingBuffer;
+    rays.deformedBlasBuffer = levels.deformedBuffer;
+    rays.deformedBuffer = shapes.buffer;
+    rays.tlas = levels.level;
+    frame.constants.movingTlas = gpu::splitAddress(levels.movingTlas);
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
     intermediates.publish("motion", gbuffer.motionDepth);
     intermediates.publish("depth", gbuffer.motionDepth);
     intermediates.publish("normal", gbuffer.normal);
-    intermediates.publish("mesh_id", gbuffer.meshId);
+    intermediates.publish("mesh_id", gbuffer.entityId);
 }
 
 core::Result<FrameResult> Renderer::renderFrame(
@@ -181,10 +183,10 @@ core::Status Renderer::submitFrame(
     auto extracted = mExtractor.update(world, mScene.layout(), request.view);
     if (!extracted)
         return extracted.error();
-    ExtractedFrame& frame = *extracted.value();
+    extract::ExtractedFrame& frame = *extracted.value();
     ViewFacts facts = stateFacts(request, frame.moves, mDevice);
     if (facts.moves && facts.exposureSeconds > 0.0)
-        facts.reveal = decideReveal(frame, mScene.layout());
+        facts.reveal = extract::decideReveal(frame, mScene.layout());
     FrameStatistics& statistics = pending.result.statistics;
     statistics.measures["extraction ms"] = nowMilliseconds() - pending.startMilliseconds;
     Explainer explainer;
@@ -192,12 +194,12 @@ core::Status Renderer::submitFrame(
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
-        explainer.decide(ExplainedKind::Work, "rays at any time", running.movingRays);
+        explainer.decide(ExplainedKind::Work, "rays at any time", running.timedRays);
     }
 
-    std::optional<MovingTables> moving;
-    if (running.movingRays.run) {
-        auto computed = computeMovingTables(world, mScene.layout(), request.view, frame);
+    std::optional<extract::TimedTables> moving;
+    if (running.timedRays.run) {
+        auto computed = extract::computeTimedTables(world, mScene.layout(), request.view, frame);
         if (!computed)
             return computed.error();
         moving = std::move(computed).value();
@@ -210,12 +212,12 @@ core::Status Renderer::submitFrame(
         slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer
     );
     statistics.measures["entity table ms"] = mTableMilliseconds;
-    statistics.measures["top level ms"] = mTopLevelMilliseconds;
+    statistics.measures["TLAS ms"] = mTlasMilliseconds;
     statistics.counters["entity rows written"] = mWritten.rows;
     statistics.counters["entity motions written"] = mWritten.motions;
     auto plan = graph::execute(graph, slot.frame, mPool);
     if (!plan) {
-        slot.topLevels.emplace(mDevice); // what was to be built was not
+        slot.frameTlas.emplace(mDevice); // what was to be built was not
         return plan.error();
     }
     slot.frame.submit(request.semaphores);
@@ -282,26 +284,26 @@ std::vector<Renderer::PendingEffect> Renderer::listPending(
     return pending;
 }
 
-void Renderer::releaseIdle(const ExtractedFrame& frame, const RunningEffects& running) {
+void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running) {
     // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
-    const bool anyRays = running.mayTrace || running.movingRays.run;
-    const bool bendingIdle = mBendingIdle.advance(!frame.deformed.empty());
+    const bool anyRays = running.mayTrace || running.timedRays.run;
+    const bool deformationIdle = mDeformationIdle.advance(!frame.deformed.empty());
     const bool raysIdle = mRaysIdle.advance(running.rays.run);
-    const bool movingRaysIdle = mMovingRaysIdle.advance(running.movingRays.run);
+    const bool timedRaysIdle = mTimedRaysIdle.advance(running.timedRays.run);
     for (const auto& slot : mSlots) {
-        if (bendingIdle)
+        if (deformationIdle)
             slot->deformation.emplace(mDevice);
         if (raysIdle)
-            slot->topLevels.emplace(mDevice);
-        if (movingRaysIdle)
-            slot->movingScene.emplace(mDevice);
+            slot->frameTlas.emplace(mDevice);
+        if (timedRaysIdle)
+            slot->timedScene.emplace(mDevice);
     }
-    if (mBottomLevelsIdle.advance(anyRays))
-        mScene.releaseBottomLevels();
+    if (mBlasIdle.advance(anyRays))
+        mScene.releaseBlas();
 }
 
 core::Result<scene::MotionCap>
-Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
+Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
     // A turning mover's chord is not proportional to its angle: a second look finds the rest.
     constexpr int kLooks = 4;
     const double percent = view.exposure.shutter.maxBlurPercent;
@@ -318,7 +320,7 @@ Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
     std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
     for (int i = 0; i < kLooks; ++i) {
         look.view.exposure.cap = cap;
-        auto frame = extractFrame(world, mScene.layout(), look.view);
+        auto frame = extract::extractFrame(world, mScene.layout(), look.view);
         if (!frame)
             return frame.error();
         if (!uncapped)
@@ -327,7 +329,7 @@ Renderer::measureMotionCap(const scene::World& world, const ViewRequest& view) {
         if (!seen)
             return seen.error();
         const auto& images = seen.value().intermediates;
-        if (!tightenCap(
+        if (!extract::tightenCap(
                 cap, frame.value(), images.at("motion"), images.at("mesh_id"), *uncapped, maxPx
             ))
             break;
@@ -340,49 +342,49 @@ Renderer::Tickets Renderer::declareFrame(
     graph::Graph& graph,
     const FrameRequest& request,
     const ViewFacts& facts,
-    ExtractedFrame& frame,
-    const MovingTables* moving,
+    extract::ExtractedFrame& frame,
+    const extract::TimedTables* moving,
     RunningEffects& running,
     Explainer& explainer
 ) {
     explainer.beginPasses(graph, PassOwner::Scene, "a skin or morph target is drawn");
-    const DeformedShapes shapes = slot.deformation->declare(graph, frame, mScene);
-    std::vector<shader::Geometry> bent = shapes.rows;
-    const size_t firstShapeGeometry = mScene.geometryRows().size() + bent.size();
+    const gpu_scene::DeformedMeshes shapes = slot.deformation->declare(graph, frame, mScene);
+    std::vector<shader::Geometry> deformed = shapes.rows;
+    const size_t firstDeformedGeometry = mScene.geometryRows().size() + deformed.size();
     if (moving) {
-        mScene.buildBottomLevels(); // instances of bent meshes ask for their masks
+        mScene.buildAllBlas(); // instances of deformed meshes ask for their masks
         const std::vector<shader::Geometry>& keyed =
-            slot.movingScene->prepareShapes(*moving, mScene);
-        bent.insert(bent.end(), keyed.begin(), keyed.end());
+            slot.timedScene->prepareDeformed(*moving, mScene);
+        deformed.insert(deformed.end(), keyed.begin(), keyed.end());
     }
-    RayScene rays;
+    graph::RayScene rays;
     explainer.beginPasses(graph, PassOwner::Rays, running.rays.reason);
-    mTopLevelMilliseconds = 0.0;
+    mTlasMilliseconds = 0.0;
     if (running.rays.run) {
         const double start = nowMilliseconds();
-        assignRayMasks(frame, mScene.layout());
-        declareTopLevels(slot, graph, frame, shapes, rays);
-        mTopLevelMilliseconds = nowMilliseconds() - start;
+        extract::assignInstanceMasks(frame, mScene.layout());
+        declareTlas(slot, graph, frame, shapes, rays);
+        mTlasMilliseconds = nowMilliseconds() - start;
     }
     const double start = nowMilliseconds();
     mWritten = slot.entityTable.update(frame);
     mTableMilliseconds = nowMilliseconds() - start;
-    const TableAddresses tables = uploadTables(slot, frame, request.view, bent);
+    const TableAddresses tables = uploadTables(slot, frame, request.view, deformed);
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
-    explainer.beginPasses(graph, PassOwner::Rays, running.movingRays.reason);
-    MovingRays movingRays;
+    explainer.beginPasses(graph, PassOwner::Rays, running.timedRays.reason);
+    graph::TimedRays timedRays;
     if (moving) {
-        movingRays = slot.movingScene->declare(
+        timedRays = slot.timedScene->declare(
             graph,
             *moving,
             frame,
             mScene,
-            static_cast<uint32_t>(firstShapeGeometry),
+            static_cast<uint32_t>(firstDeformedGeometry),
             rays.frameConstants
         );
-        movingRays.shapesBuffer = shapes.buffer;
+        timedRays.deformedBuffer = shapes.buffer;
     }
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     const GBuffer gbuffer =
@@ -396,7 +398,7 @@ Renderer::Tickets Renderer::declareFrame(
         facts,
         gbuffer,
         running.rays.run ? &rays : nullptr,
-        moving ? &movingRays : nullptr,
+        moving ? &timedRays : nullptr,
         gbuffer.color,
         {},
         intermediates,

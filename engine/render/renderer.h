@@ -2,21 +2,21 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_extractor.h"
 #include "engine/gpu/frame.h"
+#include "engine/gpu_scene/deformation_pass.h"
+#include "engine/gpu_scene/entity_table.h"
+#include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/transient_pool.h"
 #include "engine/image/image.h"
-#include "engine/render/deformation_pass.h"
-#include "engine/render/entity_table.h"
-#include "engine/render/extraction.h"
-#include "engine/render/frame_extractor.h"
+#include "engine/rays/timed_scene.h"
+#include "engine/rays/tlas.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
-#include "engine/render/gpu_scene.h"
 #include "engine/render/idle_counter.h"
-#include "engine/render/moving_scene.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
-#include "engine/render/top_levels.h"
 
 #include <deque>
 #include <map>
@@ -30,7 +30,7 @@
 namespace shutter::render {
 
 struct FrameRequest {
-    ViewRequest view;
+    extract::ViewRequest view;
     std::set<std::string>
         intermediates; ///< names to read back; unknown ones stay out of the result
     /// Names that an effect shows: made although they are not read back.
@@ -84,9 +84,9 @@ class Renderer {
     /// ExposureInterval::cap of all that is drawn of this exposure. Measured on the raster image,
     /// which is drawn up to four times for it; nothing is drawn where there is no cap.
     [[nodiscard]] core::Result<scene::MotionCap>
-    measureMotionCap(const scene::World& world, const ViewRequest& view);
+    measureMotionCap(const scene::World& world, const extract::ViewRequest& view);
 
-    [[nodiscard]] const GpuScene& scene() const { return mScene; }
+    [[nodiscard]] const gpu_scene::GpuScene& scene() const { return mScene; }
 
   private:
     /// What of a frame is read back: Readback's tickets.
@@ -105,8 +105,8 @@ class Renderer {
     /// The effects of a frame that run, and what rays they trace.
     struct RunningEffects {
         std::vector<RunningEffect> effects;
-        Decision rays;
-        Decision movingRays;
+        core::Decision rays;
+        core::Decision timedRays;
         bool mayTrace = false; ///< in another frame, if not in this
     };
 
@@ -116,13 +116,13 @@ class Renderer {
 
         gpu::Frame frame;
         Readback readback;
-        EntityTable entityTable;
-        /// Constants, lights and, where meshes are bent, geometries of the frame, mapped.
+        gpu_scene::EntityTable entityTable;
+        /// Constants, lights and, where meshes are deformed, geometries of the frame, mapped.
         gpu::Buffer tables;
         // Made anew once they were idle (releaseIdle).
-        std::optional<DeformationPass> deformation;
-        std::optional<TopLevels> topLevels;
-        std::optional<MovingScene> movingScene;
+        std::optional<gpu_scene::DeformationPass> deformation;
+        std::optional<rays::FrameTlas> frameTlas;
+        std::optional<rays::TimedScene> timedScene;
     };
 
     /// An effect of an unfinished frame, and which of the frame's times are its own.
@@ -149,8 +149,8 @@ class Renderer {
         graph::Graph& graph,
         const FrameRequest& request,
         const ViewFacts& facts,
-        ExtractedFrame& frame,
-        const MovingTables* moving,
+        extract::ExtractedFrame& frame,
+        const extract::TimedTables* moving,
         RunningEffects& running,
         Explainer& explainer
     );
@@ -158,7 +158,7 @@ class Renderer {
         std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
     /// Gives back what no frame wanted for a while.
-    void releaseIdle(const ExtractedFrame& frame, const RunningEffects& running);
+    void releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running);
 
     /// Where the frame's tables are.
     struct TableAddresses {
@@ -166,38 +166,38 @@ class Renderer {
         VkDeviceAddress response = 0; ///< 0: the shutter's response is a box
     };
 
-    /// \param bent geometries that stand behind the scene's own
+    /// \param deformed geometries that stand behind the scene's own
     TableAddresses uploadTables(
         Slot& slot,
-        ExtractedFrame& frame,
-        const ViewRequest& view,
-        std::span<const shader::Geometry> bent
+        extract::ExtractedFrame& frame,
+        const extract::ViewRequest& view,
+        std::span<const shader::Geometry> deformed
     );
-    void declareTopLevels(
+    void declareTlas(
         Slot& slot,
         graph::Graph& graph,
-        ExtractedFrame& frame,
-        const DeformedShapes& shapes,
-        RayScene& rays
+        extract::ExtractedFrame& frame,
+        const gpu_scene::DeformedMeshes& shapes,
+        graph::RayScene& rays
     );
     void publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const;
 
     gpu::Device& mDevice;
-    GpuScene mScene;
+    gpu_scene::GpuScene mScene;
     GBufferPass mGBufferPass;
     graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
-    FrameExtractor mExtractor;
+    extract::FrameExtractor mExtractor;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     uint32_t mNextSlot = 0;
     std::deque<PendingFrame> mPending; ///< oldest first
-    IdleCounter mBendingIdle;
+    IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
-    IdleCounter mMovingRaysIdle;
-    IdleCounter mBottomLevelsIdle;
+    IdleCounter mTimedRaysIdle;
+    IdleCounter mBlasIdle;
     // Of the frame declared last, for statistics.
-    EntityTable::Written mWritten;
+    gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;
-    double mTopLevelMilliseconds = 0.0;
+    double mTlasMilliseconds = 0.0;
 };
 
 } // namespace shutter::render

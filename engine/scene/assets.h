@@ -130,7 +130,7 @@ struct AnimationClip {
     std::vector<WeightChannel> weightChannels;
 };
 
-/// Joints that bend a mesh; whose entities they are says Skinned.
+/// Joints that deform a mesh; whose entities they are says Skinned.
 struct Skin {
     std::string name;
     std::vector<math::dmat4> jointFromBind; ///< inverse bind matrices, one a joint; at least one

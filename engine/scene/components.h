@@ -58,7 +58,7 @@ struct Animated {
     std::vector<Channel> channels;
 };
 
-/// The mesh of this entity is bent by joints (linear blend skinning). Its own transform has no
+/// The mesh of this entity is deformed by joints (linear blend skinning). Its own transform has no
 /// meaning then (glTF 2.0, 3.7.3.3): the joints' do.
 struct Skinned {
     AssetIndex skin = kNone;

@@ -93,7 +93,7 @@ ExposureMotion::ExposureMotion(
 
 double ExposureMotion::secondsAt(double s) const {
     // Not one rounding beside it: the raster image and a still one of the same time are the same.
-    return s == mExposure.rasterShare ? mExposure.raster : mExposure.at(s);
+    return s == mExposure.rasterTime ? mExposure.raster : mExposure.at(s);
 }
 
 double ExposureMotion::scaleTime(double seconds, double scale) const {

@@ -4,7 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
 #include "engine/scene/deformation.h"
-#include "engine/scene/posed_bounds.h"
+#include "engine/scene/deformed_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ class MeshBounds {
         const auto [entry, isNew] = mReaches.try_emplace(index);
         if (isNew)
             entry->second = computePoseReach(mesh.primitives);
-        return computePosedBounds(entry->second, deformationAt(mWorld, entity, seconds));
+        return computeDeformedBounds(entry->second, deformationAt(mWorld, entity, seconds));
     }
 
   private:

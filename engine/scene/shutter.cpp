@@ -14,13 +14,13 @@ namespace {
 /// Of a trapezoid's flanks and top: shorter ones would be of no length in single precision.
 constexpr double kShortestShare = 1.0e-6;
 
-/// Where the piecewise linear response bends.
-struct Bend {
+/// Where the piecewise linear response deforms.
+struct Dispatch {
     double s = 0.0;
     double height = 0.0;
 };
 
-std::vector<Bend> listBends(const ShutterResponse& response) {
+std::vector<Dispatch> listDeformations(const ShutterResponse& response) {
     switch (response.shape) {
     case ResponseShape::Box:
         break;
@@ -31,26 +31,26 @@ std::vector<Bend> listBends(const ShutterResponse& response) {
         const bool closes = response.closeShare > kShortestShare;
         const double from = opens ? response.openShare : 0.0;
         const double to = closes ? 1.0 - response.closeShare : 1.0;
-        std::vector<Bend> bends;
+        std::vector<Dispatch> deforms;
         if (opens)
-            bends.push_back({0.0, 0.0});
-        bends.push_back({from, 1.0});
+            deforms.push_back({0.0, 0.0});
+        deforms.push_back({from, 1.0});
         if (to > from + kShortestShare)
-            bends.push_back({to, 1.0});
+            deforms.push_back({to, 1.0});
         if (closes)
-            bends.push_back({1.0, 0.0});
+            deforms.push_back({1.0, 0.0});
         else
-            bends.back().s = 1.0;
-        return bends;
+            deforms.back().s = 1.0;
+        return deforms;
     }
     case ResponseShape::Sampled: {
         // Relative to the largest, so that no sum overflows.
         const double largest = *std::max_element(response.samples.begin(), response.samples.end());
         const double intervals = double(response.samples.size() - 1);
-        std::vector<Bend> bends;
+        std::vector<Dispatch> deforms;
         for (const double sample : response.samples)
-            bends.push_back({double(bends.size()) / intervals, sample / largest});
-        return bends;
+            deforms.push_back({double(deforms.size()) / intervals, sample / largest});
+        return deforms;
     }
     }
     return {{0.0, 1.0}, {1.0, 1.0}};
@@ -100,18 +100,18 @@ ExposureInterval computeExposure(const CameraShutter& shutter, double raster, do
     ExposureInterval interval;
     switch (shutter.phase) {
     case ShutterPhase::Start:
-        interval.rasterShare = 0.0;
+        interval.rasterTime = 0.0;
         break;
     case ShutterPhase::Centre:
-        interval.rasterShare = 0.5;
+        interval.rasterTime = 0.5;
         break;
     case ShutterPhase::End:
-        interval.rasterShare = 1.0;
+        interval.rasterTime = 1.0;
         break;
     }
-    interval.open = raster - exposure * interval.rasterShare;
+    interval.open = raster - exposure * interval.rasterTime;
     interval.raster = raster;
-    interval.close = raster + exposure * (1.0 - interval.rasterShare);
+    interval.close = raster + exposure * (1.0 - interval.rasterTime);
     interval.frameSeconds = orZero(frameSeconds);
     interval.shutter = shutter;
     return interval;
@@ -140,24 +140,25 @@ core::Status validateResponse(const ShutterResponse& response) {
 std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse& response) {
     const core::Status valid = validateResponse(response);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
-    const std::vector<Bend> bends = listBends(response);
-    const bool isConstant = std::all_of(bends.begin(), bends.end(), [&](const Bend& bend) {
-        return bend.height == bends.front().height;
-    });
+    const std::vector<Dispatch> deforms = listDeformations(response);
+    const bool isConstant =
+        std::all_of(deforms.begin(), deforms.end(), [&](const Dispatch& deform) {
+            return deform.height == deforms.front().height;
+        });
     if (isConstant)
         return std::nullopt;
     std::vector<double> taken{0.0};
-    for (size_t i = 1; i < bends.size(); ++i)
+    for (size_t i = 1; i < deforms.size(); ++i)
         taken.push_back(
             taken.back() +
-            (bends[i].s - bends[i - 1].s) * 0.5 * (bends[i].height + bends[i - 1].height)
+            (deforms[i].s - deforms[i - 1].s) * 0.5 * (deforms[i].height + deforms[i - 1].height)
         );
     shader::ResponseTable table{};
-    table.knotCount = static_cast<uint32_t>(bends.size());
-    for (size_t i = 0; i < bends.size(); ++i)
+    table.knotCount = static_cast<uint32_t>(deforms.size());
+    for (size_t i = 0; i < deforms.size(); ++i)
         table.knots[i] = {
-            static_cast<float>(bends[i].s),
-            static_cast<float>(bends[i].height / taken.back()),
+            static_cast<float>(deforms[i].s),
+            static_cast<float>(deforms[i].height / taken.back()),
             static_cast<float>(taken[i] / taken.back()),
             0.0f};
     return table;

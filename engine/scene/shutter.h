@@ -24,7 +24,7 @@ struct ExposureInterval {
     [[nodiscard]] double at(double s) const { return std::lerp(open, close, s); } ///< s in [0, 1]
 
     /// s of the raster instant: 0 start, 0.5 centre, 1 end.
-    double rasterShare = 1.0;
+    double rasterTime = 1.0;
     double frameSeconds = 0.0; ///< since the frame before, 0 or more
     CameraShutter shutter{};
     MotionCap cap{}; ///< of this frame; render::measureMotionCap() finds it

@@ -42,7 +42,7 @@ json describePassTimes() {
         {1.13, 2.27, 2.99},
         {0.59, 0.65, 0.62},
         "ours",
-        names({"build top level", "ray reveal"}));
+        names({"build TLAS", "ray reveal"}));
     add("Tile-Dilate",
         {0.05, 0.06, 0.08},
         {1.48, 1.44, 1.43},
@@ -60,7 +60,8 @@ json describePassTimes() {
              "gather and composite",
              "write uniform blocks",
              "write mixed blocks",
-             "write candidate blocks"}));
+             "write candidate blocks"}
+        ));
     add("Others", {3.14, 4.67, 3.48}, {0.39, 0.42, 0.29}, "others", true);
     add("Total Duration", {4.66, 7.63, 8.39}, {4.83, 7.25, 9.92}, "total", true);
     return {

@@ -95,7 +95,7 @@ void stepCar(CarState& car, const DemoControls& controls, bool onRoad) {
     car.frontRoll = wrapTurn(car.frontRoll + speed / kWheelRadius * dt);
     if (!controls.action)
         car.rearRoll = wrapTurn(car.rearRoll + speed / kWheelRadius * dt);
-    // The body leans out of the bend and dives under the brakes, with a lag of its springs.
+    // The body leans out of the deform and dives under the brakes, with a lag of its springs.
     const double leanTo = std::clamp(-turnRate * speed * 0.006, -0.07, 0.07);
     const double pitchTo = std::clamp((speed - before) / dt * 0.004, -0.05, 0.04);
     car.roll += (leanTo - car.roll) * 6.0 * dt;

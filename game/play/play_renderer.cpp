@@ -204,7 +204,7 @@ core::Status PlayRenderer::drawRays(
             mDevice, mRenderer.scene(), truth::TruthSettings{truth::PixelModel::Centre, 0}
         );
     picture.ending.insert(picture.ending.begin(), own.truth.get());
-    const render::ViewRequest& view = picture.request.view;
+    const extract::ViewRequest& view = picture.request.view;
     const auto batches = truth::planBatches(uint64_t(view.width) * view.height, settings.rays, {});
     uint32_t done = 0;
     for (size_t i = 0; i < batches.size(); ++i) {

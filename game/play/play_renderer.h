@@ -26,7 +26,7 @@ enum class PlaySide : uint8_t { Right, Left };
 
 /// What one picture on the window is made of.
 struct PlayPicture {
-    render::ViewRequest view;
+    extract::ViewRequest view;
     app::WindowTarget window;
     gpu::SubmitSemaphores semaphores; ///< of the frame that draws on the window
     bool readBack = false;            ///< keep the window's picture for takePicture()

@@ -24,7 +24,7 @@ constexpr ImU32 kRaster = IM_COL32(255, 200, 90, 255);
 /// A bell of five samples: something to start from.
 const std::vector<double> kFirstSamples = {0.0, 0.5, 1.0, 0.5, 0.0};
 
-/// Where the curve bends: shutter time and sensitivity over its mean.
+/// Where the curve deforms: shutter time and sensitivity over its mean.
 std::vector<ImVec2> listCurvePoints(const ShutterResponse& response) {
     const auto table = scene::computeResponseTable(response);
     if (!table)
@@ -73,7 +73,7 @@ void drawCurve(const scene::ExposureInterval& exposure) {
     // A shutter that opens at once.
     list.AddLine({left, bottom}, place(points.front()), kCurve, 2.0f);
     list.AddLine({right, bottom}, place(points.back()), kCurve, 2.0f);
-    const float raster = left + static_cast<float>(exposure.rasterShare) * (right - left);
+    const float raster = left + static_cast<float>(exposure.rasterTime) * (right - left);
     list.AddLine({raster, top}, {raster, bottom}, kRaster, 2.0f);
     const auto milliseconds = [&](double seconds) { return 1000.0 * (seconds - exposure.raster); };
     const float end = corner.x + width;

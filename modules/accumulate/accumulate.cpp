@@ -46,11 +46,15 @@ double wrap(double x) {
 
 } // namespace
 
-render::ViewRequest makeInstant(
-    const render::ViewRequest& view, uint32_t index, uint32_t count, PixelModel pixel, uint32_t seed
+extract::ViewRequest makeInstant(
+    const extract::ViewRequest& view,
+    uint32_t index,
+    uint32_t count,
+    PixelModel pixel,
+    uint32_t seed
 ) {
     SHUTTER_CHECK(index < count, "{} of {}", index, count);
-    render::ViewRequest instant = view;
+    extract::ViewRequest instant = view;
     instant.instant = scene::invertResponse(view.exposure.shutter.response, (index + 0.5) / count);
     if (pixel == PixelModel::Centre)
         return instant;
@@ -70,7 +74,7 @@ void Accumulate::setInstant(uint32_t index, uint32_t count) {
     mCount = count;
 }
 
-render::Decision Accumulate::ask(const render::ViewFacts&) const {
+core::Decision Accumulate::ask(const render::ViewFacts&) const {
     return {true, "every instant is added"};
 }
 

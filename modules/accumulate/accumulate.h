@@ -3,9 +3,9 @@
 // 1983; Haeberli and Akeley 1990). Slow and right; what the other methods are held against.
 #pragma once
 
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/extraction.h"
 #include "engine/render/post_effect.h"
 
 #include <cstdint>
@@ -24,8 +24,12 @@ enum class PixelModel : uint8_t {
 /// stratum; with a box response, of each stretch of time), place in the pixel by a (2, 3)-Halton
 /// sequence, so that the two together are a Hammersley set. Box also sharpens textures to what
 /// `count` samples can resolve. \param seed another seed gives another set of places
-[[nodiscard]] render::ViewRequest makeInstant(
-    const render::ViewRequest& view, uint32_t index, uint32_t count, PixelModel pixel, uint32_t seed
+[[nodiscard]] extract::ViewRequest makeInstant(
+    const extract::ViewRequest& view,
+    uint32_t index,
+    uint32_t count,
+    PixelModel pixel,
+    uint32_t seed
 );
 
 /// Adds each frame's colour to a sum. Call setInstant() before each frame; in the last one the
@@ -39,7 +43,7 @@ class Accumulate : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "accumulate"; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 
   private:

@@ -133,7 +133,7 @@ std::set<std::string> listSources(std::string_view name) {
 DebugView::DebugView(gpu::Device& device)
     : mSampler(device.nearestSampler()), mPipeline(device, describePipeline()) {}
 
-render::Decision DebugView::ask(const render::ViewFacts&) const {
+core::Decision DebugView::ask(const render::ViewFacts&) const {
     if (mView.empty())
         return {false, "no intermediate is to be shown"};
     return {true, "an intermediate is shown: " + mView};
@@ -168,8 +168,8 @@ void DebugView::declare(render::PostContext& context) {
     };
     const std::array from{
         find(view->values, context.gbuffer.motionDepth),
-        find(view->ids, context.gbuffer.meshId),
-        find(view->otherIds, context.gbuffer.meshId)};
+        find(view->ids, context.gbuffer.entityId),
+        find(view->otherIds, context.gbuffer.entityId)};
     const Data& pass = context.graph.addPass<Data>(
         "debug view",
         graph::PassKind::Compute,

@@ -37,7 +37,7 @@ class DebugView : public render::PostEffect {
 
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Display; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 
   private:

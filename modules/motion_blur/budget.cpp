@@ -14,8 +14,8 @@ namespace shutter::motion_blur {
 namespace {
 
 constexpr double kSmoothing = 0.25;   ///< weight of a new frame's time
-constexpr double kRoom = 0.85;        ///< of the budget, for the rung above
-constexpr double kFarOver = 1.5;      ///< of the budget: not one rung but to where it fits
+constexpr double kRoom = 0.85;        ///< of the budget, for the level above
+constexpr double kFarOver = 1.5;      ///< of the budget: not one level but to where it fits
 constexpr uint32_t kFramesOver = 2;   ///< one slow frame is a hiccup
 constexpr uint32_t kLeastWait = 15;   ///< frames
 constexpr uint32_t kMostWait = 960;   ///< frames
@@ -24,11 +24,11 @@ constexpr uint32_t kCalmFrames = 4 * kTrialFrames; ///< after a step up: it has 
 constexpr float kHalfResolutionPx = 8.0f; ///< motion long enough for half of the resolution
 constexpr uint32_t kLeastSamples = 4;     ///< fewer are no blur but ghosts
 
-/// Adds rungs one by one, each below the last.
+/// Adds levels one by one, each below the last.
 class Ladder {
   public:
     explicit Ladder(const MotionBlurSettings& wanted) : mWanted(wanted) {
-        mRungs.push_back({wanted, true, 1.0, ""});
+        mLevels.push_back({wanted, true, 1.0, ""});
     }
 
     /// Half of the resolution where motion is long and uniform.
@@ -68,9 +68,9 @@ class Ladder {
         add(cost);
     }
 
-    std::vector<BudgetRung> finish() {
-        mRungs.push_back({mNext, false, 0.0, "motion blur altogether"});
-        return std::move(mRungs);
+    std::vector<BudgetLevel> finish() {
+        mLevels.push_back({mNext, false, 0.0, "motion blur altogether"});
+        return std::move(mLevels);
     }
 
     [[nodiscard]] const MotionBlurSettings& next() const { return mNext; }
@@ -81,22 +81,22 @@ class Ladder {
         for (const std::string& part : {mResolution, mRays, mSamples})
             if (!part.empty())
                 gaveUp += (gaveUp.empty() ? "" : ", ") + part;
-        mRungs.push_back({mNext, true, cost, gaveUp});
+        mLevels.push_back({mNext, true, cost, gaveUp});
     }
 
     MotionBlurSettings mWanted;
     MotionBlurSettings mNext = mWanted;
-    uint32_t mMostSamples = mWanted.sampleCount; ///< of the method that rungs have now
+    uint32_t mMostSamples = mWanted.sampleCount; ///< of the method that levels have now
     std::string mResolution, mRays, mSamples;
-    std::vector<BudgetRung> mRungs;
+    std::vector<BudgetLevel> mLevels;
 };
 
 uint32_t shareOf(uint32_t samples, double share) {
     return std::max(kLeastSamples, static_cast<uint32_t>(std::lround(samples * share)));
 }
 
-/// The rungs of a filter whose time goes with its samples. \param cost of the rung before
-void addSampleRungs(Ladder& ladder, uint32_t wanted, double cost) {
+/// The levels of a filter whose time goes with its samples. \param cost of the level before
+void addSampleLevels(Ladder& ladder, uint32_t wanted, double cost) {
     const uint32_t first = ladder.next().sampleCount;
     for (const double share : {0.8, 0.6, 0.4, 0.0}) {
         const uint32_t count = shareOf(wanted, share);
@@ -115,7 +115,7 @@ core::Status validate(const BlurBudget& budget) {
     );
 }
 
-std::vector<BudgetRung> makeRungs(const MotionBlurSettings& wanted) {
+std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted) {
     Ladder ladder(wanted);
     const uint32_t samples = wanted.sampleCount;
     switch (wanted.method) {
@@ -126,11 +126,11 @@ std::vector<BudgetRung> makeRungs(const MotionBlurSettings& wanted) {
         ladder.reduceSamples(shareOf(samples, 0.8), 0.56);
         ladder.reduceSamples(shareOf(samples, 0.6), 0.5);
         ladder.changeMethod(Method::Gather, "all rays", ladder.next().sampleCount, 0.35);
-        addSampleRungs(ladder, samples, 0.35);
+        addSampleLevels(ladder, samples, 0.35);
         break;
     case Method::Gather:
         ladder.halveResolution(0.9);
-        addSampleRungs(ladder, samples, 0.9);
+        addSampleLevels(ladder, samples, 0.9);
         break;
     case Method::Denoised:
         for (uint32_t rays = samples / 2; rays >= 1; rays /= 2)
@@ -138,38 +138,38 @@ std::vector<BudgetRung> makeRungs(const MotionBlurSettings& wanted) {
         ladder.changeMethod(
             Method::Gather, "all rays", MotionBlurSettings{}.sampleCount, 0.1 / samples
         );
-        addSampleRungs(ladder, ladder.next().sampleCount, 0.1 / samples);
+        addSampleLevels(ladder, ladder.next().sampleCount, 0.1 / samples);
         break;
     case Method::OwnVelocity:
     case Method::McGuire2012:
     case Method::Guertin2014:
     case Method::Jimenez2014:
-        addSampleRungs(ladder, samples, 1.0);
+        addSampleLevels(ladder, samples, 1.0);
         break;
     }
     return ladder.finish();
 }
 
 BudgetController::BudgetController(const BlurBudget& budget, const MotionBlurSettings& wanted)
-    : mBudget(budget), mRungs(makeRungs(wanted)), mWait(kLeastWait) {
+    : mBudget(budget), mLevels(makeLevels(wanted)), mWait(kLeastWait) {
     const core::Status valid = validate(budget);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
 }
 
-double BudgetController::predict(size_t rung) const {
-    return current().runs ? mSmoothed * mRungs[rung].cost / current().cost : 0.0;
+double BudgetController::predict(size_t level) const {
+    return current().runs ? mSmoothed * mLevels[level].cost / current().cost : 0.0;
 }
 
 size_t BudgetController::findFitting() const {
-    size_t rung = mRung + 1;
-    while (rung + 1 < mRungs.size() && predict(rung) > mBudget.milliseconds)
-        ++rung;
-    return rung;
+    size_t level = mLevel + 1;
+    while (level + 1 < mLevels.size() && predict(level) > mBudget.milliseconds)
+        ++level;
+    return level;
 }
 
-void BudgetController::moveTo(size_t rung) {
-    mRungBefore = mRung;
-    mRung = rung;
+void BudgetController::moveTo(size_t level) {
+    mLevelBefore = mLevel;
+    mLevel = level;
     mFrames = mFramesOver = mFramesUnder = 0;
     mSmoothed = 0.0;
 }
@@ -177,33 +177,33 @@ void BudgetController::moveTo(size_t rung) {
 void BudgetController::stepDown(double milliseconds) {
     // The frames that took too long, not those before them, say how long.
     mSmoothed = milliseconds;
-    const bool trialFailed = mRungBefore > mRung && mFrames <= kTrialFrames;
+    const bool trialFailed = mLevelBefore > mLevel && mFrames <= kTrialFrames;
     if (trialFailed)
         mWait = std::min(2 * mWait, kMostWait);
-    moveTo(milliseconds > kFarOver * mBudget.milliseconds ? findFitting() : mRung + 1);
+    moveTo(milliseconds > kFarOver * mBudget.milliseconds ? findFitting() : mLevel + 1);
 }
 
 void BudgetController::considerStepUp() {
     // Without blur there is no time to judge by: it is tried again after the wait.
-    const bool room = !current().runs || predict(mRung - 1) <= kRoom * mBudget.milliseconds;
+    const bool room = !current().runs || predict(mLevel - 1) <= kRoom * mBudget.milliseconds;
     mFramesUnder = room ? mFramesUnder + 1 : 0;
     if (mFramesUnder >= mWait)
-        moveTo(mRung - 1);
+        moveTo(mLevel - 1);
 }
 
-void BudgetController::observe(size_t rung, double milliseconds) {
-    if (mBudget.isUnlimited() || rung != mRung || !std::isfinite(milliseconds) ||
+void BudgetController::observe(size_t level, double milliseconds) {
+    if (mBudget.isUnlimited() || level != mLevel || !std::isfinite(milliseconds) ||
         milliseconds < 0.0)
         return;
     mSmoothed = mFrames == 0 ? milliseconds : mSmoothed + kSmoothing * (milliseconds - mSmoothed);
     ++mFrames;
     mFramesOver = milliseconds > mBudget.milliseconds ? mFramesOver + 1 : 0;
-    if (mFrames == kCalmFrames && mRungBefore > mRung)
+    if (mFrames == kCalmFrames && mLevelBefore > mLevel)
         mWait = kLeastWait;
     mOver = mFramesOver <= 1 ? milliseconds : std::min(mOver, milliseconds);
-    if (mFramesOver >= kFramesOver && mRung + 1 < mRungs.size())
+    if (mFramesOver >= kFramesOver && mLevel + 1 < mLevels.size())
         stepDown(mOver);
-    else if (mRung > 0)
+    else if (mLevel > 0)
         considerStepUp();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the effect gives up to stay within a time: a ladder of rungs from what was asked for down to
-// nothing, and who climbs it. Pure: times go in, settings come out.
+// What the effect gives up to stay within a time: a ladder of levels from what was asked for down
+// to nothing, and who climbs it. Pure: times go in, settings come out.
 #pragma once
 
 #include "modules/motion_blur/settings.h"
@@ -26,20 +26,20 @@ struct BlurBudget {
 /// One sentence where the budget is no time above 0.
 [[nodiscard]] core::Status validate(const BlurBudget& budget);
 
-struct BudgetRung {
+struct BudgetLevel {
     MotionBlurSettings settings;
-    bool runs = true;        ///< false on the last rung: no blur at all
-    double cost = 1.0;       ///< guess: share of the first rung's time
-    std::string gaveUp = ""; ///< against what was asked for; empty on the first rung
+    bool runs = true;        ///< false on the last level: no blur at all
+    double cost = 1.0;       ///< guess: share of the first level's time
+    std::string gaveUp = ""; ///< against what was asked for; empty on the first level
 };
 
-/// From the settings asked for to none at all; each rung costs less than the one before. Rungs give
-/// up first what is seen least: half of the resolution along long uniform motion, then rays, then
-/// samples, then the method.
-[[nodiscard]] std::vector<BudgetRung> makeRungs(const MotionBlurSettings& wanted);
+/// From the settings asked for to none at all; each level costs less than the one before. Rungs
+/// give up first what is seen least: half of the resolution along long uniform motion, then rays,
+/// then samples, then the method.
+[[nodiscard]] std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted);
 
-/// Chooses a rung from the times of the frames before. Goes down when two frames in a row took too
-/// long, by one rung or, where half as much again was taken, to the one that is expected to fit.
+/// Chooses a level from the times of the frames before. Goes down when two frames in a row took too
+/// long, by one level or, where half as much again was taken, to the one that is expected to fit.
 /// Goes up by one when that is expected to leave a margin for a while; the wait doubles each time a
 /// step up had to be taken back.
 class BudgetController {
@@ -49,33 +49,33 @@ class BudgetController {
 
     [[nodiscard]] const BlurBudget& budget() const { return mBudget; }
 
-    /// Index of the rung to draw the next frame with.
-    [[nodiscard]] size_t rung() const { return mRung; }
+    /// Index of the level to draw the next frame with.
+    [[nodiscard]] size_t level() const { return mLevel; }
 
-    [[nodiscard]] const BudgetRung& current() const { return mRungs[mRung]; }
+    [[nodiscard]] const BudgetLevel& current() const { return mLevels[mLevel]; }
 
-    [[nodiscard]] size_t rungCount() const { return mRungs.size(); }
+    [[nodiscard]] size_t levelCount() const { return mLevels.size(); }
 
-    /// A frame's time. \param rung it was drawn with; frames of other rungs than the current one
+    /// A frame's time. \param level it was drawn with; frames of other levels than the current one
     /// came late and are passed over, as are times that are no number
-    void observe(size_t rung, double milliseconds);
+    void observe(size_t level, double milliseconds);
 
   private:
-    [[nodiscard]] double predict(size_t rung) const;
+    [[nodiscard]] double predict(size_t level) const;
     [[nodiscard]] size_t findFitting() const;
-    void moveTo(size_t rung);
+    void moveTo(size_t level);
     void stepDown(double milliseconds);
     void considerStepUp();
 
     BlurBudget mBudget;
-    std::vector<BudgetRung> mRungs;
-    size_t mRung = 0;
-    size_t mRungBefore = 0;
-    double mSmoothed = 0.0;    ///< milliseconds on this rung
+    std::vector<BudgetLevel> mLevels;
+    size_t mLevel = 0;
+    size_t mLevelBefore = 0;
+    double mSmoothed = 0.0;    ///< milliseconds on this level
     double mOver = 0.0;        ///< least of the frames in a row that took too long
-    uint32_t mFrames = 0;      ///< on this rung
+    uint32_t mFrames = 0;      ///< on this level
     uint32_t mFramesOver = 0;  ///< in a row that took too long
-    uint32_t mFramesUnder = 0; ///< in a row with room for the rung above
+    uint32_t mFramesUnder = 0; ///< in a row with room for the level above
     uint32_t mWait;            ///< frames with room before a step up
 };
 

@@ -58,7 +58,7 @@ MotionBlurOutputs MotionBlur::add(
     const core::Status valid = validate(settings);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
-    MotionBlurParams params = resolve(settings, size.width, size.height, inputs.rasterShare);
+    MotionBlurParams params = resolve(settings, size.width, size.height, inputs.rasterTime);
     params.response = inputs.response;
     chooseStillPixelsBy(inputs);
     switch (settings.method) {
@@ -109,14 +109,14 @@ MotionBlurOutputs MotionBlur::addHybrid(
     const TileMotionOutputs tiles = mTileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks sorted = mSorter.add(graph, tiles, params, true);
     const RayMaskInputs maskInputs{
-        inputs.motionDepth, inputs.normal, inputs.meshId, sorted, inputs.measureEdgesEverywhere};
+        inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere};
     const RayMaskOutputs mask = mRayMask->add(graph, maskInputs, params);
     mSorter.addCounters(graph, mask.blocks, params, inputs.slot);
     const RayRevealInputs revealInputs{
 
         inputs.color,
         inputs.motionDepth,
-        inputs.meshId,
+        inputs.entityId,
         mask.mask,
         mask.list,
         mask.arguments,
@@ -148,7 +148,7 @@ MotionBlurOutputs MotionBlur::addHybrid(
     outputs.mask = mask.mask;
     outputs.revealColor = views.color;
     outputs.revealMotionDepth = views.motionDepth;
-    outputs.revealMeshId = reveal.meshId;
+    outputs.revealEntityId = reveal.entityId;
     outputs.blocks = mask.blocks;
     outputs.cost = mCostView.add(graph, inputs.motionDepth, mask.mask, mask.blocks, params);
     outputs.color =
@@ -215,13 +215,12 @@ MotionBlurOutputs MotionBlur::addDenoised(
     const MotionBlurParams& resolved
 ) const {
     SHUTTER_CHECK(
-        inputs.movingRays && mStochasticRays,
-        "the denoised method needs moving rays, by ray queries"
+        inputs.timedRays && mStochasticRays, "the denoised method needs moving rays, by ray queries"
     );
     MotionBlurParams params = resolved;
-    params.frame = inputs.movingRays->frame;
-    params.moving = inputs.movingRays->moving;
-    const StochasticRaysOutputs rays = mStochasticRays->add(graph, *inputs.movingRays, params);
+    params.frame = inputs.timedRays->frame;
+    params.moving = inputs.timedRays->moving;
+    const StochasticRaysOutputs rays = mStochasticRays->add(graph, *inputs.timedRays, params);
     const TileMotionOutputs tiles = mTileMotion.add(graph, rays.motionDepth, params);
     MotionBlurOutputs outputs;
     outputs.noisy = rays.color;

@@ -32,12 +32,12 @@ struct MotionBlurInputs {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
     graph::ImageHandle normal;      ///< RGBA16F: xyz unit; read by the ray mask only
-    graph::ImageHandle meshId;      ///< R32_UINT; read by mask and reveal only
-    double rasterShare = 1.0;       ///< s of the raster instant: 0 start, 0.5 centre, 1 end
+    graph::ImageHandle entityId;    ///< R32_UINT; read by mask and reveal only
+    double rasterTime = 1.0;        ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     glm::uvec2 response{
         0u}; ///< address of shader::ResponseTable (shutter_response_shared.h); 0: box
-    std::optional<RayInputs> rays;             ///< Method::Hybrid needs them (CHECKed)
-    std::optional<MovingRayInputs> movingRays; ///< Method::Denoised needs them (CHECKed)
+    std::optional<RayInputs> rays;           ///< Method::Hybrid needs them (CHECKed)
+    std::optional<TimedRayInputs> timedRays; ///< Method::Denoised needs them (CHECKed)
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or was made with storage usage.
     /// Where little moves, still pixels are then not touched.
@@ -62,7 +62,7 @@ struct MotionBlurOutputs {
     graph::ImageHandle mask;              ///< R8: 1 inside the ray mask
     graph::ImageHandle revealColor;       ///< RGBA16F: raster outside the mask
     graph::ImageHandle revealMotionDepth; ///< RGBA32F
-    graph::ImageHandle revealMeshId;      ///< R32_UINT; written inside the mask only
+    graph::ImageHandle revealEntityId;    ///< R32_UINT; written inside the mask only
     SortedBlocks blocks;                  ///< what the filters go over; not of Method::Denoised
     graph::ImageHandle cost;              ///< R32F: fetches a pixel; not of Method::Denoised
     graph::ImageHandle noisy;             ///< RGBA16F: the denoised method's rays, unfiltered

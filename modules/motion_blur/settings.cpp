@@ -118,7 +118,7 @@ core::Status validate(const MotionBlurSettings& settings) {
 }
 
 shader::MotionBlurParams
-resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterShare) {
+resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime) {
     shader::MotionBlurParams params{};
     const uint32_t tile = settings.tileSizePx;
     params.sizePx = {width, height};
@@ -128,18 +128,18 @@ resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, dou
     params.sampleCount = settings.sampleCount;
     params.softDepthExtent = settings.softDepthExtent;
     params.edgeThreshold = settings.edgeThreshold;
-    params.rasterShare = static_cast<float>(std::clamp(rasterShare, 0.0, 1.0));
+    params.rasterTime = static_cast<float>(std::clamp(rasterTime, 0.0, 1.0));
     params.foregroundMagnification = settings.foregroundMagnification;
     params.backgroundMagnification = settings.backgroundMagnification;
     params.jitter = settings.jitter;
     params.recursionLimit = settings.recursionLimit;
     params.luminanceThreshold = settings.luminanceThreshold;
     if (settings.objectTest == ObjectTest::Luminance)
-        params.choices |= shader::kChooseLuminanceTest | shader::kChooseSteppingReveal;
+        params.flags |= shader::kFlagLuminanceTest | shader::kFlagSteppingReveal;
     if (settings.revealTraversal == RevealTraversal::Stepping)
-        params.choices |= shader::kChooseSteppingReveal;
+        params.flags |= shader::kFlagSteppingReveal;
     if (settings.occluderTest == OccluderTest::Velocity)
-        params.choices |= shader::kChooseVelocityOccluder;
+        params.flags |= shader::kFlagVelocityOccluder;
     params.centreBias = settings.centreBias;
     params.speedThresholdPx = settings.speedThresholdPx;
     params.luminanceSigma = settings.luminanceSigma;

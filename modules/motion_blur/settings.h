@@ -90,8 +90,8 @@ struct MotionBlurSettings {
 [[nodiscard]] core::Status validate(const MotionBlurSettings& settings);
 
 /// What the shaders get. Pure.
-/// \param rasterShare s of the raster instant in the exposure, clamped to [0, 1]
+/// \param rasterTime s of the raster instant in the exposure, clamped to [0, 1]
 [[nodiscard]] shader::MotionBlurParams
-resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterShare);
+resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime);
 
 } // namespace shutter::motion_blur

@@ -34,7 +34,7 @@ Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
     : mSampler(device.nearestSampler()), mSettings(settings),
       mPipeline(device, describePipeline()) {}
 
-render::Decision Tonemap::ask(const render::ViewFacts& facts) const {
+core::Decision Tonemap::ask(const render::ViewFacts& facts) const {
     if (!facts.displayWanted)
         return {false, "only the linear picture is wanted"};
     return {true, "a picture for a display is wanted"};

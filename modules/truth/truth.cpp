@@ -4,6 +4,7 @@
 #include "spirv/truth/truth.comp.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/address.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 #include "shaders/truth/truth_shared.h"
@@ -19,7 +20,7 @@ namespace {
 /// drivers allow on a GPU.
 constexpr uint64_t kRaysPerBatch = 1u << 21;
 
-gpu::ComputePipelineDesc describePipeline(const render::GpuScene& scene) {
+gpu::ComputePipelineDesc describePipeline(const gpu_scene::GpuScene& scene) {
     gpu::ComputePipelineDesc desc;
     desc.name = "truth";
     desc.spirv = truth_truth_comp;
@@ -59,7 +60,7 @@ std::vector<uint32_t> planBatches(uint64_t pixels, uint32_t rays, std::span<cons
     return batches;
 }
 
-Truth::Truth(gpu::Device& device, const render::GpuScene& scene, const TruthSettings& settings)
+Truth::Truth(gpu::Device& device, const gpu_scene::GpuScene& scene, const TruthSettings& settings)
     : mDevice(device), mSettings(settings), mPipeline(device, describePipeline(scene)) {}
 
 void Truth::setBatch(uint32_t first, uint32_t count) {
@@ -68,7 +69,7 @@ void Truth::setBatch(uint32_t first, uint32_t count) {
     mCount = count;
 }
 
-render::Decision Truth::ask(const render::ViewFacts&) const {
+core::Decision Truth::ask(const render::ViewFacts&) const {
     return {true, "every batch is added"};
 }
 
@@ -95,10 +96,10 @@ Truth::Images Truth::importSums(render::PostContext& context) {
 }
 
 void Truth::declare(render::PostContext& context) {
-    SHUTTER_CHECK(context.movingRays, "truth needs moving rays");
+    SHUTTER_CHECK(context.timedRays, "truth needs moving rays");
     using graph::Access;
     const render::ViewFacts& facts = context.facts;
-    const render::MovingRays rays = *context.movingRays;
+    const graph::TimedRays rays = *context.timedRays;
     const glm::uvec2 size(facts.width, facts.height);
     const glm::uvec2 groups = (size + shader::kTruthGroupSize - 1u) / shader::kTruthGroupSize;
     mGroupCount = groups.x * groups.y;
@@ -113,13 +114,13 @@ void Truth::declare(render::PostContext& context) {
         );
     shader::TruthParams params{};
     params.sizePx = size;
-    params.frame = render::splitAddress(rays.frameConstants);
-    params.moving = render::splitAddress(rays.movingConstants);
+    params.frame = gpu::splitAddress(rays.frameConstants);
+    params.moving = gpu::splitAddress(rays.timedConstants);
     params.firstRay = mFirst;
     params.rayCount = mCount;
     params.seed = mSettings.seed;
     params.boxFilter = mSettings.pixel == PixelModel::Box ? 1u : 0u;
-    params.response = render::splitAddress(context.response);
+    params.response = gpu::splitAddress(context.response);
 
     struct Data {
         Images sums;
@@ -138,7 +139,7 @@ void Truth::declare(render::PostContext& context) {
         "truth rays",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            builder.read(rays.topLevelBuffer, Access::AccelerationRead);
+            builder.read(rays.tlasBuffer, Access::AccelerationRead);
             if (rays.boxesBuffer.isValid())
                 builder.read(rays.boxesBuffer, Access::AccelerationRead);
             data.sums.sumA = builder.write(sums.sumA, Access::StorageWrite);
@@ -150,7 +151,7 @@ void Truth::declare(render::PostContext& context) {
         [this, params, groups, rays](const Data& data, graph::PassContext& recording) {
             const graph::PassResources& resources = recording.resources;
             gpu::BindingList bindings;
-            bindings.accelerationStructure(rays.topLevel)
+            bindings.accelerationStructure(rays.tlas)
                 .storage(resources.view(data.sums.sumA))
                 .storage(resources.view(data.sums.sumB))
                 .storage(resources.view(data.mean))

@@ -5,7 +5,7 @@
 
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/render/gpu_scene.h"
+#include "engine/gpu_scene/gpu_scene.h"
 #include "engine/render/post_effect.h"
 
 #include <cstdint>
@@ -40,7 +40,7 @@ planBatches(uint64_t pixels, uint32_t rays, std::span<const uint32_t> stops);
 /// Call setBatch() before each frame. Reads nothing of the G-buffer.
 class Truth : public render::PostEffect {
   public:
-    Truth(gpu::Device& device, const render::GpuScene& scene, const TruthSettings& settings);
+    Truth(gpu::Device& device, const gpu_scene::GpuScene& scene, const TruthSettings& settings);
 
     /// \param first rays a pixel that earlier batches traced; 0 starts anew
     /// \param count rays a pixel of this batch; 0, after the first, shows the mean once more
@@ -52,9 +52,9 @@ class Truth : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "truth"; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 
-    [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts&) const override {
         return {true, "every ray has its own time"};
     }
 

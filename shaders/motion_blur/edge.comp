@@ -12,7 +12,7 @@ layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform sampler2D uNormal;
-layout(binding = 2) uniform usampler2D uMeshId;
+layout(binding = 2) uniform usampler2D uEntityId;
 layout(binding = 3, r8) uniform writeonly image2D uEdge;
 layout(binding = 4, r8) uniform writeonly image2D uEdgeBlocks;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // First two tests of the ray mask. A moving pixel is a candidate when its place one motion away
 // belongs to another mesh and lies deeper; a candidate is an edge when the 5x5 Sobel says so. Before
-// it: `params`, and textures uMotionDepth, uNormal and uMeshId.
+// it: `params`, and textures uMotionDepth, uNormal and uEntityId.
 #ifndef SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 #define SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 
@@ -10,11 +10,11 @@
 
 vec2 uvAt(vec2 positionPx) { return positionPx / vec2(params.sizePx); }
 
-bool revealsAt(vec2 centre, vec2 offset, float depth, uint meshId) {
+bool revealsAt(vec2 centre, vec2 offset, float depth, uint entityId) {
     if (length(offset) < kStillPx) return false;
     // Beyond the picture the last pixel in it is the best guess.
     vec2 next = clamp(centre + offset, vec2(0.5f), vec2(params.sizePx) - 0.5f);
-    return textureLod(uMeshId, uvAt(next), 0.0f).x != meshId &&
+    return textureLod(uEntityId, uvAt(next), 0.0f).x != entityId &&
            textureLod(uMotionDepth, uvAt(next), 0.0f).z - depth > params.softDepthExtent;
 }
 
@@ -22,9 +22,9 @@ bool isCandidate(vec2 centre) {
     vec3 target = textureLod(uMotionDepth, uvAt(centre), 0.0f).xyz;
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
     if (length(motion) < kStillPx) return false;
-    uint meshId = textureLod(uMeshId, uvAt(centre), 0.0f).x;
-    return revealsAt(centre, motion * params.rasterShare, target.z, meshId) ||
-           revealsAt(centre, motion * (params.rasterShare - 1.0f), target.z, meshId);
+    uint entityId = textureLod(uEntityId, uvAt(centre), 0.0f).x;
+    return revealsAt(centre, motion * params.rasterTime, target.z, entityId) ||
+           revealsAt(centre, motion * (params.rasterTime - 1.0f), target.z, entityId);
 }
 
 /// Normal and depth; clamped to the border by the sampler.

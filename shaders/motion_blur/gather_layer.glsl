@@ -26,11 +26,11 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
     float speed = length(motion);
     float offset = mix(0.5f, noise, params.jitter);
     return Target(
-        motionDepth.z, speed, tapPosition(0u, offset, params.sampleCount, params.rasterShare),
+        motionDepth.z, speed, tapPosition(0u, offset, params.sampleCount, params.rasterTime),
         1.0f / float(params.sampleCount),
         vec2(
-            smearRatio(1.0f, speed * params.rasterShare),
-            smearRatio(1.0f, speed * (1.0f - params.rasterShare))
+            smearRatio(1.0f, speed * params.rasterTime),
+            smearRatio(1.0f, speed * (1.0f - params.rasterTime))
         ),
         1.0f / params.softDepthExtent
     );
@@ -39,7 +39,7 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
 /// Tap `index`, u.
 float placeTap(uint index, Target target) {
     float even = target.firstTap + float(index) * target.perTap; // tapPosition()
-    return warpTapAt(params.response, even, params.rasterShare);
+    return warpTapAt(params.response, even, params.rasterTime);
 }
 
 /// \param motionDepth of the tap
@@ -47,7 +47,7 @@ float placeTap(uint index, Target target) {
 float weighTap(vec3 motionDepth, float u, float range, Target target) {
     vec2 motion = shownMotion(motionDepth.xy, motionDepth.z, params.maxMotionDepth);
     // A smear reaches this share of its length to u's side of the raster instant.
-    float reach = u >= 0.0f ? params.rasterShare : 1.0f - params.rasterShare;
+    float reach = u >= 0.0f ? params.rasterTime : 1.0f - params.rasterTime;
     float distancePx = range * abs(u);
     return sampleWeightAt(
         (target.depth - motionDepth.z) * target.perSoftExtent,

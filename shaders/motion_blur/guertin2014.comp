@@ -37,8 +37,8 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
         // look to one only.
         if (isSecond && speed < kStillPx) side = -side;
         float u = warpTapAt(
-            params.response, innerTapPosition(i, jitter, params.sampleCount, params.rasterShare),
-            params.rasterShare
+            params.response, innerTapPosition(i, jitter, params.sampleCount, params.rasterTime),
+            params.rasterTime
         );
         vec2 offset = direction * (u * range * (isSecond ? side : 1.0f));
         vec2 uv = (centre + offset) * pixelsToUv;
@@ -46,8 +46,8 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
         vec2 tapMotion = limitMotion(tap.xyz, float(params.tileSizePx), params.maxMotionDepth);
         float tapWeight = guertinWeight(
             (target.z - tap.z) / params.softDepthExtent, length(offset),
-            smearReach(offset, tapMotion, params.rasterShare),
-            smearReach(offset, target.xy, params.rasterShare), alignment(second, direction),
+            smearReach(offset, tapMotion, params.rasterTime),
+            smearReach(offset, target.xy, params.rasterTime), alignment(second, direction),
             alignment(tapMotion, direction)
         );
         sum += textureLod(uColor, uv, 0.0f).rgb * tapWeight;

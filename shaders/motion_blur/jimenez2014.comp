@@ -35,8 +35,8 @@ Tap takeTap(vec2 centre, vec2 offset, vec3 target, float pixelsToTaps) {
     tap.speed = length(motion);
     tap.weight = jimenezWeight(
         (target.z - tap.depth) / params.softDepthExtent, length(offset) * pixelsToTaps,
-        smearReach(offset, motion, params.rasterShare) * pixelsToTaps,
-        smearReach(offset, target.xy, params.rasterShare) * pixelsToTaps
+        smearReach(offset, motion, params.rasterTime) * pixelsToTaps,
+        smearReach(offset, target.xy, params.rasterTime) * pixelsToTaps
     );
     return tap;
 }
@@ -51,11 +51,11 @@ vec3 gather(vec2 dominant, vec3 target, vec2 centre) {
     for (uint i = 0u; i < pairs; ++i) {
         // The farther of the two comes first: its weight is what a pair of equals gets, and in an
         // exposure that is not centred the nearer one's would pull in colours from afar.
-        uint far = params.rasterShare >= 0.5f ? count - 1u - i : i;
-        float farPosition = tapPosition(far, offset, count, params.rasterShare);
-        float nearPosition = tapPosition(count - 1u - far, offset, count, params.rasterShare);
-        farPosition = warpTapAt(params.response, farPosition, params.rasterShare);
-        nearPosition = warpTapAt(params.response, nearPosition, params.rasterShare);
+        uint far = params.rasterTime >= 0.5f ? count - 1u - i : i;
+        float farPosition = tapPosition(far, offset, count, params.rasterTime);
+        float nearPosition = tapPosition(count - 1u - far, offset, count, params.rasterTime);
+        farPosition = warpTapAt(params.response, farPosition, params.rasterTime);
+        nearPosition = warpTapAt(params.response, nearPosition, params.rasterTime);
         Tap first = takeTap(centre, dominant * farPosition, target, pixelsToTaps);
         Tap second = takeTap(centre, dominant * nearPosition, target, pixelsToTaps);
         vec2 weights = mirrorWeights(

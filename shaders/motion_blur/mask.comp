@@ -68,8 +68,8 @@ bool isMasked(ivec2 pixel) {
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
     if (length(motion) < kStillPx) return false;
     // A side that is not exposed holds only the pixel itself, which the other has looked at.
-    if (params.rasterShare > 0.0f && meetsEdge(centre, motion * params.rasterShare)) return true;
-    return params.rasterShare < 1.0f && meetsEdge(centre, motion * (params.rasterShare - 1.0f));
+    if (params.rasterTime > 0.0f && meetsEdge(centre, motion * params.rasterTime)) return true;
+    return params.rasterTime < 1.0f && meetsEdge(centre, motion * (params.rasterTime - 1.0f));
 }
 
 void listTile(uvec2 tile) {

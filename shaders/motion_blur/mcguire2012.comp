@@ -25,19 +25,19 @@ vec3 gather(vec2 dominant, vec2 centre) {
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (interleavedGradientNoise(floor(centre)) - 0.5f) * params.jitter;
     float halfTap = 0.5f / float(params.sampleCount + 1u);
-    float centreTap = findCentreTapAt(params.response, params.rasterShare);
+    float centreTap = findCentreTapAt(params.response, params.rasterTime);
     for (uint i = 0u; i < params.sampleCount; ++i) {
         // The tap that is the target itself (the middle one of a centred exposure) is counted above.
-        float even = innerTapPosition(i, 0.0f, params.sampleCount, params.rasterShare);
+        float even = innerTapPosition(i, 0.0f, params.sampleCount, params.rasterTime);
         if (abs(even - centreTap) < halfTap) continue;
-        float u = innerTapPosition(i, jitter, params.sampleCount, params.rasterShare);
-        vec2 offset = dominant * warpTapAt(params.response, u, params.rasterShare);
+        float u = innerTapPosition(i, jitter, params.sampleCount, params.rasterTime);
+        vec2 offset = dominant * warpTapAt(params.response, u, params.rasterTime);
         vec2 uv = (centre + offset) * pixelsToUv;
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);
         float tapWeight = sampleWeight(
             (target.z - tap.z) / params.softDepthExtent, length(offset),
-            smearReach(offset, limitMotion(tap.xyz, limit, params.maxMotionDepth), params.rasterShare),
-            smearReach(offset, targetMotion, params.rasterShare), 1.0f
+            smearReach(offset, limitMotion(tap.xyz, limit, params.maxMotionDepth), params.rasterTime),
+            smearReach(offset, targetMotion, params.rasterTime), 1.0f
         );
         sum += textureLod(uColor, uv, 0.0f).rgb * tapWeight;
         weight += tapWeight;

@@ -14,10 +14,10 @@ SHUTTER_CONST uint kRevealThreads = 64u; // reveal: masked pixels a group
 /// Motion shorter than this blurs less than a pixel shows: such pixels are still.
 SHUTTER_CONST float kStillPx = 0.5f;
 
-// Bits of MotionBlurParams::choices.
-SHUTTER_CONST uint kChooseLuminanceTest = 1u;    // objects are told apart by luminance, not mesh id
-SHUTTER_CONST uint kChooseSteppingReveal = 2u;   // the reveal steps from surface to surface
-SHUTTER_CONST uint kChooseVelocityOccluder = 4u; // own velocity drops what does not reach the pixel
+// Bits of MotionBlurParams::flags.
+SHUTTER_CONST uint kFlagLuminanceTest = 1u;    // objects are told apart by luminance, not mesh id
+SHUTTER_CONST uint kFlagSteppingReveal = 2u;   // the reveal steps from surface to surface
+SHUTTER_CONST uint kFlagVelocityOccluder = 4u; // own velocity drops what does not reach the pixel
 
 /// Push constants of every pass.
 struct MotionBlurParams {
@@ -28,17 +28,17 @@ struct MotionBlurParams {
     uint sampleCount;
     float softDepthExtent;         // metres
     float edgeThreshold;           // [0, 1]
-    float rasterShare;             // s of the raster instant, [0, 1]
+    float rasterTime;             // s of the raster instant, [0, 1]
     float foregroundMagnification;
     float backgroundMagnification;
     float jitter;                  // [0, 1]
     uint recursionLimit;
-    uint choices;                  // kChoose...
+    uint flags;                  // kFlag...
     float luminanceThreshold;
     uvec2 frame;                   // address of the scene's FrameConstants (reveal only)
     float centreBias;              // kappa (Guertin only)
     float speedThresholdPx;        // gamma (Guertin only), of half velocities
-    uvec2 moving;                  // address of the scene's MovingConstants (denoised only)
+    uvec2 moving;                  // address of the scene's TimedConstants (denoised only)
     float luminanceSigma;          // deviations that count as noise (denoised only)
     float stepPx;                  // between taps of one level (denoised only)
     uvec2 response;                // address of the shutter's ResponseTable; 0: a box

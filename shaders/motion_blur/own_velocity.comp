@@ -22,7 +22,7 @@ bool passesOccluderTest(vec2 at, vec2 offset, float depth) {
     if (any(lessThan(at, vec2(0.0f))) || any(greaterThan(at, vec2(params.sizePx)))) return false;
     vec4 tap = textureLod(uMotionDepth, at / vec2(params.sizePx), 0.0f);
     return tap.z > depth ||
-           couldCover(offset, limitMotion(tap.xyz, kLongestOwnMotionPx, params.maxMotionDepth), params.rasterShare);
+           couldCover(offset, limitMotion(tap.xyz, kLongestOwnMotionPx, params.maxMotionDepth), params.rasterTime);
 }
 
 void main() {
@@ -38,10 +38,10 @@ void main() {
     if (length(motion) >= kStillPx) {
         float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
         for (uint i = 0u; i < params.sampleCount; ++i) {
-            float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
-            vec2 along = motion * warpTapAt(params.response, u, params.rasterShare);
+            float u = tapPosition(i, offset, params.sampleCount, params.rasterTime);
+            vec2 along = motion * warpTapAt(params.response, u, params.rasterTime);
             vec2 at = centre + along;
-            if ((params.choices & kChooseVelocityOccluder) != 0u &&
+            if ((params.flags & kFlagVelocityOccluder) != 0u &&
                 !passesOccluderTest(at, along, target.z))
                 continue;
             sum += textureLod(uColor, at * pixelsToUv, 0.0f).rgb;

@@ -13,8 +13,8 @@ SHUTTER_CONST float kLongestOwnMotionPx = 65536.0f;
 /// Bevy's occluder test: whether a tap that is not behind the pixel moves far enough along `offset`
 /// to have been over it. Bevy compares half the motion, projected, with the distance: the centred
 /// exposure of this.
-SHUTTER_INLINE bool couldCover(vec2 offset, vec2 tapMotion, float rasterShare) {
-    float projected = abs(dot(offset, tapMotion)) * reachShare(offset, tapMotion, rasterShare);
+SHUTTER_INLINE bool couldCover(vec2 offset, vec2 tapMotion, float rasterTime) {
+    float projected = abs(dot(offset, tapMotion)) * reachShare(offset, tapMotion, rasterTime);
     return projected >= dot(offset, offset);
 }
 

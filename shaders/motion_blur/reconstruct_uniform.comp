@@ -27,15 +27,15 @@ vec4 gatherUniform(vec2 at, vec2 dominant) {
     float weight = centreWeight(range);
     vec3 sum = textureLod(uColor, at * pixelsToUv, 0.0f).rgb * weight;
     float offset = mix(0.5f, interleavedGradientNoise(floor(at)), params.jitter);
-    float first = tapPosition(0u, offset, params.sampleCount, params.rasterShare);
+    float first = tapPosition(0u, offset, params.sampleCount, params.rasterTime);
     float perTap = 1.0f / float(params.sampleCount);
     // Of the smear's length to the side of u >= 0, and to the other, one u.
     vec2 perReach = vec2(
-        smearRatio(range, range * params.rasterShare),
-        smearRatio(range, range * (1.0f - params.rasterShare))
+        smearRatio(range, range * params.rasterTime),
+        smearRatio(range, range * (1.0f - params.rasterTime))
     );
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        float u = warpTapAt(params.response, first + float(i) * perTap, params.rasterShare);
+        float u = warpTapAt(params.response, first + float(i) * perTap, params.rasterTime);
         float tapWeight = uniformWeight(abs(u) * (u >= 0.0f ? perReach.x : perReach.y));
         sum += textureLod(uColor, (at + dominant * u) * pixelsToUv, 0.0f).rgb * tapWeight;
         weight += tapWeight;

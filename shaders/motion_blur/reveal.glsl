@@ -28,7 +28,7 @@ Revealed traceReveal(ivec2 pixel) {
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
     Revealed revealed = keepRaster(uv); // also where a limit of one level reveals nothing
-    uint frontId = revealed.meshId;
+    uint frontId = revealed.entityId;
     if (frontId == kNoEntity) return revealed; // nothing hides the sky
 
     FrameRef frame = FrameRef(params.frame);
@@ -42,10 +42,10 @@ Revealed traceReveal(ivec2 pixel) {
     float error = rasterHitError(t, frame.value.pixelFootprint);
     // One ray is enough where it passes all of the front entity: left out by the mask, which costs
     // nothing, or else candidate by candidate.
-    bool single = (params.choices & kChooseSteppingReveal) == 0u;
+    bool single = (params.flags & kFlagSteppingReveal) == 0u;
     uint passedMask =
-        single ? EntityTable(frame.value.entities).rows[frontId].rayMask : 0u;
-    bool byLuminance = (params.choices & kChooseLuminanceTest) != 0u;
+        single ? EntityTable(frame.value.entities).rows[frontId].instanceMask : 0u;
+    bool byLuminance = (params.flags & kFlagLuminanceTest) != 0u;
     uint limit = single ? 2u : params.recursionLimit;
     uint leftId = passedMask != 0u ? kNoEntity : frontId;
     uint rays = 0u;

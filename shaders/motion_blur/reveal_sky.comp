@@ -13,7 +13,7 @@ void main() {
     vec2 centre = vec2(pixelOf(pixels[index])) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
     FrameRef frame = FrameRef(params.frame);
-    bool sky = textureLod(uMeshId, uv, 0.0f).x == kNoEntity;
+    bool sky = textureLod(uEntityId, uv, 0.0f).x == kNoEntity;
     Revealed revealed = sky ? keepRaster(uv)
                             : revealSky(frame, centre, makeViewRay(frame, centre).direction);
     storeRevealed(pixels[index], revealed);

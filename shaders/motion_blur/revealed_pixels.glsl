@@ -10,11 +10,11 @@
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(set = 0, binding = 0) uniform sampler2D uColor;
 layout(set = 0, binding = 1) uniform sampler2D uMotionDepth;
-layout(set = 0, binding = 2) uniform usampler2D uMeshId;
+layout(set = 0, binding = 2) uniform usampler2D uEntityId;
 layout(set = 0, binding = 3) uniform sampler2D uMask;
 layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D uRevealColor;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly image2D uRevealMotionDepth;
-layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D uRevealMeshId;
+layout(set = 0, binding = 6, r32ui) uniform writeonly uimage2D uRevealEntityId;
 layout(set = 0, binding = 7, scalar) buffer MaskList {
     MaskHeader header;
     uint pixels[];
@@ -23,14 +23,14 @@ layout(set = 0, binding = 7, scalar) buffer MaskList {
 struct Revealed {
     vec3 color;
     vec4 motionDepth;
-    uint meshId;
+    uint entityId;
 };
 
 /// Where nothing hides anything: what raster shows.
 Revealed keepRaster(vec2 uv) {
     return Revealed(
         textureLod(uColor, uv, 0.0f).rgb, textureLod(uMotionDepth, uv, 0.0f),
-        textureLod(uMeshId, uv, 0.0f).x
+        textureLod(uEntityId, uv, 0.0f).x
     );
 }
 
@@ -50,7 +50,7 @@ ivec2 pixelOf(uint entry) {
 void storeAt(ivec2 pixel, Revealed revealed) {
     imageStore(uRevealColor, pixel, vec4(revealed.color, 1.0f));
     imageStore(uRevealMotionDepth, pixel, revealed.motionDepth);
-    imageStore(uRevealMeshId, pixel, uvec4(revealed.meshId, 0u, 0u, 0u));
+    imageStore(uRevealEntityId, pixel, uvec4(revealed.entityId, 0u, 0u, 0u));
 }
 
 /// For the entry's pixel, and for those that share its ray.

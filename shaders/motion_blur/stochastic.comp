@@ -28,7 +28,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     FrameRef frame = FrameRef(params.frame);
-    MovingRef moving = MovingRef(params.moving);
+    TimedRef moving = TimedRef(params.moving);
     vec2 centre = vec2(pixel) + 0.5f;
     float offset = interleavedGradientNoise(vec2(pixel));
     vec3 sum = vec3(0.0f);

@@ -26,7 +26,7 @@ void main() {
     float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
     vec3 sum = vec3(0.0f);
     for (uint i = 0u; i < params.sampleCount; ++i) {
-        float u = tapPosition(i, offset, params.sampleCount, params.rasterShare);
+        float u = tapPosition(i, offset, params.sampleCount, params.rasterTime);
         vec2 at = (centre + dominant * u) * pixelsToUv;
         sum += textureLod(uColor, at, 0.0f).rgb + textureLod(uMotionDepth, at, 0.0f).xyz;
     }

@@ -15,53 +15,53 @@ SHUTTER_SHADER_BEGIN
 
 /// Tap `index` of `count` strata of equal length, u.
 /// \param offset in the stratum, [0, 1)
-SHUTTER_INLINE float tapPosition(uint index, float offset, uint count, float rasterShare) {
-    return (float(index) + offset) / float(count) + rasterShare - 1.0f;
+SHUTTER_INLINE float tapPosition(uint index, float offset, uint count, float rasterTime) {
+    return (float(index) + offset) / float(count) + rasterTime - 1.0f;
 }
 
 /// Tap `index` of `count` between the ends of the range, neither of which is met (McGuire 2012 and
 /// Guertin 2014: t = mix(-1, 1, (i + j + 1) / (S + 1)) of a half velocity), u.
 /// \param jitter j, in taps
-SHUTTER_INLINE float innerTapPosition(uint index, float jitter, uint count, float rasterShare) {
-    return (float(index) + 1.0f + jitter) / float(count + 1u) + rasterShare - 1.0f;
+SHUTTER_INLINE float innerTapPosition(uint index, float jitter, uint count, float rasterTime) {
+    return (float(index) + 1.0f + jitter) / float(count + 1u) + rasterTime - 1.0f;
 }
 
 /// A tap of the two above, which fill the exposure evenly, where the shutter's response has it: there
 /// taps count alike. What a pixel sees of a surface that moves at constant speed is then weighed as
 /// the response says; how far a smear reaches and how a publication weighs its taps stays as it is.
-SHUTTER_INLINE float warpTap(ResponseRef response, float u, float rasterShare) {
-    return rasterShare - inverseResponse(response, rasterShare - u);
+SHUTTER_INLINE float warpTap(ResponseRef response, float u, float rasterTime) {
+    return rasterTime - inverseResponse(response, rasterTime - u);
 }
 
 /// The even tap that warpTap() takes to 0, the pixel itself.
-SHUTTER_INLINE float findCentreTap(ResponseRef response, float rasterShare) {
-    return rasterShare - cumulativeResponse(response, rasterShare);
+SHUTTER_INLINE float findCentreTap(ResponseRef response, float rasterTime) {
+    return rasterTime - cumulativeResponse(response, rasterTime);
 }
 
 #ifndef __cplusplus
 /// warpTap() of the table at an address; a box (0) leaves u as it is, bit for bit.
-float warpTapAt(uvec2 response, float u, float rasterShare) {
+float warpTapAt(uvec2 response, float u, float rasterTime) {
     if ((response.x | response.y) == 0u) return u;
-    return warpTap(ResponseRef(response), u, rasterShare);
+    return warpTap(ResponseRef(response), u, rasterTime);
 }
 
 /// findCentreTap() of the table at an address.
-float findCentreTapAt(uvec2 response, float rasterShare) {
+float findCentreTapAt(uvec2 response, float rasterTime) {
     if ((response.x | response.y) == 0u) return 0.0f;
-    return findCentreTap(ResponseRef(response), rasterShare);
+    return findCentreTap(ResponseRef(response), rasterTime);
 }
 #endif
 
 /// Share of the exposure that a surface at `offset` from a pixel has to come over it: before the
 /// raster instant where it moves towards offset, after it where it moves away. In a centred exposure
 /// the half velocity of the publications.
-SHUTTER_INLINE float reachShare(vec2 offset, vec2 motion, float rasterShare) {
-    return dot(offset, motion) >= 0.0f ? rasterShare : 1.0f - rasterShare;
+SHUTTER_INLINE float reachShare(vec2 offset, vec2 motion, float rasterTime) {
+    return dot(offset, motion) >= 0.0f ? rasterTime : 1.0f - rasterTime;
 }
 
 /// How far the smear of `motion` reaches along `offset` from where the raster has it, pixels.
-SHUTTER_INLINE float smearReach(vec2 offset, vec2 motion, float rasterShare) {
-    return length(motion) * reachShare(offset, motion, rasterShare);
+SHUTTER_INLINE float smearReach(vec2 offset, vec2 motion, float rasterTime) {
+    return length(motion) * reachShare(offset, motion, rasterTime);
 }
 
 /// Displacement of the tile look-up that hides the borders of tiles as noise: along one axis, never

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertices of a geometry, bent, at one or several instants.
+// The vertices of a geometry, deformed, at one or several instants.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -33,7 +33,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer P
     vec4 values[];
 };
 
-ShapedVertex morph(ShapedVertex shaped, uint index, uint instant) {
+DeformedVertex morph(DeformedVertex shaped, uint index, uint instant) {
     for (uint target = 0u; target < job.targetCount; ++target) {
         float weight = WeightArray(job.weights).values[instant * job.weightStride + target];
         if (weight == 0.0f) continue; // 0 times what it would add
@@ -66,8 +66,8 @@ void main() {
     uint instant = gl_GlobalInvocationID.y;
     if (index >= job.vertexCount) return;
     Vertex vertex = VertexArray(job.vertices).values[index];
-    ShapedVertex shaped =
-        ShapedVertex(vertex.positionU0.xyz, vertex.normalV0.xyz, vertex.tangent.xyz);
+    DeformedVertex shaped =
+        DeformedVertex(vertex.positionU0.xyz, vertex.normalV0.xyz, vertex.tangent.xyz);
     shaped = morph(shaped, index, instant);
     if (job.jointCount > 0u) shaped = skinVertex(shaped, blendJoints(index, instant));
     shaped = finishVertex(shaped);

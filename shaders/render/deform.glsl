@@ -6,12 +6,12 @@
 
 #include "common/numeric.glsl"
 #include "render/deform_shared.h"
-#include "render/moving_scene_shared.h"
+#include "render/timed_scene_shared.h"
 
 SHUTTER_SHADER_BEGIN
 
 /// What of a vertex its deformation changes.
-struct ShapedVertex {
+struct DeformedVertex {
     vec3 position; // object space
     vec3 normal;   // unit, or 0 where there is none
     vec3 tangent;  // likewise
@@ -29,8 +29,8 @@ SHUTTER_INLINE vec3 unitOrZero(vec3 v) {
 }
 
 /// Normal and tangent are left as long as they come; finishVertex() makes them unit.
-SHUTTER_INLINE ShapedVertex morphVertex(ShapedVertex vertex, MorphDelta delta, float weight) {
-    ShapedVertex result = vertex;
+SHUTTER_INLINE DeformedVertex morphVertex(DeformedVertex vertex, MorphDelta delta, float weight) {
+    DeformedVertex result = vertex;
     result.position += weight * vec3(delta.position);
     result.normal += weight * vec3(delta.normal);
     result.tangent += weight * vec3(delta.tangent);
@@ -52,12 +52,12 @@ SHUTTER_INLINE MotionKey noJoint() {
 
 /// The normal goes with the cofactor matrix: right for any scale. Where the matrix mirrors, it points
 /// to the back of the winding, which is turned round too (EntityRow::handedness rights both).
-SHUTTER_INLINE ShapedVertex skinVertex(ShapedVertex vertex, MotionKey blended) {
+SHUTTER_INLINE DeformedVertex skinVertex(DeformedVertex vertex, MotionKey blended) {
     vec3 x = vec3(blended.rows[0]);
     vec3 y = vec3(blended.rows[1]);
     vec3 z = vec3(blended.rows[2]);
     vec4 p = vec4(vertex.position, 1.0f);
-    ShapedVertex result;
+    DeformedVertex result;
     result.position = vec3(dot(blended.rows[0], p), dot(blended.rows[1], p), dot(blended.rows[2], p));
     result.normal = vec3(
         dot(cross(y, z), vertex.normal), dot(cross(z, x), vertex.normal), dot(cross(x, y), vertex.normal)
@@ -68,8 +68,8 @@ SHUTTER_INLINE ShapedVertex skinVertex(ShapedVertex vertex, MotionKey blended) {
 
 /// Unit directions, and a position that builders of acceleration structures can bear: one that is
 /// not finite is at the origin.
-SHUTTER_INLINE ShapedVertex finishVertex(ShapedVertex vertex) {
-    ShapedVertex result = vertex;
+SHUTTER_INLINE DeformedVertex finishVertex(DeformedVertex vertex) {
+    DeformedVertex result = vertex;
     if (!isFinite(vertex.position.x) || !isFinite(vertex.position.y) || !isFinite(vertex.position.z))
         result.position = vec3(0.0f);
     result.normal = unitOrZero(vertex.normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What bends meshes: the vertices' joints and morph targets, and the work of one dispatch.
+// What deforms meshes: the vertices' joints and morph targets, and the work of one dispatch.
 #ifndef SHUTTER_DEFORM_SHARED_H
 #define SHUTTER_DEFORM_SHARED_H
 
@@ -32,7 +32,7 @@ struct DeformJob {
     uvec2 weights;        // address of float[]: all targets' at the first instant, then at the next
     uvec2 output_;        // address of Vertex[] or vec4[]: all vertices at the first instant, ...
     uint vertexCount;
-    uint influenceCount;  // a multiple of 4; 0: all vertices are bent by joint 0
+    uint influenceCount;  // a multiple of 4; 0: all vertices are deformed by joint 0
     uint jointCount;      // 0: not skinned
     uint targetCount;     // 0: not morphed
     uint weightStride;    // weights an instant has, targetCount or more
@@ -41,7 +41,7 @@ struct DeformJob {
 
 /// Push constants: boxes over what triangles sweep between two keys of their shape (the dispatch's
 /// y is the interval).
-struct ShapeBoxJob {
+struct DeformedBoxJob {
     uvec2 vertices; // address of Vertex[]: all vertices at the first key, then at the next
     uvec2 indices;  // address of uint[]
     uvec2 boxes;    // address of float[]: six a triangle, min and max, in the order of indices
@@ -57,7 +57,7 @@ SHUTTER_SHADER_END
 static_assert(sizeof(shutter::shader::JointInfluences) == 24);
 static_assert(sizeof(shutter::shader::MorphDelta) == 48);
 static_assert(sizeof(shutter::shader::DeformJob) == 72);
-static_assert(sizeof(shutter::shader::ShapeBoxJob) == 40);
+static_assert(sizeof(shutter::shader::DeformedBoxJob) == 40);
 #endif
 
 #endif

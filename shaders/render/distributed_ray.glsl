@@ -4,7 +4,7 @@
 #ifndef SHUTTER_DISTRIBUTED_RAY_GLSL
 #define SHUTTER_DISTRIBUTED_RAY_GLSL
 
-#include "render/moving_trace.glsl"
+#include "render/timed_trace.glsl"
 #include "render/shade_hit.glsl"
 
 struct DistributedSample {
@@ -21,7 +21,7 @@ struct DistributedSample {
 /// \param screenPx pixels from the top left corner
 /// \param s shutter time, [0, 1]
 DistributedSample traceDistributed(
-    accelerationStructureEXT scene, FrameRef frame, MovingRef moving, vec2 screenPx, float s
+    accelerationStructureEXT scene, FrameRef frame, TimedRef moving, vec2 screenPx, float s
 ) {
     ShutterRay ray = makeShutterRay(frame, moving, screenPx, s);
     LightSet lights = lightsAt(moving, s);
@@ -34,10 +34,10 @@ DistributedSample traceDistributed(
     result.eyePosition = vec3(0.0f);
     result.rays = 0u;
     float transmitted = 1.0f;
-    MovingQuery query = MovingQuery(s, ray.eye, kSolidMask | kBlendedMask, 0.0f, 1.0e30f);
+    TimedQuery query = TimedQuery(s, ray.eye, kSolidMask | kBlendedMask, 0.0f, 1.0e30f);
     while (true) {
         RayHit rayHit =
-            traceMovingRay(scene, frame, moving, ray.origin, ray.direction, query);
+            traceTimedRay(scene, frame, moving, ray.origin, ray.direction, query);
         ++result.rays;
         if (!rayHit.found) {
             result.radiance += transmitted * frame.value.background.rgb;

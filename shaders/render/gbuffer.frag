@@ -22,7 +22,7 @@ layout(location = 6) in vec3 inClipClose;
 layout(location = 0) out vec4 outColor;
 layout(location = 1) out vec4 outNormal;
 layout(location = 2) out vec4 outMotionDepth;
-layout(location = 3) out uint outMeshId;
+layout(location = 3) out uint outEntityId;
 
 /// The triangle's normal, on the front side as the winding defines it, from derivatives.
 vec3 geometricNormal() {
@@ -71,5 +71,5 @@ void main() {
         );
     }
     outMotionDepth = vec4(motion, dot(inEyePosition, frame.value.forward.xyz), 0.0f);
-    outMeshId = draw.entity;
+    outEntityId = draw.entity;
 }

@@ -24,7 +24,7 @@ struct Placement {
     vec4 eyeFromObject[3]; // rows of the 3x4 matrix
     float handedness;      // -1 where it mirrors, else 1
     uint firstGeometry;
-    bool bends;            // its shape changes: its vertices lie between two keys
+    bool deforms;            // its shape changes: its vertices lie between two keys
     uint firstKey;         // the earlier of them
     float keyBlend;        // how far towards the later one, [0, 1]
 };
@@ -35,7 +35,7 @@ Placement placeAtRaster(FrameRef frame, uint entity) {
     placement.eyeFromObject = entities.rows[entity].eyeFromObject;
     placement.handedness = entities.rows[entity].handedness;
     placement.firstGeometry = entities.rows[entity].firstGeometry;
-    placement.bends = false;
+    placement.deforms = false;
     placement.firstKey = 0u;
     placement.keyBlend = 0.0f;
     return placement;
@@ -63,7 +63,7 @@ vec3 transformNormal(Placement placement, vec3 n) {
 /// Where the vertex is that a ray meets.
 vec3 fetchPosition(Geometry geometry, Placement placement, uint index) {
     VertexArray vertices = VertexArray(geometry.vertices);
-    if (!placement.bends) return vertices.values[index].positionU0.xyz;
+    if (!placement.deforms) return vertices.values[index].positionU0.xyz;
     uint near = placement.firstKey * geometry.vertexCount + index;
     return mix(vertices.values[near].positionU0.xyz,
                vertices.values[near + geometry.vertexCount].positionU0.xyz, placement.keyBlend);
@@ -71,7 +71,7 @@ vec3 fetchPosition(Geometry geometry, Placement placement, uint index) {
 
 Vertex fetchVertex(Geometry geometry, Placement placement, uint index) {
     VertexArray vertices = VertexArray(geometry.vertices);
-    if (!placement.bends) return vertices.values[index];
+    if (!placement.deforms) return vertices.values[index];
     uint near = placement.firstKey * geometry.vertexCount + index;
     Vertex vertex = vertices.values[near];
     Vertex next = vertices.values[near + geometry.vertexCount];

@@ -33,8 +33,8 @@ struct EntityRow {
     float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
                                // mirrored skeleton, else 1
     uint motion;               // index into the table of motions, or kNoMotion
-    uint rayMask;              // bits of its instance that a ray leaves out to pass it and no other
-                               // entity (ray_masks.h); 0: no mask tells it from all others
+    uint instanceMask;              // bits of its instance that a ray leaves out to pass it and no other
+                               // entity (instance_masks.h); 0: no mask tells it from all others
 };
 
 /// Where an entity that moves in the picture, or whose shape changes, is at the exposure's ends.
@@ -124,7 +124,7 @@ struct FrameConstants {
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
-    uvec2 movingLevel;           // address of a second top level, of what moves; 0: there is none
+    uvec2 movingTlas;           // address of a second top level, of what moves; 0: there is none
 };
 
 /// Push constants of the G-buffer's draws.

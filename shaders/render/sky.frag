@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 layout(location = 0) out vec4 outColor;
 layout(location = 1) out vec4 outNormal;
 layout(location = 2) out vec4 outMotionDepth;
-layout(location = 3) out uint outMeshId;
+layout(location = 3) out uint outEntityId;
 
 void main() {
     FrameRef frame = FrameRef(draw.frame);
@@ -17,5 +17,5 @@ void main() {
     outColor = vec4(frame.value.background.rgb, 1.0f);
     outNormal = vec4(0.0f);
     outMotionDepth = vec4(skyMotion(frame, gl_FragCoord.xy, ray.direction), kSkyDepth, 0.0f);
-    outMeshId = kNoEntity;
+    outEntityId = kNoEntity;
 }

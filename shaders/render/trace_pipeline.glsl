@@ -31,12 +31,12 @@ RayHit traceRay(
     uint flags = findRayFlags(mask, left);
     traceRayEXT(scene, flags, mask, 0u, 0u, 0u, origin, tMin, direction, tMax, 0);
     RayHit nearest = readTraced();
-    // What moves may be in a level of its own (FrameConstants::movingLevel).
-    uvec2 movingLevel = frame.value.movingLevel;
-    if ((movingLevel.x | movingLevel.y) == 0u) return nearest;
+    // What moves may be in a level of its own (FrameConstants::movingTlas).
+    uvec2 movingTlas = frame.value.movingTlas;
+    if ((movingTlas.x | movingTlas.y) == 0u) return nearest;
     float end = nearest.found ? nearest.t : tMax;
     traceRayEXT(
-        accelerationStructureEXT(movingLevel), flags, mask, 0u, 0u, 0u, origin, tMin, direction, end,
+        accelerationStructureEXT(movingTlas), flags, mask, 0u, 0u, 0u, origin, tMin, direction, end,
         0
     );
     RayHit moving = readTraced();

@@ -12,9 +12,9 @@ RayHit traceRay(
 ) {
     RayHit result;
     result.found = false;
-    // What moves may be in a level of its own (FrameConstants::movingLevel).
-    uvec2 movingLevel = frame.value.movingLevel;
-    uint levels = (movingLevel.x | movingLevel.y) != 0u ? 2u : 1u;
+    // What moves may be in a level of its own (FrameConstants::movingTlas).
+    uvec2 movingTlas = frame.value.movingTlas;
+    uint levels = (movingTlas.x | movingTlas.y) != 0u ? 2u : 1u;
     uint flags = findRayFlags(mask, left);
     for (uint level = 0u; level < levels; ++level) {
         float end = result.found ? result.t : tMax;
@@ -23,7 +23,7 @@ RayHit traceRay(
             rayQueryInitializeEXT(query, scene, flags, mask, origin, tMin, direction, end);
         else
             rayQueryInitializeEXT(
-                query, accelerationStructureEXT(movingLevel), flags, mask, origin, tMin, direction,
+                query, accelerationStructureEXT(movingTlas), flags, mask, origin, tMin, direction,
                 end
             );
         while (rayQueryProceedEXT(query)) {

@@ -22,7 +22,7 @@ shared vec2 sTotals[kTruthGroupSize * kTruthGroupSize];
 
 vec2 tracePixel(ivec2 pixel) {
     FrameRef frame = FrameRef(params.frame);
-    MovingRef moving = MovingRef(params.moving);
+    TimedRef moving = TimedRef(params.moving);
     vec3 sumA = vec3(0.0f);
     vec3 sumB = vec3(0.0f);
     if (params.firstRay > 0u) {

@@ -11,7 +11,7 @@ SHUTTER_CONST uint kTruthGroupSize = 8u; // 8 x 8 threads
 struct TruthParams {
     uvec2 sizePx;
     uvec2 frame;    // address of FrameConstants
-    uvec2 moving;   // address of MovingConstants
+    uvec2 moving;   // address of TimedConstants
     uint firstRay;  // rays a pixel has before this batch; 0 clears
     uint rayCount;  // rays a pixel of this batch
     uint seed;

@@ -56,28 +56,28 @@ Triangles makeTriangles(gpu::Device& device, const std::vector<vec3>& positions)
     return made;
 }
 
-gpu::Instance makeInstance(const gpu::AccelerationStructure& bottomLevel) {
+gpu::Instance makeInstance(const gpu::AccelerationStructure& blas) {
     gpu::Instance instance{};
     for (int i = 0; i < 3; ++i)
         instance.worldFromObject[i][i] = 1.0f;
-    instance.bottomLevel = bottomLevel.address();
+    instance.blas = blas.address();
     return instance;
 }
 
-void build(gpu::Device& device, gpu::TopLevel& top, std::span<const gpu::Instance> instances) {
+void build(gpu::Device& device, gpu::Tlas& top, std::span<const gpu::Instance> instances) {
     top.prepare(device, instances);
     gpu::runOnce(device, [&](VkCommandBuffer commands) { top.record(device, commands); });
 }
 
 TEST_F(AccelerationStructure, NoMeshesGiveNoStructures) {
-    EXPECT_TRUE(gpu::buildBottomLevel(device(), {}).empty());
+    EXPECT_TRUE(gpu::buildBlas(device(), {}).empty());
 }
 
 TEST_F(AccelerationStructure, AMeshWithoutTrianglesGivesAnEmptyOne) {
     Triangles none = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
     none.geometry.triangleCount = 0;
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{}, {none.geometry}};
-    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    const auto structures = gpu::buildBlas(device(), meshes);
     ASSERT_EQ(structures.size(), 2u);
     EXPECT_FALSE(structures[0]);
     EXPECT_FALSE(structures[1]);
@@ -86,11 +86,11 @@ TEST_F(AccelerationStructure, AMeshWithoutTrianglesGivesAnEmptyOne) {
 TEST_F(AccelerationStructure, OneTriangleBuildsAndHasAnAddress) {
     const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    const auto structures = gpu::buildBlas(device(), meshes);
     ASSERT_EQ(structures.size(), 1u);
     ASSERT_TRUE(structures[0]);
     EXPECT_NE(structures[0].address(), 0u);
-    gpu::TopLevel top;
+    gpu::Tlas top;
     build(device(), top, std::vector{makeInstance(structures[0])});
     EXPECT_TRUE(top.structure());
 }
@@ -110,15 +110,15 @@ TEST_F(AccelerationStructure, TrianglesWithoutAreaBuild) {
          vec3(1)} // inactive, as Vulkan calls it
     );
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{flat.geometry}};
-    const auto structures = gpu::buildBottomLevel(device(), meshes);
+    const auto structures = gpu::buildBlas(device(), meshes);
     ASSERT_TRUE(structures.at(0));
-    gpu::TopLevel top;
+    gpu::Tlas top;
     build(device(), top, std::vector{makeInstance(structures[0])});
     EXPECT_TRUE(top.structure());
 }
 
 TEST_F(AccelerationStructure, ATopLevelOfNothingBuilds) {
-    gpu::TopLevel top;
+    gpu::Tlas top;
     build(device(), top, {});
     EXPECT_TRUE(top.structure());
 }
@@ -126,8 +126,8 @@ TEST_F(AccelerationStructure, ATopLevelOfNothingBuilds) {
 TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
     const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBottomLevel(device(), meshes);
-    gpu::TopLevel top;
+    const auto structures = gpu::buildBlas(device(), meshes);
+    gpu::Tlas top;
     build(device(), top, std::vector{makeInstance(structures.at(0))});
     const VkAccelerationStructureKHR small = top.structure().handle();
     build(device(), top, std::vector(100, makeInstance(structures[0])));
@@ -140,13 +140,13 @@ TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
 TEST_F(AccelerationStructure, OneTopLevelAnInstance) {
     const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBottomLevel(device(), meshes);
-    const auto tops = gpu::buildTopLevels(device(), std::vector(3, makeInstance(structures.at(0))));
+    const auto structures = gpu::buildBlas(device(), meshes);
+    const auto tops = gpu::buildTlas(device(), std::vector(3, makeInstance(structures.at(0))));
     ASSERT_EQ(tops.size(), 3u);
     for (const gpu::AccelerationStructure& top : tops)
         EXPECT_NE(top.address(), 0u);
     EXPECT_NE(tops[0].address(), tops[1].address());
-    EXPECT_TRUE(gpu::buildTopLevels(device(), {}).empty());
+    EXPECT_TRUE(gpu::buildTlas(device(), {}).empty());
 }
 
 TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
@@ -156,9 +156,7 @@ TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
     );
     using gpu::BuildAction;
     gpu::StructureSet levels;
-    EXPECT_FALSE(
-        levels.prepareBottomLevels(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true)
-    );
+    EXPECT_FALSE(levels.prepareBlas(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true));
     ASSERT_EQ(levels.count(), 2u);
     EXPECT_NE(levels.address(0), levels.address(1));
     const VkDeviceAddress first = levels.address(0);
@@ -167,20 +165,15 @@ TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
         gpu::fullBarrier(commands);
         levels.record(device(), commands, std::array{BuildAction::Refit, BuildAction::Keep});
     });
-    EXPECT_TRUE(
-        levels.prepareBottomLevels(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true)
-    );
+    EXPECT_TRUE(levels.prepareBlas(device(), {{{one.geometry}, {}}, {{two.geometry}, {}}}, true));
     EXPECT_EQ(levels.address(0), first);
     // Another order, other flags, and no refits: new ones.
-    EXPECT_FALSE(
-        levels.prepareBottomLevels(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}}, true)
-    );
-    EXPECT_FALSE(levels.prepareBottomLevels(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}})
-    );
+    EXPECT_FALSE(levels.prepareBlas(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}}, true));
+    EXPECT_FALSE(levels.prepareBlas(device(), {{{two.geometry}, {}}, {{one.geometry}, {}}}));
     gpu::TriangleGeometry masked = two.geometry;
     masked.opaque = false;
-    EXPECT_FALSE(levels.prepareBottomLevels(device(), {{{masked}, {}}, {{one.geometry}, {}}}));
-    EXPECT_FALSE(levels.prepareBottomLevels(device(), {}));
+    EXPECT_FALSE(levels.prepareBlas(device(), {{{masked}, {}}, {{one.geometry}, {}}}));
+    EXPECT_FALSE(levels.prepareBlas(device(), {}));
     EXPECT_EQ(levels.count(), 0u);
 }
 
@@ -195,14 +188,13 @@ TEST_F(AccelerationStructure, ASetOfTopLevelsHasOneAnInstance) {
     );
     boxes.write(std::span<const gpu::BoxGeometry>(geometry));
     gpu::StructureSet levels;
-    EXPECT_FALSE(
-        levels.prepareBottomLevels(device(), {{{}, {{boxes.address(), 3}, {boxes.address(), 0}}}})
+    EXPECT_FALSE(levels.prepareBlas(device(), {{{}, {{boxes.address(), 3}, {boxes.address(), 0}}}})
     );
     gpu::Instance instance = makeInstance(gpu::AccelerationStructure());
-    instance.bottomLevel = levels.address(0);
+    instance.blas = levels.address(0);
     instance.flipFacing = true;
     gpu::StructureSet tops;
-    tops.prepareTopLevels(device(), std::vector(5, instance));
+    tops.prepareTlas(device(), std::vector(5, instance));
     ASSERT_EQ(tops.count(), 5u);
     EXPECT_NE(tops.address(0), tops.address(4));
     gpu::runOnce(device(), [&](VkCommandBuffer commands) {
@@ -213,18 +205,18 @@ TEST_F(AccelerationStructure, ASetOfTopLevelsHasOneAnInstance) {
 }
 
 TEST_F(AccelerationStructure, BoxesGrowAndKeepTheirRoomWhenTheyShrink) {
-    const auto buildBoxes = [&](gpu::BoxLevel& level, size_t count) {
+    const auto buildBoxes = [&](gpu::BoxBlas& level, size_t count) {
         level.prepare(device(), std::vector<gpu::BoxGeometry>(count, {{-1, -1, -1}, {1, 1, 1}}));
         gpu::runOnce(device(), [&](VkCommandBuffer commands) { level.record(device(), commands); });
         return level.structure().address();
     };
-    gpu::BoxLevel level;
+    gpu::BoxBlas level;
     const VkDeviceAddress small = buildBoxes(level, 1);
     EXPECT_NE(small, 0u);
     const VkDeviceAddress large = buildBoxes(level, 100);
     EXPECT_NE(large, small);
     EXPECT_EQ(buildBoxes(level, 3), large);
-    gpu::TopLevel top;
+    gpu::Tlas top;
     build(device(), top, std::vector{makeInstance(level.structure())});
     EXPECT_TRUE(top.structure());
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The pass that bends vertices against the same functions in C++, and boxes of what triangles
 // sweep.
+#include "engine/extract/motion_keys.h"
+#include "engine/extract/spatial_order.h"
+#include "engine/gpu/address.h"
 #include "engine/gpu/upload.h"
-#include "engine/render/deformer.h"
-#include "engine/render/motion_keys.h"
-#include "engine/render/spatial_order.h"
+#include "engine/gpu_scene/deformer.h"
 #include "shaders/render/deform.glsl"
-#include "tests/support/bent_meshes.h"
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <cmath>
@@ -67,12 +68,12 @@ scene::Deformation makePose(std::mt19937& random) {
     return pose;
 }
 
-shader::ShapedVertex
-bendInCpp(const scene::Primitive& mesh, size_t i, const scene::Deformation& pose) {
+shader::DeformedVertex
+deformInCpp(const scene::Primitive& mesh, size_t i, const scene::Deformation& pose) {
     const auto pick = [i](const std::vector<vec3>& values) {
         return values.empty() ? math::vec4(0.0f) : math::vec4(values[i], 0.0f);
     };
-    shader::ShapedVertex vertex{mesh.positions[i], mesh.normals[i], vec3(mesh.tangents[i])};
+    shader::DeformedVertex vertex{mesh.positions[i], mesh.normals[i], vec3(mesh.tangents[i])};
     for (size_t t = 0; t < pose.morphWeights.size(); ++t) {
         const scene::MorphTarget& target = mesh.morphTargets[t];
         vertex = shader::morphVertex(
@@ -89,12 +90,12 @@ bendInCpp(const scene::Primitive& mesh, size_t i, const scene::Deformation& pose
             continue;
         blended = shader::addJoint(
             blended,
-            render::makeKey(pose.objectFromBind[mesh.joints[i * mesh.influenceCount + k]]),
+            extract::makeKey(pose.objectFromBind[mesh.joints[i * mesh.influenceCount + k]]),
             mesh.weights[i * mesh.influenceCount + k]
         );
     }
     if (mesh.influenceCount == 0)
-        blended = render::makeKey(pose.objectFromBind.front());
+        blended = extract::makeKey(pose.objectFromBind.front());
     return shader::finishVertex(shader::skinVertex(vertex, blended));
 }
 
@@ -118,8 +119,8 @@ void expectAsInCpp(
     // A mesh before it, so that offsets matter.
     assets.meshes.push_back({"", {makeMesh(random)}, {}, {}});
     assets.meshes.push_back({"", {mesh}, {}, {}});
-    const render::GpuScene scene(device, assets);
-    render::PoseTable poses;
+    const gpu_scene::GpuScene scene(device, assets);
+    gpu_scene::PoseTable poses;
     std::vector<scene::Deformation> shapes{makePose(random), makePose(random), makePose(random)};
     for (scene::Deformation& shape : shapes) {
         if (!skins)
@@ -144,22 +145,22 @@ void expectAsInCpp(
         device, "positions", 2 * count * sizeof(math::vec4), kUsage, gpu::MemoryUse::Readback
     );
     shader::DeformJob job = poses.makeJob(scene, 1, place);
-    job.output_ = render::splitAddress(vertices.address());
+    job.output_ = gpu::splitAddress(vertices.address());
     shader::DeformJob positionJob = job;
-    positionJob.output_ = render::splitAddress(positions.address());
+    positionJob.output_ = gpu::splitAddress(positions.address());
     positionJob.positionsOnly = 1;
-    render::Deformer deformer(device);
+    gpu_scene::Deformer deformer(device);
     gpu::runOnce(device, [&](VkCommandBuffer commands) {
         deformer.deform(commands, job, 2);
         deformer.deform(commands, positionJob, 2);
         gpu::fullBarrier(commands);
     });
-    const auto bent = readAll<shader::Vertex>(vertices, 2 * count);
+    const auto deformed = readAll<shader::Vertex>(vertices, 2 * count);
     const auto places = readAll<math::vec4>(positions, 2 * count);
     for (size_t instant = 0; instant < 2; ++instant)
         for (size_t i = 0; i < count; ++i) {
-            const shader::ShapedVertex expected = bendInCpp(mesh, i, shapes[instant + 1]);
-            const shader::Vertex& vertex = bent[instant * count + i];
+            const shader::DeformedVertex expected = deformInCpp(mesh, i, shapes[instant + 1]);
+            const shader::Vertex& vertex = deformed[instant * count + i];
             ASSERT_LT(glm::distance(vec3(vertex.positionU0), expected.position), 1e-6f) << i;
             ASSERT_LT(glm::distance(vec3(vertex.normalV0), expected.normal), 1e-5f) << i;
             ASSERT_LT(glm::distance(vec3(vertex.tangent), expected.tangent), 1e-5f) << i;
@@ -215,7 +216,7 @@ TEST_F(Deformer, BoxesHoldTrianglesAtBothKeysOfTheirInterval) {
     scene::Assets assets;
     assets.meshes.push_back({"", {test::makeStrip(1.0, 2.0, 40, scene::kNone)}, {}, {}});
     const scene::Primitive& mesh = assets.meshes[0].primitives[0];
-    const render::GpuScene scene(device(), assets);
+    const gpu_scene::GpuScene scene(device(), assets);
     std::mt19937 random(9);
     std::uniform_real_distribution<float> value(-3.0f, 3.0f);
     const size_t count = mesh.positions.size();
@@ -231,21 +232,21 @@ TEST_F(Deformer, BoxesHoldTrianglesAtBothKeysOfTheirInterval) {
     gpu::Buffer boxes(
         device(), "boxes", uint64_t{2} * triangles * 24, kUsage, gpu::MemoryUse::Readback
     );
-    shader::ShapeBoxJob job{};
-    job.vertices = render::splitAddress(vertices.address());
+    shader::DeformedBoxJob job{};
+    job.vertices = gpu::splitAddress(vertices.address());
     job.indices = scene.geometryRows()[0].indices;
-    job.boxes = render::splitAddress(boxes.address());
+    job.boxes = gpu::splitAddress(boxes.address());
     job.boxStride = triangles;
     job.vertexCount = static_cast<uint32_t>(count);
     job.triangleCount = triangles;
-    render::Deformer deformer(device());
+    gpu_scene::Deformer deformer(device());
     gpu::runOnce(device(), [&](VkCommandBuffer commands) {
         deformer.boundTriangles(commands, job, 2);
         gpu::fullBarrier(commands);
     });
     // The scene sorts its triangles: the same sort again.
     std::vector<uint32_t> indices = mesh.indices;
-    render::sortTriangles(mesh.positions, indices);
+    extract::sortTriangles(mesh.positions, indices);
     const auto found = readAll<float>(boxes, size_t{2} * triangles * 6);
     for (size_t interval = 0; interval < 2; ++interval)
         for (size_t triangle = 0; triangle < triangles; ++triangle) {

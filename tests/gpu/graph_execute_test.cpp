@@ -136,7 +136,7 @@ class KeepEverything : public render::PostEffect {
   public:
     [[nodiscard]] std::string name() const override { return "keep everything"; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
         return {true, "always"};
     }
 

@@ -55,14 +55,14 @@ Scene makeScene() {
 }
 
 Image blur(
-    gpu::Device& device, const Scene& scene, MotionBlurSettings settings, double rasterShare = 0.5
+    gpu::Device& device, const Scene& scene, MotionBlurSettings settings, double rasterTime = 0.5
 ) {
     test::GraphRig rig(device);
     motion_blur::MotionBlur effect(device, VK_NULL_HANDLE);
     motion_blur::MotionBlurInputs inputs;
     inputs.color = rig.upload(scene.color);
     inputs.motionDepth = rig.upload(scene.motionDepth);
-    inputs.rasterShare = rasterShare;
+    inputs.rasterTime = rasterTime;
     const size_t ticket = rig.want(effect.add(rig.graph, inputs, settings).color);
     rig.run();
     return rig.take(ticket);

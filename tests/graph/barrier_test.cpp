@@ -420,7 +420,7 @@ TEST(Barriers, ABufferAPassLetsTheHostReadIsShownToTheHostAtTheEnd) {
 
 TEST(Barriers, ATraceWaitsForTheBuild) {
     Graph graph;
-    BufferHandle top = graph.importBuffer("top level", fakeBuffer(1), 64);
+    BufferHandle top = graph.importBuffer("TLAS", fakeBuffer(1), 64);
     addPass(graph, "build", PassKind::Build, [&](PassBuilder& builder) {
         top = builder.write(top, Access::AccelerationBuild);
     });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What frames with bent meshes do, and what frames without them do not.
+// What frames with deformed meshes do, and what frames without them do not.
 #include "engine/image/metrics.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/truth/truth.h"
-#include "tests/support/bent_meshes.h"
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -91,17 +91,17 @@ bool mentions(const render::FrameResult& frame, const std::string& words) {
     return frame.dump.find(words) != std::string::npos;
 }
 
-TEST_F(DeformFrame, WithoutBentMeshesNothingIsBent) {
+TEST_F(DeformFrame, WithoutDeformedMeshesNothingIsBent) {
     const SceneBuilder scene = makeScene(false);
     Frames frames(device(), scene);
     for (const auto& frame : {frames.sharp(0.0), frames.hybrid(0.0), frames.truth(0.0)}) {
         EXPECT_TRUE(mentions(frame, "G-buffer") || mentions(frame, "truth rays"));
-        EXPECT_FALSE(mentions(frame, "bent"));
+        EXPECT_FALSE(mentions(frame, "deformed"));
         EXPECT_FALSE(mentions(frame, "bend"));
     }
 }
 
-TEST_F(DeformFrame, TimeSpentOnBentMeshesIsTheScenesAndNotTheBlurs) {
+TEST_F(DeformFrame, TimeSpentOnDeformedMeshesIsTheScenesAndNotTheBlurs) {
     using Owner = render::PassOwner;
     const SceneBuilder scene = makeScene(true);
     Frames frames(device(), scene);
@@ -109,9 +109,9 @@ TEST_F(DeformFrame, TimeSpentOnBentMeshesIsTheScenesAndNotTheBlurs) {
     for (const render::PassTime& pass : frames.hybrid(0.0).statistics.passes)
         owners[pass.name] = pass.owner;
     const std::pair<const char*, Owner> expected[] = {
-        {"bend meshes", Owner::Scene},
-        {"build bent meshes", Owner::Rays},
-        {"build top level", Owner::Rays},
+        {"deform meshes", Owner::Scene},
+        {"build deformed meshes", Owner::Rays},
+        {"build TLAS", Owner::Rays},
         {"G-buffer", Owner::Scene},
         {"ray reveal", Owner::Effect},
         {"gather and composite", Owner::Effect},
@@ -126,29 +126,29 @@ TEST_F(DeformFrame, WithoutRaysNoLevelIsBuilt) {
     const SceneBuilder scene = makeScene(true);
     Frames frames(device(), scene);
     const auto frame = frames.sharp(0.0);
-    EXPECT_TRUE(mentions(frame, "bend meshes"));
-    EXPECT_FALSE(mentions(frame, "build bent meshes"));
+    EXPECT_TRUE(mentions(frame, "deform meshes"));
+    EXPECT_FALSE(mentions(frame, "build deformed meshes"));
 }
 
 TEST_F(DeformFrame, AShapeThatIsLastFramesIsNotBuiltAgain) {
     const SceneBuilder scene = makeScene(true);
     Frames frames(device(), scene);
     const auto first = frames.hybrid(0.0);
-    EXPECT_TRUE(mentions(first, "build bent meshes"));
+    EXPECT_TRUE(mentions(first, "build deformed meshes"));
     const auto again = frames.hybrid(0.0);
-    EXPECT_FALSE(mentions(again, "build bent meshes"));
+    EXPECT_FALSE(mentions(again, "build deformed meshes"));
     EXPECT_TRUE(test::sameBits(first.color, again.color));
-    EXPECT_TRUE(mentions(frames.hybrid(0.1), "build bent meshes"));
+    EXPECT_TRUE(mentions(frames.hybrid(0.1), "build deformed meshes"));
 }
 
 TEST_F(DeformFrame, ARefittedShapeIsMetAsANewOneIs) {
     const SceneBuilder scene = makeScene(true);
     Frames frames(device(), scene);
     // Past one build from nothing on the way.
-    for (uint32_t i = 0; i <= render::kRefitsPerBuild + 3; ++i) {
+    for (uint32_t i = 0; i <= rays::kRefitsPerBuild + 3; ++i) {
         const double seconds = 0.05 * i;
         const auto refitted = frames.hybrid(seconds);
-        EXPECT_TRUE(mentions(refitted, "build bent meshes"));
+        EXPECT_TRUE(mentions(refitted, "build deformed meshes"));
         if (i % 6 != 5)
             continue;
         Frames fresh(device(), scene);

@@ -2,7 +2,7 @@
 // Skinned and morphed meshes in whole pictures: what all methods must agree on, and motion vectors
 // against closed forms in double precision.
 #include "engine/image/metrics.h"
-#include "tests/support/bent_meshes.h"
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -112,7 +112,7 @@ const dvec3 kBendAxis = glm::normalize(dvec3(0.5, 0.2, 1.0));
 const Placement kRoot{.position = {-0.2, -0.8, -2.6}, .velocity = {0.4, 0.1, 0.2}};
 
 /// A strip whose root slides and whose upper half turns about its middle.
-test::SkinnedEntity addBendingStrip(SceneBuilder& scene, scene::AssetIndex material) {
+test::SkinnedEntity addDeformingStrip(SceneBuilder& scene, scene::AssetIndex material) {
     const std::array joints{
         kRoot,
         Placement{.position = {0, kStripHeight / 2, 0}, .angularVelocity = kBend * kBendAxis}};
@@ -251,7 +251,7 @@ scene::AssetIndex addTwoSided(SceneBuilder& scene) {
 TEST_F(DeformLaw, ABendingStripMovesByTheClosedForm) {
     SceneBuilder scene;
     scene.setPerspective(kYFov);
-    addBendingStrip(scene, addTwoSided(scene));
+    addDeformingStrip(scene, addTwoSided(scene));
     expectMotion(device(), scene, test::makeStrip(0.7, kStripHeight, 12, 0), strip);
 }
 
@@ -280,7 +280,7 @@ TEST_F(DeformLaw, BothTruthsOfABendingStripAgree) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << "no ray queries";
     SceneBuilder scene = makeRoom();
-    addBendingStrip(scene, addTwoSided(scene));
+    addDeformingStrip(scene, addTwoSided(scene));
     expectTruthsAgree(device(), scene);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Rays at the raster instant meet bent meshes where raster draws them, with the motion that raster
-// tells.
-#include "tests/support/bent_meshes.h"
+// Rays at the raster instant meet deformed meshes where raster draws them, with the motion that
+// raster tells.
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -87,7 +87,7 @@ void addOccluder(SceneBuilder& scene) {
 }
 
 /// A wall of 6 m that bends back and forth.
-void addBentWall(SceneBuilder& scene, bool doubleSided, const dvec3& scale) {
+void addDeformedWall(SceneBuilder& scene, bool doubleSided, const dvec3& scale) {
     const std::array joints{
         Placement{.position = {0, -3, -4}, .scale = scale, .angularVelocity = {0, 0.1, 0}},
         Placement{.position = {0, 3, 0}, .angularVelocity = {0.2, 0.1, 0.3}}};
@@ -95,16 +95,19 @@ void addBentWall(SceneBuilder& scene, bool doubleSided, const dvec3& scale) {
     test::addSkinned(scene, test::makeStrip(7.0, 6.0, 10, material), joints);
 }
 
-TEST_F(DeformReveal, ABentWallIsRevealedAsRasterDrawsIt) {
+TEST_F(DeformReveal, ADeformedWallIsRevealedAsRasterDrawsIt) {
     expectRevealIsRaster(
-        device(), [](SceneBuilder& scene) { addBentWall(scene, false, dvec3(1)); }, addOccluder, 2.0
+        device(),
+        [](SceneBuilder& scene) { addDeformedWall(scene, false, dvec3(1)); },
+        addOccluder,
+        2.0
     );
 }
 
 TEST_F(DeformReveal, AMirroredSingleSidedWallKeepsItsFront) {
     expectRevealIsRaster(
         device(),
-        [](SceneBuilder& scene) { addBentWall(scene, false, dvec3(-1, 1, 1)); },
+        [](SceneBuilder& scene) { addDeformedWall(scene, false, dvec3(-1, 1, 1)); },
         addOccluder,
         2.0
     );
@@ -127,7 +130,7 @@ TEST_F(DeformReveal, AMorphingWallIsRevealedAsRasterDrawsIt) {
     );
 }
 
-TEST_F(DeformReveal, BehindABentMeshTheWallIsRevealed) {
+TEST_F(DeformReveal, BehindADeformedMeshTheWallIsRevealed) {
     expectRevealIsRaster(
         device(),
         [](SceneBuilder& scene) {

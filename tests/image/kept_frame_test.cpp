@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a renderer keeps from frame to frame: rows, tables and top levels of what stands still.
-#include "engine/render/top_levels.h"
+#include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
-#include "tests/support/bent_meshes.h"
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_builder.h"
@@ -116,7 +116,7 @@ TEST_F(KeptFrames, AStillFrameWritesNeitherRowsNorMotionsAndBuildsNothing) {
     const auto second = frames.hybrid(1.0);
     EXPECT_EQ(rowsWritten(second), 0u);
     EXPECT_EQ(motionsWritten(second), 0u);
-    EXPECT_FALSE(ran(second, "build top level"));
+    EXPECT_FALSE(ran(second, "build TLAS"));
     EXPECT_TRUE(test::sameBits(first.color, second.color));
 }
 
@@ -127,34 +127,34 @@ TEST_F(KeptFrames, OnlyWhatMovesIsWritten) {
     const auto second = frames.hybrid(0.1);
     EXPECT_EQ(rowsWritten(second), 1u);
     EXPECT_EQ(motionsWritten(second), 1u);
-    EXPECT_TRUE(ran(second, "build top level")) << "the mover stands elsewhere";
+    EXPECT_TRUE(ran(second, "build TLAS")) << "the mover stands elsewhere";
     const auto paused = frames.hybrid(0.1);
     EXPECT_EQ(rowsWritten(paused), 0u);
-    EXPECT_FALSE(ran(paused, "build top level")) << "no instance moved";
+    EXPECT_FALSE(ran(paused, "build TLAS")) << "no instance moved";
     EXPECT_TRUE(ran(paused, "ray reveal"));
     EXPECT_TRUE(test::sameBits(second.color, paused.color));
 }
 
 TEST_F(KeptFrames, ManyThatStandStillHaveATopLevelThatIsBuiltOnce) {
-    Crowd crowd(render::kStillLevelInstances);
+    Crowd crowd(rays::kStaticTlasInstances);
     Frames frames(device(), crowd.scene);
     const auto first = frames.hybrid(0.0);
-    EXPECT_TRUE(ran(first, "build top level"));
-    EXPECT_TRUE(ran(first, "build top level of movers"));
+    EXPECT_TRUE(ran(first, "build TLAS"));
+    EXPECT_TRUE(ran(first, "build TLAS of movers"));
     const auto second = frames.hybrid(0.1);
-    EXPECT_FALSE(ran(second, "build top level"));
-    EXPECT_TRUE(ran(second, "build top level of movers"));
+    EXPECT_FALSE(ran(second, "build TLAS"));
+    EXPECT_TRUE(ran(second, "build TLAS of movers"));
     crowd.transformOf(crowd.scene.camera).translation.x = 0.1;
-    EXPECT_TRUE(ran(frames.hybrid(0.2), "build top level")) << "seen from another place";
+    EXPECT_TRUE(ran(frames.hybrid(0.2), "build TLAS")) << "seen from another place";
 }
 
 TEST_F(KeptFrames, ATableThatMissedAFrameTakesAllRows) {
     const Crowd crowd(40);
-    const render::GpuScene scene(device(), crowd.scene.world.assets);
-    render::FrameExtractor extractor;
-    render::EntityTable table(device());
-    const auto extract = [&](double seconds) -> render::ExtractedFrame& {
-        render::ViewRequest view;
+    const gpu_scene::GpuScene scene(device(), crowd.scene.world.assets);
+    extract::FrameExtractor extractor;
+    gpu_scene::EntityTable table(device());
+    const auto extract = [&](double seconds) -> extract::ExtractedFrame& {
+        extract::ViewRequest view;
         view.camera = crowd.scene.camera;
         view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, seconds);
         return *extractor.update(crowd.scene.world, scene.layout(), view).value();
@@ -163,14 +163,14 @@ TEST_F(KeptFrames, ATableThatMissedAFrameTakesAllRows) {
     EXPECT_EQ(table.update(extract(0.1)).rows, 1u);
     (void)extract(0.2);
     EXPECT_EQ(table.update(extract(0.3)).rows, 41u);
-    render::ExtractedFrame& longer = extract(0.4);
+    extract::ExtractedFrame& longer = extract(0.4);
     longer.entities.emplace_back();
     EXPECT_EQ(table.update(longer).rows, 2u) << "what was appended is this frame's only";
     EXPECT_EQ(table.update(extract(0.5)).rows, 1u);
 }
 
 TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
-    for (const size_t count : {size_t{60}, render::kStillLevelInstances + 40}) {
+    for (const size_t count : {size_t{60}, rays::kStaticTlasInstances + 40}) {
         Crowd crowd(count);
         scene::World& world = crowd.scene.world;
         const std::array joints{

@@ -39,10 +39,10 @@ SceneBuilder makeScene(double side) {
 /// Two devices of thought, one picture: the taps of both must read the same texels. A tap lies at
 /// u of the motion, (i + 1/2) / 15 + s_r - 1 (Jimenez's pairs: / 16) or (i + 1) / 16 + s_r - 1;
 /// none may come so near to a border between texels that rounding decides.
-void expectTapsAwayFromTexelBorders(double rasterShare) {
+void expectTapsAwayFromTexelBorders(double rasterTime) {
     for (int i = 0; i < 16; ++i)
         for (double u : {(i + 0.5) / 15.0, (i + 0.5) / 16.0, (i + 1.0) / 16.0}) {
-            const double at = 0.5 + kSpeedPx * (u + rasterShare - 1.0);
+            const double at = 0.5 + kSpeedPx * (u + rasterTime - 1.0);
             ASSERT_GT(std::abs(at - std::round(at)), 1e-3) << "tap " << i;
         }
 }
@@ -55,7 +55,7 @@ TEST_F(MirrorLaw, AMirroredSceneMakesTheMirroredPicture) {
     for (Method method : test::kAllMethods)
         for (auto phase :
              {scene::ShutterPhase::Start, scene::ShutterPhase::Centre, scene::ShutterPhase::End}) {
-            expectTapsAwayFromTexelBorders(scene::computeExposure({1.0, phase}, 0.0).rasterShare);
+            expectTapsAwayFromTexelBorders(scene::computeExposure({1.0, phase}, 0.0).rasterTime);
             Shot shot{.method = method, .phase = phase, .background = math::vec3(0.05f)};
             shot.settings.jitter = 0.0f;
             shot.settings.tileSizePx = kTilePx; // 96 and 64 are multiples

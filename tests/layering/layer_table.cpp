@@ -18,8 +18,19 @@ struct Row {
     Names sees;
 };
 
-const Names kUpToIo = {"core", "math", "ecs", "gpu", "image", "graph", "scene", "io"};
-const Names kUpToRender = {"core", "math", "ecs", "gpu", "image", "graph", "scene", "io", "render"};
+const Names kUpToRender = {
+    "core",
+    "math",
+    "ecs",
+    "gpu",
+    "image",
+    "graph",
+    "scene",
+    "io",
+    "extract",
+    "gpu_scene",
+    "rays",
+    "render"};
 
 const std::vector<Row> kEngineRows = {
     {"core", {}},
@@ -30,9 +41,17 @@ const std::vector<Row> kEngineRows = {
     {"graph", {"core", "math", "gpu"}},
     {"scene", {"core", "math", "ecs"}},
     {"io", {"core", "math", "ecs", "image", "scene"}},
-    {"render", kUpToIo},
+    {"extract", {"core", "math", "ecs", "image", "scene"}},
+    {"gpu_scene", {"core", "math", "gpu", "graph", "scene", "extract"}},
+    {"rays", {"core", "math", "ecs", "gpu", "graph", "scene", "extract", "gpu_scene"}},
+    {"render",
+     {"core", "math", "ecs", "gpu", "image", "graph", "scene", "extract", "gpu_scene", "rays"}},
     {"app", kUpToRender},
 };
+
+/// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
+/// and drawn agrees with the same shaders.
+const Names kSceneRooms = {"extract", "gpu_scene", "rays", "render"};
 
 /// A module that other engines may take without our scene: what lies outside its plugin/ sees this.
 const Names kModulesWithEffect = {"motion_blur"};
@@ -50,7 +69,7 @@ const std::vector<LibraryRow> kLibraryRows = {
     {"OpenImageIO/", {"io"}},
     {"GLFW/", {"app"}},
     {"imgui", {"app", "game"}},
-    {"vulkan/", {"gpu", "graph", "render", "modules"}},
+    {"vulkan/", {"gpu", "graph", "gpu_scene", "rays", "render", "modules"}},
 };
 
 enum class Kind { Unknown, Engine, Effect, Module, Game, Generator, Shaders, Tests };
@@ -169,6 +188,8 @@ bool cppMaySeeShaders(const Part& from, const Part& to, std::string_view path) {
     // The effect alone reads what its shaders share with the renderer's, but runs no shader of it.
     if (from.kind == Kind::Effect)
         return isShared(path);
+    if (to.name == "render" && from.kind == Kind::Engine && kSceneRooms.contains(from.name))
+        return from.name != "extract" || !path.starts_with("spirv/");
     return maySeeEngine(from, to.name);
 }
 

@@ -68,7 +68,12 @@ TEST(LayerTable, EngineFoldersSeeThoseBelowThem) {
         {"engine/scene/world.h", "\"engine/ecs/registry.h\""},
         {"engine/io/gltf_loader.h", "\"engine/scene/world.h\""},
         {"engine/io/image_file.h", "\"engine/image/image.h\""},
-        {"engine/render/renderer.h", "\"engine/io/image_file.h\""},
+        {"engine/extract/extracted_frame.h", "\"engine/scene/world.h\""},
+        {"engine/extract/extracted_frame.h", "\"shaders/render/scene_shared.h\""},
+        {"engine/gpu_scene/entity_table.h", "\"engine/extract/extracted_frame.h\""},
+        {"engine/gpu_scene/deformer.cpp", "\"spirv/render/deform.comp.h\""},
+        {"engine/rays/tlas.h", "\"engine/gpu_scene/gpu_scene.h\""},
+        {"engine/render/renderer.h", "\"engine/rays/tlas.h\""},
         {"engine/render/renderer.h", "\"engine/graph/graph.h\""},
         {"engine/render/renderer.cpp", "\"gbuffer.h\""},
         {"engine/app/runner.cpp", "\"engine/render/renderer.h\""},
@@ -89,6 +94,12 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
         {"engine/scene/world.h", "\"engine/image/image.h\""},
         {"engine/io/gltf_loader.h", "\"engine/gpu/device.h\""},
         {"engine/io/gltf_loader.h", "\"engine/graph/graph.h\""},
+        {"engine/extract/extracted_frame.h", "\"engine/gpu/device.h\""},
+        {"engine/extract/extracted_frame.h", "\"engine/graph/graph.h\""},
+        {"engine/extract/extracted_frame.h", "\"spirv/render/deform.comp.h\""},
+        {"engine/gpu_scene/gpu_scene.h", "\"engine/rays/tlas.h\""},
+        {"engine/rays/tlas.h", "\"engine/render/renderer.h\""},
+        {"engine/render/renderer.h", "\"engine/io/image_file.h\""},
         {"engine/render/renderer.h", "\"engine/app/window.h\""},
         {"engine/app/runner.cpp", "\"modules/motion_blur/motion_blur.h\""},
         {"engine/app/runner.cpp", "\"game/main.h\""},
@@ -128,7 +139,8 @@ TEST(LayerTable, ModulesSeeRenderAndBelowButNeverEachOther) {
 }
 
 TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
-    for (const std::string folder : {"ecs", "scene", "render", "io", "image"}) {
+    for (const std::string folder :
+         {"ecs", "scene", "extract", "gpu_scene", "rays", "render", "io", "image"}) {
         const std::string directive = "\"engine/" + folder + "/a.h\"";
         expectRefused({
             {"modules/motion_blur/motion_blur.h", directive},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every input of shared/gltf-malformed through the loader; see the README there for the classes.
 #include "engine/io/gltf_loader.h"
-#include "engine/scene/posed_bounds.h"
+#include "engine/scene/deformed_bounds.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -97,7 +97,7 @@ void expectSoundEntity(const scene::World& world, ecs::Entity entity) {
     }
     for (const double seconds : {-1.0, 0.0, 0.3, 1e6}) {
         const scene::Deformation pose = scene::deformationAt(world, entity, seconds);
-        (void)scene::computePosedBounds(scene::computePoseReach(mesh.primitives), pose);
+        (void)scene::computeDeformedBounds(scene::computePoseReach(mesh.primitives), pose);
     }
 }
 

@@ -49,9 +49,9 @@ ecs::Entity addMarker(SceneBuilder& scene, double sizeMetres, const Placement& p
 void expectMotionOfMarker(Stage& stage, Shot shot, double longerThanPx) {
     shot.method = Method::Sharp;
     shot.aovs = {"motion", "mesh_id"};
-    const double rasterShare =
-        scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds).rasterShare;
-    const math::dvec2 middle = measurePosition(stage, shot, rasterShare);
+    const double rasterTime =
+        scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds).rasterTime;
+    const math::dvec2 middle = measurePosition(stage, shot, rasterTime);
     const math::dvec2 moved = measurePosition(stage, shot, 1.0) - measurePosition(stage, shot, 0.0);
     ASSERT_TRUE(middle.x > 1.0 && middle.x < shot.width - 1.0) << middle.x;
     ASSERT_TRUE(middle.y > 1.0 && middle.y < shot.height - 1.0) << middle.y;

@@ -162,9 +162,9 @@ render::FrameResult renderOnce(gpu::Device& device, const SceneBuilder& scene, c
 }
 
 std::string describeMotionBlur(const render::FrameResult& result) {
-    const render::Decision* decision =
+    const core::Decision* decision =
         render::findDecision(result.statistics.explanations, "motion blur");
-    return decision ? render::describe(*decision) : "not asked";
+    return decision ? core::describe(*decision) : "not asked";
 }
 
 } // namespace shutter::test

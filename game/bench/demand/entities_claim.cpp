@@ -37,7 +37,7 @@ double entityWork(const render::FrameStatistics& frame) {
     double milliseconds = sumPasses(frame, [](const render::PassTime& pass) {
         return pass.owner == render::PassOwner::Rays;
     });
-    for (const char* name : {"extraction ms", "entity table ms", "top level ms"})
+    for (const char* name : {"extraction ms", "entity table ms", "TLAS ms"})
         milliseconds += frame.measures.at(name);
     return milliseconds;
 }
@@ -45,7 +45,7 @@ double entityWork(const render::FrameStatistics& frame) {
 /// "extraction 0.021, entity table 0.004, ...": medians.
 std::string describeParts(const Frames& frames) {
     std::string text;
-    for (const char* name : {"extraction ms", "entity table ms", "top level ms"})
+    for (const char* name : {"extraction ms", "entity table ms", "TLAS ms"})
         text += fmt::format("{} {:.3g}, ", name, summarize(frames, [&](const auto& frame) {
                                                      return frame.measures.at(name);
                                                  }).median);

@@ -18,7 +18,7 @@ class FloorEffect : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "gather floor"; }
 
     /// Skipped as motion blur is.
-    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 
   private:

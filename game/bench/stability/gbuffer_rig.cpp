@@ -83,13 +83,13 @@ const char* describe(Method method) {
 }
 
 core::Result<Blurred> FilterRig::blur(
-    const GBuffer& gbuffer, const motion_blur::MotionBlurSettings& settings, double rasterShare
+    const GBuffer& gbuffer, const motion_blur::MotionBlurSettings& settings, double rasterTime
 ) {
     GBufferRig rig(mDevice);
     motion_blur::MotionBlurInputs inputs;
     inputs.color = rig.upload(gbuffer.color);
     inputs.motionDepth = rig.upload(gbuffer.motionDepth);
-    inputs.rasterShare = rasterShare;
+    inputs.rasterTime = rasterTime;
     const motion_blur::MotionBlurOutputs outputs = mEffect.add(rig.graph, inputs, settings);
     const size_t color = rig.want(outputs.color);
     std::optional<size_t> tiles;

@@ -82,7 +82,7 @@ class FilterRig {
     [[nodiscard]] core::Result<Blurred> blur(
         const GBuffer& gbuffer,
         const motion_blur::MotionBlurSettings& settings,
-        double rasterShare = 0.5
+        double rasterTime = 0.5
     );
 
   private:

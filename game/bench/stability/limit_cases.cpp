@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures of odd and of large sizes, and more entities than the table of ids holds.
-#include "engine/render/extraction.h"
+#include "engine/extract/extracted_frame.h"
 #include "game/bench/stability/case_lists.h"
 #include "game/bench/stability/pictures.h"
 

@@ -32,7 +32,7 @@ constexpr double kUndecided = 2e-3;
 struct Layer {
     GBuffer gbuffer{kWidth, kHeight};
     Image normal{kWidth, kHeight, 4};
-    Image meshId{kWidth, kHeight, 1};
+    Image entityId{kWidth, kHeight, 1};
 };
 
 /// A slab that moves before a wall, both with some variety; motion beyond a tile here and there.
@@ -60,7 +60,7 @@ Layer makeLayer() {
                 glm::normalize(slab ? dvec3(0.1, 0.2 * jitter, 1.0) : dvec3(-0.3, 0.1, 1.0));
             for (int c = 0; c < 3; ++c)
                 layer.normal.at(x, y, uint32_t(c)) = float(direction[c]);
-            layer.meshId.at(x, y, 0) = slab ? 1.0f : 0.0f;
+            layer.entityId.at(x, y, 0) = slab ? 1.0f : 0.0f;
         }
     return layer;
 }
@@ -94,8 +94,8 @@ class Reader {
 
     [[nodiscard]] dvec3 normal(const ivec2& at) const { return read(mLayer.normal, at); }
 
-    [[nodiscard]] float meshId(const ivec2& at) const {
-        return mLayer.meshId.at(uint32_t(at.x), uint32_t(at.y), 0);
+    [[nodiscard]] float entityId(const ivec2& at) const {
+        return mLayer.entityId.at(uint32_t(at.x), uint32_t(at.y), 0);
     }
 
     /// A decision was taken that another rounding may take otherwise, by this distance.
@@ -264,7 +264,7 @@ dvec3 findEdge(
         const ivec2 at = reader.texel(next);
         const double step = reader.motionDepth(at).z - target.z;
         reader.note(step - kSoftExtent);
-        return reader.meshId(at) != reader.meshId({x, y}) && step > kSoftExtent;
+        return reader.entityId(at) != reader.entityId({x, y}) && step > kSoftExtent;
     };
     const bool candidate =
         glm::length(motion) >= 0.5 && (reveals(motion * share) || reveals(motion * (share - 1.0)));
@@ -306,7 +306,7 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
     settings.edgeThreshold = 0.8f;
     const motion_blur::TileMotion tileMotion(device);
     const motion_blur::BlockSorter sorter(device);
-    const motion_blur::RayMask rayMask(device);
+    const motion_blur::RayMask instanceMask(device);
     Worst measure;
     Worst edges;
     Worst masks;
@@ -317,11 +317,11 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
         const auto params = motion_blur::resolve(settings, kWidth, kHeight, share);
         const graph::ImageHandle motionDepth = rig.upload(layer.gbuffer.motionDepth);
         const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
-        const auto outputs = rayMask.add(
+        const auto outputs = instanceMask.add(
             rig.graph,
             {motionDepth,
              rig.upload(layer.normal),
-             rig.uploadIds(layer.meshId),
+             rig.uploadIds(layer.entityId),
              sorter.add(rig.graph, tiles, params, true),
              true},
             params

@@ -2,6 +2,7 @@
 // Rays that go on from a surface: how many meet it again, how many miss the next one a millimetre
 // behind.
 #include "engine/core/check.h"
+#include "engine/gpu/address.h"
 #include "engine/gpu/memory.h"
 #include "engine/render/post_effect.h"
 #include "game/bench/stability/case_lists.h"
@@ -25,16 +26,16 @@ constexpr double kYFov = 0.6;
 /// The reveal of every pixel, as if the mask were full; one ray each.
 class RevealEverywhere : public render::PostEffect {
   public:
-    RevealEverywhere(gpu::Device& device, const render::GpuScene& scene)
+    RevealEverywhere(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mReveal(device, scene.textureLayout()) {}
 
     [[nodiscard]] std::string name() const override { return "reveal everywhere"; }
 
-    [[nodiscard]] render::Decision ask(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
         return {true, "every pixel is asked"};
     }
 
-    [[nodiscard]] render::Decision askRays(const render::ViewFacts&) const override {
+    [[nodiscard]] core::Decision askRays(const render::ViewFacts&) const override {
         return {true, "it is held against raster"};
     }
 
@@ -44,25 +45,25 @@ class RevealEverywhere : public render::PostEffect {
         settings.recursionLimit = 2; // the raster's surface and one ray
         settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
         shader::MotionBlurParams params = motion_blur::resolve(
-            settings, context.facts.width, context.facts.height, context.facts.rasterShare
+            settings, context.facts.width, context.facts.height, context.facts.rasterTime
         );
-        params.frame = render::splitAddress(context.rays->frameConstants);
+        params.frame = gpu::splitAddress(context.rays->frameConstants);
         const motion_blur::RayRevealInputs inputs{
             context.color,
             context.gbuffer.motionDepth,
-            context.gbuffer.meshId,
+            context.gbuffer.entityId,
             context.color, // of the mask: read for entries that share a ray only, and none does
             context.graph.importBuffer("all pixels", mList.handle(), mList.bytes()),
             context.graph.importBuffer("all groups", mArguments.handle(), mArguments.bytes()),
             motion_blur::RayInputs{
-                .topLevelBuffer = context.rays->topLevelBuffer,
-                .movingLevelBuffer = context.rays->movingLevelBuffer,
-                .topLevel = context.rays->topLevel,
+                .tlasBuffer = context.rays->tlasBuffer,
+                .movingTlasBuffer = context.rays->movingTlasBuffer,
+                .tlas = context.rays->tlas,
                 .scene = context.rays->textures,
                 .frame = params.frame}};
         const motion_blur::RayRevealOutputs outputs = mReveal.add(context.graph, inputs, params);
         context.color = outputs.color;
-        context.intermediates.publish("reveal_id", outputs.meshId);
+        context.intermediates.publish("reveal_id", outputs.entityId);
     }
 
   private:

@@ -2,7 +2,7 @@
 // Motion blur in a renderer that has nothing of Shutter: its own device, images, command buffers
 // and two frames in flight, no ECS, no render graph. It draws stripes and a square that moves, and
 // writes the last frame as "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4).
-#include "modules/motion_blur/foreign/foreign_motion_blur.h"
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
 
 #include <glm/gtc/packing.hpp>
 #include <vulkan/vulkan_raii.hpp>
@@ -95,7 +95,7 @@ int main() try {
     const vk::raii::PhysicalDevice physical = vk::raii::PhysicalDevices(instance).at(0);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queueInfo({}, 0, 1, &priority);
-    motion_blur::ForeignFeatures features; // (1) what the device must have enabled
+    motion_blur::HostFeatures features; // (1) what the device must have enabled
     features.v13.dynamicRendering = VK_TRUE;
     const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, features.chain());
     const Gpu gpu{physical, {physical, deviceInfo}};
@@ -112,10 +112,10 @@ int main() try {
     const auto memory = gpu.allocate(copies.getMemoryRequirements(), eHostVisible | eHostCoherent);
     copies.bindMemory(*memory, 0);
     // (2) the effect, for this device and its queue family 0
-    auto blur = motion_blur::ForeignMotionBlur::create({*physical, *gpu.device, 0, kInFlight});
+    auto blur = motion_blur::EmbeddedMotionBlur::create({*physical, *gpu.device, 0, kInFlight});
     if (!blur)
         throw std::runtime_error(blur.error().message);
-    motion_blur::ForeignInputs inputs{kWidth, kHeight}; // (3) what it reads and writes
+    motion_blur::HostInputs inputs{kWidth, kHeight}; // (3) what it reads and writes
     inputs.color = {*color.image, kDrawn, kCopied};
     inputs.motionDepth = {*motion.image, kDrawn, {}};
     inputs.output = {*output.image, {}, kCopied};

@@ -141,7 +141,7 @@ graph::ImageHandle RayMask::addEdgeView(
         "edge view",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.in = {inputs.motionDepth, inputs.normal, inputs.meshId};
+            data.in = {inputs.motionDepth, inputs.normal, inputs.entityId};
             for (graph::ImageHandle image : data.in)
                 builder.read(image, Access::SampledCompute);
             data.edge = builder.write(
@@ -178,7 +178,7 @@ RayMask::Edges RayMask::addEdges(
         "edge",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
-            data.in = {inputs.motionDepth, inputs.normal, inputs.meshId};
+            data.in = {inputs.motionDepth, inputs.normal, inputs.entityId};
             for (graph::ImageHandle image : data.in)
                 builder.read(image, Access::SampledCompute);
             data.candidates = inputs.blocks.candidates;

@@ -13,7 +13,7 @@ namespace shutter::motion_blur {
 struct RayMaskInputs {
     graph::ImageHandle motionDepth;
     graph::ImageHandle normal;
-    graph::ImageHandle meshId;
+    graph::ImageHandle entityId;
     SortedBlocks blocks; ///< sorted for a mask
     bool measureEverywhere = false;
 };

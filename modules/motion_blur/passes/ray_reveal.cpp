@@ -72,7 +72,7 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
       ) {}
 
 const gpu::Pipeline& RayReveal::findPipeline(const RayInputs& rays) {
-    if (rays.topLevel == VK_NULL_HANDLE) {
+    if (rays.tlas == VK_NULL_HANDLE) {
         if (!mSky)
             mSky.emplace(mDevice, describeSky());
         return *mSky;
@@ -157,8 +157,8 @@ RayRevealOutputs RayReveal::add(
     const RayRevealOutputs outputs{
         create("reveal color", inputs.color),
         create("reveal motion depth", inputs.motionDepth),
-        create("reveal mesh id", inputs.meshId)};
-    const bool skyOnly = inputs.rays.topLevel == VK_NULL_HANDLE;
+        create("reveal entity id", inputs.entityId)};
+    const bool skyOnly = inputs.rays.tlas == VK_NULL_HANDLE;
     const bool byCompute = skyOnly || mDevice.hasRayQuery();
     const graph::BufferHandle launchSize =
         byCompute ? graph::BufferHandle{} : addLaunchSize(graph, inputs.list);
@@ -176,20 +176,20 @@ RayRevealOutputs RayReveal::add(
         [&](graph::PassBuilder& builder, RevealData& data) {
             data.in = inputs;
             if (!skyOnly)
-                builder.read(inputs.rays.topLevelBuffer, Access::AccelerationRead);
-            if (inputs.rays.movingLevelBuffer.isValid())
-                builder.read(inputs.rays.movingLevelBuffer, Access::AccelerationRead);
-            if (inputs.rays.shapeLevelsBuffer.isValid())
-                builder.read(inputs.rays.shapeLevelsBuffer, Access::AccelerationRead);
-            if (inputs.rays.shapesBuffer.isValid())
-                builder.read(inputs.rays.shapesBuffer, Access::ShaderRead);
+                builder.read(inputs.rays.tlasBuffer, Access::AccelerationRead);
+            if (inputs.rays.movingTlasBuffer.isValid())
+                builder.read(inputs.rays.movingTlasBuffer, Access::AccelerationRead);
+            if (inputs.rays.deformedBlasBuffer.isValid())
+                builder.read(inputs.rays.deformedBlasBuffer, Access::AccelerationRead);
+            if (inputs.rays.deformedBuffer.isValid())
+                builder.read(inputs.rays.deformedBuffer, Access::ShaderRead);
             builder.read(inputs.color, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
-            builder.read(inputs.meshId, Access::SampledCompute);
+            builder.read(inputs.entityId, Access::SampledCompute);
             builder.read(inputs.mask, Access::SampledCompute);
             data.out.color = builder.write(outputs.color, Access::StorageWrite);
             data.out.motionDepth = builder.write(outputs.motionDepth, Access::StorageWrite);
-            data.out.meshId = builder.write(outputs.meshId, Access::StorageWrite);
+            data.out.entityId = builder.write(outputs.entityId, Access::StorageWrite);
             data.list = builder.write(inputs.list, Access::StorageWrite);
             if (byCompute)
                 builder.read(inputs.arguments, Access::IndirectRead);
@@ -203,14 +203,14 @@ RayRevealOutputs RayReveal::add(
             gpu::BindingList bindings;
             bindings.sampled(resources.view(data.in.color), mSampler)
                 .sampled(resources.view(data.in.motionDepth), mSampler)
-                .sampled(resources.view(data.in.meshId), mSampler)
+                .sampled(resources.view(data.in.entityId), mSampler)
                 .sampled(resources.view(data.in.mask), mSampler)
                 .storage(resources.view(data.out.color))
                 .storage(resources.view(data.out.motionDepth))
-                .storage(resources.view(data.out.meshId))
+                .storage(resources.view(data.out.entityId))
                 .buffer(resources.buffer(data.list));
-            if (data.in.rays.topLevel != VK_NULL_HANDLE)
-                bindings.accelerationStructure(data.in.rays.topLevel);
+            if (data.in.rays.tlas != VK_NULL_HANDLE)
+                bindings.accelerationStructure(data.in.rays.tlas);
             context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.scene);
             if (byCompute)
                 vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);

@@ -15,13 +15,13 @@ namespace shutter::motion_blur {
 
 /// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
 struct RayInputs {
-    graph::BufferHandle topLevelBuffer;    ///< read with Access::AccelerationRead
-    graph::BufferHandle movingLevelBuffer; ///< likewise, unless it is invalid: there is no second
-    graph::BufferHandle shapeLevelsBuffer; ///< likewise, unless it is invalid: nothing is bent
-    graph::BufferHandle shapesBuffer;      ///< read with Access::ShaderRead, unless it is invalid
+    graph::BufferHandle tlasBuffer;         ///< read with Access::AccelerationRead
+    graph::BufferHandle movingTlasBuffer;   ///< likewise, unless it is invalid: there is no second
+    graph::BufferHandle deformedBlasBuffer; ///< likewise, unless it is invalid: nothing is deformed
+    graph::BufferHandle deformedBuffer;     ///< read with Access::ShaderRead, unless it is invalid
     /// Custom index: row of the entity table. Null: nothing but sky lies behind what moves, and no
     /// ray is traced; `frame` alone counts then.
-    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
+    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
     VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
     glm::uvec2 frame{0u};                   ///< address of FrameConstants
     bool hasBlended = false; ///< blended surfaces lie over what is revealed, as over the raster's
@@ -30,7 +30,7 @@ struct RayInputs {
 struct RayRevealInputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
-    graph::ImageHandle meshId;
+    graph::ImageHandle entityId;
     graph::ImageHandle mask;       ///< of RayMask
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
@@ -42,7 +42,7 @@ struct RayRevealInputs {
 struct RayRevealOutputs {
     graph::ImageHandle color;
     graph::ImageHandle motionDepth;
-    graph::ImageHandle meshId;
+    graph::ImageHandle entityId;
 };
 
 /// By ray queries in a compute shader, or by a ray-tracing pipeline: what the device has.
@@ -73,7 +73,7 @@ class RayReveal {
     std::optional<gpu::Pipeline> mSky;                       ///< for frames without rays
     std::array<std::optional<gpu::Pipeline>, 2> mQueries;    ///< without and with blended surfaces
     std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same
-    gpu::Buffer mHeaders; ///< by slot
+    gpu::Buffer mHeaders;                                    ///< by slot
 };
 
 } // namespace shutter::motion_blur

@@ -25,7 +25,7 @@ StochasticRays::StochasticRays(gpu::Device& device, VkDescriptorSetLayout sceneL
     : mPipeline(device, describePipeline(sceneLayout)) {}
 
 StochasticRaysOutputs StochasticRays::add(
-    graph::Graph& graph, const MovingRayInputs& rays, const shader::MotionBlurParams& params
+    graph::Graph& graph, const TimedRayInputs& rays, const shader::MotionBlurParams& params
 ) const {
     using graph::Access;
     const glm::uvec2 size = params.sizePx;
@@ -36,17 +36,17 @@ StochasticRaysOutputs StochasticRays::add(
         "stochastic rays",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, StochasticRaysOutputs& data) {
-            builder.read(rays.topLevelBuffer, Access::AccelerationRead);
+            builder.read(rays.tlasBuffer, Access::AccelerationRead);
             if (rays.boxesBuffer.isValid())
                 builder.read(rays.boxesBuffer, Access::AccelerationRead);
-            if (rays.shapesBuffer.isValid())
-                builder.read(rays.shapesBuffer, Access::ShaderRead);
+            if (rays.deformedBuffer.isValid())
+                builder.read(rays.deformedBuffer, Access::ShaderRead);
             data.color = builder.write(color, Access::StorageWrite);
             data.motionDepth = builder.write(motionDepth, Access::StorageWrite);
         },
         [this, rays, params](const StochasticRaysOutputs& data, graph::PassContext& context) {
             gpu::BindingList bindings;
-            bindings.accelerationStructure(rays.topLevel)
+            bindings.accelerationStructure(rays.tlas)
                 .storage(context.resources.view(data.color))
                 .storage(context.resources.view(data.motionDepth));
             dispatchPixels(context, mPipeline, bindings, params, params.sizePx, rays.scene);

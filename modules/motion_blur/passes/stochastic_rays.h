@@ -8,15 +8,15 @@
 
 namespace shutter::motion_blur {
 
-/// What rays at any time meet, in the terms of shaders/render/moving_scene_shared.h.
-struct MovingRayInputs {
-    graph::BufferHandle topLevelBuffer; ///< read with Access::AccelerationRead
+/// What rays at any time meet, in the terms of shaders/render/timed_scene_shared.h.
+struct TimedRayInputs {
+    graph::BufferHandle tlasBuffer;     ///< read with Access::AccelerationRead
     graph::BufferHandle boxesBuffer;    ///< likewise, unless it is invalid: then nothing moves
-    graph::BufferHandle shapesBuffer;   ///< read with Access::ShaderRead, unless it is invalid
-    VkAccelerationStructureKHR topLevel = VK_NULL_HANDLE;
+    graph::BufferHandle deformedBuffer; ///< read with Access::ShaderRead, unless it is invalid
+    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
     VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
     glm::uvec2 frame{0u};                   ///< address of FrameConstants
-    glm::uvec2 moving{0u};                  ///< address of MovingConstants
+    glm::uvec2 moving{0u};                  ///< address of TimedConstants
 };
 
 struct StochasticRaysOutputs {
@@ -30,7 +30,7 @@ class StochasticRays {
 
     /// Traces params.sampleCount rays a pixel; `params` needs the addresses of `rays`.
     [[nodiscard]] StochasticRaysOutputs
-    add(graph::Graph& graph, const MovingRayInputs& rays, const shader::MotionBlurParams& params
+    add(graph::Graph& graph, const TimedRayInputs& rays, const shader::MotionBlurParams& params
     ) const;
 
   private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 
+#include "engine/gpu/address.h"
+
 #include <fmt/format.h>
 
 namespace shutter::motion_blur {
@@ -23,7 +25,7 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
 
 MotionBlurPlugin::MotionBlurPlugin(
     gpu::Device& device,
-    const render::GpuScene& scene,
+    const gpu_scene::GpuScene& scene,
     const MotionBlurSettings& settings,
     const BlurBudget& budget
 )
@@ -35,7 +37,7 @@ void MotionBlurPlugin::configure(const MotionBlurSettings& settings, const BlurB
     mWanted = settings;
 }
 
-render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     if (settings().method == Method::Hybrid && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
     if (!(facts.exposureSeconds > 0.0))
@@ -48,7 +50,7 @@ render::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
     return {true, "something in the picture moves during the exposure"};
 }
 
-render::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
+core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
     if (settings().method != Method::Hybrid)
         return {}; // it never does
     // Other tests than by mesh id, and steps that end at a limit, show an entity behind itself.
@@ -58,7 +60,7 @@ render::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const
     return facts.reveal;
 }
 
-render::Decision MotionBlurPlugin::askMovingRays(const render::ViewFacts&) const {
+core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts&) const {
     if (settings().method != Method::Denoised)
         return {}; // it never does
     return {true, "its method has rays with times of their own"};
@@ -69,34 +71,34 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.color = context.color;
     inputs.motionDepth = context.gbuffer.motionDepth;
     inputs.normal = context.gbuffer.normal;
-    inputs.meshId = context.gbuffer.meshId;
-    inputs.rasterShare = context.facts.rasterShare;
-    inputs.response = render::splitAddress(context.response);
+    inputs.entityId = context.gbuffer.entityId;
+    inputs.rasterTime = context.facts.rasterTime;
+    inputs.response = gpu::splitAddress(context.response);
     inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
     RayInputs sky;
-    sky.frame = render::splitAddress(context.frameConstants);
+    sky.frame = gpu::splitAddress(context.frameConstants);
     inputs.rays = sky;
     if (context.rays)
         inputs.rays = RayInputs{
-            context.rays->topLevelBuffer,
-            context.rays->movingLevelBuffer,
-            context.rays->shapeLevelsBuffer,
-            context.rays->shapesBuffer,
-            context.rays->topLevel,
+            context.rays->tlasBuffer,
+            context.rays->movingTlasBuffer,
+            context.rays->deformedBlasBuffer,
+            context.rays->deformedBuffer,
+            context.rays->tlas,
             context.rays->textures,
-            render::splitAddress(context.rays->frameConstants),
+            gpu::splitAddress(context.rays->frameConstants),
             context.rays->hasBlended};
-    if (context.movingRays)
-        inputs.movingRays = MovingRayInputs{
-            context.movingRays->topLevelBuffer,
-            context.movingRays->boxesBuffer,
-            context.movingRays->shapesBuffer,
-            context.movingRays->topLevel,
-            context.movingRays->textures,
-            render::splitAddress(context.movingRays->frameConstants),
-            render::splitAddress(context.movingRays->movingConstants)};
-    mDrawn.at(context.slot) = {settings().method, mBudget.rung()};
+    if (context.timedRays)
+        inputs.timedRays = TimedRayInputs{
+            context.timedRays->tlasBuffer,
+            context.timedRays->boxesBuffer,
+            context.timedRays->deformedBuffer,
+            context.timedRays->tlas,
+            context.timedRays->textures,
+            gpu::splitAddress(context.timedRays->frameConstants),
+            gpu::splitAddress(context.timedRays->timedConstants)};
+    mDrawn.at(context.slot) = {settings().method, mBudget.level()};
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
@@ -112,7 +114,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         {"mask", outputs.mask},
         {"reveal", outputs.revealColor},
         {"reveal_motion", outputs.revealMotionDepth},
-        {"reveal_id", outputs.revealMeshId},
+        {"reveal_id", outputs.revealEntityId},
         {"cost", outputs.cost},
         {"noisy", outputs.noisy}};
     for (const auto& [name, image] : views)
@@ -126,15 +128,15 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
     for (const gpu::PassTime& pass : frame.passes)
         milliseconds += pass.gpuMilliseconds;
     if (!frame.passes.empty())
-        mBudget.observe(drawn.rung, milliseconds);
+        mBudget.observe(drawn.level, milliseconds);
     else if (!mBudget.current().runs) // and waits to be tried again
-        mBudget.observe(mBudget.rung(), 0.0);
+        mBudget.observe(mBudget.level(), 0.0);
     if (!frame.ran)
         return;
     count(frame);
     frame.measures["blur ms"] = milliseconds;
     if (!mBudget.budget().isUnlimited())
-        frame.measures["blur rung"] = double(drawn.rung);
+        frame.measures["blur budget level"] = double(drawn.level);
 }
 
 void MotionBlurPlugin::count(const render::FinishedFrame& frame) const {

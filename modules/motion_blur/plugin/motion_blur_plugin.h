@@ -18,7 +18,7 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Settings and budget must be valid.
     MotionBlurPlugin(
         gpu::Device& device,
-        const render::GpuScene& scene,
+        const gpu_scene::GpuScene& scene,
         const MotionBlurSettings& settings,
         const BlurBudget& budget = {}
     );
@@ -29,15 +29,15 @@ class MotionBlurPlugin : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "motion blur"; }
 
     /// Skipped when nothing moves, the exposure is 0, or the budget is too small for any blur.
-    [[nodiscard]] render::Decision ask(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 
     /// The hybrid method's.
-    [[nodiscard]] render::Decision askRays(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision askRays(const render::ViewFacts& facts) const override;
     /// The denoised method's.
-    [[nodiscard]] render::Decision askMovingRays(const render::ViewFacts& facts) const override;
+    [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
-    /// Measures what the effect took and, under a budget, its rung.
+    /// Measures what the effect took and, under a budget, its level.
     void finish(render::FinishedFrame& frame) override;
 
   private:
@@ -46,7 +46,7 @@ class MotionBlurPlugin : public render::PostEffect {
     /// How a frame was declared.
     struct Drawn {
         Method method = Method::Hybrid;
-        size_t rung = 0;
+        size_t level = 0;
     };
 
     void count(const render::FinishedFrame& frame) const;

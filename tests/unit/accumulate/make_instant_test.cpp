@@ -13,8 +13,8 @@ namespace {
 
 using math::dvec2;
 
-std::vector<render::ViewRequest> makeAll(uint32_t count, PixelModel pixel, uint32_t seed) {
-    std::vector<render::ViewRequest> instants;
+std::vector<extract::ViewRequest> makeAll(uint32_t count, PixelModel pixel, uint32_t seed) {
+    std::vector<extract::ViewRequest> instants;
     for (uint32_t i = 0; i < count; ++i)
         instants.push_back(makeInstant({}, i, count, pixel, seed));
     return instants;
@@ -31,7 +31,7 @@ TEST(MakeInstant, EveryStratumOfTheExposureIsSeenInItsMiddle) {
 }
 
 TEST(MakeInstant, AResponseHasTheInstantsWhereItsLightIs) {
-    render::ViewRequest view;
+    extract::ViewRequest view;
     view.exposure.shutter.response.shape = scene::ResponseShape::Triangle;
     for (uint32_t i = 0; i < 64; ++i) {
         const double u = (i + 0.5) / 64.0;
@@ -42,7 +42,7 @@ TEST(MakeInstant, AResponseHasTheInstantsWhereItsLightIs) {
 }
 
 TEST(MakeInstant, TheCentreIsNotJitteredAndKeepsTheTexturesLevel) {
-    render::ViewRequest view;
+    extract::ViewRequest view;
     view.lodBias = 0.5f;
     for (uint32_t i = 0; i < 16; ++i) {
         const auto instant = makeInstant(view, i, 16, PixelModel::Centre, 9);
@@ -103,7 +103,7 @@ TEST(MakeInstant, AnotherSeedGivesOtherPlacesAndTheSameSeedTheSame) {
 }
 
 TEST(MakeInstant, TheRestOfTheViewStaysAsAskedFor) {
-    render::ViewRequest view;
+    extract::ViewRequest view;
     view.width = 7;
     view.height = 5;
     view.background = {1.0f, 2.0f, 3.0f};

@@ -52,7 +52,7 @@ nlohmann::json describeThree() {
 TEST(Cost, TheDisplayDoesNotCountAndTheSceneIsNoEffect) {
     using render::PassOwner;
     const Sample sample{
-        {{"bend meshes", 4.0, PassOwner::Scene},
+        {{"deform meshes", 4.0, PassOwner::Scene},
          {"G-buffer", 6.0, PassOwner::Scene},
          {"ray reveal", 3.0, PassOwner::Effect},
          {"tone map", 5.0, PassOwner::Display},

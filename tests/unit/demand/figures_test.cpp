@@ -19,7 +19,7 @@ render::FrameStatistics makeFrame(std::vector<render::PassTime> passes) {
 
 const render::FrameStatistics kHybrid = makeFrame(
     {{{"G-buffer", 100.0}, PassOwner::Scene},
-     {{"build top level", 1.0}, PassOwner::Rays},
+     {{"build TLAS", 1.0}, PassOwner::Rays},
      {{"tile max", 2.0}, PassOwner::Effect},
      {{"neighbour max", 3.0}, PassOwner::Effect},
      {{"edge", 4.0}, PassOwner::Effect},

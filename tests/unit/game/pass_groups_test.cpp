@@ -41,8 +41,8 @@ TEST(PassGroups, NoMethodPaysForTheDisplay) {
 TEST(PassGroups, SumsCountEachPassOnce) {
     render::FrameStatistics frame;
     frame.passes = {
-        {{"bend meshes", 1.0}, PassOwner::Scene},
-        {{"build top level", 2.0}, PassOwner::Rays},
+        {{"deform meshes", 1.0}, PassOwner::Scene},
+        {{"build TLAS", 2.0}, PassOwner::Rays},
         {{"G-buffer", 4.0}, PassOwner::Scene},
         {{"gather", 8.0}, PassOwner::Effect},
         {{"tone map", 16.0}, PassOwner::Display}};

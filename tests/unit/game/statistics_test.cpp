@@ -70,9 +70,9 @@ TEST(Statistics, SumsAreByPassNameInTheOrderOfFirstAppearance) {
     EXPECT_EQ(total.cpuMilliseconds, 9.0);
     EXPECT_EQ(total.wallMilliseconds, 12.0);
     EXPECT_EQ(total.counters.at("rays traced"), 10u);
-    const render::Decision* blur = render::findDecision(total.explanations, "motion blur");
+    const core::Decision* blur = render::findDecision(total.explanations, "motion blur");
     ASSERT_NE(blur, nullptr);
-    EXPECT_EQ(render::describe(*blur), "ran: later");
+    EXPECT_EQ(core::describe(*blur), "ran: later");
 }
 
 TEST(Statistics, MemoryIsUsedAgainSoItsSumIsItsMaximum) {

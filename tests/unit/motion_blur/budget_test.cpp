@@ -27,10 +27,10 @@ struct Load {
     double perSample = 1.0;
     double rays = 30.0;
 
-    [[nodiscard]] double of(const BudgetRung& rung) const {
-        if (!rung.runs)
+    [[nodiscard]] double of(const BudgetLevel& level) const {
+        if (!level.runs)
             return 0.0;
-        const MotionBlurSettings& s = rung.settings;
+        const MotionBlurSettings& s = level.settings;
         const double resolution = std::isinf(s.halfResolutionPx) ? 1.0 : 0.8;
         const double traced = s.method == Method::Hybrid ? rays * s.rayShare : 0.0;
         return tiles + perSample * s.sampleCount * resolution + traced;
@@ -44,13 +44,13 @@ double noise(uint32_t& state) {
 }
 
 struct Drive {
-    std::vector<size_t> rungs;
+    std::vector<size_t> levels;
     std::vector<double> times;
 
     [[nodiscard]] size_t changes(size_t from) const {
         size_t count = 0;
-        for (size_t i = from + 1; i < rungs.size(); ++i)
-            count += rungs[i] != rungs[i - 1];
+        for (size_t i = from + 1; i < levels.size(); ++i)
+            count += levels[i] != levels[i - 1];
         return count;
     }
 
@@ -71,11 +71,11 @@ Drive drive(
 ) {
     Drive result;
     for (int i = 0; i < frames; ++i) {
-        const size_t rung = controller.rung();
+        const size_t level = controller.level();
         const double time = load.of(controller.current()) * (1.0 + spread * noise(seed));
-        result.rungs.push_back(rung);
+        result.levels.push_back(level);
         result.times.push_back(time);
-        controller.observe(rung, time);
+        controller.observe(level, time);
     }
     return result;
 }
@@ -94,49 +94,49 @@ constexpr Method kEveryMethod[] = {
 TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
     for (const Method method : kEveryMethod)
         for (const uint32_t samples : {1u, 4u, 15u, 256u}) {
-            const auto rungs = makeRungs(settingsOf(method, samples));
-            ASSERT_GE(rungs.size(), 2u);
-            EXPECT_TRUE(rungs.front().gaveUp.empty());
-            EXPECT_EQ(rungs.front().settings.sampleCount, samples);
-            EXPECT_EQ(rungs.front().settings.method, method);
-            EXPECT_FALSE(rungs.back().runs);
+            const auto levels = makeLevels(settingsOf(method, samples));
+            ASSERT_GE(levels.size(), 2u);
+            EXPECT_TRUE(levels.front().gaveUp.empty());
+            EXPECT_EQ(levels.front().settings.sampleCount, samples);
+            EXPECT_EQ(levels.front().settings.method, method);
+            EXPECT_FALSE(levels.back().runs);
             std::set<std::string> said;
-            for (size_t i = 1; i < rungs.size(); ++i) {
-                EXPECT_LT(rungs[i].cost, rungs[i - 1].cost) << int(method) << " rung " << i;
-                EXPECT_TRUE(validate(rungs[i].settings).ok()) << rungs[i].gaveUp;
-                EXPECT_TRUE(said.insert(rungs[i].gaveUp).second) << rungs[i].gaveUp;
-                EXPECT_LE(rungs[i].settings.rayShare, rungs[i - 1].settings.rayShare);
+            for (size_t i = 1; i < levels.size(); ++i) {
+                EXPECT_LT(levels[i].cost, levels[i - 1].cost) << int(method) << " level " << i;
+                EXPECT_TRUE(validate(levels[i].settings).ok()) << levels[i].gaveUp;
+                EXPECT_TRUE(said.insert(levels[i].gaveUp).second) << levels[i].gaveUp;
+                EXPECT_LE(levels[i].settings.rayShare, levels[i - 1].settings.rayShare);
             }
         }
 }
 
 TEST(Budget, TheLadderSaysWhatItGivesUp) {
-    const auto rungs = makeRungs(settingsOf(Method::Hybrid));
-    EXPECT_EQ(rungs[1].gaveUp, "half of the resolution along long uniform motion");
+    const auto levels = makeLevels(settingsOf(Method::Hybrid));
+    EXPECT_EQ(levels[1].gaveUp, "half of the resolution along long uniform motion");
     EXPECT_EQ(
-        rungs[3].gaveUp, "half of the resolution along long uniform motion, 50 % of the rays"
+        levels[3].gaveUp, "half of the resolution along long uniform motion, 50 % of the rays"
     );
     EXPECT_EQ(
-        rungs[rungs.size() - 2].gaveUp,
+        levels[levels.size() - 2].gaveUp,
         "half of the resolution along long uniform motion, all rays, 11 of 15 samples"
     );
-    EXPECT_EQ(rungs.back().gaveUp, "motion blur altogether");
+    EXPECT_EQ(levels.back().gaveUp, "motion blur altogether");
 }
 
 TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
-    const auto rungs = makeRungs(settingsOf(Method::Denoised, 4));
-    EXPECT_EQ(rungs[1].gaveUp, "2 of 4 samples");
-    EXPECT_EQ(rungs[2].gaveUp, "3 of 4 samples");
-    EXPECT_EQ(rungs[3].gaveUp, "all rays");
-    EXPECT_EQ(rungs[3].settings.method, Method::Gather);
-    EXPECT_EQ(rungs[4].gaveUp, "all rays, 3 of 15 samples");
+    const auto levels = makeLevels(settingsOf(Method::Denoised, 4));
+    EXPECT_EQ(levels[1].gaveUp, "2 of 4 samples");
+    EXPECT_EQ(levels[2].gaveUp, "3 of 4 samples");
+    EXPECT_EQ(levels[3].gaveUp, "all rays");
+    EXPECT_EQ(levels[3].settings.method, Method::Gather);
+    EXPECT_EQ(levels[4].gaveUp, "all rays, 3 of 15 samples");
 }
 
 TEST(Budget, WithoutAUniformPathThereIsNoResolutionToGiveUp) {
     MotionBlurSettings settings = settingsOf(Method::Hybrid);
     settings.uniformMotionPx = 0.0f;
-    for (const BudgetRung& rung : makeRungs(settings))
-        EXPECT_EQ(rung.gaveUp.find("resolution"), std::string::npos) << rung.gaveUp;
+    for (const BudgetLevel& level : makeLevels(settings))
+        EXPECT_EQ(level.gaveUp.find("resolution"), std::string::npos) << level.gaveUp;
 }
 
 TEST(Budget, OnlyATimeAboveZeroIsABudget) {
@@ -151,14 +151,14 @@ TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
     for (const double time : {1.0, 1e9, std::numeric_limits<double>::infinity(), 0.0})
         for (int i = 0; i < 50; ++i) {
             controller.observe(0, time);
-            ASSERT_EQ(controller.rung(), 0u);
+            ASSERT_EQ(controller.level(), 0u);
         }
 }
 
 TEST(Budget, WhatFitsIsLeftAlone) {
     BudgetController controller({50.0}, settingsOf(Method::Hybrid));
     EXPECT_EQ(drive(controller, {}, 500).changes(0), 0u);
-    EXPECT_EQ(controller.rung(), 0u);
+    EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
@@ -167,13 +167,14 @@ TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
             BudgetController controller({budget}, settingsOf(method));
             drive(controller, {}, 400);
             const Drive later = drive(controller, {}, 1000);
-            // Now and then it tries the rung above, for two frames at most.
+            // Now and then it tries the level above, for two frames at most.
             EXPECT_LT(later.shareOver(budget, 0), 0.02) << int(method) << ", " << budget << " ms";
-            // It does not give up more than two rungs that would fit.
-            const size_t better = controller.rung() >= 2 ? controller.rung() - 2 : 0;
-            if (controller.rung() >= 2)
-                EXPECT_GT(Load{}.of(makeRungs(settingsOf(method))[better]), 0.7 * budget)
+            // It does not give up more than two levels that would fit.
+            const size_t better = controller.level() >= 2 ? controller.level() - 2 : 0;
+            if (controller.level() >= 2) {
+                EXPECT_GT(Load{}.of(makeLevels(settingsOf(method))[better]), 0.7 * budget)
                     << int(method) << ", " << budget << " ms";
+            }
         }
 }
 
@@ -192,24 +193,24 @@ TEST(Budget, OneSlowFrameIsAHiccup) {
     drive(controller, {}, 20);
     controller.observe(0, 500.0);
     drive(controller, {}, 20);
-    EXPECT_EQ(controller.rung(), 0u);
+    EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, ALittleTooMuchCostsOneRungAndFarTooMuchSeveral) {
     BudgetController little({45.0}, settingsOf(Method::Hybrid));
     drive(little, {}, 2);
-    EXPECT_EQ(little.rung(), 1u);
+    EXPECT_EQ(little.level(), 1u);
     BudgetController far({12.0}, settingsOf(Method::Hybrid));
     drive(far, {}, 2);
-    EXPECT_GT(far.rung(), 3u);
+    EXPECT_GT(far.level(), 3u);
 }
 
 TEST(Budget, ASuddenLoadIsJudgedByItselfNotByTheCalmBefore) {
     BudgetController controller({20.0}, settingsOf(Method::Hybrid));
     drive(controller, {0.2, 0.2, 2.0}, 500);
-    ASSERT_EQ(controller.rung(), 0u);
+    ASSERT_EQ(controller.level(), 0u);
     drive(controller, {1.0, 1.0, 40.0}, 2);
-    EXPECT_GT(controller.rung(), 3u);
+    EXPECT_GT(controller.level(), 3u);
 }
 
 TEST(Budget, TriesThatKeepFailingGrowRare) {
@@ -221,17 +222,17 @@ TEST(Budget, TriesThatKeepFailingGrowRare) {
 TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {
     BudgetController controller({20.0}, settingsOf(Method::Hybrid));
     drive(controller, {4.0, 3.0, 200.0}, 300);
-    EXPECT_GT(controller.rung(), 4u);
+    EXPECT_GT(controller.level(), 4u);
     const Drive back = drive(controller, {0.2, 0.2, 2.0}, 3000);
-    EXPECT_EQ(controller.rung(), 0u);
-    for (size_t i = 1; i < back.rungs.size(); ++i)
-        ASSERT_LE(back.rungs[i - 1] - back.rungs[i], 1u) << "frame " << i;
+    EXPECT_EQ(controller.level(), 0u);
+    for (size_t i = 1; i < back.levels.size(); ++i)
+        ASSERT_LE(back.levels[i - 1] - back.levels[i], 1u) << "frame " << i;
 }
 
 TEST(Budget, ARungThatWouldJustFitIsNotTriedSoTheMarginStays) {
     BudgetController controller({46.5}, settingsOf(Method::Hybrid));
     drive(controller, {3.0, 3.0, 10.0}, 2); // 58 ms: down by one
-    ASSERT_EQ(controller.rung(), 1u);
+    ASSERT_EQ(controller.level(), 1u);
     // All of it would take 46 ms now.
     EXPECT_EQ(drive(controller, {}, 1000).changes(0), 0u);
 }
@@ -239,9 +240,9 @@ TEST(Budget, ARungThatWouldJustFitIsNotTriedSoTheMarginStays) {
 TEST(Budget, StepsUpThatFailedLongAgoDoNotHoldItBackForLong) {
     BudgetController controller({18.0}, settingsOf(Method::Hybrid));
     drive(controller, {1.0, 1.0, 60.0}, 5000);
-    ASSERT_GT(controller.rung(), 2u);
+    ASSERT_GT(controller.level(), 2u);
     drive(controller, {0.2, 0.2, 2.0}, 2000);
-    EXPECT_EQ(controller.rung(), 0u);
+    EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, ItComesBackFromNoBlurAtAll) {
@@ -249,7 +250,7 @@ TEST(Budget, ItComesBackFromNoBlurAtAll) {
     drive(controller, {}, 200);
     EXPECT_FALSE(controller.current().runs);
     drive(controller, {0.01, 0.01, 0.0}, 4000);
-    EXPECT_EQ(controller.rung(), 0u);
+    EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, TimesOfOtherRungsAndNoNumbersArePassedOver) {
@@ -260,7 +261,7 @@ TEST(Budget, TimesOfOtherRungsAndNoNumbersArePassedOver) {
         controller.observe(0, std::numeric_limits<double>::infinity());
         controller.observe(0, -5.0);
     }
-    EXPECT_EQ(controller.rung(), 0u);
+    EXPECT_EQ(controller.level(), 0u);
 }
 
 } // namespace shutter::motion_blur

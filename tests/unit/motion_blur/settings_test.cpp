@@ -185,23 +185,23 @@ TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
     EXPECT_EQ(params.sampleCount, 31u);
     EXPECT_EQ(params.softDepthExtent, 0.5f);
     EXPECT_EQ(params.edgeThreshold, 0.25f);
-    EXPECT_EQ(params.rasterShare, 0.5f);
+    EXPECT_EQ(params.rasterTime, 0.5f);
     EXPECT_EQ(params.foregroundMagnification, 12.0f);
     EXPECT_EQ(params.backgroundMagnification, 6.0f);
     EXPECT_EQ(params.jitter, 0.75f);
     EXPECT_EQ(params.recursionLimit, 9u);
     EXPECT_EQ(
-        params.choices,
-        shader::kChooseLuminanceTest | shader::kChooseSteppingReveal | // by luminance: always
-            shader::kChooseVelocityOccluder
+        params.flags,
+        shader::kFlagLuminanceTest | shader::kFlagSteppingReveal | // by luminance: always
+            shader::kFlagVelocityOccluder
     );
     EXPECT_EQ(params.luminanceThreshold, 0.125f);
     EXPECT_EQ(params.centreBias, 20.0f);
     EXPECT_EQ(params.speedThresholdPx, 2.5f);
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).choices, 0u);
+    EXPECT_EQ(resolve({}, 8, 8, 1.0).flags, 0u);
     settings = {};
     settings.revealTraversal = RevealTraversal::Stepping;
-    EXPECT_EQ(resolve(settings, 8, 8, 1.0).choices, shader::kChooseSteppingReveal);
+    EXPECT_EQ(resolve(settings, 8, 8, 1.0).flags, shader::kFlagSteppingReveal);
 }
 
 TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
@@ -239,8 +239,8 @@ TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
 }
 
 TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {
-    EXPECT_EQ(resolve({}, 8, 8, -1.0).rasterShare, 0.0f);
-    EXPECT_EQ(resolve({}, 8, 8, 2.0).rasterShare, 1.0f);
+    EXPECT_EQ(resolve({}, 8, 8, -1.0).rasterTime, 0.0f);
+    EXPECT_EQ(resolve({}, 8, 8, 2.0).rasterTime, 1.0f);
 }
 
 } // namespace shutter::motion_blur

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The shader's skinning and morphing against double precision.
+#include "engine/extract/motion_keys.h"
 #include "engine/math/math.h"
-#include "engine/render/motion_keys.h"
 #include "shaders/render/deform.glsl"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class Random {
     std::uniform_real_distribution<double> mValue{-1.0, 1.0};
 };
 
-ShapedVertex makeVertex(const dvec3& position, const dvec3& normal, const dvec3& tangent) {
+DeformedVertex makeVertex(const dvec3& position, const dvec3& normal, const dvec3& tangent) {
     return {vec3(position), vec3(normal), vec3(tangent)};
 }
 
@@ -60,16 +60,16 @@ TEST(Deform, SkinningIsTheWeightedSumOfWhatEachJointDoes) {
     for (int round = 0; round < 200; ++round) {
         const std::array joints{random.matrix(), random.matrix(), random.matrix()};
         const std::array weights{0.5, 0.375, 0.125};
-        const ShapedVertex rest = makeVertex(
+        const DeformedVertex rest = makeVertex(
             random.vector(), glm::normalize(random.vector()), glm::normalize(random.vector())
         );
         MotionKey blended = noJoint();
         dmat4 exact(0.0);
         for (size_t i = 0; i < joints.size(); ++i) {
-            blended = addJoint(blended, render::makeKey(joints[i]), float(weights[i]));
+            blended = addJoint(blended, extract::makeKey(joints[i]), float(weights[i]));
             exact += joints[i] * weights[i];
         }
-        const ShapedVertex skinned = finishVertex(skinVertex(rest, blended));
+        const DeformedVertex skinned = finishVertex(skinVertex(rest, blended));
         EXPECT_LT(
             distance(skinned.position, dvec3(exact * dvec4(dvec3(rest.position), 1.0))), 1e-6
         );
@@ -82,24 +82,24 @@ TEST(Deform, SkinningIsTheWeightedSumOfWhatEachJointDoes) {
 }
 
 TEST(Deform, AMirroringMatrixTurnsTheNormalAsItTurnsTheWinding) {
-    const MotionKey mirror = render::makeKey(glm::scale(dmat4(1.0), dvec3(-2.0, 1.0, 1.0)));
-    const ShapedVertex rest = makeVertex({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
-    const ShapedVertex mirrored = finishVertex(skinVertex(rest, mirror));
+    const MotionKey mirror = extract::makeKey(glm::scale(dmat4(1.0), dvec3(-2.0, 1.0, 1.0)));
+    const DeformedVertex rest = makeVertex({1, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    const DeformedVertex mirrored = finishVertex(skinVertex(rest, mirror));
     EXPECT_EQ(mirrored.position, vec3(-2, 0, 0));
     EXPECT_EQ(mirrored.normal, vec3(0, 0, -1));
     EXPECT_EQ(mirrored.tangent, vec3(-1, 0, 0));
 }
 
 TEST(Deform, MorphTargetsAddUpBeforeTheSkin) {
-    const ShapedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+    const DeformedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
     const MorphDelta first{vec4(1, 0, 0, 9), vec4(0, 1, 0, 9), vec4(0, 0, 1, 9)};
     const MorphDelta second{vec4(0, -2, 0, 9), vec4(0, 0, -1, 9), vec4(0, 0, 0, 9)};
-    const ShapedVertex morphed = morphVertex(morphVertex(rest, first, 0.5f), second, 0.25f);
+    const DeformedVertex morphed = morphVertex(morphVertex(rest, first, 0.5f), second, 0.25f);
     EXPECT_EQ(morphed.position, vec3(1.5, 1.5, 3));
     EXPECT_EQ(morphed.normal, vec3(0, 0.5, 0.75));
     EXPECT_EQ(morphed.tangent, vec3(1, 0, 0.5));
     const dmat4 turn = glm::rotate(dmat4(1.0), 1.0, dvec3(0, 0, 1));
-    const ShapedVertex skinned = finishVertex(skinVertex(morphed, render::makeKey(turn)));
+    const DeformedVertex skinned = finishVertex(skinVertex(morphed, extract::makeKey(turn)));
     EXPECT_LT(distance(skinned.position, dvec3(turn * dvec4(1.5, 1.5, 3, 1))), 1e-6);
     EXPECT_NEAR(glm::length(skinned.normal), 1.0f, 1e-6f);
 }
@@ -120,14 +120,14 @@ TEST(Deform, WhatHasNoDirectionIsZero) {
 }
 
 TEST(Deform, ACollapsedJointLeavesFiniteVertices) {
-    const ShapedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
-    const ShapedVertex point = finishVertex(skinVertex(rest, noJoint()));
+    const DeformedVertex rest = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+    const DeformedVertex point = finishVertex(skinVertex(rest, noJoint()));
     EXPECT_EQ(point.position, vec3(0.0f));
     EXPECT_EQ(point.normal, vec3(0.0f));
     EXPECT_EQ(point.tangent, vec3(0.0f));
-    const ShapedVertex flat =
-        finishVertex(skinVertex(rest, render::makeKey(glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 0.0))))
-        );
+    const DeformedVertex flat = finishVertex(
+        skinVertex(rest, extract::makeKey(glm::scale(dmat4(1.0), dvec3(1.0, 1.0, 0.0))))
+    );
     EXPECT_EQ(flat.position, vec3(1, 2, 0));
     EXPECT_EQ(flat.normal, vec3(0, 0, 1));
 }
@@ -135,9 +135,9 @@ TEST(Deform, ACollapsedJointLeavesFiniteVertices) {
 TEST(Deform, APositionThatIsNotFiniteIsAtTheOrigin) {
     for (const float bad : {kNaN, kInfinity, -kInfinity})
         for (int axis = 0; axis < 3; ++axis) {
-            ShapedVertex vertex = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
+            DeformedVertex vertex = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
             vertex.position[axis] = bad;
-            const ShapedVertex finished = finishVertex(vertex);
+            const DeformedVertex finished = finishVertex(vertex);
             EXPECT_TRUE(isFiniteVector(finished.position));
             EXPECT_EQ(finished.position, vec3(0.0f));
             EXPECT_EQ(finished.normal, vec3(0, 0, 1));

@@ -61,7 +61,7 @@ class History : public testing::Test {
             EXPECT_EQ(now.worldFromObject(entity, s), now.worldFromEntity(entity, s));
         }
         EXPECT_EQ(
-            now.worldFromEntity(entity, now.exposure().rasterShare),
+            now.worldFromEntity(entity, now.exposure().rasterTime),
             scene::worldFromEntity(mWorld, entity, raster)
         );
     }

@@ -203,8 +203,8 @@ void expectInterval(
     EXPECT_DOUBLE_EQ(interval.open, open);
     EXPECT_DOUBLE_EQ(interval.raster, raster);
     EXPECT_DOUBLE_EQ(interval.close, close);
-    EXPECT_EQ(interval.rasterShare, share);
-    EXPECT_DOUBLE_EQ(interval.at(interval.rasterShare), interval.raster);
+    EXPECT_EQ(interval.rasterTime, share);
+    EXPECT_DOUBLE_EQ(interval.at(interval.rasterTime), interval.raster);
 }
 
 TEST_F(WorldFromEntity, OnlyWhatCouldMoveMayMove) {

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/deformation_keys.h"
+
+#include "engine/core/check.h"
+#include "engine/extract/deformed_entity.h"
+#include "engine/math/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::Bounds;
+using math::dmat4;
+using math::dvec3;
+using scene::Deformation;
+using scene::PoseReach;
+
+dmat4 mix(const dmat4& a, const dmat4& b, double t) {
+    return a * (1.0 - t) + b * t;
+}
+
+/// Upper bound of how much longer the matrix's linear part makes a vector: the root of its largest
+/// sums of columns and of rows; 1 for the identity.
+double measureStretch(const dmat4& matrix) {
+    double columns = 0.0;
+    double rows = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        double column = 0.0;
+        double row = 0.0;
+        for (int j = 0; j < 3; ++j) {
+            column += std::abs(matrix[i][j]);
+            row += std::abs(matrix[j][i]);
+        }
+        columns = std::max(columns, column);
+        rows = std::max(rows, row);
+    }
+    return std::sqrt(columns * rows);
+}
+
+/// Length of the longest vector in the box; 0 for an empty one.
+double measureLongest(const Bounds& bounds) {
+    if (bounds.isEmpty())
+        return 0.0;
+    return glm::length(glm::max(glm::abs(bounds.min), glm::abs(bounds.max)));
+}
+
+double weightOf(const Deformation& pose, size_t target) {
+    return target < pose.morphWeights.size() ? pose.morphWeights[target] : 0.0;
+}
+
+/// What the morph targets do between two keys, metres before skinning.
+struct MorphDeviation {
+    double off = 0.0;   ///< of the weights from their straight way
+    double way = 0.0;   ///< from one key to the other
+    double reach = 0.0; ///< farthest that they move a vertex from rest
+};
+
+MorphDeviation measureMorph(
+    const Deformation& exact,
+    const Deformation& a,
+    const Deformation& b,
+    double t,
+    const PoseReach& reach
+) {
+    MorphDeviation result;
+    for (size_t target = 0; target < reach.targets.size(); ++target) {
+        const double longest = measureLongest(reach.targets[target]);
+        const double from = weightOf(a, target);
+        const double to = weightOf(b, target);
+        const double at = weightOf(exact, target);
+        result.off += longest * std::abs(at - std::lerp(from, to, t));
+        result.way += longest * std::abs(to - from);
+        result.reach += longest * std::max({std::abs(from), std::abs(to), std::abs(at)});
+    }
+    return result;
+}
+
+std::vector<Deformation> sampleShapes(const DeformationAt& deformAt, uint32_t intervals) {
+    std::vector<Deformation> keys;
+    keys.reserve(intervals + 1);
+    for (uint32_t i = 0; i <= intervals; ++i)
+        keys.push_back(deformAt(double(i) / intervals));
+    return keys;
+}
+
+bool follows(
+    std::span<const Deformation> keys,
+    const DeformationAt& deformAt,
+    const PoseReach& reach,
+    double tolerance
+) {
+    const auto intervals = static_cast<uint32_t>(keys.size() - 1);
+    const uint32_t parts = std::max(4u, kProbeIntervals / intervals);
+    for (uint32_t i = 0; i < intervals; ++i)
+        for (uint32_t part = 0; part < parts; ++part) {
+            const double t = part == 0 ? kOddPlace : double(part) / parts;
+            const Deformation exact = deformAt((i + t) / intervals);
+            // Written so that NaN does not follow.
+            if (!(measureDeformationDeviation(exact, keys[i], keys[i + 1], t, reach) <= tolerance))
+                return false;
+        }
+    return true;
+}
+
+/// Looks at the probes. Nothing where the shape is not finite at one of them.
+struct Sweep {
+    Bounds bounds;
+    bool changes = false;
+};
+
+std::optional<Sweep> sweep(const DeformationAt& deformAt, const PoseReach& reach) {
+    Sweep result;
+    const Deformation first = deformAt(0.0);
+    for (uint32_t i = 0; i <= kProbeIntervals; ++i) {
+        const double odd = std::min((i + kOddPlace) / kProbeIntervals, 1.0);
+        for (const double s : {double(i) / kProbeIntervals, odd}) {
+            const Deformation probe = deformAt(s);
+            if (!isFinite(probe, reach))
+                return std::nullopt;
+            result.changes = result.changes || !isSame(probe, first);
+            result.bounds.add(scene::computeDeformedBounds(reach, probe));
+        }
+    }
+    return result;
+}
+
+/// Adds what `extra` (object space) sweeps on the object's way.
+void growSwept(MotionKeys& object, const Bounds& extra) {
+    for (const shader::MotionKey& key : object.keys)
+        object.swept.add(math::transformBounds(expandKey(key), extra));
+}
+
+} // namespace
+
+double measureDeformationDeviation(
+    const Deformation& exact,
+    const Deformation& a,
+    const Deformation& b,
+    double t,
+    const PoseReach& reach
+) {
+    // Of v(s) = M(s) (p + d(s)) with M and d a vertex's blended matrix and morph displacement, the
+    // straight way from key to key is M' (p + d') + t (1 - t) (M_b - M_a) (d_b - d_a), with M' and
+    // d' on their own straight ways.
+    const MorphDeviation morph = measureMorph(exact, a, b, t, reach);
+    const size_t jointCount = std::min(reach.joints.size(), exact.objectFromBind.size());
+    if (exact.objectFromBind.empty())
+        return morph.off;
+    double largest = 0.0;
+    for (size_t i = 0; i < jointCount; ++i) {
+        if (reach.joints[i].isEmpty())
+            continue;
+        const dmat4& from = a.objectFromBind[i];
+        const dmat4& to = b.objectFromBind[i];
+        const dmat4& at = exact.objectFromBind[i];
+        const dmat4 straight = mix(from, to, t);
+        const double deviation = measureDeviation(at, straight, reach.joints[i]) +
+                                 measureStretch(at - straight) * morph.reach +
+                                 measureStretch(straight) * morph.off +
+                                 t * (1.0 - t) * measureStretch(to - from) * morph.way;
+        // Written so that NaN comes through.
+        largest = deviation <= largest ? largest : deviation;
+    }
+    return largest;
+}
+
+std::optional<DeformedMotion> computeDeformedMotion(
+    const MatrixAt& objectAt,
+    const DeformationAt& deformAt,
+    const PoseReach& reach,
+    const KeyTolerance& tolerance
+) {
+    const std::optional<Sweep> swept = sweep(deformAt, reach);
+    if (!swept || swept->bounds.isEmpty())
+        return std::nullopt;
+    auto object = computeMotionKeys(objectAt, swept->bounds, tolerance);
+    if (!object)
+        return std::nullopt;
+    DeformedMotion result{std::move(*object), {}};
+    result.shape.swept = swept->bounds;
+    if (!swept->changes) {
+        result.shape.keys = {deformAt(0.0)};
+        return result;
+    }
+    double stretch = 0.0;
+    for (const shader::MotionKey& key : result.object.keys)
+        stretch = std::max(stretch, measureStretch(expandKey(key)));
+    // An object scaled to nothing shows no shape.
+    const double allowed = stretch > 0.0 ? tolerance.of(result.object.swept) / stretch
+                                         : std::numeric_limits<double>::infinity();
+    for (uint32_t intervals = 1;; intervals *= 2) {
+        result.shape.keys = sampleShapes(deformAt, intervals);
+        result.shape.followsExactly = follows(result.shape.keys, deformAt, reach, allowed);
+        if (result.shape.followsExactly || intervals == kMaxDeformationIntervals)
+            break;
+    }
+    // Between two keys each vertex goes straight, so the boxes at the keys hold it.
+    for (const Deformation& key : result.shape.keys) {
+        if (!isFinite(key, reach))
+            return std::nullopt;
+        result.shape.swept.add(scene::computeDeformedBounds(reach, key));
+    }
+    growSwept(result.object, result.shape.swept);
+    return result;
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The shape of a skinned or morphed mesh as one frame needs it, on the CPU.
+#pragma once
+
+#include "engine/math/bounds.h"
+#include "engine/scene/deformed_bounds.h"
+#include "engine/scene/exposure_motion.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace shutter::extract {
+
+struct DeformedEntity {
+    uint32_t row = 0;  ///< of the entity table
+    uint32_t mesh = 0; ///< index into Assets::meshes
+    scene::Deformation open;
+    scene::Deformation raster;
+    scene::Deformation close;
+    math::Bounds bounds;   ///< raster instant, object space: holds every vertex
+    bool changes = false;  ///< open, raster instant and close are not one shape
+    bool mirrored = false; ///< the joints turn the winding round
+};
+
+/// Shutter times of a frame's three shapes, [0, 1].
+struct DeformationTimes {
+    double open = 0.0;
+    double raster = 1.0;
+    double close = 1.0;
+};
+
+/// Without `row` and `mesh`. Nothing where the entity cannot be drawn: a joint that deforms
+/// something, or a weight, is not finite at one of the times, or there are no vertices.
+[[nodiscard]] std::optional<DeformedEntity> poseEntity(
+    const scene::ExposureMotion& motion,
+    ecs::Entity entity,
+    const scene::PoseReach& reach,
+    const DeformationTimes& times
+);
+
+/// Every weight, and every joint that deforms something, is.
+[[nodiscard]] bool isFinite(const scene::Deformation& pose, const scene::PoseReach& reach);
+
+/// Most matrices of joints that deform something mirror; those without a volume do not count.
+[[nodiscard]] bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach);
+
+[[nodiscard]] bool isSame(const scene::Deformation& a, const scene::Deformation& b);
+
+} // namespace shutter::extract

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What a frame calls for, each with its reason: work runs because something in the extracted frame
+// wants it. Pure functions.
+#pragma once
+
+#include "engine/core/decision.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/scene_layout.h"
+
+namespace shutter::extract {
+
+/// What the renderer draws besides opaque meshes that keep their shape.
+struct SurfaceDemand {
+    core::Decision deformation; ///< "deform meshes": a skin or morph target that is drawn
+    core::Decision alphaMask;   ///< draws that test alpha
+    core::Decision blending;    ///< draws that blend
+};
+
+[[nodiscard]] SurfaceDemand decideSurfaces(const ExtractedFrame& frame);
+
+/// Whether a surface of one entity may lie behind another one that moves in the picture, as seen at
+/// the raster instant. Conservative: boxes on the screen decide, and blended surfaces always count.
+/// Skipped only where a ray past any mover would find nothing but the sky. Looks from far to near,
+/// where most pictures have their background, and stops at the first that is found.
+[[nodiscard]] core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layout);
+
+} // namespace shutter::extract

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The world, copied for one frame into what rendering reads: the entity table (one row an entity
+// that is drawn; the row's index is the mesh id), lights, draws and constants.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/extract/deformed_entity.h"
+#include "engine/extract/scene_layout.h"
+#include "engine/scene/motion.h"
+#include "engine/scene/world.h"
+#include "shaders/render/scene_shared.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Most rows of the entity table: ray tracing gives instances 24 bits.
+inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
+
+struct ViewRequest {
+    ecs::Entity camera;
+    scene::ExposureInterval exposure;
+    /// Shutter time of a sharp picture of one instant of the exposure; nothing: the raster instant,
+    /// with the motion over the exposure.
+    std::optional<double> instant;
+    uint32_t width = 1280;               ///< pixels, above 0
+    uint32_t height = 720;               ///< pixels, above 0
+    math::dvec2 jitterPx{0.0};           ///< moves the sample inside the pixel, [-0.5, 0.5]
+    math::vec3 background{0.0f};         ///< linear RGB where nothing is
+    math::vec3 ambient{0.0f};            ///< uniform radiance from everywhere, linear RGB
+    float lodBias = 0.0f;                ///< added to texture levels; negative is sharper
+    bool unlit = false;                  ///< base colour only
+    uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities
+};
+
+struct DrawItem {
+    uint32_t entity = 0;   ///< row of the entity table
+    uint32_t geometry = 0; ///< index into SceneLayout::geometries
+    /// Row of the frame's geometry table: `geometry`, unless the entity's mesh is deformed.
+    uint32_t geometryRow = 0;
+    scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
+    bool doubleSided = false;
+    bool mirrored = false; ///< the transform or the skeleton turns the winding round
+    float distance = 0.0f; ///< of the bounds' centre from the camera, metres
+};
+
+/// Draws sorted by distance, of equals by row. What stands still in the world keeps its places from
+/// frame to frame in a list of its own.
+struct DrawList {
+    bool farFirst = false;
+    std::vector<DrawItem> still;
+    std::vector<DrawItem> moving;
+
+    [[nodiscard]] size_t size() const { return still.size() + moving.size(); }
+
+    [[nodiscard]] bool empty() const { return still.empty() && moving.empty(); }
+
+    [[nodiscard]] bool isBefore(const DrawItem& a, const DrawItem& b) const {
+        if (a.distance != b.distance)
+            return farFirst ? a.distance > b.distance : a.distance < b.distance;
+        return a.entity != b.entity ? a.entity < b.entity : a.geometry < b.geometry;
+    }
+
+    /// Visits all in the order of drawing.
+    template <class Visit> void forEach(Visit&& visit) const {
+        auto next = moving.begin();
+        for (const DrawItem& item : still) {
+            for (; next != moving.end() && isBefore(*next, item); ++next)
+                visit(*next);
+            visit(item);
+        }
+        std::for_each(next, moving.end(), visit);
+    }
+
+    /// All in the order of drawing.
+    [[nodiscard]] std::vector<DrawItem> merge() const {
+        std::vector<DrawItem> all;
+        forEach([&](const DrawItem& item) { all.push_back(item); });
+        return all;
+    }
+};
+
+/// Which rows of the entity table are not as they were at an earlier frame of the same
+/// FrameExtractor.
+struct RowChanges {
+    uint64_t revision = 0; ///< of this frame's rows; no other of the process has it
+    uint64_t since = 0;    ///< revision of the earlier frame's; 0: there was none
+    bool all = true;
+    std::vector<uint32_t> rows; ///< unless `all`
+    size_t ownRows = 0;         ///< of the frame; those behind them, if any, were appended to it
+};
+
+struct ExtractedFrame {
+    std::vector<shader::EntityRow> entities;
+    /// Of the rows that move in the picture: EntityRow::motion counts through the two.
+    std::vector<shader::EntityMotion> stillMotions; ///< ... while they stand still in the world
+    std::vector<shader::EntityMotion> movingMotions;
+    RowChanges changes; ///< of `entities`
+    /// Rows that something moves or deforms, or that were written to since the rows were listed; in
+    /// rising order. The others stand still in the world.
+    std::vector<uint32_t> movingRows;
+    /// Changes whenever other rows stand still; no two frame extractors have the same.
+    uint64_t stillSet = 0;
+    /// Changes whenever a row that stands still changes, in eye space too: the camera moved. But
+    /// for EntityRow::instanceMask, which rows that stand still in the world have only if the
+    /// camera moves.
+    uint64_t stillRevision = 0;
+    std::vector<uint32_t> entityMeshes;     ///< one a row: index into Assets::meshes
+    std::vector<ecs::Entity> entityHandles; ///< one a row: whose it is
+    /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
+    /// frame's geometry table stand behind the scene's own, one entity's behind the other's.
+    std::vector<DeformedEntity> deformed;
+    DrawList opaque{.farFirst = false, .still = {}, .moving = {}}; ///< opaque and masked
+    DrawList blended{.farFirst = true, .still = {}, .moving = {}};
+    std::vector<shader::LightRow> lights;
+    std::vector<ecs::Entity> lightEntities; ///< one a light: whose it is
+    shader::FrameConstants constants{};     ///< without the tables' addresses
+    bool moves = false;                     ///< something in the picture, or the camera, moves
+};
+
+/// What is said of a scene with more entities than `limit`.
+[[nodiscard]] core::Error describeFullTable(uint32_t limit);
+
+/// From nothing; FrameExtractor (frame_extractor.h) gives the same from frame to frame for less.
+/// Entities whose transform or shape is singular or not finite, or whose mesh has no triangles, get
+/// no row.
+/// Error: the world draws more entities than ViewRequest::entityLimit.
+[[nodiscard]] core::Result<ExtractedFrame>
+extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+} // namespace shutter::extract

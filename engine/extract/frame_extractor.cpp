@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/frame_extractor.h"
+
+#include "engine/core/check.h"
+#include "engine/extract/poses.h"
+#include "engine/math/transform.h"
+#include "engine/scene/deformation.h"
+#include "engine/scene/history.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <utility>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat4;
+
+/// Rows that may count as moving ones without being written to, beside an eighth of all.
+constexpr size_t kMaxQuiet = 64;
+
+uint64_t takeRevision() {
+    static std::atomic<uint64_t> next = 1;
+    return next++;
+}
+
+bool hasTriangles(const SceneLayout& layout, uint32_t mesh) {
+    return !layout.bounds[mesh].isEmpty() &&
+           layout.firstGeometry[mesh] != layout.firstGeometry[mesh + 1];
+}
+
+} // namespace
+
+core::Result<ExtractedFrame*> FrameExtractor::update(
+    const scene::World& world, const SceneLayout& layout, const ViewRequest& request
+) {
+    SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
+    if (core::Status valid = mKeyedMotion.check(world.registry); !valid)
+        return valid.error();
+    // Rows of another's making stand behind our own.
+    mFrame.entities.resize(mRows.size());
+    mFrame.entityMeshes.resize(mRows.size());
+    mFrame.entityHandles.resize(mRows.size());
+
+    const WorldChanges changes = mWatch.look(world.registry);
+    const FrameView view(world, request);
+    const Frame frame{world, layout, request, view};
+    mFrame.changes.since = mFrame.changes.revision;
+    mFrame.changes.revision = takeRevision();
+    mFrame.changes.all = false;
+    mFrame.changes.rows.clear();
+    const bool mayRefresh = mListed && !changes.structure && mLayout == &layout &&
+                            mRows.size() <= request.entityLimit && !view.movesStillThings();
+    mLayout = &layout;
+    if (!mayRefresh || !refresh(frame, changes))
+        if (core::Status listed = rebuild(frame); !listed)
+            return listed.error();
+    mFrame.changes.ownRows = mRows.size();
+    mView = view.matrices();
+    mFrame.constants = view.constants();
+    addLights(frame);
+    mFrame.moves = view.moves() || mMovesInView > 0;
+    return &mFrame;
+}
+
+core::Status FrameExtractor::rebuild(const Frame& frame) {
+    clear();
+    const scene::World& world = frame.world;
+    for (auto [entity, instance] : world.registry.view<scene::MeshInstance>()) {
+        if (!hasTriangles(frame.layout, instance.mesh) || scene::isHidden(world, entity))
+            continue;
+        list(frame, entity, instance.mesh);
+        if (mRows.size() > frame.request.entityLimit)
+            return describeFullTable(frame.request.entityLimit);
+    }
+    // Behind those of what stands still, whose number is known only now.
+    const auto stillMotions = static_cast<uint32_t>(mFrame.stillMotions.size());
+    for (const uint32_t row : mFrame.movingRows)
+        if (mFrame.entities[row].motion != shader::kNoMotion)
+            mFrame.entities[row].motion += stillMotions;
+    sortDraws(&DrawList::still);
+    drawMoving(frame.layout);
+    // What an artist's scale, or a cap, moves is placed by more than the view's matrices.
+    mListed = !frame.view.movesStillThings();
+    return {};
+}
+
+void FrameExtractor::clear() {
+    mFrame.entities.clear();
+    mFrame.stillMotions.clear();
+    mFrame.movingMotions.clear();
+    mFrame.movingRows.clear();
+    mFrame.entityMeshes.clear();
+    mFrame.entityHandles.clear();
+    mFrame.deformed.clear();
+    mFrame.opaque.still.clear();
+    mFrame.blended.still.clear();
+    mFrame.changes.all = true;
+    mFrame.changes.rows.clear();
+    mFrame.stillSet = mFrame.stillRevision = takeRevision();
+    mRows.clear();
+    mLatent.clear();
+    mRowOfEntity.clear();
+    mJoining.clear();
+    mDescendants.clear();
+    mFirstMovingMotion = 0;
+    mMovesInView = 0;
+    mListed = false;
+}
+
+bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
+    return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity);
+}
+
+std::optional<FrameExtractor::Posed>
+FrameExtractor::pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves) {
+    const scene::ExposureMotion& motion = frame.view.motion();
+    const DeformationTimes& times = frame.view.times();
+    const dmat4 raster = motion.worldFromObject(entity, times.raster);
+    Posed posed{ObjectPoses(raster), std::nullopt};
+    if (evolves || frame.view.movesStillThings()) {
+        const auto poseAt = [&](double s) {
+            return s == times.raster ? raster : motion.worldFromObject(entity, s);
+        };
+        posed.poses = ObjectPoses(poseAt(times.open), raster, poseAt(times.close));
+    }
+    if (!isDrawable(posed.poses))
+        return std::nullopt;
+    if (scene::isDeformable(frame.world, entity)) {
+        posed.shape = poseEntity(motion, entity, frame.layout.reaches.at(mesh), times);
+        if (!posed.shape)
+            return std::nullopt;
+    }
+    return posed;
+}
+
+void FrameExtractor::list(const Frame& frame, ecs::Entity entity, uint32_t mesh) {
+    if (entity.index >= mRowOfEntity.size())
+        mRowOfEntity.resize(entity.index + size_t{1}, kNone);
+    const bool moving = evolves(frame, entity);
+    std::optional<Posed> posed = pose(frame, entity, mesh, moving);
+    if (!posed) {
+        mRowOfEntity[entity.index] = kLatent;
+        mLatent.push_back({entity, mesh, moving});
+        return;
+    }
+    const auto index = static_cast<uint32_t>(mRows.size());
+    mRowOfEntity[entity.index] = index;
+    Row& row = mRows.emplace_back();
+    row.evolves = row.moving = moving;
+    row.deformed = kNone;
+    shader::EntityRow entry{};
+    entry.firstGeometry = frame.layout.firstGeometry[mesh];
+    if (posed->shape) {
+        row.deformed = static_cast<uint32_t>(mFrame.deformed.size());
+        entry.firstGeometry = static_cast<uint32_t>(frame.layout.geometries.size());
+        if (!mFrame.deformed.empty()) {
+            const DeformedEntity& last = mFrame.deformed.back();
+            entry.firstGeometry = mFrame.entities[last.row].firstGeometry +
+                                  frame.layout.firstGeometry[last.mesh + 1] -
+                                  frame.layout.firstGeometry[last.mesh];
+        }
+        mFrame.deformed.emplace_back();
+    }
+    mFrame.entities.push_back(entry);
+    mFrame.entityMeshes.push_back(mesh);
+    mFrame.entityHandles.push_back(entity);
+    if (moving)
+        mFrame.movingRows.push_back(index);
+    else
+        row.worldFromObject = posed->poses.raster;
+    place(frame, index, std::move(*posed));
+    if (!moving)
+        addDraws(frame.layout, index);
+}
+
+bool FrameExtractor::refresh(const Frame& frame, const WorldChanges& changes) {
+    if (!refreshWritten(frame, changes))
+        return false;
+    for (const Latent& latent : mLatent)
+        if (latent.evolves && pose(frame, latent.entity, latent.mesh, true))
+            return false;
+    takeOutOfStill();
+    if (!isIdentical(mView, frame.view.matrices()))
+        placeStill(frame);
+    return placeMoving(frame);
+}
+
+bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& changes) {
+    const auto rowOf = [&](uint32_t entity) {
+        return entity < mRowOfEntity.size() ? mRowOfEntity[entity] : kNone;
+    };
+    for (const ecs::Entity entity : changes.drawn) {
+        // It is there: a component that was removed would have changed the structure.
+        const uint32_t mesh = frame.world.registry.get<scene::MeshInstance>(entity).mesh;
+        const uint32_t row = rowOf(entity.index);
+        const bool isAsListed =
+            row == kNone ? !hasTriangles(frame.layout, mesh) || scene::isHidden(frame.world, entity)
+                         : row != kLatent && mesh == mFrame.entityMeshes[row];
+        if (!isAsListed)
+            return false;
+    }
+    if (changes.placed.empty())
+        return true;
+    if (!mDescendants.isBuilt())
+        mDescendants.build(frame.world.registry);
+    for (const uint32_t entity : mDescendants.collect(changes.placed)) {
+        const uint32_t row = rowOf(entity);
+        if (row == kLatent ? becomesDrawable(frame, entity)
+                           : row != kNone && !refreshRow(frame, row))
+            return false;
+    }
+    return true;
+}
+
+bool FrameExtractor::becomesDrawable(const Frame& frame, uint32_t entity) {
+    const auto latent = std::find_if(mLatent.begin(), mLatent.end(), [&](const Latent& one) {
+        return one.entity.index == entity;
+    });
+    latent->evolves = evolves(frame, latent->entity);
+    return pose(frame, latent->entity, latent->mesh, latent->evolves).has_value();
+}
+
+bool FrameExtractor::refreshRow(const Frame& frame, uint32_t index) {
+    Row& row = mRows[index];
+    const ecs::Entity entity = mFrame.entityHandles[index];
+    row.evolves = evolves(frame, entity);
+    row.written = true;
+    if (!row.moving) {
+        // Whoever is written to once is likely to be again.
+        row.moving = true;
+        mJoining.push_back(index);
+    }
+    if (row.evolves)
+        return true; // posed with the others of its kind
+    const auto posed = pose(frame, entity, mFrame.entityMeshes[index], false);
+    if (!posed)
+        return false;
+    row.worldFromObject = posed->poses.raster;
+    return true;
+}
+
+void FrameExtractor::takeOutOfStill() {
+    if (mJoining.empty())
+        return;
+    for (const uint32_t row : mJoining)
+        mFrame.movingRows.insert(
+            std::lower_bound(mFrame.movingRows.begin(), mFrame.movingRows.end(), row), row
+        );
+    mJoining.clear();
+    for (DrawList* draws : {&mFrame.opaque, &mFrame.blended})
+        std::erase_if(draws->still, [&](const DrawItem& item) {
+            return mRows[item.entity].moving;
+        });
+    mFrame.stillSet = mFrame.stillRevision = takeRevision();
+}
+
+void FrameExtractor::placeStill(const Frame& frame) {
+    mFrame.changes.all = true;
+    mFrame.stillRevision = takeRevision();
+    mFrame.stillMotions.clear();
+    mFrame.opaque.still.clear();
+    mFrame.blended.still.clear();
+    for (uint32_t row = 0; row < mRows.size(); ++row) {
+        if (mRows[row].moving)
+            continue;
+        place(frame, row, {ObjectPoses(mRows[row].worldFromObject), std::nullopt});
+        addDraws(frame.layout, row);
+    }
+    sortDraws(&DrawList::still);
+}
+
+bool FrameExtractor::placeMoving(const Frame& frame) {
+    mFrame.movingMotions.clear();
+    mFirstMovingMotion = static_cast<uint32_t>(mFrame.stillMotions.size());
+    size_t quiet = 0;
+    for (const uint32_t index : mFrame.movingRows) {
+        Row& row = mRows[index];
+        const bool written = std::exchange(row.written, false);
+        if (!row.evolves) {
+            quiet += !written;
+            place(frame, index, {ObjectPoses(row.worldFromObject), std::nullopt});
+            continue;
+        }
+        auto posed = pose(frame, mFrame.entityHandles[index], mFrame.entityMeshes[index], true);
+        if (!posed)
+            return false;
+        place(frame, index, std::move(*posed));
+    }
+    drawMoving(frame.layout);
+    if (quiet > kMaxQuiet + mRows.size() / 8)
+        mListed = false; // they stand still again from the next frame on
+    return true;
+}
+
+void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
+    Row& row = mRows[index];
+    shader::EntityRow& entry = mFrame.entities[index];
+    const uint32_t mesh = mFrame.entityMeshes[index];
+    const bool shapeChanges = posed.shape && posed.shape->changes;
+    const bool deformedMirrored = posed.shape && posed.shape->mirrored;
+    PlacedEntity placed = placeEntity(
+        frame.view.matrices(),
+        posed.poses,
+        posed.shape ? posed.shape->bounds : frame.layout.bounds[mesh],
+        shapeChanges
+    );
+    row.mirrored = (glm::determinant(math::dmat3(posed.poses.raster)) < 0.0) != deformedMirrored;
+    placed.row.firstGeometry = entry.firstGeometry;
+    placed.row.handedness = row.mirrored ? -1.0f : 1.0f;
+    if (placed.moves) {
+        auto& motions = row.moving ? mFrame.movingMotions : mFrame.stillMotions;
+        placed.row.motion =
+            static_cast<uint32_t>(motions.size()) + (row.moving ? mFirstMovingMotion : 0);
+        motions.push_back(placed.motion);
+        placed.row.instanceMask = entry.instanceMask; // until it gets another (instance_masks.h)
+    }
+    if (!mFrame.changes.all && std::memcmp(&entry, &placed.row, sizeof(entry)) != 0)
+        mFrame.changes.rows.push_back(index);
+    entry = placed.row;
+    mMovesInView -= row.movesInView;
+    row.movesInView = placed.visible && placed.moves;
+    mMovesInView += row.movesInView;
+    row.visible = placed.visible;
+    row.distance = placed.distance;
+    if (!posed.shape)
+        return;
+    posed.shape->row = index;
+    posed.shape->mesh = mesh;
+    mFrame.deformed[row.deformed] = std::move(*posed.shape);
+}
+
+void FrameExtractor::addDraws(const SceneLayout& layout, uint32_t index) {
+    const Row& row = mRows[index];
+    if (!row.visible)
+        return;
+    const uint32_t mesh = mFrame.entityMeshes[index];
+    const uint32_t first = layout.firstGeometry[mesh];
+    for (uint32_t geometry = first; geometry < layout.firstGeometry[mesh + 1]; ++geometry) {
+        const SceneLayout::GeometryInfo& info = layout.geometries[geometry];
+        DrawList& draws =
+            info.alphaMode == scene::AlphaMode::Blend ? mFrame.blended : mFrame.opaque;
+        (row.moving ? draws.moving : draws.still)
+            .push_back(
+                {index,
+                 geometry,
+                 mFrame.entities[index].firstGeometry + geometry - first,
+                 info.alphaMode,
+                 info.doubleSided,
+                 row.mirrored,
+                 row.distance}
+            );
+    }
+}
+
+void FrameExtractor::sortDraws(std::vector<DrawItem> DrawList::*part) {
+    for (DrawList* draws : {&mFrame.opaque, &mFrame.blended})
+        std::sort((draws->*part).begin(), (draws->*part).end(), [&](const auto& a, const auto& b) {
+            return draws->isBefore(a, b);
+        });
+}
+
+void FrameExtractor::drawMoving(const SceneLayout& layout) {
+    mFrame.opaque.moving.clear();
+    mFrame.blended.moving.clear();
+    for (const uint32_t row : mFrame.movingRows)
+        addDraws(layout, row);
+    sortDraws(&DrawList::moving);
+}
+
+void FrameExtractor::addLights(const Frame& frame) {
+    const scene::ExposureMotion& motion = frame.view.motion();
+    mFrame.lights.clear();
+    mFrame.lightEntities.clear();
+    for (auto [entity, light] : frame.world.registry.view<scene::Light>()) {
+        if (scene::isHidden(frame.world, entity))
+            continue;
+        const dmat4 world = motion.worldFromEntity(entity, frame.view.times().raster);
+        // A light that is nowhere lights nothing; its NaN would blacken the picture.
+        if (!math::isFinite(world))
+            continue;
+        mFrame.lights.push_back(makeLight(light, world, frame.view.matrices().eye));
+        mFrame.lightEntities.push_back(entity);
+    }
+    mFrame.constants.lightCount = static_cast<uint32_t>(mFrame.lights.size());
+}
+
+} // namespace shutter::extract

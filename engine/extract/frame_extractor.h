@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Extraction from frame to frame: what stands still in the world before a camera that stands still
+// costs nothing again.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_view.h"
+#include "engine/extract/world_watch.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Owns a frame and brings it up to date. Rows are placed anew if something may move or deform
+/// them, if their or their ancestors' components may have changed (ecs::Registry::changesSince),
+/// or, all of them, if the camera, its lens, the size or the jitter is another than before. They
+/// are listed anew when entities come or go, are hidden or shown, change parents or meshes, can or
+/// cannot be drawn as before, or when too many changed.
+class FrameExtractor {
+  public:
+    /// The frame equals extractFrame()'s, but for which rows count as moving ones (they stay it
+    /// when they are written to) and so for the order of the table of motions. It lives until the
+    /// next call and may be written to: rows that are appended are dropped then.
+    /// \param layout stays as it is between calls
+    /// Error: as extractFrame's.
+    [[nodiscard]] core::Result<ExtractedFrame*>
+    update(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+  private:
+    /// Beside a row of the entity table.
+    struct Row {
+        math::dmat4 worldFromObject{1.0}; ///< unless `evolves`: at all times
+        uint32_t deformed = 0;            ///< its place in ExtractedFrame::deformed, or kNone
+        float distance = 0.0f;            ///< as PlacedEntity's
+        bool evolves = false;             ///< something moves or deforms it
+        bool moving = false;              ///< in ExtractedFrame::movingRows, or joins them
+        bool written = false;             ///< to, since the frame before
+        bool visible = false;             ///< in the picture
+        bool movesInView = false;
+        bool mirrored = false; ///< the transform or the skeleton turns the winding round
+    };
+
+    /// Of an entity that can be drawn.
+    struct Posed {
+        ObjectPoses poses;
+        std::optional<DeformedEntity> shape; ///< without row and mesh
+    };
+
+    /// What one call works on.
+    struct Frame {
+        const scene::World& world;
+        const SceneLayout& layout;
+        const ViewRequest& request;
+        const FrameView& view;
+    };
+
+    /// An entity that cannot be drawn now: it has no row.
+    struct Latent {
+        ecs::Entity entity;
+        uint32_t mesh = 0;
+        bool evolves = false;
+    };
+
+    /// In mRowOfEntity; what is below them is a row.
+    static constexpr uint32_t kNone = 0xFFFFFFFFu;
+    static constexpr uint32_t kLatent = 0xFFFFFFFEu;
+
+    // Listing the rows anew.
+    core::Status rebuild(const Frame& frame);
+    void clear();
+    void list(const Frame& frame, ecs::Entity entity, uint32_t mesh);
+
+    // Bringing them up to date; where that returns false, they have to be listed anew.
+    bool refresh(const Frame& frame, const WorldChanges& changes);
+    bool refreshWritten(const Frame& frame, const WorldChanges& changes);
+    bool refreshRow(const Frame& frame, uint32_t index);
+    bool becomesDrawable(const Frame& frame, uint32_t entity);
+    void takeOutOfStill();
+    void placeStill(const Frame& frame);
+    bool placeMoving(const Frame& frame);
+
+    static bool evolves(const Frame& frame, ecs::Entity entity);
+    /// Nothing for what cannot be drawn.
+    static std::optional<Posed>
+    pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves);
+    void place(const Frame& frame, uint32_t index, Posed posed);
+    void addDraws(const SceneLayout& layout, uint32_t index);
+    void sortDraws(std::vector<DrawItem> DrawList::*part);
+    void drawMoving(const SceneLayout& layout);
+    void addLights(const Frame& frame);
+
+    ExtractedFrame mFrame;
+    std::vector<Row> mRows;
+    std::vector<Latent> mLatent;
+    std::vector<uint32_t> mRowOfEntity; ///< by entity index: a row, kLatent or kNone
+    std::vector<uint32_t> mJoining;     ///< rows that count as moving ones from this frame on
+    WorldWatch mWatch;
+    KeyedMotionCheck mKeyedMotion;
+    Descendants mDescendants;
+    ViewMatrices mView;
+    const SceneLayout* mLayout = nullptr;
+    uint32_t mFirstMovingMotion = 0; ///< in the table of motions
+    uint32_t mMovesInView = 0;       ///< rows
+    bool mListed = false;            ///< false: the rows have to be listed anew
+};
+
+} // namespace shutter::extract

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/frame_view.h"
+
+#include "engine/extract/poses.h"
+#include "engine/math/projection.h"
+#include "engine/math/transform.h"
+#include "engine/scene/lens.h"
+#include "engine/scene/motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+static_assert(sizeof(ViewMatrices) == (4 * 16 + 3) * sizeof(double), "compared by its bytes");
+
+dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
+    if (camera.kind == scene::CameraKind::Perspective)
+        return math::clipFromViewPerspective(yFov, aspect, camera.near);
+    return math::clipFromViewOrthographic(
+        camera.yMag * aspect, camera.yMag, camera.near, camera.far
+    );
+}
+
+DeformationTimes findPoseTimes(const ViewRequest& request) {
+    if (request.instant)
+        return {*request.instant, *request.instant, *request.instant};
+    return {0.0, request.exposure.rasterTime, 1.0};
+}
+
+/// Clip space moved by a part of a pixel, for sampling inside it.
+dmat4 jitterClip(const ViewRequest& request) {
+    const math::dvec2 shift =
+        -2.0 * request.jitterPx / math::dvec2(double(request.width), double(request.height));
+    return glm::translate(dmat4(1.0), dvec3(shift, 0.0));
+}
+
+bool anyBlurScale(const scene::World& world) {
+    const auto view = world.registry.view<scene::MotionBlur>();
+    return view.begin() != view.end();
+}
+
+bool isIdentical(const dmat4& a, const dmat4& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+/// True when the box lies wholly beyond one of the side planes or behind the near plane.
+bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
+    std::array<int, 5> outside{};
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 point(
+            corner & 1 ? bounds.max.x : bounds.min.x,
+            corner & 2 ? bounds.max.y : bounds.min.y,
+            corner & 4 ? bounds.max.z : bounds.min.z
+        );
+        const dvec4 clip = clipFromObject * dvec4(point, 1.0);
+        outside[0] += clip.x < -clip.w;
+        outside[1] += clip.x > clip.w;
+        outside[2] += clip.y < -clip.w;
+        outside[3] += clip.y > clip.w;
+        outside[4] += clip.z > clip.w; // reversed depth: nearer than the near plane
+    }
+    return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
+}
+
+} // namespace
+
+bool isIdentical(const ViewMatrices& a, const ViewMatrices& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;
+}
+
+FrameView::FrameView(const scene::World& world, const ViewRequest& request)
+    : mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)) {
+    const auto& camera = world.registry.get<scene::Camera>(request.camera);
+    const double aspect = double(request.width) / request.height;
+    const std::array times{mTimes.open, mTimes.raster, mTimes.close};
+    for (int i = 0; i < 3; ++i) {
+        const dmat4 worldFromView = computeWorldFromView(mMotion.worldFromCamera(times[i]));
+        mClipFromView[i] = makeProjection(camera, mMotion.cameraYFov(times[i]), aspect);
+        mViewFromWorld[i] = glm::inverse(worldFromView);
+        mEye[i] = dvec3(worldFromView[3]);
+        if (i == 1)
+            mForward = -glm::normalize(dvec3(worldFromView[2]));
+    }
+    mMatrices.clipFromWorldOpen = mClipFromView[0] * mViewFromWorld[0];
+    mMatrices.clipFromWorldRaster = mClipFromView[1] * mViewFromWorld[1];
+    mMatrices.clipFromWorldJittered = jitterClip(request) * mMatrices.clipFromWorldRaster;
+    mMatrices.clipFromWorldClose = mClipFromView[2] * mViewFromWorld[2];
+    mMatrices.eye = mEye[1];
+    const bool cameraMoves =
+        scene::mayMove(world, request.camera) || scene::mayZoom(world, request.camera);
+    mMovesStillThings =
+        cameraMoves && (anyBlurScale(world) || !request.exposure.cap.movers.empty());
+    fillConstants(camera, request);
+}
+
+void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& request) {
+    const dmat4 worldFromEye = glm::translate(dmat4(1.0), mEye[1]);
+    const dmat4 clipFromEye = mMatrices.clipFromWorldJittered * worldFromEye;
+    const auto directionMatrix = [&](int i) {
+        return math::mat4(mClipFromView[i] * dmat4(math::dmat3(mViewFromWorld[i])));
+    };
+    mConstants.clipFromEye = math::mat4(clipFromEye);
+    mConstants.eyeFromClip = math::mat4(glm::inverse(clipFromEye));
+    mConstants.clipFromDirectionOpen = directionMatrix(0);
+    mConstants.clipFromDirectionClose = directionMatrix(2);
+    const bool perspective = camera.kind == scene::CameraKind::Perspective;
+    // Clip w is the distance for a perspective camera and 1 for an orthographic one.
+    const double minW = perspective ? camera.near : 0.5;
+    mConstants.forward = math::vec4(math::vec3(mForward), float(minW));
+    mConstants.background = math::vec4(request.background, 1.0f);
+    mConstants.ambient = math::vec4(request.ambient, 1.0f);
+    mConstants.sizePx = {float(request.width), float(request.height)};
+    const double height = double(request.height);
+    mConstants.pixelFootprint =
+        perspective
+            ? math::vec2(
+                  float(2.0 * std::tan(mMotion.cameraYFov(mTimes.raster) / 2.0) / height), 0.0f
+              )
+            : math::vec2(0.0f, float(2.0 * camera.yMag / height));
+    mConstants.lodBias = request.lodBias;
+    mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
+    // A motion that ends where it began is one too: the raster instant tells.
+    const math::mat4 direction = directionMatrix(1);
+    mMoves = mConstants.clipFromDirectionOpen != direction ||
+             mConstants.clipFromDirectionClose != direction || mEye[0] != mEye[1] ||
+             mEye[2] != mEye[1];
+}
+
+bool isDrawable(const ObjectPoses& poses) {
+    return isDrawable(poses.raster) &&
+           (poses.still || (math::isFinite(poses.open) && math::isFinite(poses.close)));
+}
+
+PlacedEntity placeEntity(
+    const ViewMatrices& view,
+    const ObjectPoses& poses,
+    const math::Bounds& bounds,
+    bool shapeChanges
+) {
+    PlacedEntity placed;
+    const dmat4 clipRaster = view.clipFromWorldJittered * poses.raster;
+    placed.row.clipFromObjectRaster = math::mat4(clipRaster);
+    dmat4 eye = poses.raster;
+    eye[3] -= dvec4(view.eye, 0.0);
+    for (int i = 0; i < 3; ++i)
+        placed.row.eyeFromObject[i] = math::vec4(eye[0][i], eye[1][i], eye[2][i], eye[3][i]);
+    placed.row.motion = shader::kNoMotion;
+
+    const bool still = poses.still &&
+                       isIdentical(view.clipFromWorldOpen, view.clipFromWorldRaster) &&
+                       isIdentical(view.clipFromWorldClose, view.clipFromWorldRaster);
+    if (!still || shapeChanges) {
+        placed.motion.clipFromObjectOpen = math::mat4(view.clipFromWorldOpen * poses.open);
+        placed.motion.clipFromObjectClose = math::mat4(view.clipFromWorldClose * poses.close);
+        const math::mat4 unjittered(view.clipFromWorldRaster * poses.raster);
+        placed.moves = shapeChanges || placed.motion.clipFromObjectOpen != unjittered ||
+                       placed.motion.clipFromObjectClose != unjittered;
+    }
+    placed.visible = !isOutside(clipRaster, bounds);
+    const double distance = glm::length(dvec3(eye * dvec4(bounds.centre(), 1.0)));
+    // A camera that is nowhere sees all from as far: draws are sorted by this.
+    placed.distance =
+        std::isnan(distance) ? std::numeric_limits<float>::infinity() : float(distance);
+    return placed;
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// The camera of one frame, and what places in the world become for it. Pure.
+#pragma once
+
+#include "engine/extract/deformed_entity.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/math/bounds.h"
+#include "engine/math/math.h"
+#include "engine/scene/exposure_motion.h"
+
+namespace shutter::extract {
+
+/// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
+/// equal bytes give equal rows.
+struct ViewMatrices {
+    math::dmat4 clipFromWorldOpen{1.0};
+    math::dmat4 clipFromWorldRaster{1.0};
+    math::dmat4 clipFromWorldJittered{1.0}; ///< the same, for the raster image's samples
+    math::dmat4 clipFromWorldClose{1.0};
+    math::dvec3 eye{0.0}; ///< of the camera at the raster instant, world space, metres
+};
+
+/// Bit by bit: what is not a number equals itself, and the two zeros differ.
+[[nodiscard]] bool isIdentical(const ViewMatrices& a, const ViewMatrices& b);
+
+class FrameView {
+  public:
+    /// `world` and `request` must outlive this.
+    FrameView(const scene::World& world, const ViewRequest& request);
+
+    [[nodiscard]] const scene::ExposureMotion& motion() const { return mMotion; }
+
+    [[nodiscard]] const DeformationTimes& times() const { return mTimes; }
+
+    [[nodiscard]] const ViewMatrices& matrices() const { return mMatrices; }
+
+    /// Without lights and the tables' addresses.
+    [[nodiscard]] const shader::FrameConstants& constants() const { return mConstants; }
+
+    /// Within the exposure.
+    [[nodiscard]] bool moves() const { return mMoves; }
+
+    /// Something that stands still in the world may be drawn elsewhere in it, since artists scaled
+    /// its motion, or a cap did, while the camera moves (ExposureMotion).
+    [[nodiscard]] bool movesStillThings() const { return mMovesStillThings; }
+
+  private:
+    void fillConstants(const scene::Camera& camera, const ViewRequest& request);
+
+    scene::ExposureMotion mMotion;
+    DeformationTimes mTimes;
+    math::dmat4 mClipFromView[3];  ///< open, raster instant, close
+    math::dmat4 mViewFromWorld[3]; ///< open, raster instant, close
+    math::dvec3 mEye[3];
+    math::dvec3 mForward{0.0}; ///< at the raster instant
+    ViewMatrices mMatrices;
+    shader::FrameConstants mConstants{};
+    bool mMoves = false;
+    bool mMovesStillThings = false;
+};
+
+/// worldFromObject of one entity at the three instants of a frame.
+struct ObjectPoses {
+    math::dmat4 open{1.0};
+    math::dmat4 raster{1.0};
+    math::dmat4 close{1.0};
+    bool still = false; ///< the three are one
+
+    explicit ObjectPoses(const math::dmat4& always)
+        : open(always), raster(always), close(always), still(true) {}
+
+    ObjectPoses(const math::dmat4& o, const math::dmat4& r, const math::dmat4& c)
+        : open(o), raster(r), close(c) {}
+};
+
+/// Finite at all three, and not singular at the raster instant.
+[[nodiscard]] bool isDrawable(const ObjectPoses& poses);
+
+/// An entity as a frame's view has it.
+struct PlacedEntity {
+    shader::EntityRow row{}; ///< without firstGeometry and handedness; `motion` is kNoMotion
+    shader::EntityMotion motion{};
+    bool moves = false;    ///< in the picture: `motion` counts
+    bool visible = false;  ///< its bounds reach into the picture
+    float distance = 0.0f; ///< of the bounds' centre from the camera, metres
+};
+
+/// \param bounds object space, raster instant
+/// \param shapeChanges during the exposure
+[[nodiscard]] PlacedEntity placeEntity(
+    const ViewMatrices& view,
+    const ObjectPoses& poses,
+    const math::Bounds& bounds,
+    bool shapeChanges
+);
+
+} // namespace shutter::extract

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// A matrix's way through the exposure, for rays that each have their own time: keys at uniform
+// shutter times between which shaders interpolate linearly. As many as it takes for the surface to
+// be nowhere visibly off its true way, however it moves.
+#pragma once
+
+#include "engine/math/bounds.h"
+#include "engine/math/math.h"
+#include "shaders/render/timed_scene_shared.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Most intervals between keys. A jump (step interpolation) is drawn out over one of them, 1/1024
+/// of the exposure; so is what changes faster than the keys can follow.
+inline constexpr uint32_t kMaxKeyIntervals = 1024;
+
+/// Deviations up to this share of a pixel are let be.
+inline constexpr double kKeyTolerancePx = 1.0 / 64.0;
+
+/// Motion is looked at at both ends of so many intervals, and at an odd place of each.
+inline constexpr uint32_t kProbeIntervals = 16;
+/// Share of an interval, next to no simple fraction (the golden section): there a motion shows
+/// whose period fits the other places.
+inline constexpr double kOddPlace = 0.381966011250105;
+
+/// eyeFromObject at shutter time s in [0, 1].
+using MatrixAt = std::function<math::dmat4(double s)>;
+
+struct MotionKeys {
+    /// One: it stands still. Else 2^n + 1 at uniform shutter times, both ends included.
+    std::vector<shader::MotionKey> keys;
+    math::Bounds swept;         ///< eye space: holds the box at every shutter time
+    bool followsExactly = true; ///< false: kMaxKeyIntervals were not enough
+};
+
+/// How far apart two places may be that a picture shows as one.
+struct KeyTolerance {
+    std::vector<math::dvec3> cameraPath; ///< eye space: where the camera is during the exposure
+    double near = 0.0;                   ///< metres: nothing is seen from closer
+    double pixelAtOne = 0.0;             ///< width of a pixel per metre of distance (perspective)
+    double pixelAnywhere = 0.0;          ///< width of a pixel at any distance (orthographic)
+
+    /// Metres, for something inside `swept` (eye space): kKeyTolerancePx where it is nearest to the
+    /// camera, yet not less than single precision can tell apart there.
+    [[nodiscard]] double of(const math::Bounds& swept) const;
+};
+
+/// Keys for what lies in `bounds` (object space, not empty). The motion is looked at at 33 instants
+/// at least, so that one that begins or ends within the exposure is seen; what comes and goes
+/// between two of them is not.
+/// \return nothing where the matrix is not finite at one of the instants
+[[nodiscard]] std::optional<MotionKeys> computeMotionKeys(
+    const MatrixAt& matrixAt, const math::Bounds& bounds, const KeyTolerance& tolerance
+);
+
+/// Keys of the camera's rigid eyeFromView.
+/// \param halfExtents of the view at distance 1 (perspective) or anywhere (orthographic)
+[[nodiscard]] std::optional<MotionKeys> computeCameraKeys(
+    const MatrixAt& eyeFromView, const math::dvec2& halfExtents, const KeyTolerance& tolerance
+);
+
+/// The matrix a shader interpolates at s in [0, 1].
+[[nodiscard]] math::dmat4 interpolateKeys(std::span<const shader::MotionKey> keys, double s);
+
+/// Largest distance between the corners of `bounds` under two affine maps.
+[[nodiscard]] double
+measureDeviation(const math::dmat4& a, const math::dmat4& b, const math::Bounds& bounds);
+
+[[nodiscard]] shader::MotionKey makeKey(const math::dmat4& matrix);
+[[nodiscard]] math::dmat4 expandKey(const shader::MotionKey& key);
+
+} // namespace shutter::extract

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/gpu_scene/deformer.h"
+#include "engine/gpu_scene/gpu_scene.h"
+#include "engine/graph/graph.h"
+
+#include <vector>
+
+namespace shutter::gpu_scene {
+
+/// A frame's deformed meshes.
+struct DeformedMeshes {
+    /// Vertices and positions; read it with Access::ShaderRead. Invalid: nothing is deformed.
+    graph::BufferHandle buffer;
+    /// The geometries of ExtractedFrame::deformed, one entity's behind the other's: what the
+    /// frame's geometry table holds behind the scene's own rows.
+    std::vector<shader::Geometry> rows;
+};
+
+/// Deforms the meshes of a frame: whole vertices at the raster instant, positions at shutter open
+/// and close.
+class DeformationPass {
+  public:
+    explicit DeformationPass(gpu::Device& device) : mDevice(device), mDeformer(device) {}
+
+    /// Declares the pass; none for a frame without deformed meshes. The GPU must be done with the
+    /// last frame's.
+    [[nodiscard]] DeformedMeshes
+    declare(graph::Graph& graph, const extract::ExtractedFrame& frame, const GpuScene& scene);
+
+  private:
+    /// A dispatch.
+    struct Work {
+        shader::DeformJob job;
+        uint32_t instantCount = 1;
+    };
+
+    [[nodiscard]] std::vector<Work> plan(
+        const extract::ExtractedFrame& frame,
+        const GpuScene& scene,
+        std::vector<shader::Geometry>& rows
+    );
+
+    gpu::Device& mDevice;
+    Deformer mDeformer;
+    gpu::Buffer mShapes; ///< Vertex[] of all, and behind them vec4[] of those that change
+    gpu::Buffer mPoses;
+};
+
+} // namespace shutter::gpu_scene

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu_scene/deformer.h"
+
+#include "spirv/render/deform.comp.h"
+#include "spirv/render/deformed_boxes.comp.h"
+
+#include "engine/extract/motion_keys.h"
+#include "engine/gpu/address.h"
+
+#include <algorithm>
+#include <span>
+
+namespace shutter::gpu_scene {
+
+namespace {
+
+constexpr VkDeviceSize kTableAlignment = 256;
+
+gpu::ComputePipelineDesc
+describePipeline(const char* name, std::span<const uint32_t> spirv, uint32_t pushBytes) {
+    gpu::ComputePipelineDesc desc;
+    desc.name = name;
+    desc.spirv = spirv;
+    desc.interface.pushConstantBytes = pushBytes;
+    return desc;
+}
+
+/// One thread an element in x, one layer of them in y. The shaders bind nothing but addresses.
+template <class Job>
+void dispatch(
+    VkCommandBuffer commands,
+    const gpu::Pipeline& pipeline,
+    const Job& job,
+    uint32_t elements,
+    uint32_t layers
+) {
+    if (elements == 0 || layers == 0)
+        return;
+    vkCmdBindPipeline(commands, pipeline.bindPoint(), pipeline.handle());
+    vkCmdPushConstants(commands, pipeline.layout(), pipeline.stages(), 0, sizeof(job), &job);
+    const uint32_t groups = (elements + shader::kDeformThreads - 1) / shader::kDeformThreads;
+    vkCmdDispatch(commands, groups, layers, 1);
+}
+
+} // namespace
+
+PoseTable::Place PoseTable::add(const scene::Deformation& pose) {
+    const Place place{
+        mJoints.size(),
+        mWeights.size(),
+        static_cast<uint32_t>(pose.objectFromBind.size()),
+        static_cast<uint32_t>(pose.morphWeights.size())};
+    for (const math::dmat4& matrix : pose.objectFromBind)
+        mJoints.push_back(extract::makeKey(matrix));
+    for (const double weight : pose.morphWeights)
+        mWeights.push_back(static_cast<float>(weight));
+    return place;
+}
+
+void PoseTable::upload(gpu::Device& device, gpu::Buffer& buffer) {
+    const VkDeviceSize jointBytes = mJoints.size() * sizeof(shader::MotionKey);
+    const VkDeviceSize weightsAt =
+        (jointBytes + kTableAlignment - 1) / kTableAlignment * kTableAlignment;
+    const VkDeviceSize total = weightsAt + mWeights.size() * sizeof(float);
+    if (!buffer || buffer.bytes() < total)
+        buffer = gpu::Buffer(
+            device,
+            "poses",
+            total + total / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Upload
+        );
+    buffer.write(std::span<const shader::MotionKey>(mJoints));
+    buffer.write(std::span<const float>(mWeights), weightsAt);
+    mJointsAt = buffer.address();
+    mWeightsAt = buffer.address() + weightsAt;
+}
+
+shader::DeformJob
+PoseTable::makeJob(const GpuScene& scene, uint32_t geometry, const Place& place) const {
+    const shader::Geometry& row = scene.geometryRows()[geometry];
+    const DeformSource& source = scene.deformSource(geometry);
+    shader::DeformJob job{};
+    job.vertices = row.vertices;
+    job.influences = source.influences;
+    job.deltas = source.deltas;
+    job.joints = gpu::splitAddress(mJointsAt + place.firstJoint * sizeof(shader::MotionKey));
+    job.weights = gpu::splitAddress(mWeightsAt + place.firstWeight * sizeof(float));
+    job.vertexCount = row.vertexCount;
+    job.influenceCount = source.influenceCount;
+    job.jointCount = place.jointCount;
+    // Weights without targets and targets without weights change nothing.
+    job.targetCount = std::min(source.targetCount, place.weightCount);
+    job.weightStride = place.weightCount;
+    return job;
+}
+
+void Deformer::deform(
+    VkCommandBuffer commands, const shader::DeformJob& job, uint32_t instantCount
+) {
+    if (!mDeform.handle())
+        mDeform = gpu::Pipeline(
+            mDevice, describePipeline("deform", render_deform_comp, sizeof(shader::DeformJob))
+        );
+    dispatch(commands, mDeform, job, job.vertexCount, instantCount);
+}
+
+void Deformer::boundTriangles(
+    VkCommandBuffer commands, const shader::DeformedBoxJob& job, uint32_t intervalCount
+) {
+    if (!mBound.handle())
+        mBound = gpu::Pipeline(
+            mDevice,
+            describePipeline(
+                "deformed boxes", render_deformed_boxes_comp, sizeof(shader::DeformedBoxJob)
+            )
+        );
+    dispatch(commands, mBound, job, job.triangleCount, intervalCount);
+}
+
+} // namespace shutter::gpu_scene

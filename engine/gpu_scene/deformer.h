@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Deforms vertices on the device (shaders/render/deform.comp).
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu_scene/gpu_scene.h"
+#include "engine/scene/deformation.h"
+#include "shaders/render/deform_shared.h"
+#include "shaders/render/timed_scene_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::gpu_scene {
+
+/// Poses on their way to the device. Those of one entity at several instants stand one behind the
+/// other.
+class PoseTable {
+  public:
+    struct Place {
+        size_t firstJoint = 0;
+        size_t firstWeight = 0;
+        uint32_t jointCount = 0;
+        uint32_t weightCount = 0;
+    };
+
+    /// \return where the pose is
+    Place add(const scene::Deformation& pose);
+
+    /// Writes all poses; `buffer` grows where it is too small. The GPU must be done with what it
+    /// held.
+    void upload(gpu::Device& device, gpu::Buffer& buffer);
+
+    /// The job of one geometry, but for what it writes; upload() was called.
+    /// \param place of the first instant
+    [[nodiscard]] shader::DeformJob
+    makeJob(const GpuScene& scene, uint32_t geometry, const Place& place) const;
+
+  private:
+    std::vector<shader::MotionKey> mJoints;
+    std::vector<float> mWeights;
+    VkDeviceAddress mJointsAt = 0;
+    VkDeviceAddress mWeightsAt = 0;
+};
+
+/// The pipelines, made when they are first used.
+class Deformer {
+  public:
+    explicit Deformer(gpu::Device& device) : mDevice(device) {}
+
+    /// Records a job at `instantCount` instants, one behind the other.
+    void deform(VkCommandBuffer commands, const shader::DeformJob& job, uint32_t instantCount);
+    /// Records boxes of the triangles for each of `intervalCount` intervals.
+    void boundTriangles(
+        VkCommandBuffer commands, const shader::DeformedBoxJob& job, uint32_t intervalCount
+    );
+
+  private:
+    gpu::Device& mDevice;
+    gpu::Pipeline mDeform;
+    gpu::Pipeline mBound;
+};
+
+} // namespace shutter::gpu_scene

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The entity table and the table of motions on the device, of which only what changed is written.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+
+#include <cstdint>
+
+namespace shutter::gpu_scene {
+
+/// One a frame in flight: the GPU must be done with the frame that it was updated for last. It
+/// knows which frame that was, and takes all rows of one that does not follow on it.
+class EntityTable {
+  public:
+    explicit EntityTable(gpu::Device& device) : mDevice(device) {}
+
+    /// What an update wrote, for statistics.
+    struct Written {
+        uint64_t rows = 0;
+        uint64_t motions = 0;
+    };
+
+    Written update(const extract::ExtractedFrame& frame);
+
+    [[nodiscard]] VkDeviceAddress rows() const { return mRows.address(); }
+
+    [[nodiscard]] VkDeviceAddress motions() const { return mMotions.address(); }
+
+  private:
+    /// True when it had to be made anew: then it holds nothing.
+    bool fit(gpu::Buffer& buffer, const char* name, VkDeviceSize bytes);
+
+    gpu::Device& mDevice;
+    gpu::Buffer mRows;
+    gpu::Buffer mMotions;
+    uint64_t mRevision = 0;      ///< RowChanges::revision of what mRows holds
+    uint64_t mStillRevision = 0; ///< ExtractedFrame's, of the start of mMotions
+};
+
+} // namespace shutter::gpu_scene

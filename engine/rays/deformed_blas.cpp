@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "engine/rays/deformed_blas.h"
+
+#include "engine/gpu/address.h"
+#include "engine/graph/execute.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace shutter::rays {
+
+gpu::BuildAction DeformedBlas::choose(
+    Built& built, const extract::DeformedEntity& entity, ecs::Entity handle
+) const {
+    if (built.entity != handle || built.mesh != entity.mesh) {
+        built = {handle, entity.mesh, entity.raster, 0};
+        return gpu::BuildAction::Build;
+    }
+    if (extract::isSame(built.pose, entity.raster))
+        return gpu::BuildAction::Keep;
+    built.pose = entity.raster;
+    built.refits = built.refits < kRefitsPerBuild ? built.refits + 1 : 0;
+    return built.refits > 0 ? gpu::BuildAction::Refit : gpu::BuildAction::Build;
+}
+
+graph::BufferHandle DeformedBlas::declare(
+    graph::Graph& graph,
+    const extract::ExtractedFrame& frame,
+    const gpu_scene::GpuScene& scene,
+    const gpu_scene::DeformedMeshes& shapes
+) {
+    using graph::Access;
+    mAddresses.assign(frame.deformed.size(), 0);
+    mWasRebuilt = false;
+    std::vector<gpu::BlasDesc> levels;
+    std::vector<size_t> owners; // of ExtractedFrame::deformed
+    size_t row = 0;
+    for (size_t i = 0; i < frame.deformed.size(); ++i) {
+        gpu::BlasDesc level;
+        level.triangles = scene.describeTriangles(frame.deformed[i].mesh);
+        uint64_t triangleCount = 0;
+        for (gpu::TriangleGeometry& triangles : level.triangles) {
+            triangles.vertices = gpu::joinAddress(shapes.rows[row++].vertices);
+            triangleCount += triangles.triangleCount;
+        }
+        if (triangleCount == 0)
+            continue;
+        owners.push_back(i);
+        levels.push_back(std::move(level));
+    }
+    if (levels.empty())
+        return {};
+
+    if (!mLevels.prepareBlas(mDevice, std::move(levels), true))
+        mBuilt.assign(owners.size(), {});
+    std::vector<gpu::BuildAction> actions;
+    for (size_t i = 0; i < owners.size(); ++i) {
+        const extract::DeformedEntity& entity = frame.deformed[owners[i]];
+        actions.push_back(choose(mBuilt[i], entity, frame.entityHandles[entity.row]));
+        mAddresses[owners[i]] = mLevels.address(i);
+    }
+    auto blasBuffer = graph.importBuffer("BLAS of deformed meshes", mLevels.buffer(), 0);
+    if (std::all_of(actions.begin(), actions.end(), [](gpu::BuildAction action) {
+            return action == gpu::BuildAction::Keep;
+        }))
+        return blasBuffer;
+    mWasRebuilt = true;
+
+    struct Data {};
+
+    graph.addPass<Data>(
+        "build deformed meshes",
+        graph::PassKind::Build,
+        [&](graph::PassBuilder& builder, Data&) {
+            builder.read(shapes.buffer, Access::ShaderRead);
+            blasBuffer = builder.write(blasBuffer, Access::AccelerationBuild);
+        },
+        [this, actions](const Data&, graph::PassContext& context) {
+            mLevels.record(mDevice, context.commands, actions);
+        }
+    );
+    return blasBuffer;
+}
+
+} // namespace shutter::rays

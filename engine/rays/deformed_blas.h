@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Bottom levels of a frame's deformed meshes, for rays at the raster instant.
+#pragma once
+
+#include "engine/gpu/structure_set.h"
+#include "engine/gpu_scene/deformation_pass.h"
+#include "engine/graph/graph.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::rays {
+
+/// Refits between two builds: each lets the tree grow a little worse.
+inline constexpr uint32_t kRefitsPerBuild = 15;
+
+/// One bottom level an entity of ExtractedFrame::deformed. What keeps its shape from one frame to
+/// the next is kept; what changes it is refitted, and built anew now and then.
+class DeformedBlas {
+  public:
+    explicit DeformedBlas(gpu::Device& device) : mDevice(device) {}
+
+    /// Declares the builds. The GPU must be done with the last frame's.
+    /// \return read it with Access::AccelerationRead; invalid: nothing is deformed
+    [[nodiscard]] graph::BufferHandle declare(
+        graph::Graph& graph,
+        const extract::ExtractedFrame& frame,
+        const gpu_scene::GpuScene& scene,
+        const gpu_scene::DeformedMeshes& shapes
+    );
+
+    /// Of ExtractedFrame::deformed[index]; 0: it has no triangles.
+    [[nodiscard]] VkDeviceAddress address(size_t index) const { return mAddresses[index]; }
+
+    /// The last declare() declared a build: structures above have to be built too.
+    [[nodiscard]] bool wasRebuilt() const { return mWasRebuilt; }
+
+  private:
+    /// What a level was built of last.
+    struct Built {
+        ecs::Entity entity;
+        uint32_t mesh = 0;
+        scene::Deformation pose;
+        uint32_t refits = 0; ///< since it was built from nothing
+    };
+
+    gpu::BuildAction
+    choose(Built& built, const extract::DeformedEntity& entity, ecs::Entity handle) const;
+
+    gpu::Device& mDevice;
+    gpu::StructureSet mLevels;
+    std::vector<Built> mBuilt; ///< beside mLevels
+    std::vector<VkDeviceAddress> mAddresses;
+    bool mWasRebuilt = false;
+};
+
+} // namespace shutter::rays

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "engine/rays/tlas.h"
+
+#include "engine/extract/instance_masks.h"
+#include "engine/graph/execute.h"
+
+#include <utility>
+
+namespace shutter::rays {
+
+namespace {
+
+/// Calls `use` with each row that stands still.
+template <class Use> void forEachStill(const extract::ExtractedFrame& frame, Use&& use) {
+    size_t next = 0; // of movingRows
+    for (uint32_t row = 0; row < frame.changes.ownRows; ++row) {
+        if (next < frame.movingRows.size() && frame.movingRows[next] == row)
+            ++next;
+        else
+            use(row);
+    }
+}
+
+bool addStill(const extract::ExtractedFrame& frame, uint32_t row, InstanceList& instances) {
+    const shader::EntityRow& entry = frame.entities[row];
+    return instances.add(
+        row, frame.entityMeshes[row], entry.eyeFromObject, extract::solidMaskOf(entry)
+    );
+}
+
+} // namespace
+
+TlasHandles FrameTlas::declare(
+    graph::Graph& graph,
+    const extract::ExtractedFrame& frame,
+    const gpu_scene::GpuScene& scene,
+    const gpu_scene::DeformedMeshes& shapes
+) {
+    TlasHandles handles;
+    handles.deformedBuffer = mDeformedBlas.declare(graph, frame, scene, shapes);
+    mDeformedBlasBuffer = handles.deformedBuffer;
+    // Kept from frame to frame: an allocation may have the allocator clean up behind all the draws
+    // that the driver recorded, for milliseconds.
+    if (!mMovingInstances)
+        mMovingInstances.emplace(scene);
+    InstanceList& moving = *mMovingInstances;
+    moving.clear();
+    listMoving(frame, moving);
+    const bool apart = frame.changes.ownRows - frame.movingRows.size() >= kStaticTlasInstances;
+    bool build = false;
+    if (apart) {
+        build = updateStill(frame, scene);
+        if (!moving.instances().empty()) {
+            const bool buildMoving = update(mMoving, moving, false);
+            handles.movingBuffer = declareOne(graph, "TLAS of movers", mMoving, buildMoving);
+            handles.movingTlas = mMoving.level.structure().address();
+        }
+    } else {
+        mMoving.listed.clear();
+        const bool wasApart = std::exchange(mStillRevision, 0) != 0;
+        forEachStill(frame, [&](uint32_t row) { (void)addStill(frame, row, moving); });
+        build = update(mStill, moving, wasApart);
+    }
+    handles.buffer = declareOne(graph, "TLAS", mStill, build);
+    handles.level = mStill.level.structure().handle();
+    return handles;
+}
+
+void FrameTlas::listMoving(const extract::ExtractedFrame& frame, InstanceList& instances) const {
+    size_t nextDeformed = 0;
+    for (const uint32_t row : frame.movingRows) {
+        const auto& eyeFromObject = frame.entities[row].eyeFromObject;
+        const uint32_t solidMask = extract::solidMaskOf(frame.entities[row]);
+        if (nextDeformed == frame.deformed.size() || frame.deformed[nextDeformed].row != row) {
+            instances.add(row, frame.entityMeshes[row], eyeFromObject, solidMask);
+            continue;
+        }
+        const extract::DeformedEntity& deformed = frame.deformed[nextDeformed];
+        const VkDeviceAddress level = mDeformedBlas.address(nextDeformed++);
+        instances.add(
+            DeformedInstance{row, deformed.mesh, deformed.mirrored, level, deformed.bounds},
+            eyeFromObject,
+            solidMask
+        );
+    }
+}
+
+void FrameTlas::orderStill(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene) {
+    InstanceList instances(scene);
+    std::vector<uint32_t> listed;
+    std::vector<uint32_t> leftOut; // may be met from another place of the camera
+    forEachStill(frame, [&](uint32_t row) {
+        (addStill(frame, row, instances) ? listed : leftOut).push_back(row);
+    });
+    mStillOrder.clear();
+    for (const uint32_t index : instances.computeOrder())
+        mStillOrder.push_back(listed[index]);
+    mStillOrder.insert(mStillOrder.end(), leftOut.begin(), leftOut.end());
+    mStillSet = frame.stillSet;
+}
+
+bool FrameTlas::updateStill(
+    const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene
+) {
+    // Where the camera moves, what stands still has masks that change with what else there is.
+    if (mStillRevision == frame.stillRevision && frame.stillMotions.empty())
+        return false;
+    if (mStillSet != frame.stillSet)
+        orderStill(frame, scene);
+    InstanceList instances(scene);
+    for (const uint32_t row : mStillOrder)
+        (void)addStill(frame, row, instances);
+    mStill.level.prepare(mDevice, instances.instances());
+    mStill.listed.clear(); // not as update() lists
+    mStillRevision = frame.stillRevision;
+    return true;
+}
+
+bool FrameTlas::update(Level& level, const InstanceList& instances, bool force) {
+    // A level holds the bounds of those below it.
+    if (!force && level.level.structure() && !mDeformedBlas.wasRebuilt() &&
+        level.listed == instances.instances())
+        return false;
+    level.level.prepare(mDevice, instances.order());
+    level.listed = instances.instances();
+    return true;
+}
+
+graph::BufferHandle
+FrameTlas::declareOne(graph::Graph& graph, const char* name, const Level& level, bool build) const {
+    auto buffer = graph.importBuffer(name, level.level.structure().buffer(), 0);
+    if (!build)
+        return buffer;
+
+    struct Data {};
+
+    graph.addPass<Data>(
+        fmt::format("build {}", name),
+        graph::PassKind::Build,
+        [&](graph::PassBuilder& builder, Data&) {
+            if (mDeformedBlasBuffer.isValid())
+                builder.read(mDeformedBlasBuffer, graph::Access::AccelerationRead);
+            buffer = builder.write(buffer, graph::Access::AccelerationBuild);
+        },
+        [this, &level](const Data&, graph::PassContext& context) {
+            level.level.record(mDevice, context.commands);
+        }
+    );
+    return buffer;
+}
+
+} // namespace shutter::rays

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The list of reasons that `--explain` prints: why effects, work and passes ran or were skipped.
+#pragma once
+
+#include "engine/core/decision.h"
+#include "engine/graph/compile.h"
+#include "engine/graph/graph.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shutter::render {
+
+enum class ExplainedKind : uint8_t {
+    Effect, ///< a post effect
+    Work,   ///< a part of the renderer's own frame
+    Pass,   ///< a pass of the graph
+};
+
+[[nodiscard]] const char* describe(ExplainedKind kind);
+
+/// What a pass works for, so that its time is counted where it belongs.
+enum class PassOwner : uint8_t {
+    Scene,   ///< any picture needs it: deformed meshes, G-buffer
+    Rays,    ///< acceleration structures that effects trace rays through
+    Effect,  ///< a post effect that changes the linear picture
+    Display, ///< brings the linear picture to a screen, a file or memory
+};
+
+/// "scene", "rays", "effect" or "display".
+[[nodiscard]] const char* describe(PassOwner owner);
+
+/// Why one thing ran or was skipped.
+struct Explanation {
+    ExplainedKind kind = ExplainedKind::Effect;
+    std::string subject;
+    core::Decision decision;
+};
+
+/// Of the effect or work of that name; null where nothing was decided about it.
+[[nodiscard]] const core::Decision*
+findDecision(std::span<const Explanation> explanations, const std::string& subject);
+
+/// Collects a frame's reasons while it is declared.
+class Explainer {
+  public:
+    void decide(ExplainedKind kind, std::string subject, core::Decision decision);
+    /// Passes declared from here on work for `owner` and run for `reason`, unless something else
+    /// was decided about them.
+    void beginPasses(const graph::Graph& graph, PassOwner owner, std::string reason);
+    /// Owners of the plan's passes, in execution order.
+    [[nodiscard]] std::vector<PassOwner> listOwners(const graph::Plan& plan) const;
+    /// Effects and work as decided; with `passes`, the passes too: those of the plan in execution
+    /// order, then what was left out or culled.
+    [[nodiscard]] std::vector<Explanation>
+    finish(const graph::Graph& graph, const graph::Plan& plan, bool passes) const;
+
+  private:
+    struct PassRange {
+        size_t first = 0; ///< index into Graph::passes()
+        PassOwner owner = PassOwner::Scene;
+        std::string reason;
+    };
+
+    /// Null for passes declared before the first beginPasses().
+    [[nodiscard]] const PassRange* findRange(size_t pass) const;
+
+    std::vector<Explanation> mDecided;
+    std::vector<PassRange> mRanges; ///< by rising first
+};
+
+} // namespace shutter::render

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+
+#include "engine/core/check.h"
+#include "engine/gpu/address.h"
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
+#include "engine/graph/execute.h"
+#include "engine/graph/transient_pool.h"
+
+#include <array>
+#include <deque>
+#include <new>
+#include <string_view>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+constexpr uint32_t kMostFrames = 64;
+constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
+
+constexpr VkImageUsageFlags kRead = VK_IMAGE_USAGE_SAMPLED_BIT;
+constexpr VkImageUsageFlags kWritten = VK_IMAGE_USAGE_STORAGE_BIT;
+
+core::Status checkImage(const char* name, const HostImage& image) {
+    if (!image.image)
+        return makeError("motion blur: {}.image is null", name);
+    if (image.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return makeError("motion blur: {}.before.layout is undefined, its contents are lost", name);
+    return {};
+}
+
+/// Each given image is another one.
+core::Status checkDistinct(const HostInputs& inputs) {
+    struct Named {
+        const char* name;
+        VkImage image;
+    };
+
+    const std::array<Named, 5> images{
+        {{"color", inputs.color.image},
+         {"motionDepth", inputs.motionDepth.image},
+         {"normal", inputs.normal.image},
+         {"entityId", inputs.entityId.image},
+         {"output", inputs.output.image}}};
+    for (size_t i = 0; i < images.size(); ++i)
+        for (size_t j = i + 1; j < images.size(); ++j)
+            if (images[i].image && images[i].image == images[j].image)
+                return makeError(
+                    "motion blur: {}.image is {}.image{}",
+                    images[j].name,
+                    images[i].name,
+                    images[j].image == inputs.output.image
+                        ? "; to blur in place, leave output.image null"
+                        : ""
+                );
+    return {};
+}
+
+} // namespace
+
+/// What one frame in flight holds.
+struct EmbeddedMotionBlur::Slot {
+    explicit Slot(gpu::Device& device) : frame(gpu::Frame::createForHost(device)), pool(device) {}
+
+    std::unique_ptr<gpu::Frame> frame;
+    graph::TransientPool pool;
+    /// Views of the host's images, made anew in each frame: a handle that is the last one's need
+    /// not be the same image. A deque, since the graph points to them.
+    std::deque<gpu::Image> images;
+    uint64_t handedOver = 0; ///< timeline value of what was recorded last
+};
+
+core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(const HostDevice& host
+) {
+    if (!host.physical || !host.device)
+        return makeError(
+            "motion blur: HostDevice::{} is null", host.physical ? "device" : "physical"
+        );
+    if (host.framesInFlight < 1 || host.framesInFlight > kMostFrames)
+        return makeError(
+            "motion blur: framesInFlight is {}, it must be 1 to {}",
+            host.framesInFlight,
+            kMostFrames
+        );
+    if (host.rayTier != gpu::RayTier::None && !host.sceneLayout)
+        return makeError("motion blur: sceneLayout is null, although rayTier asks for rays");
+    const core::Status able = checkHostDevice(host.physical, host.queueFamily, host.rayTier);
+    if (!able)
+        return able.error();
+    try {
+        auto device =
+            gpu::Device::adopt({host.physical, host.device, host.rayTier, host.hasDebugUtils});
+        if (!device)
+            return device.error();
+        return std::unique_ptr<EmbeddedMotionBlur>(
+            new EmbeddedMotionBlur(std::move(device).value(), host)
+        );
+    } catch (const gpu::DeviceError& error) {
+        return core::Error{error.what()};
+    } catch (const std::bad_alloc&) {
+        return makeError("motion blur: out of main memory");
+    }
+}
+
+EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host)
+    : mDevice(std::move(device)), mHasRays(host.rayTier != gpu::RayTier::None),
+      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE) {
+    for (uint32_t i = 0; i < host.framesInFlight; ++i)
+        mSlots.push_back(std::make_unique<Slot>(*mDevice));
+}
+
+EmbeddedMotionBlur::~EmbeddedMotionBlur() = default;
+
+core::Status EmbeddedMotionBlur::checkMethod(
+    const HostInputs& inputs, const MotionBlurSettings& settings
+) const {
+    if (settings.method == Method::Denoised)
+        return makeError("motion blur: the method denoised draws no raster image; "
+                         "it is not for hosts that have one");
+    if (settings.method != Method::Hybrid)
+        return {};
+    if (!mHasRays)
+        return makeError("motion blur: the method hybrid needs rays, and HostDevice::rayTier "
+                         "was none");
+    for (const auto& [name, image] :
+         {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
+        if (core::Status given = checkImage(name, *image); !given)
+            return given;
+    if (inputs.rays.frameConstants == 0)
+        return makeError("motion blur: rays.frameConstants is 0, which the method hybrid needs");
+    if (inputs.rays.tlas && (!inputs.rays.tlasBuffer || !inputs.rays.scene))
+        return makeError(
+            "motion blur: rays.{} is null", inputs.rays.tlasBuffer ? "scene" : "tlasBuffer"
+        );
+    return {};
+}
+
+core::Status EmbeddedMotionBlur::check(
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const HostInputs& inputs,
+    const MotionBlurSettings& settings
+) const {
+    if (!commands)
+        return makeError("motion blur: the command buffer is null");
+    if (frame >= mSlots.size())
+        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
+    if (inputs.width < 1 || inputs.width > kMostPixels || inputs.height < 1 ||
+        inputs.height > kMostPixels)
+        return makeError(
+            "motion blur: the size is {} x {}, both must be 1 to {}",
+            inputs.width,
+            inputs.height,
+            kMostPixels
+        );
+    if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
+        return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
+    if (core::Status given = checkImage("color", inputs.color); !given)
+        return given;
+    if (core::Status given = checkImage("motionDepth", inputs.motionDepth); !given)
+        return given;
+    if (core::Status distinct = checkDistinct(inputs); !distinct)
+        return distinct;
+    if (core::Status valid = validate(settings); !valid)
+        return valid;
+    return checkMethod(inputs, settings);
+}
+
+core::Status EmbeddedMotionBlur::record(
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const HostInputs& inputs,
+    const MotionBlurSettings& settings
+) {
+    try {
+        if (core::Status fits = check(commands, frame, inputs, settings); !fits)
+            return fits;
+        markDone(frame);
+        return recordInto(*mSlots[frame], commands, inputs, settings);
+    } catch (const gpu::DeviceError& error) {
+        return core::Error{error.what()};
+    } catch (const std::bad_alloc&) {
+        return makeError("motion blur: out of main memory");
+    }
+}
+
+void EmbeddedMotionBlur::markDone(uint32_t frame) {
+    SHUTTER_CHECK(frame < mSlots.size(), "frame {} of {}", frame, mSlots.size());
+    mDevice->markDone(mSlots[frame]->handedOver);
+}
+
+core::Status EmbeddedMotionBlur::recordInto(
+    Slot& slot,
+    VkCommandBuffer commands,
+    const HostInputs& inputs,
+    const MotionBlurSettings& settings
+) {
+    slot.images.clear();
+    graph::Graph graph;
+    const auto import =
+        [&](const char* name, VkFormat format, VkImageUsageFlags usage, const HostImage& given
+        ) -> graph::ImageHandle {
+        if (!given.image)
+            return {};
+        const gpu::Image& image = slot.images.emplace_back(gpu::Image::adopt(
+            *mDevice, name, given.image, {inputs.width, inputs.height, format, usage}
+        ));
+        return graph.importImage(name, image, given.before, given.after);
+    };
+    const bool inPlace = !inputs.output.image;
+    MotionBlurInputs own; // slot 0 in each frame: it is for counters, which nobody reads here
+    // Those the method does not read are imported as well: they go over to their next use.
+    own.color = import(
+        "color", VK_FORMAT_R16G16B16A16_SFLOAT, inPlace ? kRead | kWritten : kRead, inputs.color
+    );
+    own.motionDepth =
+        import("motion and depth", VK_FORMAT_R32G32B32A32_SFLOAT, kRead, inputs.motionDepth);
+    own.normal = import("normal", VK_FORMAT_R16G16B16A16_SFLOAT, kRead, inputs.normal);
+    own.entityId = import("entity id", VK_FORMAT_R32_UINT, kRead, inputs.entityId);
+    own.target = import("output", VK_FORMAT_R16G16B16A16_SFLOAT, kWritten, inputs.output);
+    own.colorIsWritable = inPlace;
+    if (inPlace)
+        own.target = own.color;
+    own.rasterTime = inputs.rasterTime;
+    own.response = gpu::splitAddress(inputs.response);
+    if (settings.method == Method::Hybrid) {
+        RayInputs rays;
+        rays.frame = gpu::splitAddress(inputs.rays.frameConstants);
+        if (inputs.rays.tlas) {
+            rays.tlasBuffer = graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
+            rays.tlas = inputs.rays.tlas;
+            rays.scene = inputs.rays.scene;
+            rays.hasBlended = inputs.rays.hasBlended;
+        }
+        own.rays = rays;
+    }
+    graph.markOutput(mEffect.add(graph, own, settings).color);
+
+    slot.frame->beginIn(commands);
+    const auto plan = graph::execute(graph, *slot.frame, slot.pool);
+    if (!plan)
+        return plan.error();
+    slot.handedOver = mDevice->handOver();
+    return {};
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The motion blur for an engine that has nothing of this one: made from raw Vulkan handles,
+// recorded into the host's own command buffers, from the host's G-buffer into an image of the host.
+// The same effect as the plugin's, on a graph of its own that imports those images.
+//
+// Conventions are those of motion_blur.h. Nothing here throws. Not thread-safe.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "engine/graph/types.h"
+#include "modules/motion_blur/embedding/host_features.h"
+#include "modules/motion_blur/motion_blur.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+/// All handles stay the host's and must outlive the EmbeddedMotionBlur.
+struct HostDevice {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE; ///< made with Vulkan 1.3 and HostFeatures enabled
+    uint32_t queueFamily = 0;         ///< of the command buffers; it must run compute shaders
+    /// How many recordings the GPU may have before it at once: frames in flight times views, [1,
+    /// 64].
+    uint32_t framesInFlight = 2;
+    bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
+    /// Method::Hybrid alone: which rays of HostFeatures are enabled, and the layout of
+    /// HostRays::scene.
+    gpu::RayTier rayTier = gpu::RayTier::None;
+    VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
+};
+
+/// An image of the host: 2D, one level, one layer, one sample, owned by the queue family of the
+/// command buffer, in the format and with the usage that HostInputs asks for. It may be
+/// destroyed once the frame is done.
+struct HostImage {
+    VkImage image = VK_NULL_HANDLE;
+    graph::OutsideUse before; ///< the host's last use, which is waited for
+    graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
+};
+
+/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants Method::Hybrid
+/// fills those tables.
+struct HostRays {
+    /// Custom index of an instance: its mesh id. Null: nothing but sky lies behind what moves.
+    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
+    VkBuffer tlasBuffer = VK_NULL_HANDLE;   ///< that it lies in; null only where tlas is
+    VkDescriptorSet scene = VK_NULL_HANDLE; ///< bindless textures, of HostDevice::sceneLayout
+    VkDeviceAddress frameConstants = 0;     ///< shader::FrameConstants
+    bool hasBlended = false;                ///< blended surfaces may be in the picture
+};
+
+struct HostInputs {
+    uint32_t width = 0; ///< pixels of every image, [1, 32768]
+    uint32_t height = 0;
+    HostImage color;       ///< RGBA16F; sampled, transfer source; in place: storage, too
+    HostImage motionDepth; ///< RGBA32F: motion.xy, depth; every value finite; sampled
+    HostImage normal;      ///< RGBA16F: xyz unit; sampled; Method::Hybrid alone
+    HostImage entityId;    ///< R32_UINT; sampled; Method::Hybrid alone
+    /// RGBA16F; storage, transfer target. Null: in place, the blurred picture replaces `color`.
+    HostImage output;
+    double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
+    VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
+    HostRays rays;                ///< Method::Hybrid alone
+};
+
+class EmbeddedMotionBlur {
+  public:
+    /// Errors: a null handle, something of HostFeatures that the device cannot do, a device that
+    /// is out of memory.
+    [[nodiscard]] static core::Result<std::unique_ptr<EmbeddedMotionBlur>>
+    create(const HostDevice& host);
+
+    /// The GPU must be done with all that was recorded.
+    ~EmbeddedMotionBlur();
+    EmbeddedMotionBlur(const EmbeddedMotionBlur&) = delete;
+    EmbeddedMotionBlur& operator=(const EmbeddedMotionBlur&) = delete;
+
+    /// Records the effect into `commands`: a command buffer that is being recorded, outside of
+    /// rendering, submitted once at most. It binds pipelines, set 0 (and 1) and push constants of
+    /// the compute and ray-tracing bind points.
+    /// \param frame of [0, framesInFlight). The GPU must be done with what was recorded last under
+    /// this number: then the host has waited for it, or never submits it.
+    /// Errors name what is wrong, and nothing was recorded; an error that tells of memory or the
+    /// device may leave a part, and the command buffer must be reset then.
+    /// Method::Denoised is refused: it draws no raster image.
+    [[nodiscard]] core::Status record(
+        VkCommandBuffer commands,
+        uint32_t frame,
+        const HostInputs& inputs,
+        const MotionBlurSettings& settings
+    );
+
+    /// Tells the same of `frame` as recording it anew. To be called for a number that will not be
+    /// recorded again (a view was closed, fewer frames are in flight): what was retired after it,
+    /// by any frame, is kept until then. Also for a host that wants memory back early: what
+    /// resizing left over is destroyed once every frame recorded until then is done. CHECKed.
+    void markDone(uint32_t frame);
+
+    /// Device memory, images and the like that are held now.
+    [[nodiscard]] const gpu::LivingObjects& living() const { return mDevice->living(); }
+
+  private:
+    struct Slot;
+
+    EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host);
+    [[nodiscard]] core::Status check(
+        VkCommandBuffer commands,
+        uint32_t frame,
+        const HostInputs& inputs,
+        const MotionBlurSettings& settings
+    ) const;
+    [[nodiscard]] core::Status
+    checkMethod(const HostInputs& inputs, const MotionBlurSettings& settings) const;
+    core::Status recordInto(
+        Slot& slot,
+        VkCommandBuffer commands,
+        const HostInputs& inputs,
+        const MotionBlurSettings& settings
+    );
+
+    std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
+    bool mHasRays;
+    MotionBlur mEffect;
+    std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
+};
+
+} // namespace shutter::motion_blur

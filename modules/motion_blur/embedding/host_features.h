@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What a host's device must have enabled for the motion blur.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device_select.h"
+#include "engine/gpu/vulkan.h"
+
+#include <cstdint>
+#include <span>
+
+namespace shutter::motion_blur {
+
+/// The features to enable, as a chain for VkDeviceCreateInfo::pNext. A host adds its own in the
+/// public structs (or copies the fields into a chain of its own: core shaderStorageImageExtended-
+/// Formats; 1.2 bufferDeviceAddress and scalarBlockLayout; 1.3 synchronization2 and maintenance4;
+/// more with rays, see the constructor).
+class HostFeatures {
+  public:
+    /// \param rays how rays shall be traced, for Method::Hybrid; None: the methods without rays
+    explicit HostFeatures(gpu::RayTier rays = gpu::RayTier::None);
+    HostFeatures(const HostFeatures&) = delete;
+    HostFeatures& operator=(const HostFeatures&) = delete;
+
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+
+    /// Valid as long as this is.
+    [[nodiscard]] const void* chain() const { return &features; }
+
+    /// Device extensions to enable; none without rays.
+    [[nodiscard]] std::span<const char* const> extensions() const;
+
+  private:
+    gpu::RayTier mRays;
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR mStructure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR mQuery{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR mPipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+};
+
+/// Whether the device could have the features enabled, and the queue family runs compute shaders;
+/// one sentence that names what is missing where it cannot. What a host did enable Vulkan does not
+/// tell anybody; the validation layer does.
+[[nodiscard]] core::Status
+checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu::RayTier rays);
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Skinned and morphed meshes on their way from the world to the tables of a frame.
+#include "extraction_fixture.h"
+
+#include "engine/extract/timed_tables.h"
+
+#include <cmath>
+#include <limits>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The fixture's mesh 0 is a box of [-1, 1]^3; here it has a vertex at each corner, deformed by
+/// joints 0 (below) and 1 (above), and a morph target that lifts the upper ones by 1 m.
+class DeformedEntities : public Extraction {
+  protected:
+    DeformedEntities() {
+        scene::Primitive box;
+        box.influenceCount = 4;
+        scene::MorphTarget target;
+        for (int corner = 0; corner < 8; ++corner) {
+            const bool above = corner & 2;
+            box.positions.push_back(
+                {corner & 1 ? 1.0f : -1.0f, above ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f}
+            );
+            box.joints.insert(box.joints.end(), {uint16_t(above ? 1 : 0), 0, 0, 0});
+            box.weights.insert(box.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+            target.positions.push_back({0.0f, above ? 1.0f : 0.0f, 0.0f});
+        }
+        box.morphTargets.push_back(target);
+        layout.geometries[0].vertexCount = 8;
+        layout.reaches.push_back(scene::computePoseReach({&box, 1}));
+        world.assets.skins.push_back({"", {dmat4(1.0), dmat4(1.0)}});
+    }
+
+    ecs::Entity addJoint(const math::Transform& transform) {
+        const ecs::Entity joint = world.registry.create();
+        world.registry.add(joint, scene::LocalTransform{transform});
+        return joint;
+    }
+
+    ecs::Entity addSkinned(ecs::Entity below, ecs::Entity above) {
+        const ecs::Entity entity = addBox(dvec3(0.0));
+        world.registry.add(entity, scene::Skinned{0, {below, above}});
+        return entity;
+    }
+
+    ecs::Entity addSkinned(const dvec3& below, const dvec3& above) {
+        return addSkinned(addJoint(at(below)), addJoint(at(above)));
+    }
+
+    ecs::Entity addMorphed(const dvec3& position, float from, float to) {
+        const ecs::Entity entity = addBox(position);
+        scene::WeightChannel channel;
+        channel.targetCount = 1;
+        channel.times = {0.0f, 1.0f};
+        channel.values = {from, to};
+        world.assets.clips.push_back({"", 1.0, {}, {channel}});
+        const auto clip = static_cast<uint32_t>(world.assets.clips.size() - 1);
+        world.registry.add(entity, scene::MorphWeights{{from}, {{clip, 0}}});
+        return entity;
+    }
+
+    static math::Transform at(const dvec3& position) {
+        math::Transform transform;
+        transform.translation = position;
+        return transform;
+    }
+
+    core::Result<TimedTables> computeTables(ExtractedFrame& frame) {
+        return computeTimedTables(world, layout, request, frame);
+    }
+};
+
+} // namespace
+
+TEST_F(DeformedEntities, TheirGeometriesStandBehindTheScenesOwn) {
+    const uint32_t two = addMesh(scene::AlphaMode::Opaque, 2);
+    layout.reaches.push_back(layout.reaches[0]);
+    addBox(dvec3(0, 0, -5), two);
+    addSkinned({0, 0, -5}, {0, 0, -5});
+    const ecs::Entity both = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    world.registry.get<scene::MeshInstance>(both).mesh = two;
+    addSkinned({0, 0, -5}, {0, 0, -5});
+
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entities.size(), 4u);
+    ASSERT_EQ(frame.deformed.size(), 3u);
+    EXPECT_EQ(frame.entities[0].firstGeometry, 1u);
+    EXPECT_EQ(frame.entities[1].firstGeometry, 3u);
+    EXPECT_EQ(frame.entities[2].firstGeometry, 4u);
+    EXPECT_EQ(frame.entities[3].firstGeometry, 6u);
+    for (const DrawItem& item : frame.opaque.merge()) {
+        const uint32_t mesh = frame.entityMeshes[item.entity];
+        EXPECT_EQ(
+            item.geometryRow - frame.entities[item.entity].firstGeometry,
+            item.geometry - layout.firstGeometry[mesh]
+        );
+    }
+    EXPECT_EQ(frame.opaque.size(), 6u);
+}
+
+TEST_F(DeformedEntities, AnUnbentSceneHasNone) {
+    addBox(dvec3(0, 0, -5));
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.deformed.empty());
+    ASSERT_EQ(frame.opaque.size(), 1u);
+    EXPECT_EQ(frame.opaque.merge()[0].geometryRow, frame.opaque.merge()[0].geometry);
+}
+
+TEST_F(DeformedEntities, ASkinsOwnTransformHasNoMeaning) {
+    const ecs::Entity entity = addSkinned({0, 0, -5}, {0, 0, -5});
+    world.registry.get<scene::LocalTransform>(entity).transform = at({100, 0, 0});
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.opaque.size(), 1u) << "its joints are in the picture";
+    EXPECT_NEAR(frame.opaque.merge()[0].distance, 5.0f, 1e-4f);
+}
+
+TEST_F(DeformedEntities, TheyAreLeftOutByWhereTheyAreDeformedTo) {
+    // The box at rest is in the picture, its pose is not; and the other way round.
+    addSkinned({100, 0, -5}, {100, 0, -5});
+    EXPECT_TRUE(extract().opaque.empty());
+    addSkinned({100, 0, -5}, {0, 0, -5});
+    EXPECT_EQ(extract().opaque.size(), 1u);
+}
+
+TEST_F(DeformedEntities, AChangeOfShapeIsMotion) {
+    addMorphed({0, 0, -5}, 0.5f, 0.5f);
+    EXPECT_FALSE(extract().moves);
+    EXPECT_FALSE(extract().deformed.at(0).changes);
+    addMorphed({0, 0, -5}, 0.5f, 0.75f);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.moves);
+    EXPECT_TRUE(frame.deformed.at(1).changes);
+    EXPECT_EQ(frame.deformed[1].open.morphWeights.at(0), 0.5);
+    EXPECT_EQ(frame.deformed[1].close.morphWeights.at(0), 0.75);
+    EXPECT_EQ(frame.deformed[1].raster.morphWeights.at(0), 0.75);
+}
+
+TEST_F(DeformedEntities, OneInstantHasOneShape) {
+    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    request.instant = 0.25;
+    const ExtractedFrame frame = extract();
+    EXPECT_FALSE(frame.moves);
+    EXPECT_FALSE(frame.deformed.at(0).changes);
+    EXPECT_EQ(frame.deformed[0].raster.morphWeights.at(0), 0.25);
+}
+
+TEST_F(DeformedEntities, AMirroredSkeletonTurnsTheWindingRound) {
+    math::Transform mirrored = at({0, 0, -5});
+    mirrored.scale.x = -1.0;
+    const ecs::Entity root = addJoint(mirrored);
+    addSkinned(root, root);
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.opaque.size(), 1u);
+    EXPECT_TRUE(frame.opaque.merge()[0].mirrored);
+    EXPECT_EQ(frame.entities[0].handedness, -1.0f);
+    EXPECT_TRUE(frame.deformed.at(0).mirrored);
+}
+
+TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
+    const dmat4 mirror = glm::scale(dmat4(1.0), dvec3(-1, 1, 1));
+    const dmat4 flat = glm::scale(dmat4(1.0), dvec3(-1, 0, 1));
+    const math::Bounds deformed{dvec3(-1.0), dvec3(1.0)};
+    scene::PoseReach all;
+    all.joints = {deformed, deformed, deformed};
+    EXPECT_FALSE(isMirrored({{}, {1.0}}, all));
+    EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}, all));
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}, all));
+    EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}, all));
+    // Of a skeleton that several meshes share, only this mesh's joints have a say.
+    scene::PoseReach first;
+    first.joints = {deformed, {}, {}};
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), dmat4(1.0)}, {}}, first));
+}
+
+TEST_F(DeformedEntities, AShapeThatIsNotFiniteIsNotDrawn) {
+    math::Transform bad = at({0, 0, -5});
+    bad.scale.y = kNaN;
+    addSkinned(addJoint(at({0, 0, -5})), addJoint(bad));
+    EXPECT_TRUE(extract().entities.empty());
+    addMorphed({0, 0, -5}, float(kNaN), float(kNaN));
+    EXPECT_TRUE(extract().entities.empty());
+    // Too far away for acceleration structures.
+    addSkinned({0, 0, -5}, {1e19, 0, -5});
+    EXPECT_TRUE(extract().entities.empty());
+}
+
+TEST_F(DeformedEntities, AJointThatBendsNothingMayBeAnywhere) {
+    math::Transform bad = at({0, 0, -5});
+    bad.scale.y = kNaN;
+    const ecs::Entity joint = addJoint(at({0, 0, -5}));
+    const ecs::Entity entity = addSkinned(joint, joint);
+    world.registry.get<scene::Skinned>(entity).joints.push_back(addJoint(bad));
+    world.assets.skins[0].jointFromBind.push_back(dmat4(1.0));
+    EXPECT_EQ(extract().entities.size(), 1u);
+}
+
+TEST_F(DeformedEntities, ASkeletonScaledToNothingIsFinite) {
+    math::Transform nothing = at({0, 0, -5});
+    nothing.scale = dvec3(0.0);
+    const ecs::Entity joint = addJoint(nothing);
+    addSkinned(joint, joint);
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entities.size(), 1u);
+    EXPECT_FALSE(frame.deformed.at(0).bounds.isEmpty());
+}
+
+TEST_F(DeformedEntities, AShapeThatChangesOnTheSpotIsABoxForRays) {
+    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].keys.size(), 2u);
+    ASSERT_EQ(tables.value().boxes.size(), 1u);
+    EXPECT_LE(tables.value().boxes[0].min.y, -1.0f);
+    EXPECT_GE(tables.value().boxes[0].max.y, 2.0f) << "the upper vertices are lifted";
+}
+
+TEST_F(DeformedEntities, AShapeThatStandsStillIsAMeshLikeAnyOther) {
+    addSkinned({0, 0, -5}, {0, 1, -5});
+    addBox(dvec3(0, 0, -7));
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    EXPECT_TRUE(tables.value().moving.empty());
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].row, 0u);
+    EXPECT_FALSE(tables.value().shapes[0].changes());
+    EXPECT_EQ(tables.value().rows.size(), 2u);
+}
+
+TEST_F(DeformedEntities, WhatIsScaledToNothingAtTheRasterInstantMayBeMetBefore) {
+    const ecs::Entity entity = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    scene::AnimationChannel channel;
+    channel.path = scene::AnimationPath::Scale;
+    channel.times = {0.0f, 1.0f};
+    channel.values = {{1, 1, 1, 0}, {0, 0, 0, 0}};
+    world.assets.clips.push_back({"", 1.0, {channel}, {}});
+    world.registry.add(entity, scene::Animated{{{1, 0}}});
+    ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.entities.empty());
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    ASSERT_EQ(frame.entities.size(), 1u);
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].row, 0u);
+    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
+}
+
+TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
+    layout.geometries[0].vertexCount = 20'000'000;
+    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_FALSE(tables.ok());
+    EXPECT_EQ(
+        tables.error().message,
+        "1 skinned or morphed entities with up to 2 shapes each need 2441 MiB for rays that each "
+        "have their own time, more than the 1024 MiB there may be: shorten the exposure"
+    );
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/extract/extraction_fixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace shutter::extract {
+
+namespace {
+
+void expectNear(const math::mat4& a, const math::mat4& b, float tolerance) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) {
+            const float size = std::max(1.0f, std::abs(a[column][row]));
+            EXPECT_NEAR(a[column][row], b[column][row], tolerance * size) << column << " " << row;
+        }
+}
+
+/// Five units in the last place of a float.
+constexpr float kRounding = 6e-7f;
+
+} // namespace
+
+TEST_F(Extraction, AMovingCameraMovesAnEmptyPicture) {
+    world.registry.add(camera, scene::LinearVelocity{{0.0, 0.0, 1.0}});
+    EXPECT_TRUE(extract().moves);
+}
+
+TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
+    world.registry.add(camera, scene::AngularVelocity{{0.0, 0.1, 0.0}});
+    request.exposure = {0.0, 0.0, 1.0, 0.0};
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.moves);
+    const math::vec4 ahead(0.0f, 0.0f, -1.0f, 0.0f);
+    const math::vec4 open = frame.constants.clipFromDirectionOpen * ahead;
+    const math::vec4 close = frame.constants.clipFromDirectionClose * ahead;
+    EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
+    // Turned to the left by 0.1 rad: what was ahead is now seen at the right.
+    const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
+    EXPECT_NEAR(close.x / close.w, std::tan(0.1) * focal, 1e-5);
+}
+
+TEST_F(Extraction, AMovingCameraSeesAStillEntityFromWhereItIsAtEachInstant) {
+    world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    addBox({0.0, 0.0, -10.0});
+    request.exposure = {0.0, 0.25, 1.0, 0.25};
+    const ExtractedFrame frame = extract();
+    const shader::EntityRow& row = frame.entities.at(0);
+    const shader::EntityMotion motion = motionOf(frame, 0);
+    const math::vec3 centre(0.0f);
+    const double perMetre = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0 / 10.0;
+    EXPECT_NEAR(project(motion.clipFromObjectOpen, centre).x, 0.0, 1e-6);
+    EXPECT_NEAR(project(row.clipFromObjectRaster, centre).x, -0.25 * perMetre, 1e-6);
+    EXPECT_NEAR(project(motion.clipFromObjectClose, centre).x, -perMetre, 1e-6);
+}
+
+TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
+    const ecs::Entity box = addBox({0.0, 0.0, -10.0});
+    world.registry.add(box, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    using scene::ShutterPhase;
+    for (const auto& [phase, open, close] :
+         {std::tuple{ShutterPhase::Start, 5.0, 5.5},
+          std::tuple{ShutterPhase::Centre, 4.75, 5.25},
+          std::tuple{ShutterPhase::End, 4.5, 5.0}}) {
+        request.exposure = scene::computeExposure({0.5, phase}, 5.0);
+        const ExtractedFrame frame = extract();
+        const shader::EntityRow& row = frame.entities.at(0);
+        const shader::EntityMotion motion = motionOf(frame, 0);
+        EXPECT_NEAR(row.eyeFromObject[0].w, 5.0f, 1e-6f); // the frame's own time in all three
+        const auto x = [&](const math::mat4& matrix) { return double(matrix[3].x); };
+        const double perMetre = x(row.clipFromObjectRaster) / 5.0;
+        EXPECT_NEAR(x(motion.clipFromObjectOpen), open * perMetre, 1e-5);
+        EXPECT_NEAR(x(motion.clipFromObjectClose), close * perMetre, 1e-5);
+    }
+}
+
+TEST_F(Extraction, TheScaleOfACamerasNodeDoesNotCount) {
+    addBox({0.5, 0.25, -10.0});
+    math::Transform pose;
+    pose.translation = {0.1, 0.2, 0.3};
+    pose.rotation = glm::angleAxis(0.2, math::dvec3(0.0, 1.0, 0.0));
+    auto& transform = world.registry.get<scene::LocalTransform>(camera).transform;
+    transform = pose;
+    const ExtractedFrame plain = extract();
+    transform.scale = {3.0, 0.5, 20.0};
+    const ExtractedFrame scaled = extract();
+    expectNear(scaled.constants.clipFromEye, plain.constants.clipFromEye, kRounding);
+    expectNear(
+        scaled.entities[0].clipFromObjectRaster, plain.entities[0].clipFromObjectRaster, kRounding
+    );
+    EXPECT_NEAR(glm::length(math::vec3(scaled.constants.forward)), 1.0f, 1e-6f);
+}
+
+TEST_F(Extraction, EyeSpaceGoesToClipSpaceAndBack) {
+    addBox({0.5, 0.25, -10.0});
+    const ExtractedFrame frame = extract();
+    const math::vec4 centre(0.5f, 0.25f, -10.0f, 1.0f);
+    const math::vec4 clip = frame.constants.clipFromEye * centre;
+    EXPECT_NEAR(clip.x, (frame.entities[0].clipFromObjectRaster * math::vec4(0, 0, 0, 1)).x, 1e-6f);
+    EXPECT_NEAR(clip.w, 10.0f, 1e-5f); // the distance
+    const math::vec4 back = frame.constants.eyeFromClip * clip;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(back[i] / back.w, centre[i], 1e-4f);
+}
+
+TEST_F(Extraction, APerspectivePixelGrowsWithDistance) {
+    const shader::FrameConstants constants = extract().constants;
+    EXPECT_EQ(constants.sizePx, math::vec2(200.0f, 100.0f));
+    EXPECT_NEAR(constants.pixelFootprint.x, 2.0 * std::tan(0.4) / 100.0, 1e-7);
+    EXPECT_EQ(constants.pixelFootprint.y, 0.0f);
+    EXPECT_FLOAT_EQ(constants.forward.w, 0.05f); // the near plane
+}
+
+TEST_F(Extraction, AnOrthographicCameraSeesOneSizeAtEveryDistance) {
+    auto& lens = world.registry.get<scene::Camera>(camera);
+    lens.kind = scene::CameraKind::Orthographic;
+    lens.yMag = 4.0;
+    lens.near = 1.0;
+    lens.far = 101.0;
+    addBox({2.0, 2.0, -10.0});
+    addBox({2.0, 2.0, -90.0});
+    addBox({2.0, 2.0, 10.0}); // behind
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entities.size(), 3u);
+    for (int i = 0; i < 2; ++i) {
+        const math::vec3 at = project(frame.entities[size_t(i)].clipFromObjectRaster, math::vec3());
+        EXPECT_NEAR(at.x, 0.25f, 1e-6f); // half width 4 * aspect 2
+        EXPECT_NEAR(at.y, -0.5f, 1e-6f); // up is negative in Vulkan
+    }
+    EXPECT_EQ(frame.opaque.size(), 2u);
+    EXPECT_EQ(frame.constants.pixelFootprint, math::vec2(0.0f, 0.08f));
+    EXPECT_EQ(frame.constants.forward.w, 0.5f);
+}
+
+TEST_F(Extraction, JitterMovesTheSampleByThatPartOfAPixelAndLeavesMotionAlone) {
+    addBox({0.5, 0.25, -10.0});
+    const ExtractedFrame straight = extract();
+    request.jitterPx = {0.25, -0.5};
+    const ExtractedFrame jittered = extract();
+    // The sample moves right and up, so the picture moves left and down.
+    const math::vec3 moved = project(jittered.entities[0].clipFromObjectRaster, math::vec3()) -
+                             project(straight.entities[0].clipFromObjectRaster, math::vec3());
+    EXPECT_NEAR(moved.x * 100.0f, -0.25f, 1e-4f); // half of the width: NDC to pixels
+    EXPECT_NEAR(moved.y * 50.0f, 0.5f, 1e-4f);
+    EXPECT_EQ(jittered.entities[0].motion, shader::kNoMotion);
+    EXPECT_FALSE(jittered.moves);
+    const ecs::Entity mover = addBox({0.5, 0.25, -10.0});
+    world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    const shader::EntityMotion motion = motionOf(extract(), 1);
+    request.jitterPx = math::dvec2(0.0);
+    const shader::EntityMotion expected = motionOf(extract(), 1);
+    EXPECT_EQ(motion.clipFromObjectOpen, expected.clipFromObjectOpen);
+    EXPECT_EQ(motion.clipFromObjectClose, expected.clipFromObjectClose);
+    EXPECT_NE(motion.clipFromObjectOpen, motion.clipFromObjectClose);
+}
+
+TEST_F(Extraction, AThousandKilometresFromTheOriginAllIsAsAtTheOrigin) {
+    const auto build = [&](const math::dvec3& origin) {
+        world = scene::World{};
+        math::Transform pose;
+        pose.translation = origin;
+        pose.rotation = glm::angleAxis(0.3, math::dvec3(0.0, 1.0, 0.0));
+        request.camera = addCamera(pose);
+        world.registry.add(request.camera, scene::LinearVelocity{{0.25, 0.0, 0.5}});
+        const ecs::Entity box = addBox(origin + math::dvec3(-3.0, 0.25, -10.0));
+        world.registry.add(box, scene::LinearVelocity{{0.5, 0.125, 0.0}});
+        return extract();
+    };
+    const ExtractedFrame near = build(math::dvec3(0.0));
+    const ExtractedFrame far = build({1.0e6, -1.0e6, 1.0e6});
+    ASSERT_EQ(far.opaque.size(), 1u);
+    const shader::EntityRow& a = near.entities[0];
+    const shader::EntityRow& b = far.entities[0];
+    const shader::EntityMotion nearMotion = motionOf(near, 0);
+    const shader::EntityMotion farMotion = motionOf(far, 0);
+    expectNear(farMotion.clipFromObjectOpen, nearMotion.clipFromObjectOpen, kRounding);
+    expectNear(b.clipFromObjectRaster, a.clipFromObjectRaster, kRounding);
+    expectNear(farMotion.clipFromObjectClose, nearMotion.clipFromObjectClose, kRounding);
+    expectNear(far.constants.clipFromEye, near.constants.clipFromEye, kRounding);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(b.eyeFromObject[i].w, a.eyeFromObject[i].w, 2e-6f);
+}
+
+TEST_F(Extraction, AStillSceneFarFromTheOriginDoesNotMove) {
+    math::Transform pose;
+    pose.translation = {1.0e6, 2.0e6, -3.0e6};
+    world.registry.get<scene::LocalTransform>(camera).transform = pose;
+    addBox(pose.translation + math::dvec3(0.0, 0.0, -10.0));
+    EXPECT_FALSE(extract().moves);
+}
+
+TEST_F(Extraction, ALightIsWhereItsEntityIsSeenFromTheCamera) {
+    math::Transform pose;
+    pose.translation = {0.0, 0.0, 7.0};
+    world.registry.get<scene::LocalTransform>(camera).transform = pose;
+    const ecs::Entity lamp = world.registry.create();
+    math::Transform place;
+    place.translation = {1.0, 2.0, 3.0};
+    place.rotation = glm::angleAxis(glm::radians(90.0), math::dvec3(0.0, 1.0, 0.0));
+    place.scale = math::dvec3(4.0);
+    world.registry.add(lamp, scene::LocalTransform{place});
+    scene::Light light;
+    light.kind = scene::LightKind::Spot;
+    light.color = {1.0f, 0.5f, 0.25f};
+    light.intensity = 8.0f;
+    light.range = 20.0f;
+    light.innerConeAngle = 0.2f;
+    light.outerConeAngle = 0.6f;
+    world.registry.add(lamp, light);
+    const ExtractedFrame frame = extract();
+    EXPECT_EQ(frame.constants.lightCount, 1u);
+    const shader::LightRow& row = frame.lights.at(0);
+    EXPECT_EQ(row.positionRange, math::vec4(1.0f, 2.0f, -4.0f, 20.0f));
+    EXPECT_EQ(row.kind, shader::kLightSpot);
+    EXPECT_NEAR(row.direction.x, -1.0f, 1e-6f); // -Z turned a quarter to the left
+    EXPECT_NEAR(row.direction.z, 0.0f, 1e-6f);
+    EXPECT_EQ(row.radiance, math::vec4(8.0f, 4.0f, 2.0f, 0.0f));
+    // Full inside the inner cone, dark from the outer one on.
+    EXPECT_NEAR(std::cos(0.2f) * row.spotScale + row.spotOffset, 1.0f, 1e-5f);
+    EXPECT_NEAR(std::cos(0.6f) * row.spotScale + row.spotOffset, 0.0f, 1e-5f);
+}
+
+TEST_F(Extraction, ALightWithoutLimitsHasRangeZeroAndASharpConeStaysFinite) {
+    const ecs::Entity lamp = world.registry.create();
+    scene::Light light;
+    light.kind = scene::LightKind::Spot;
+    light.innerConeAngle = light.outerConeAngle = 0.5f;
+    world.registry.add(lamp, light);
+    const shader::LightRow row = extract().lights.at(0);
+    EXPECT_EQ(row.positionRange.w, 0.0f);
+    EXPECT_TRUE(std::isfinite(row.spotScale) && std::isfinite(row.spotOffset));
+}
+
+TEST_F(Extraction, WhatIsAskedForStandsInTheConstants) {
+    request.background = {0.1f, 0.2f, 0.3f};
+    request.ambient = {0.4f, 0.5f, 0.6f};
+    request.lodBias = -1.5f;
+    EXPECT_EQ(extract().constants.flags, 0u);
+    request.unlit = true;
+    const shader::FrameConstants constants = extract().constants;
+    EXPECT_EQ(math::vec3(constants.background), request.background);
+    EXPECT_EQ(math::vec3(constants.ambient), request.ambient);
+    EXPECT_EQ(constants.lodBias, -1.5f);
+    EXPECT_EQ(constants.flags, shader::kFrameUnlit);
+}
+
+} // namespace shutter::extract
