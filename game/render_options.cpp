@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/render_options.h"
 
+#include "engine/core/setting_row.h"
 #include "engine/io/image_file.h"
 #include "game/film.h"
 #include "game/setting_options.h"
@@ -54,7 +55,7 @@ Result<math::vec3> parseColor(const char* option, const std::string& text) {
     if (parts.size() != 3)
         return makeError("{} '{}' is not R,G,B", option, text);
     for (int i = 0; i < 3; ++i) {
-        const auto value = parseNumber(parts[static_cast<size_t>(i)]);
+        const auto value = core::parseNumber(parts[static_cast<size_t>(i)]);
         if (!value || *value < 0.0 || *value > double(shader::kMaxColor))
             return makeError(
                 "{} '{}' is not R,G,B of numbers in [0, {}]", option, text, shader::kMaxColor

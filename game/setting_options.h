@@ -18,11 +18,8 @@ inline constexpr double kMaxSeconds = 1.0e9;
 /// The parts between separators: one more than there are, empty ones too.
 [[nodiscard]] std::vector<std::string> splitAt(const std::string& text, char separator);
 
-/// A whole string as a finite number.
-[[nodiscard]] std::optional<double> parseNumber(const std::string& text);
-
-/// Names are MotionBlurSettings' fields (setting_table.h), and only those that the method reads.
-/// Error: names what was typed wrongly, or the range that the value is not in.
+/// Names are MotionBlurSettings' fields (motion_blur/setting_rows.h), and only those that the
+/// method reads. Error: names what was typed wrongly, or the range that the value is not in.
 [[nodiscard]] core::Status applySetting(
     const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
 );

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/shutter_options.h"
 
+#include "engine/core/setting_row.h"
 #include "engine/scene/shutter.h"
 #include "game/setting_options.h"
 
@@ -127,7 +128,7 @@ Status parseResponse(const std::string& text, scene::ShutterResponse& response) 
     std::vector<double> numbers;
     if (colon != std::string::npos)
         for (const std::string& part : splitAt(text.substr(colon + 1), ',')) {
-            const auto number = parseNumber(part);
+            const auto number = core::parseNumber(part);
             if (!number)
                 return makeError("--response '{}': '{}' is not a number", text, part);
             numbers.push_back(*number);

@@ -193,7 +193,7 @@ void drawSettingSection(PlaySettings& settings) {
     const auto draw = [&](const char* id, bool wanted) {
         if (!beginRows(id))
             return;
-        for (const auto& row : listBlurRows())
+        for (const auto& row : motion_blur::listSettingRows())
             if (read.contains(row.name) == wanted)
                 drawRow(row, settings.blur, kDefaults);
         endRows();
@@ -204,7 +204,8 @@ void drawSettingSection(PlaySettings& settings) {
         draw("read", true);
     if (!read.empty())
         drawRows("budget", listBudgetRows(), settings.budget);
-    if (read.size() == listBlurRows().size() || !ImGui::TreeNode("Of other methods"))
+    if (read.size() == motion_blur::listSettingRows().size() ||
+        !ImGui::TreeNode("Of other methods"))
         return;
     ImGui::BeginDisabled();
     draw("unread", false);

@@ -16,9 +16,9 @@ constexpr std::string_view kShapes[] = {"box", "triangle", "trapezoid", "samples
 
 } // namespace
 
-std::span<const SettingRow<PlaySettings>> listPlayRows() {
+std::span<const core::SettingRow<PlaySettings>> listPlayRows() {
     using S = PlaySettings;
-    static const std::vector<SettingRow<S>> kRows = {
+    static const std::vector<core::SettingRow<S>> kRows = {
         {"cameraBlurScale",
          &S::cameraBlurScale,
          "",
@@ -57,8 +57,8 @@ std::span<const SettingRow<PlaySettings>> listPlayRows() {
     return kRows;
 }
 
-std::span<const SettingRow<BlurBudget>> listBudgetRows() {
-    static const std::vector<SettingRow<BlurBudget>> kRows = {
+std::span<const core::SettingRow<BlurBudget>> listBudgetRows() {
+    static const std::vector<core::SettingRow<BlurBudget>> kRows = {
         {"milliseconds",
          &BlurBudget::milliseconds,
          "ms",
@@ -66,19 +66,19 @@ std::span<const SettingRow<BlurBudget>> listBudgetRows() {
           .highest = 1e6,
           .isUnlimited = true,
           .isLogarithmic = true,
-          .slideLowest = 0.1,
-          .slideHighest = 100},
+          .sliderLowest = 0.1,
+          .sliderHighest = 100},
          "GPU time that the blur may take of a frame. It gives up resolution, rays and samples, in "
          "the end itself, to stay within."},
     };
     return kRows;
 }
 
-std::span<const SettingRow<CameraShutter>> listShutterRows() {
+std::span<const core::SettingRow<CameraShutter>> listShutterRows() {
     using S = CameraShutter;
-    static const std::vector<SettingRow<S>> kRows = {
+    static const std::vector<core::SettingRow<S>> kRows = {
         {"mode",
-         makeWordField<&S::mode>(kModes),
+         core::makeWordField<&S::mode>(kModes),
          "",
          {},
          "What the exposure's length follows: seconds; a share of the frame; that share, but never "
@@ -86,7 +86,7 @@ std::span<const SettingRow<CameraShutter>> listShutterRows() {
         {"angleDegrees",
          &S::angleDegrees,
          "degrees",
-         {.lowest = 0, .highest = 3600, .slideHighest = 720},
+         {.lowest = 0, .highest = 3600, .sliderHighest = 720},
          "Of modes angle and capped: 360 is the whole frame, 180 the half that film has."},
         {"referenceFps",
          &S::referenceFps,
@@ -96,10 +96,10 @@ std::span<const SettingRow<CameraShutter>> listShutterRows() {
         {"exposureSeconds",
          &S::exposureSeconds,
          "s",
-         {.lowest = 0, .highest = 10, .isLogarithmic = true, .slideHighest = 1},
+         {.lowest = 0, .highest = 10, .isLogarithmic = true, .sliderHighest = 1},
          "Of mode physical: length of the exposure. 0 is sharp."},
         {"phase",
-         makeWordField<&S::phase>(kPhases),
+         core::makeWordField<&S::phase>(kPhases),
          "",
          {},
          "Where in the exposure the raster image lies."},
@@ -121,18 +121,18 @@ std::span<const SettingRow<CameraShutter>> listShutterRows() {
         {"maxBlurPercent",
          &S::maxBlurPercent,
          "%",
-         {.lowest = 0, .highest = 1000, .isUnlimited = true, .slideHighest = 20},
+         {.lowest = 0, .highest = 1000, .isUnlimited = true, .sliderHighest = 20},
          "Longest way across the picture, of its width. What moves farther moves less; measuring "
          "it draws the picture up to four times more."},
     };
     return kRows;
 }
 
-std::span<const SettingRow<ShutterResponse>> listResponseRows() {
+std::span<const core::SettingRow<ShutterResponse>> listResponseRows() {
     using S = ShutterResponse;
-    static const std::vector<SettingRow<S>> kRows = {
+    static const std::vector<core::SettingRow<S>> kRows = {
         {"shape",
-         makeWordField<&S::shape>(kShapes),
+         core::makeWordField<&S::shape>(kShapes),
          "",
          {},
          "How sensitive the sensor is over the exposure."},
@@ -150,9 +150,9 @@ std::span<const SettingRow<ShutterResponse>> listResponseRows() {
     return kRows;
 }
 
-std::span<const SettingRow<CutDetection>> listCutRows() {
+std::span<const core::SettingRow<CutDetection>> listCutRows() {
     using S = CutDetection;
-    static const std::vector<SettingRow<S>> kRows = {
+    static const std::vector<core::SettingRow<S>> kRows = {
         {"enabled", &S::enabled, "", {}, "A camera that jumps is cut: that frame stays sharp."},
         {"degrees",
          &S::degrees,
@@ -162,7 +162,7 @@ std::span<const SettingRow<CutDetection>> listCutRows() {
         {"metres",
          &S::metres,
          "m",
-         {.lowest = 0.001, .highest = 1e6, .isLogarithmic = true, .slideHighest = 100},
+         {.lowest = 0.001, .highest = 1e6, .isLogarithmic = true, .sliderHighest = 100},
          "Smallest displacement that is a cut."},
     };
     return kRows;

@@ -32,7 +32,7 @@ Status validateRowsOfAll(const PlaySettings& settings) {
     const Status checks[] = {
         validateRows(listPlayRows(), settings, ""),
         validateRows(listBudgetRows(), settings.budget, "budget."),
-        validateRows(listBlurRows(), settings.blur, "blur."),
+        validateRows(motion_blur::listSettingRows(), settings.blur, "blur."),
         validateRows(listShutterRows(), settings.shutter, "shutter."),
         validateRows(listResponseRows(), settings.shutter.response, "shutter.response."),
         validateRows(listCutRows(), settings.shutter.cuts, "shutter.cuts."),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // README.md, "Presets", says what each costs.
+#include "engine/core/setting_row.h"
 #include "game/play/play_settings.h"
-#include "game/setting_table.h"
+#include "modules/motion_blur/setting_rows.h"
 
 namespace shutter::game {
 
@@ -78,7 +79,8 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
     return settings.method == preset.method &&
-           (isSharp(preset) || areEqual(listBlurRows(), settings.blur, preset.blur));
+           (isSharp(preset) || areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur)
+           );
 }
 
 } // namespace shutter::game

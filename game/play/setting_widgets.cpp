@@ -15,7 +15,7 @@ double orElse(double value, double fallback) {
 }
 
 /// Of the slider; what may be unlimited has no highest value to show.
-std::string describeShortly(const NumberRange& range) {
+std::string describeShortly(const core::NumberRange& range) {
     if (range.isUnlimited)
         return fmt::format("from {:g}", range.lowest);
     return fmt::format("{:g} to {:g}", range.lowest, range.highest);
@@ -55,12 +55,12 @@ std::string makeFormat(const char* number, const char* unit) {
     return fmt::format("{} {}", number, name == "%" ? "%%" : name);
 }
 
-bool slide(const NumberRange& range, const char* unit, double& value) {
+bool slide(const core::NumberRange& range, const char* unit, double& value) {
     ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
     if (range.isLogarithmic)
         flags |= ImGuiSliderFlags_Logarithmic;
-    const double lowest = orElse(range.slideLowest, range.lowest);
-    const double highest = orElse(range.slideHighest, range.highest);
+    const double lowest = orElse(range.sliderLowest, range.lowest);
+    const double highest = orElse(range.sliderHighest, range.highest);
     ImGui::SetNextItemWidth(-std::numeric_limits<float>::min());
     if (range.step == 0.0)
         return ImGui::SliderScalar(
@@ -93,7 +93,12 @@ void showUnlimited() {
     double nothing = 0.0;
     const double end = 1.0;
     ImGui::SliderScalar(
-        "##value", ImGuiDataType_Double, &nothing, &nothing, &end, std::string(kUnlimited).c_str()
+        "##value",
+        ImGuiDataType_Double,
+        &nothing,
+        &nothing,
+        &end,
+        std::string(core::kUnlimited).c_str()
     );
     ImGui::EndDisabled();
 }
@@ -126,7 +131,7 @@ void drawTooltip(const std::string& text) {
     ImGui::EndTooltip();
 }
 
-double snapToRange(const NumberRange& range, double value) {
+double snapToRange(const core::NumberRange& range, double value) {
     const double clamped = std::clamp(value, range.lowest, range.highest);
     if (range.step == 0.0)
         return clamped;
@@ -134,7 +139,7 @@ double snapToRange(const NumberRange& range, double value) {
     return range.lowest + range.step * std::floor((clamped - range.lowest) / range.step);
 }
 
-WidgetEvent drawNumber(const WidgetLook& look, const NumberRange& range, double& value) {
+WidgetEvent drawNumber(const WidgetLook& look, const core::NumberRange& range, double& value) {
     beginRow(look);
     drawTooltip(describeAtLength(look, &range));
     ImGui::TableNextColumn();
@@ -143,11 +148,11 @@ WidgetEvent drawNumber(const WidgetLook& look, const NumberRange& range, double&
     if (range.isUnlimited) {
         bool isLimited = std::isfinite(value);
         if (ImGui::Checkbox("##limited", &isLimited)) {
-            chosen = isLimited ? orElse(range.slideHighest, range.highest)
+            chosen = isLimited ? orElse(range.sliderHighest, range.highest)
                                : std::numeric_limits<double>::infinity();
             changed = true;
         }
-        drawTooltip(fmt::format("On: a limit. Off: {}.", kUnlimited));
+        drawTooltip(fmt::format("On: a limit. Off: {}.", core::kUnlimited));
         ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     }
     if (std::isfinite(chosen)) {

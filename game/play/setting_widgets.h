@@ -2,7 +2,8 @@
 // A widget a row of settings: name, value with its unit, range, and a tooltip that says more.
 #pragma once
 
-#include "game/setting_table.h"
+#include "engine/core/setting_row.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <cstdint>
 #include <span>
@@ -32,7 +33,7 @@ void endRows();
 /// The value, where it changed, lies in the range: what a player types beyond it is clamped, and
 /// what is no number is dropped.
 [[nodiscard]] WidgetEvent
-drawNumber(const WidgetLook& look, const NumberRange& range, double& value);
+drawNumber(const WidgetLook& look, const core::NumberRange& range, double& value);
 [[nodiscard]] WidgetEvent
 drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size_t& index);
 [[nodiscard]] WidgetEvent drawSwitch(const WidgetLook& look, bool& value);
@@ -41,18 +42,18 @@ drawChoice(const WidgetLook& look, std::span<const std::string_view> words, size
 void drawTooltip(const std::string& text);
 
 /// A slider's whole number in steps, or the value itself where the range has no steps.
-[[nodiscard]] double snapToRange(const NumberRange& range, double value);
+[[nodiscard]] double snapToRange(const core::NumberRange& range, double value);
 
 /// The row's field as a widget. \param defaults where a click with the right button leads
 template <class Owner>
-void drawRow(const SettingRow<Owner>& row, Owner& owner, const Owner& defaults) {
+void drawRow(const core::SettingRow<Owner>& row, Owner& owner, const Owner& defaults) {
     const WidgetLook look{row.name, row.unit, row.meaning, describeValue(row, defaults)};
     if (const auto* yes = std::get_if<bool Owner::*>(&row.field)) {
         if (drawSwitch(look, owner.**yes) == WidgetEvent::Reset)
             owner.** yes = defaults.**yes;
         return;
     }
-    if (const auto* words = std::get_if<WordField<Owner>>(&row.field)) {
+    if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field)) {
         size_t index = words->get(owner);
         const WidgetEvent event = drawChoice(look, words->words, index);
         if (event != WidgetEvent::None)
@@ -69,22 +70,22 @@ void drawRow(const SettingRow<Owner>& row, Owner& owner, const Owner& defaults) 
 template <class Owner>
 void drawRows(
     const char* id,
-    std::span<const SettingRow<Owner>> rows,
+    std::span<const core::SettingRow<Owner>> rows,
     Owner& owner,
     const Owner& defaults = Owner{}
 ) {
     if (!beginRows(id))
         return;
-    for (const SettingRow<Owner>& row : rows)
+    for (const core::SettingRow<Owner>& row : rows)
         drawRow(row, owner, defaults);
     endRows();
 }
 
 /// The row of that name (CHECKed).
 template <class Owner>
-[[nodiscard]] const SettingRow<Owner>&
-findRow(std::span<const SettingRow<Owner>> rows, std::string_view name) {
-    for (const SettingRow<Owner>& row : rows)
+[[nodiscard]] const core::SettingRow<Owner>&
+findRow(std::span<const core::SettingRow<Owner>> rows, std::string_view name) {
+    for (const core::SettingRow<Owner>& row : rows)
         if (row.name == name)
             return row;
     SHUTTER_CHECK(false, "there is no row {}", name);

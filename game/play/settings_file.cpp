@@ -17,13 +17,13 @@ using scene::ShutterResponse;
 
 constexpr int64_t kVersion = 1;
 
-template <class Owner> using Rows = std::span<const SettingRow<Owner>>;
+template <class Owner> using Rows = std::span<const core::SettingRow<Owner>>;
 
 template <class Owner>
-void readNumber(io::JsonNode node, const SettingRow<Owner>& row, Owner& owner) {
-    const NumberRange& range = row.range;
+void readNumber(io::JsonNode node, const core::SettingRow<Owner>& row, Owner& owner) {
+    const core::NumberRange& range = row.range;
     if (range.isUnlimited && node.isString()) {
-        (void)node.readWord(std::span(&kUnlimited, 1));
+        (void)node.readWord(std::span(&core::kUnlimited, 1));
         setNumber(row, owner, std::numeric_limits<double>::infinity());
         return;
     }
@@ -35,10 +35,10 @@ void readNumber(io::JsonNode node, const SettingRow<Owner>& row, Owner& owner) {
 }
 
 template <class Owner>
-void readRow(const io::JsonNode& node, const SettingRow<Owner>& row, Owner& owner) {
+void readRow(const io::JsonNode& node, const core::SettingRow<Owner>& row, Owner& owner) {
     if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
         owner.** yes = node.readBoolean();
-    else if (const auto* words = std::get_if<WordField<Owner>>(&row.field))
+    else if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field))
         words->set(owner, node.readWord(words->words));
     else
         readNumber(node, row, owner);
@@ -53,10 +53,10 @@ io::JsonObject readRows(
     std::vector<std::string_view> more = {}
 ) {
     std::vector<std::string_view> names = std::move(more);
-    for (const SettingRow<Owner>& row : rows)
+    for (const core::SettingRow<Owner>& row : rows)
         names.push_back(row.name);
     const io::JsonObject object = node.readObject(std::span<const std::string_view>(names));
-    for (const SettingRow<Owner>& row : rows)
+    for (const core::SettingRow<Owner>& row : rows)
         if (const auto value = object.find(row.name))
             readRow(*value, row, owner);
     return object;
@@ -107,21 +107,21 @@ PlaySettings readSettings(const io::JsonNode& root) {
     if (const auto budget = object.find("budget"))
         readRows(*budget, listBudgetRows(), settings.budget);
     if (const auto blur = object.find("blur"))
-        readRows(*blur, listBlurRows(), settings.blur);
+        readRows(*blur, motion_blur::listSettingRows(), settings.blur);
     if (const auto shutter = object.find("shutter"))
         readShutter(*shutter, settings.shutter);
     return settings;
 }
 
 template <class Owner> void writeRows(io::JsonWriter& json, Rows<Owner> rows, const Owner& owner) {
-    for (const SettingRow<Owner>& row : rows) {
+    for (const core::SettingRow<Owner>& row : rows) {
         json.key(row.name);
         if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
             json.value(owner.**yes);
-        else if (std::holds_alternative<WordField<Owner>>(row.field))
+        else if (std::holds_alternative<core::WordField<Owner>>(row.field))
             json.value(describeValue(row, owner));
         else if (const double number = getNumber(row, owner); std::isinf(number))
-            json.value(kUnlimited);
+            json.value(core::kUnlimited);
         else
             json.value(number);
     }
@@ -138,7 +138,7 @@ io::JsonWriter describe(const PlaySettings& settings) {
     json.key("budget").beginObject();
     writeRows(json, listBudgetRows(), settings.budget);
     json.endObject().key("blur").beginObject();
-    writeRows(json, listBlurRows(), settings.blur);
+    writeRows(json, motion_blur::listSettingRows(), settings.blur);
     json.endObject().key("shutter").beginObject();
     writeRows(json, listShutterRows(), shutter);
     json.key("response").beginObject();

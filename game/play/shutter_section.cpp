@@ -139,8 +139,9 @@ void drawResponse(ShutterResponse& response) {
     static const ShutterResponse kDefaults;
     if (beginRows("response")) {
         for (const auto& row : listResponseRows()) {
-            const bool isRead = std::holds_alternative<WordField<ShutterResponse>>(row.field) ||
-                                response.shape == ResponseShape::Trapezoid;
+            const bool isRead =
+                std::holds_alternative<core::WordField<ShutterResponse>>(row.field) ||
+                response.shape == ResponseShape::Trapezoid;
             ImGui::BeginDisabled(!isRead);
             drawRow(row, response, kDefaults);
             ImGui::EndDisabled();

@@ -2,6 +2,7 @@
 #include "modules/motion_blur/settings.h"
 
 #include "engine/core/check.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <algorithm>
 #include <vector>
@@ -9,15 +10,6 @@
 namespace shutter::motion_blur {
 
 namespace {
-
-template <class T> core::Status requireRange(const char* field, T value, T lowest, T highest) {
-    // Written so that NaN fails.
-    if (value >= lowest && value <= highest)
-        return {};
-    return core::makeError(
-        "motion blur: {} is {}, it must lie in [{}, {}]", field, value, lowest, highest
-    );
-}
 
 /// Guertin and Jimenez look tiles up to a quarter of a tile away (tileJitter()); a smear of Jimenez
 /// fades over one tap's distance beyond its end.
@@ -80,41 +72,7 @@ std::span<const std::string_view> listSettings(Method method) {
 }
 
 core::Status validate(const MotionBlurSettings& settings) {
-    const core::Status checks[] = {
-        requireRange("tileSizePx", settings.tileSizePx, 1u, 256u),
-        requireRange("neighbourhoodTiles", settings.neighbourhoodTiles, 1u, 15u),
-        requireRange("sampleCount", settings.sampleCount, 1u, 256u),
-        requireRange("softDepthExtent", settings.softDepthExtent, 1e-6f, 1e6f),
-        requireRange("edgeThreshold", settings.edgeThreshold, 0.0f, 1.0f),
-        requireRange("recursionLimit", settings.recursionLimit, 1u, 64u),
-        requireRange("luminanceThreshold", settings.luminanceThreshold, 0.0f, 1e6f),
-        requireRange("foregroundMagnification", settings.foregroundMagnification, 1.0f, 1000.0f),
-        requireRange("backgroundMagnification", settings.backgroundMagnification, 1.0f, 100.0f),
-        requireRange("jitter", settings.jitter, 0.0f, 1.0f),
-        requireRange("centreBias", settings.centreBias, 1.0f, 1000.0f),
-        requireRange("speedThresholdPx", settings.speedThresholdPx, 1e-3f, 100.0f),
-        requireRange("filterLevels", settings.filterLevels, 0u, 8u),
-        requireRange("luminanceSigma", settings.luminanceSigma, 0.01f, 100.0f),
-        requireRange("uniformMotionPx", settings.uniformMotionPx, 0.0f, 16.0f),
-        requireRange("rayShare", settings.rayShare, 0.0f, 1.0f),
-        requireRange(
-            "halfResolutionPx",
-            settings.halfResolutionPx,
-            2.0f,
-            std::numeric_limits<float>::infinity()
-        ),
-        requireRange(
-            "maxMotionDepth", settings.maxMotionDepth, 0.0f, std::numeric_limits<float>::infinity()
-        ),
-    };
-    for (const core::Status& check : checks)
-        if (!check)
-            return check;
-    if (settings.neighbourhoodTiles % 2 == 0)
-        return core::makeError(
-            "motion blur: neighbourhoodTiles is {}, it must be odd", settings.neighbourhoodTiles
-        );
-    return {};
+    return core::validateRows(listSettingRows(), settings, "motion blur: ");
 }
 
 shader::MotionBlurParams

@@ -140,9 +140,9 @@ TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
             );
         }
         const auto same = [&](auto rows, const auto& a, const auto& b) {
-            EXPECT_TRUE(game::areEqual(rows, a, b)) << given.method;
+            EXPECT_TRUE(core::areEqual(rows, a, b)) << given.method;
         };
-        same(game::listBlurRows(), given.blur, settings.blur);
+        same(motion_blur::listSettingRows(), given.blur, settings.blur);
         EXPECT_EQ(settings.method, given.method);
         EXPECT_EQ(settings.shutter.response.openShare, given.shutter.response.openShare);
         EXPECT_EQ(settings.shutter.response.closeShare, given.shutter.response.closeShare);
@@ -182,7 +182,7 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
         const core::Status valid = game::validate(settings);
         ASSERT_TRUE(valid.ok()) << "frame " << frame << ": " << valid.error().message;
         settings.showPanel = true;
-        changed += !game::areEqual(game::listBlurRows(), before.blur, settings.blur);
+        changed += !core::areEqual(motion_blur::listSettingRows(), before.blur, settings.blur);
     }
     EXPECT_GT(changed, 10) << "the clicks reached too little";
 }

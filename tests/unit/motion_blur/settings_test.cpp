@@ -26,39 +26,6 @@ core::Status validateWith(const Field& set) {
     return validate(settings);
 }
 
-struct NumberField {
-    const char* name;
-    float MotionBlurSettings::*field;
-    float lowest;
-    float highest;
-};
-
-const std::vector<NumberField> kNumbers = {
-    {"softDepthExtent", &MotionBlurSettings::softDepthExtent, 1e-6f, 1e6f},
-    {"edgeThreshold", &MotionBlurSettings::edgeThreshold, 0.0f, 0.99f},
-    {"luminanceThreshold", &MotionBlurSettings::luminanceThreshold, 0.0f, 1e6f},
-    {"foregroundMagnification", &MotionBlurSettings::foregroundMagnification, 1.0f, 1000.0f},
-    {"backgroundMagnification", &MotionBlurSettings::backgroundMagnification, 1.0f, 100.0f},
-    {"jitter", &MotionBlurSettings::jitter, 0.0f, 1.0f},
-    {"centreBias", &MotionBlurSettings::centreBias, 1.0f, 1000.0f},
-    {"speedThresholdPx", &MotionBlurSettings::speedThresholdPx, 0.001f, 100.0f},
-    {"uniformMotionPx", &MotionBlurSettings::uniformMotionPx, 0.0f, 16.0f},
-};
-
-struct CountField {
-    const char* name;
-    uint32_t MotionBlurSettings::*field;
-    uint32_t lowest;
-    uint32_t highest;
-};
-
-const std::vector<CountField> kCounts = {
-    {"tileSizePx", &MotionBlurSettings::tileSizePx, 1, 256},
-    {"neighbourhoodTiles", &MotionBlurSettings::neighbourhoodTiles, 1, 15},
-    {"sampleCount", &MotionBlurSettings::sampleCount, 1, 256},
-    {"recursionLimit", &MotionBlurSettings::recursionLimit, 1, 64},
-};
-
 } // namespace
 
 TEST(MotionBlurSettings, TheDefaultsAreThePapersAndValid) {
@@ -68,38 +35,6 @@ TEST(MotionBlurSettings, TheDefaultsAreThePapersAndValid) {
     EXPECT_EQ(settings.neighbourhoodTiles, 3u);
     EXPECT_EQ(settings.sampleCount, 15u);
     EXPECT_EQ(settings.recursionLimit, 5u);
-}
-
-TEST(MotionBlurSettings, BothEndsOfEveryRangeAreValid) {
-    for (const NumberField& number : kNumbers)
-        for (const float value : {number.lowest, number.highest})
-            EXPECT_TRUE(validateWith([&](auto& s) { s.*number.field = value; }).ok())
-                << number.name << " " << value;
-    for (const CountField& count : kCounts)
-        for (const uint32_t value : {count.lowest, count.highest})
-            EXPECT_TRUE(validateWith([&](auto& s) { s.*count.field = value; }).ok())
-                << count.name << " " << value;
-}
-
-TEST(MotionBlurSettings, ANumberOutsideItsRangeIsRefusedByName) {
-    for (const NumberField& number : kNumbers)
-        for (const float value :
-             {kNan, kInfinity, -kInfinity, -0.001f + number.lowest * 0.5f, 1e7f}) {
-            const core::Status valid = validateWith([&](auto& s) { s.*number.field = value; });
-            ASSERT_FALSE(valid.ok()) << number.name << " " << value;
-            EXPECT_NE(valid.error().message.find(number.name), std::string::npos)
-                << valid.error().message;
-        }
-}
-
-TEST(MotionBlurSettings, ACountOutsideItsRangeIsRefusedByName) {
-    for (const CountField& count : kCounts)
-        for (const uint32_t value : {0u, count.highest + 2, 0xFFFFFFFFu}) {
-            const core::Status valid = validateWith([&](auto& s) { s.*count.field = value; });
-            ASSERT_FALSE(valid.ok()) << count.name << " " << value;
-            EXPECT_NE(valid.error().message.find(count.name), std::string::npos)
-                << valid.error().message;
-        }
 }
 
 TEST(MotionBlurSettings, TheDepthLimitMayBeInfiniteButNotNegativeOrNoNumber) {
@@ -231,11 +166,6 @@ TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
             method == Method::Gather || method == Method::Hybrid
         );
     }
-    // Every field that has a name on the command line is some method's.
-    for (const NumberField& number : kNumbers)
-        EXPECT_TRUE(std::any_of(std::begin(methods), std::end(methods), [&](Method method) {
-            return reads(method, number.name);
-        })) << number.name;
 }
 
 TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {

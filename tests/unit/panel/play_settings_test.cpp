@@ -52,14 +52,14 @@ template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
     };
     each(game::listPlayRows(), settings, "");
     each(game::listBudgetRows(), settings.budget, "budget.");
-    each(game::listBlurRows(), settings.blur, "blur.");
+    each(motion_blur::listSettingRows(), settings.blur, "blur.");
     each(game::listShutterRows(), settings.shutter, "shutter.");
     each(game::listResponseRows(), settings.shutter.response, "shutter.response.");
     each(game::listCutRows(), settings.shutter.cuts, "shutter.cuts.");
 }
 
 /// Past the range, as any kind of number.
-template <class Owner> void force(const game::SettingRow<Owner>& row, Owner& owner, double value) {
+template <class Owner> void force(const core::SettingRow<Owner>& row, Owner& owner, double value) {
     if (const auto* whole = std::get_if<uint32_t Owner::*>(&row.field))
         owner.** whole = value < 0.0 ? UINT32_MAX : static_cast<uint32_t>(value);
     else if (const auto* single = std::get_if<float Owner::*>(&row.field))
@@ -166,7 +166,7 @@ TEST(PlaySettings, EveryFieldOutOfItsRangeIsNamed) {
     PlaySettings counted;
     int numbers = 0;
     visitRows(counted, [&](const auto& row, auto&, const std::string& prefix) {
-        if (!game::isNumber(row))
+        if (!core::isNumber(row))
             return;
         ++numbers;
         constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -23,7 +23,7 @@ class RandomSettings {
         settings.view = index(2) == 0 ? "" : "tiles \"\\ \xc3\xa9";
         fill(game::listPlayRows(), settings);
         fill(game::listBudgetRows(), settings.budget);
-        fill(game::listBlurRows(), settings.blur);
+        fill(motion_blur::listSettingRows(), settings.blur);
         fill(game::listShutterRows(), settings.shutter);
         scene::ShutterResponse& response = settings.shutter.response;
         fill(game::listResponseRows(), response);
@@ -49,7 +49,7 @@ class RandomSettings {
     }
 
     /// An end of the range, infinity, or anything between.
-    double pick(const game::NumberRange& range) {
+    double pick(const core::NumberRange& range) {
         switch (index(range.isUnlimited ? 4 : 3)) {
         case 0:
             return range.lowest;
@@ -67,14 +67,14 @@ class RandomSettings {
         }
     }
 
-    template <class Owner> void fill(std::span<const game::SettingRow<Owner>> rows, Owner& owner) {
+    template <class Owner> void fill(std::span<const core::SettingRow<Owner>> rows, Owner& owner) {
         for (const auto& row : rows)
             if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
                 owner.** yes = index(2) == 0;
-            else if (const auto* words = std::get_if<game::WordField<Owner>>(&row.field))
+            else if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field))
                 words->set(owner, index(words->words.size()));
             else
-                game::setNumber(row, owner, pick(row.range));
+                core::setNumber(row, owner, pick(row.range));
     }
 
     std::mt19937 mRandom;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "game/setting_table.h"
+#include "modules/motion_blur/setting_rows.h"
 
-#include <cstdlib>
+#include <vector>
 
-namespace shutter::game {
+namespace shutter::motion_blur {
 
 namespace {
 
-using motion_blur::MotionBlurSettings;
-using Row = SettingRow<MotionBlurSettings>;
+using core::makeWordField;
+using Row = core::SettingRow<MotionBlurSettings>;
 
 constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
 constexpr std::string_view kTraversals[] = {"single", "stepping"};
@@ -21,38 +21,46 @@ std::vector<Row> makeTapRows() {
          &S::sampleCount,
          "",
          {.lowest = 1, .highest = 256, .step = 1, .isLogarithmic = true},
-         "Taps of each gather. Time is proportional to it; too few show as noise."},
+         "Taps of each gather, or rays per pixel. Time is proportional to it; too few show "
+         "as noise.",
+         "Samples"},
         {"tileSizePx",
          &S::tileSizePx,
          "px",
          {.lowest = 1, .highest = 256, .step = 1},
-         "Longest blur. Larger tiles make more pixels gather."},
+         "Side of a tile, and the longest blur. Larger tiles make more pixels gather.",
+         "Tile size"},
         {"neighbourhoodTiles",
          &S::neighbourhoodTiles,
          "tiles",
          {.lowest = 1, .highest = 15, .step = 2},
-         "Side of the square of tiles whose longest motion is the dominant one. 1 lets blur end at "
-         "tile borders."},
+         "Side of the square of tiles whose longest motion is the dominant one. 1 lets "
+         "blur end at tile borders.",
+         "Neighbourhood"},
         {"jitter",
          &S::jitter,
          "",
          {.lowest = 0, .highest = 1},
-         "Of the taps, as a share of their distance. 0 gives bands instead of noise."},
+         "Random offset of the taps, as a share of their distance. 0 gives bands instead "
+         "of noise.",
+         "Jitter"},
         {"softDepthExtent",
          &S::softDepthExtent,
          "m",
          {.lowest = 1e-6,
           .highest = 1e6,
           .isLogarithmic = true,
-          .slideLowest = 1e-4,
-          .slideHighest = 10},
-         "Depth over which foreground and background mix."},
+          .sliderLowest = 1e-4,
+          .sliderHighest = 10},
+         "Depth difference over which foreground and background mix.",
+         "Soft depth"},
         {"uniformMotionPx",
          &S::uniformMotionPx,
          "px",
          {.lowest = 0, .highest = 16},
-         "Deviation from the dominant motion within which taps read colour only. 0 turns the fast "
-         "path off; higher is faster and less exact."},
+         "Deviation from the dominant motion within which taps read colour only. 0 turns "
+         "the fast path off; higher is faster and less exact.",
+         "Uniform motion"},
         {"halfResolutionPx",
          &S::halfResolutionPx,
          "px",
@@ -60,23 +68,27 @@ std::vector<Row> makeTapRows() {
           .highest = 1e6,
           .isUnlimited = true,
           .isLogarithmic = true,
-          .slideHighest = 256},
-         "Uniform motion from which two pixels along it share a value, which halves the taps."},
+          .sliderHighest = 256},
+         "Length of uniform motion from which two pixels along it share a value, which "
+         "halves the taps.",
+         "Half resolution from"},
         {"maxMotionDepth",
          &S::maxMotionDepth,
          "m",
          {.lowest = 0,
-          .highest = 1e6,
+          .highest = 1e9,
           .isUnlimited = true,
           .isLogarithmic = true,
-          .slideHighest = 10000},
-         "What is deeper along the view, the sky too, counts as still."},
+          .sliderHighest = 10000},
+         "Depth along the view beyond which everything, the sky included, counts as still.",
+         "Deepest motion"},
         {"foregroundMagnification",
          &S::foregroundMagnification,
          "x",
          {.lowest = 1, .highest = 1000, .isLogarithmic = true},
-         "Of the foreground's weight where the target lies deeper. The paper's 30 makes smears "
-         "opaque; 1 turns it off and is nearer to the truth."},
+         "Factor of the weight of a foreground over a deeper pixel. The paper's 30 makes "
+         "smears opaque; 1 turns it off and is closer to the truth.",
+         "Foreground weight"},
     };
 }
 
@@ -87,44 +99,52 @@ std::vector<Row> makeRayRows() {
          &S::backgroundMagnification,
          "x",
          {.lowest = 1, .highest = 100, .isLogarithmic = true},
-         "Of the weight of what rays revealed. 1 turns it off."},
+         "Factor of the weight of what rays revealed. 1 turns it off.",
+         "Background weight"},
         {"edgeThreshold",
          &S::edgeThreshold,
          "",
          {.lowest = 0, .highest = 1},
-         "Of the measure that makes an edge part of the ray mask. Higher: fewer rays."},
+         "Edge measure from which a pixel belongs to the ray mask. Higher: fewer rays.",
+         "Edge threshold"},
         {"rayShare",
          &S::rayShare,
          "",
          {.lowest = 0, .highest = 1},
-         "Of the masked pixels that trace a ray. Below 1 pixels share rays, below 1/4 parts of the "
-         "mask go without."},
+         "Share of the masked pixels that trace a ray. Below 1 pixels share rays; below "
+         "1/4 parts of the mask go without.",
+         "Share of rays"},
         {"objectTest",
          makeWordField<&S::objectTest>(kObjectTests),
          "",
          {},
-         "How a ray knows that it met another object: by its number, or by its luminance as in the "
-         "paper's implementation."},
+         "How a ray knows that it met another object: by its id, or by its luminance as in "
+         "the paper's implementation.",
+         "Object test"},
         {"revealTraversal",
          makeWordField<&S::revealTraversal>(kTraversals),
          "",
          {},
-         "How a ray gets past the object in front: in one traversal, or from hit to hit as in the "
-         "paper's implementation."},
+         "How a ray passes the object in front: in one traversal, or from hit to hit as in "
+         "the paper's implementation.",
+         "Traversal"},
         {"recursionLimit",
          &S::recursionLimit,
          "hits",
          {.lowest = 1, .highest = 64, .step = 1},
-         "Surfaces along a ray, with revealTraversal stepping or objectTest luminance."},
+         "Most surfaces along a ray, with revealTraversal stepping or objectTest "
+         "luminance.",
+         "Most hits"},
         {"luminanceThreshold",
          &S::luminanceThreshold,
          "",
          {.lowest = 0,
           .highest = 1e6,
           .isLogarithmic = true,
-          .slideLowest = 1e-4,
-          .slideHighest = 100},
-         "Smallest difference that objectTest luminance takes for another object, linear."},
+          .sliderLowest = 1e-4,
+          .sliderHighest = 100},
+         "Smallest linear difference that objectTest luminance takes for another object.",
+         "Luminance threshold"},
     };
 }
 
@@ -135,35 +155,41 @@ std::vector<Row> makeRivalRows() {
          makeWordField<&S::occluderTest>(kOccluderTests),
          "",
          {},
-         "Whether samples of what may be in front are dropped where their own motion does not "
-         "reach the pixel."},
+         "Whether samples that may lie in front are dropped where their own motion does "
+         "not reach the pixel.",
+         "Occluder test"},
         {"centreBias",
          &S::centreBias,
          "",
          {.lowest = 1, .highest = 1000, .isLogarithmic = true},
-         "Kappa: higher, and the pixel itself counts less."},
+         "Kappa: the higher it is, the less the pixel itself counts.",
+         "Centre bias"},
         {"speedThresholdPx",
          &S::speedThresholdPx,
          "px",
          {.lowest = 1e-3, .highest = 100, .isLogarithmic = true},
-         "Gamma: half motion above half a pixel from which the second direction is the pixel's "
-         "own."},
+         "Gamma: half velocity beyond half a pixel from which the second direction is the "
+         "pixel's own.",
+         "Speed threshold"},
         {"filterLevels",
          &S::filterLevels,
          "passes",
          {.lowest = 0, .highest = 8, .step = 1},
-         "Of the filter, each twice as wide as the one before. 0 leaves the noise."},
+         "Number of filter passes, each twice as wide as the one before. 0 leaves the "
+         "noise.",
+         "Filter passes"},
         {"luminanceSigma",
          &S::luminanceSigma,
          "deviations",
          {.lowest = 0.01, .highest = 100, .isLogarithmic = true},
-         "Standard deviations that count as noise. Higher is smoother."},
+         "Standard deviations of luminance that count as noise. Higher is smoother.",
+         "Luminance sigma"},
     };
 }
 
 } // namespace
 
-std::span<const Row> listBlurRows() {
+core::SettingRows<MotionBlurSettings> listSettingRows() {
     static const std::vector<Row> kRows = [] {
         std::vector<Row> rows = makeTapRows();
         for (const std::vector<Row>& more : {makeRayRows(), makeRivalRows()})
@@ -173,30 +199,4 @@ std::span<const Row> listBlurRows() {
     return kRows;
 }
 
-bool contains(const NumberRange& range, double value) {
-    if (range.isUnlimited && value == std::numeric_limits<double>::infinity())
-        return true;
-    // Written so that NaN is outside.
-    if (!(value >= range.lowest && value <= range.highest))
-        return false;
-    return range.step == 0.0 || std::fmod(value - range.lowest, range.step) == 0.0;
-}
-
-std::string describeRange(const NumberRange& range, const char* unit) {
-    std::string text = fmt::format("{:g} to {:g}", range.lowest, range.highest);
-    if (*unit != '\0')
-        text += fmt::format(" {}", unit);
-    if (range.step > 1.0)
-        text += fmt::format(" in steps of {:g}", range.step);
-    else if (range.step == 1.0)
-        text += ", whole";
-    if (range.isUnlimited)
-        text += fmt::format(" or {}", kUnlimited);
-    return text;
-}
-
-double shortestOf(float value) {
-    return std::strtod(fmt::format("{}", value).c_str(), nullptr);
-}
-
-} // namespace shutter::game
+} // namespace shutter::motion_blur
