@@ -16,6 +16,7 @@ function(shutter_target_defaults target)
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                           -Wno-missing-field-initializers # Vulkan structs are opened by sType alone
+                          -Wno-restrict # false in GCC 12: https://gcc.gnu.org/PR105651
                           -ffp-contract=off)
     if(SHUTTER_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
