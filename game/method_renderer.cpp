@@ -20,10 +20,9 @@ core::Status checkSize(const gpu::Device& device, const RenderOptions& options) 
             device.info().name,
             longest
         );
-    // The ray mask lists its pixels in one storage buffer.
-    const uint64_t listBytes = uint64_t(options.width) * options.height * 4 + 16;
-    if (options.method->family == MethodFamily::MotionBlur &&
-        options.method->rays != RayNeed::None && listBytes > device.limits().maxStorageBufferRange)
+    const uint64_t bytesPerPixel = options.method->blur ? options.method->blur->listBytesPerPixel : 0;
+    const uint64_t listBytes = uint64_t(options.width) * options.height * bytesPerPixel + 16;
+    if (listBytes > device.limits().maxStorageBufferRange)
         return core::makeError(
             "--size {}x{}: method {} needs a buffer of {} MiB, {} has at most {}",
             options.width,

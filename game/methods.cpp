@@ -3,100 +3,56 @@
 
 namespace shutter::game {
 
-std::span<const MethodInfo> listMethods() {
-    using motion_blur::Method;
-    static const std::vector<MethodInfo> kMethods = {
+namespace {
+
+MethodInfo describe(const motion_blur::Method& blur) {
+    return {
+        .name = blur.name,
+        .description = blur.description,
+        .publication = blur.publication,
+        .family = MethodFamily::MotionBlur,
+        .blur = &blur,
+        .rays = blur.rays,
+        .sampleUnit = blur.sampleUnit,
+        .defaultSamples = blur.defaultSamples,
+        .aovs = {blur.views.begin(), blur.views.end()}};
+}
+
+std::vector<MethodInfo> makeMethods() {
+    std::vector<MethodInfo> methods;
+    methods.push_back(
         {.name = "sharp",
          .description = "the raster image, no motion blur",
          .publication = "",
-         .family = MethodFamily::Sharp,
-         .blur = {},
-         .rays = RayNeed::None,
-         .dial = Dial::None,
-         .defaultSamples = 0,
-         .aovs = {}},
-        {.name = "own_velocity",
-         .description = "mean of samples along each pixel's own motion",
-         .publication = "three.js, Babylon.js; Bevy with occluderTest=velocity",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::OwnVelocity,
-         .rays = RayNeed::None,
-         .dial = Dial::Samples,
-         .defaultSamples = 16,
-         .aovs = {}},
-        {.name = "mcguire2012",
-         .description = "gather along dominant motion, soft depth test",
-         .publication = "McGuire, Hennessy, Bukowski, Osman 2012",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::McGuire2012,
-         .rays = RayNeed::None,
-         .dial = Dial::Samples,
-         .defaultSamples = 15,
-         .aovs = {"tiles"}},
-        {.name = "guertin2014",
-         .description = "gather along two directions, feature-aware",
-         .publication = "Guertin, McGuire, Nowrouzezahrai 2014",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::Guertin2014,
-         .rays = RayNeed::None,
-         .dial = Dial::Samples,
-         .defaultSamples = 35,
-         .aovs = {"tiles", "variance"}},
-        {.name = "jimenez2014",
-         .description = "scatter as you gather, mirrored weights",
-         .publication = "Jimenez 2014",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::Jimenez2014,
-         .rays = RayNeed::None,
-         .dial = Dial::Samples,
-         .defaultSamples = 8,
-         .aovs = {"tiles"}},
-        {.name = "gather",
-         .description = "gather along dominant motion (the paper's post-process)",
-         .publication = "Tan, Cui, Bhojan, Hybrid MBlur, post-process",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::Gather,
-         .rays = RayNeed::None,
-         .dial = Dial::Samples,
-         .defaultSamples = 15,
-         .aovs = {"tiles"}},
-        {.name = "hybrid",
-         .description = "gather with the background that rays reveal (the paper)",
-         .publication = "Tan, Cui, Bhojan, Hybrid MBlur",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::Hybrid,
-         .rays = RayNeed::Any,
-         .dial = Dial::Samples,
-         .defaultSamples = 15,
-         .aovs = {"tiles", "edge", "mask", "reveal"}},
-        {.name = "denoised",
-         .description = "a ray a pixel at a random time, filtered along the motion",
-         .publication = "Oberberger, Chajdas, Westermann 2022",
-         .family = MethodFamily::MotionBlur,
-         .blur = Method::Denoised,
-         .rays = RayNeed::Query,
-         .dial = Dial::Rays,
-         .defaultSamples = 1,
-         .aovs = {"tiles", "noisy"}},
+         .family = MethodFamily::Sharp}
+    );
+    for (const motion_blur::Method* blur : motion_blur::listMethods())
+        methods.push_back(describe(*blur));
+    methods.push_back(
         {.name = "accumulate",
          .description = "truth: sharp frames at many instants, averaged",
          .publication = "Haeberli and Akeley 1990",
          .family = MethodFamily::Accumulate,
-         .blur = {},
-         .rays = RayNeed::None,
-         .dial = Dial::Instants,
-         .defaultSamples = 256,
-         .aovs = {}},
+         .sampleUnit = SampleUnit::Instants,
+         .defaultSamples = 256}
+    );
+    methods.push_back(
         {.name = "truth",
          .description = "truth: rays that each have their own time, averaged",
          .publication = "Cook, Porter, Carpenter 1984",
          .family = MethodFamily::Truth,
-         .blur = {},
          .rays = RayNeed::Query,
-         .dial = Dial::Rays,
+         .sampleUnit = SampleUnit::Rays,
          .defaultSamples = 256,
-         .aovs = {"error"}},
-    };
+         .aovs = {"error"}}
+    );
+    return methods;
+}
+
+} // namespace
+
+std::span<const MethodInfo> listMethods() {
+    static const std::vector<MethodInfo> kMethods = makeMethods();
     return kMethods;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The methods there are, by name.
+// The methods of drawing a picture, by name: those of the motion blur, and those that draw the scene
+// in their own way.
 #pragma once
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "modules/motion_blur/settings.h"
+#include "modules/motion_blur/methods.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,34 +16,23 @@
 
 namespace shutter::game {
 
+using motion_blur::RayNeed;
+using motion_blur::SampleUnit;
+
 /// The effect that a method is made of.
 enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate, Truth };
-
-/// What `--samples` counts; the number that trades time for error.
-enum class Dial : uint8_t {
-    None,
-    Samples,  ///< taps of each gather
-    Instants, ///< sharp frames
-    Rays,     ///< rays a pixel
-};
-
-/// What a method asks of the device's ray tiers.
-enum class RayNeed : uint8_t {
-    None,
-    Any,   ///< any tier that traces rays
-    Query, ///< ray queries, which alone can be nested
-};
 
 struct MethodInfo {
     const char* name;
     const char* description;
-    const char* publication; ///< authors and year; empty where it is nobody's in particular
+    const char* publication; ///< authors and year; empty: nobody's in particular
     MethodFamily family;
-    motion_blur::Method blur; ///< of MethodFamily::MotionBlur; else unused
-    RayNeed rays;
-    Dial dial;
-    uint32_t defaultSamples;       ///< 0 with Dial::None
-    std::vector<std::string> aovs; ///< intermediates it writes beyond the G-buffer's
+    const motion_blur::Method* blur = nullptr; ///< of MethodFamily::MotionBlur; else null
+    RayNeed rays = RayNeed::None;
+    /// What `--samples` counts, which trades time for error; nothing: the method takes none.
+    std::optional<SampleUnit> sampleUnit{};
+    uint32_t defaultSamples = 0;     ///< 0 without a sample unit
+    std::vector<std::string> aovs{}; ///< intermediates that it writes beyond the G-buffer's
 };
 
 [[nodiscard]] bool canRun(const MethodInfo& method, const gpu::Device& device);

@@ -162,7 +162,8 @@ Status parseMethod(const RenderArguments& arguments, RenderOptions& options) {
     for (const std::string& setting : arguments.settings)
         if (Status applied = applySetting(setting, *options.method, options.motionBlur); !applied)
             return applied;
-    options.motionBlur.method = options.method->blur;
+    if (options.method->blur)
+        options.motionBlur.method = options.method->blur;
     if (Status valid = motion_blur::validate(options.motionBlur); !valid)
         return makeError("--set: {}", valid.error().message);
     return {};

@@ -32,11 +32,9 @@ Status applySetting(
         return makeError("--set '{}' is not NAME=VALUE", text);
     const std::string name = text.substr(0, equals);
     const std::string value = text.substr(equals + 1);
-    std::span<const std::string_view> known;
-    if (method.family == MethodFamily::MotionBlur)
-        known = motion_blur::listSettings(method.blur);
-    if (known.empty())
+    if (!method.blur)
         return makeError("--set '{}': method {} has no settings", name, method.name);
+    const std::vector<std::string_view>& known = method.blur->settings;
     if (std::find(known.begin(), known.end(), name) == known.end())
         return makeError(
             "--set '{}': method {} has no such setting, it has {}",

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::gpu {
@@ -88,6 +89,24 @@ class Pipeline {
     VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags mStages = 0;
     size_t mBindingCount = 0;
+};
+
+/// A compute pipeline that is made when it is first asked for.
+class LazyPipeline {
+  public:
+    LazyPipeline(Device& device, ComputePipelineDesc desc)
+        : mDevice(&device), mDesc(std::move(desc)) {}
+
+    [[nodiscard]] const Pipeline& get() const {
+        if (!mPipeline)
+            mPipeline.emplace(*mDevice, mDesc);
+        return *mPipeline;
+    }
+
+  private:
+    Device* mDevice;
+    ComputePipelineDesc mDesc;
+    mutable std::optional<Pipeline> mPipeline;
 };
 
 } // namespace shutter::gpu

@@ -19,13 +19,9 @@ constexpr double kSecondsAPoint = 8.0;
 
 /// Frames or rays of one picture.
 uint64_t stepsOf(const DialPoint& point) {
-    switch (point.method->dial) {
-    case game::Dial::Instants:
-    case game::Dial::Rays:
-        return point.samples;
-    default:
-        return 1;
-    }
+    const game::MethodInfo& method = *point.method;
+    const bool drawsOneFrame = !method.sampleUnit || *method.sampleUnit == game::SampleUnit::Taps;
+    return drawsOneFrame ? 1 : point.samples;
 }
 
 bool isProgressive(const DialPoint& point) {

@@ -277,17 +277,18 @@ json describeAxis(
 }
 
 json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
-    const auto nameDial = [](game::Dial dial) {
-        switch (dial) {
-        case game::Dial::Samples:
-            return "samples";
-        case game::Dial::Instants:
-            return "instants";
-        case game::Dial::Rays:
-            return "rays";
-        default:
+    const auto nameUnit = [](const game::MethodInfo& method) {
+        if (!method.sampleUnit)
             return "none";
+        switch (*method.sampleUnit) {
+        case game::SampleUnit::Taps:
+            return "samples";
+        case game::SampleUnit::Instants:
+            return "instants";
+        case game::SampleUnit::Rays:
+            break;
         }
+        return "rays";
     };
     json rows = json::array();
     for (const game::MethodInfo* method : methods)
@@ -295,7 +296,7 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
             {{"name", method->name},
              {"title", method->description},
              {"publication", method->publication},
-             {"dial", nameDial(method->dial)},
+             {"dial", nameUnit(*method)},
              {"default", packDial(method->defaultSamples)},
              {"usesRays", method->rays != game::RayNeed::None}}
         );

@@ -32,17 +32,17 @@ std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
 
 /// Positions of a dial, rising; the method's default joins them where it lies among them.
 std::vector<uint32_t> listPositions(const game::MethodInfo& method, uint32_t maxRays) {
-    std::vector<uint32_t> positions;
-    switch (method.dial) {
-    case game::Dial::None:
+    if (!method.sampleUnit)
         return {0};
-    case game::Dial::Samples:
+    std::vector<uint32_t> positions;
+    switch (*method.sampleUnit) {
+    case game::SampleUnit::Taps:
         positions = listPowersOfTwo(4, 64);
         break;
-    case game::Dial::Instants:
+    case game::SampleUnit::Instants:
         positions = listPowersOfTwo(2, 64); // its default is the truth itself
         break;
-    case game::Dial::Rays:
+    case game::SampleUnit::Rays:
         positions = listPowersOfTwo(1, maxRays);
         break;
     }

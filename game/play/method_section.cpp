@@ -101,7 +101,7 @@ std::vector<std::string_view> listCounts(std::span<const MethodInfo* const> show
             name = "instants";
         else if (method->family == MethodFamily::Truth)
             name = "rays";
-        else if (method->dial == Dial::Rays)
+        else if (method->sampleUnit == SampleUnit::Rays)
             name = "denoisedRays";
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
             names.push_back(name);
@@ -112,11 +112,10 @@ std::vector<std::string_view> listCounts(std::span<const MethodInfo* const> show
 } // namespace
 
 std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
-    if (method.family != MethodFamily::MotionBlur)
+    if (!method.blur)
         return {};
-    const auto read = motion_blur::listSettings(method.blur);
-    std::vector<std::string_view> names(read.begin(), read.end());
-    if (method.dial == Dial::Samples)
+    std::vector<std::string_view> names = method.blur->settings;
+    if (method.sampleUnit == SampleUnit::Taps)
         names.emplace_back("sampleCount");
     return names;
 }

@@ -60,10 +60,10 @@ scene::CameraShutter makeShutter(const PlaySettings& settings) {
 
 motion_blur::MotionBlurSettings
 makeBlurSettings(const PlaySettings& settings, const MethodInfo& method) {
-    SHUTTER_CHECK(method.family == MethodFamily::MotionBlur, "{} is no motion blur", method.name);
+    SHUTTER_CHECK(method.blur, "{} is no motion blur", method.name);
     motion_blur::MotionBlurSettings blur = settings.blur;
     blur.method = method.blur;
-    if (method.dial == Dial::Rays)
+    if (method.sampleUnit == SampleUnit::Rays)
         blur.sampleCount = settings.denoisedRays;
     return blur;
 }

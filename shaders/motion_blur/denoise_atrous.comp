@@ -4,11 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/denoise.glsl"
+#include "motion_blur/denoised_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    DenoisedParams method;
+};
 layout(binding = 0) uniform sampler2D uColorDeviation;
 layout(binding = 1) uniform sampler2D uDominant;
 layout(binding = 2, rgba16f) uniform writeonly image2D uFiltered;
@@ -26,7 +30,7 @@ vec4 filterAlong(vec2 centre, vec4 own, vec2 step_) {
         vec4 tap = textureLod(uColorDeviation, at / size, 0.0f);
         float weight =
             atrousWeight(k) *
-            luminanceWeight(luminance(tap.rgb) - ownLight, own.a, params.luminanceSigma);
+            luminanceWeight(luminance(tap.rgb) - ownLight, own.a, method.luminanceSigma);
         sum += weight * tap.rgb;
         variance += weight * weight * tap.a * tap.a;
         weights += weight;
@@ -42,7 +46,7 @@ void main() {
     vec2 tile = tileUv(centre, params.tileSizePx, params.tileCount);
     vec2 dominant = textureLod(uDominant, tile, 0.0f).xy;
     float range = length(dominant);
-    if (range >= kStillPx && levelFits(params.stepPx, range))
-        result = filterAlong(centre, result, dominant / range * params.stepPx);
+    if (range >= kStillPx && levelFits(method.stepPx, range))
+        result = filterAlong(centre, result, dominant / range * method.stepPx);
     imageStore(uFiltered, pixel, result);
 }

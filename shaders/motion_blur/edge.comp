@@ -4,12 +4,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/hybrid_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #define SHUTTER_BLOCK_LIST_BINDING 5
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    HybridParams method;
+};
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform sampler2D uNormal;
 layout(binding = 2) uniform usampler2D uEntityId;
@@ -22,7 +26,7 @@ void main() {
     ivec2 pixel;
     if (!findPixel(params.sizePx, pixel)) return;
     vec2 centre = vec2(pixel) + 0.5f;
-    if (!isCandidate(centre) || measureEdge(centre) <= params.edgeThreshold) return;
+    if (!isCandidate(centre) || measureEdge(centre) <= method.edgeThreshold) return;
     imageStore(uEdge, pixel, vec4(1.0f));
     ivec2 block = pixel / int(kGroupSize);
     ivec2 last = ivec2(params.sizePx - 1u) / int(kGroupSize);

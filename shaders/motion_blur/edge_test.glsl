@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // First two tests of the ray mask. A moving pixel is a candidate when its place one motion away
 // belongs to another mesh and lies deeper; a candidate is an edge when the 5x5 Sobel says so. Before
-// it: `params`, and textures uMotionDepth, uNormal and uEntityId.
+// it: `params`, `method` (HybridParams), and textures uMotionDepth, uNormal and uEntityId.
 #ifndef SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 #define SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 

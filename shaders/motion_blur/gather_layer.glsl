@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The gather over one layer. Before it: `params`, and textures uColor, uMotionDepth and uDominant.
+// The gather over one layer. Before it: `params`, `method` (GatherParams), and textures uColor, uMotionDepth and uDominant.
 #ifndef SHUTTER_MOTION_BLUR_GATHER_LAYER_GLSL
 #define SHUTTER_MOTION_BLUR_GATHER_LAYER_GLSL
 
@@ -53,7 +53,7 @@ float weighTap(vec3 motionDepth, float u, float range, Target target) {
         (target.depth - motionDepth.z) * target.perSoftExtent,
         smearRatio(distancePx, length(motion) * reach),
         distancePx * (u >= 0.0f ? target.perReach.x : target.perReach.y),
-        params.foregroundMagnification
+        method.foregroundMagnification
     );
 }
 

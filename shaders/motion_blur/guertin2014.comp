@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/guertin2014_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/guertin2014.glsl"
 
@@ -11,7 +12,10 @@
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    Guertin2014Params method;
+};
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform sampler2D uDominant;
@@ -23,9 +27,9 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
     float range = length(dominant);
     vec2 first = dominant / range;
-    vec2 second = centreDirection(target.xy, first, params.speedThresholdPx);
+    vec2 second = centreDirection(target.xy, first, method.speedThresholdPx);
     float speed = length(target.xy);
-    float weight = guertinCentreWeight(speed, params.sampleCount, params.centreBias);
+    float weight = guertinCentreWeight(speed, params.sampleCount, method.centreBias);
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (2.0f * interleavedGradientNoise(floor(centre)) - 1.0f) * params.jitter *
                    guertinJitter(params.sampleCount);

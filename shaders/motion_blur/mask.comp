@@ -5,6 +5,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/hybrid_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/ray_share.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 4
@@ -12,7 +13,10 @@
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    HybridParams method;
+};
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform sampler2D uEdge;
 layout(binding = 2) uniform sampler2D uEdgeBlocks;
@@ -132,7 +136,7 @@ void main() {
     ivec2 pixel;
     if (!findPixel(params.sizePx, pixel)) return;
     uvec2 block = uvec2(pixel) / kGroupSize;
-    uint tracing = chooseTracing(vec2(block), params.rayShare);
+    uint tracing = chooseTracing(vec2(block), method.rayShare);
     if (tracing == kTraceNothing || !isMasked(pixel)) return;
     imageStore(uMask, pixel, vec4(1.0f));
     listBlock(block);

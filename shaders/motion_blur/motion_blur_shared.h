@@ -14,39 +14,22 @@ SHUTTER_CONST uint kRevealThreads = 64u; // reveal: masked pixels a group
 /// Motion shorter than this blurs less than a pixel shows: such pixels are still.
 SHUTTER_CONST float kStillPx = 0.5f;
 
-// Bits of MotionBlurParams::flags.
-SHUTTER_CONST uint kFlagLuminanceTest = 1u;    // objects are told apart by luminance, not mesh id
-SHUTTER_CONST uint kFlagSteppingReveal = 2u;   // the reveal steps from surface to surface
-SHUTTER_CONST uint kFlagVelocityOccluder = 4u; // own velocity drops what does not reach the pixel
-
-/// Push constants of every pass.
+/// What every pass reads: the first half of the push constants. The second half is the method's own
+/// block (gather_shared.h, hybrid_shared.h, ...).
 struct MotionBlurParams {
     uvec2 sizePx;
     uvec2 tileCount;
     uint tileSizePx;
-    int neighbourRadius;           // tiles to each side
+    int neighbourRadius;    // tiles to each side
     uint sampleCount;
-    float softDepthExtent;         // metres
-    float edgeThreshold;           // [0, 1]
-    float rasterTime;             // s of the raster instant, [0, 1]
-    float foregroundMagnification;
-    float backgroundMagnification;
-    float jitter;                  // [0, 1]
-    uint recursionLimit;
-    uint flags;                  // kFlag...
-    float luminanceThreshold;
-    uvec2 frame;                   // address of the scene's FrameConstants (reveal only)
-    float centreBias;              // kappa (Guertin only)
-    float speedThresholdPx;        // gamma (Guertin only), of half velocities
-    uvec2 moving;                  // address of the scene's TimedConstants (denoised only)
-    float luminanceSigma;          // deviations that count as noise (denoised only)
-    float stepPx;                  // between taps of one level (denoised only)
-    uvec2 response;                // address of the shutter's ResponseTable; 0: a box
-    float uniformMotionPx;         // deviation that still counts as uniform motion; 0: none does
-    float maxMotionDepth;          // metres; what is deeper counts as still; infinity: nothing does
-    float marginPx;                // beyond a block whose tiles its pixels may look up
-    float rayShare;                // of the masked pixels that trace, [0, 1] (mask only)
-    float halfResolutionPx;        // uniform motion from which two pixels along it are one
+    float softDepthExtent;  // metres
+    float rasterTime;       // of the exposure, [0, 1]
+    float jitter;           // of the taps, share of their distance, [0, 1]
+    float maxMotionDepth;   // metres; deeper pixels count as still; infinity: none do
+    float marginPx;         // beyond a block whose tiles its pixels may look up
+    uvec2 response;         // address of the shutter's ResponseTable; 0: a box
+    float uniformMotionPx;  // deviation that still counts as uniform motion; 0: none does
+    float padding0;
 };
 
 // Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the
@@ -102,7 +85,7 @@ struct MaskHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::MotionBlurParams) == 124);
+static_assert(sizeof(shutter::shader::MotionBlurParams) == 64);
 static_assert(sizeof(shutter::shader::DispatchArguments) == 12);
 static_assert(sizeof(shutter::shader::BlockHeader) == 16);
 static_assert(sizeof(shutter::shader::TileHeader) == 16);

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/own_velocity_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/own_velocity.glsl"
 
@@ -11,7 +12,10 @@
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    OwnVelocityParams method;
+};
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2, rgba16f) uniform writeonly image2D uBlurred;
@@ -41,7 +45,7 @@ void main() {
             float u = tapPosition(i, offset, params.sampleCount, params.rasterTime);
             vec2 along = motion * warpTapAt(params.response, u, params.rasterTime);
             vec2 at = centre + along;
-            if ((params.flags & kFlagVelocityOccluder) != 0u &&
+            if (method.dropsOccluders != 0u &&
                 !passesOccluderTest(at, along, target.z))
                 continue;
             sum += textureLod(uColor, at * pixelsToUv, 0.0f).rgb;

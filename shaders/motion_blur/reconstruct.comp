@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/gather_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #define SHUTTER_BLOCK_LIST_BINDING 4
 #include "motion_blur/block_list.glsl"
@@ -10,7 +11,10 @@
 layout(constant_id = 1) const uint kSkipMasked = 0u; // 1: over candidates, of which some are masked
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    GatherParams method;
+};
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform sampler2D uDominant;

@@ -4,12 +4,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/gather_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #define SHUTTER_BLOCK_LIST_BINDING 8
 #include "motion_blur/block_list.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    GatherParams method;
+};
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform sampler2D uDominant;
@@ -66,7 +70,7 @@ void main() {
     float weight = front.weight;
     if (textureLod(uMask, uv, 0.0f).x > 0.5f) {
         Gathered back = gatherRevealed(dominantAt(uRevealDominant, centre), centre);
-        float magnify = params.backgroundMagnification;
+        float magnify = method.backgroundMagnification;
         sum = front.sum / magnify + back.sum * magnify;
         weight = front.weight / magnify + back.weight * magnify;
     }

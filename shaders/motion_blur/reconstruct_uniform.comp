@@ -5,13 +5,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/gather_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #define SHUTTER_BLOCK_LIST_BINDING 3
 #include "motion_blur/block_list.glsl"
 #include "motion_blur/taps.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    GatherParams method;
+};
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uDominant;
 layout(binding = 2, rgba16f) uniform writeonly image2D uBlurred;
@@ -67,7 +71,7 @@ void main() {
     vec2 along = abs(motion);
     // Across the smear the picture keeps its detail: pixels stand side by side along it, or none do.
     bool straight = min(along.x, along.y) <= 0.25f * max(along.x, along.y);
-    if (straight && length(motion) >= params.halfResolutionPx) {
+    if (straight && length(motion) >= method.halfResolutionPx) {
         gatherHalf(block, along.x >= along.y);
         return;
     }

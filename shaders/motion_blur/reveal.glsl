@@ -31,7 +31,7 @@ Revealed traceReveal(ivec2 pixel) {
     uint frontId = revealed.entityId;
     if (frontId == kNoEntity) return revealed; // nothing hides the sky
 
-    FrameRef frame = FrameRef(params.frame);
+    FrameRef frame = FrameRef(method.frame);
     ViewRay ray = makeViewRay(frame, centre);
     // The raster image is the first hit: its depth along the view gives the distance on the ray.
     float frontDepth = revealed.motionDepth.z;
@@ -42,11 +42,11 @@ Revealed traceReveal(ivec2 pixel) {
     float error = rasterHitError(t, frame.value.pixelFootprint);
     // One ray is enough where it passes all of the front entity: left out by the mask, which costs
     // nothing, or else candidate by candidate.
-    bool single = (params.flags & kFlagSteppingReveal) == 0u;
+    bool single = (method.flags & kFlagSteppingReveal) == 0u;
     uint passedMask =
         single ? EntityTable(frame.value.entities).rows[frontId].instanceMask : 0u;
-    bool byLuminance = (params.flags & kFlagLuminanceTest) != 0u;
-    uint limit = single ? 2u : params.recursionLimit;
+    bool byLuminance = (method.flags & kFlagLuminanceTest) != 0u;
+    uint limit = single ? 2u : method.recursionLimit;
     uint leftId = passedMask != 0u ? kNoEntity : frontId;
     uint rays = 0u;
     for (uint level = 1u; level < limit; ++level) {
@@ -70,7 +70,7 @@ Revealed traceReveal(ivec2 pixel) {
         if (!byLuminance && !other && !last) continue;
         revealed = revealHit(frame, hit, centre, ray.direction);
         if (byLuminance)
-            other = abs(luminance(revealed.color) - frontLuminance) > params.luminanceThreshold;
+            other = abs(luminance(revealed.color) - frontLuminance) > method.luminanceThreshold;
         if (other) break;
     }
     atomicAdd(header.raysTraced, rays);

@@ -12,7 +12,7 @@ void main() {
     if (index >= header.listedPixels) return;
     vec2 centre = vec2(pixelOf(pixels[index])) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
-    FrameRef frame = FrameRef(params.frame);
+    FrameRef frame = FrameRef(method.frame);
     bool sky = textureLod(uEntityId, uv, 0.0f).x == kNoEntity;
     Revealed revealed = sky ? keepRaster(uv)
                             : revealSky(frame, centre, makeViewRay(frame, centre).direction);

@@ -4,10 +4,14 @@
 #ifndef SHUTTER_MOTION_BLUR_REVEALED_PIXELS_GLSL
 #define SHUTTER_MOTION_BLUR_REVEALED_PIXELS_GLSL
 
+#include "motion_blur/hybrid_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "render/sky.glsl"
 
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    HybridParams method;
+};
 layout(set = 0, binding = 0) uniform sampler2D uColor;
 layout(set = 0, binding = 1) uniform sampler2D uMotionDepth;
 layout(set = 0, binding = 2) uniform usampler2D uEntityId;

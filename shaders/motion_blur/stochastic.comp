@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/shutter_response.glsl"
 #include "motion_blur/denoise.glsl"
+#include "motion_blur/denoised_shared.h"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/weights.glsl"
 #include "render/distributed_ray.glsl"
@@ -13,7 +14,10 @@
 #include "render/view_ray.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
-layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    DenoisedParams method;
+};
 layout(set = 0, binding = 0) uniform accelerationStructureEXT uScene;
 layout(set = 0, binding = 1, rgba16f) uniform writeonly image2D uNoisy;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D uMotionDepth;
@@ -27,8 +31,8 @@ vec2 motionOf(FrameRef frame, DistributedSample seen, vec2 centre) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    FrameRef frame = FrameRef(params.frame);
-    TimedRef moving = TimedRef(params.moving);
+    FrameRef frame = FrameRef(method.frame);
+    TimedRef moving = TimedRef(method.timed);
     vec2 centre = vec2(pixel) + 0.5f;
     float offset = interleavedGradientNoise(vec2(pixel));
     vec3 sum = vec3(0.0f);

@@ -27,6 +27,7 @@ namespace {
 using glm::ivec2;
 using glm::vec2;
 using image::Image;
+using motion_blur::getMethod;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
 
@@ -67,9 +68,9 @@ Sorted sortBlocks(
     motion_blur::BlockSorter sorter(device);
     const motion_blur::StillPixels still(device);
     const motion_blur::BlockFilter copies[] = {
-        {device, "copy uniform", motion_blur_copy_blocks_comp, 1, shader::kUniformList},
-        {device, "copy mixed", motion_blur_copy_blocks_comp, 1, shader::kMixedList},
-        {device, "copy candidates", motion_blur_copy_blocks_comp, 1, shader::kCandidateList}};
+        {device, shader::kUniformList, {"copy uniform", motion_blur_copy_blocks_comp, 1}},
+        {device, shader::kMixedList, {"copy mixed", motion_blur_copy_blocks_comp, 1}},
+        {device, shader::kCandidateList, {"copy candidates", motion_blur_copy_blocks_comp, 1}}};
     const auto tiles = tileMotion.add(rig.graph, rig.upload(motion), params);
     const auto blocks = sorter.add(rig.graph, tiles, params, forMask);
     sorter.addCounters(rig.graph, blocks, params);
@@ -291,7 +292,10 @@ class Effect {
         return rig.take(ticket);
     }
 
-    [[nodiscard]] motion_blur::BlockCounters blocks() const { return mEffect.counters().blocks; }
+    /// \param kind "still", "uniform", "mixed" or "masked"
+    [[nodiscard]] uint64_t countBlocks(const std::string& kind) const {
+        return mEffect.counters().at("blocks " + kind);
+    }
 
     bool hasWholeCopy = false; ///< of the effect's own, in the last frame
 
@@ -301,12 +305,14 @@ class Effect {
     motion_blur::StillPixels mStill;
 };
 
-constexpr std::array kTiledMethods = {
-    Method::Gather,
-    Method::OwnVelocity,
-    Method::McGuire2012,
-    Method::Guertin2014,
-    Method::Jimenez2014};
+/// Those whose filters go over blocks and need no rays.
+std::vector<const Method*> listBlockMethods() {
+    std::vector<const Method*> methods;
+    for (const Method* method : motion_blur::listMethods())
+        if (method->countsBlocks && method->rays == motion_blur::RayNeed::None)
+            methods.push_back(method);
+    return methods;
+}
 
 /// One mover near the left border.
 Image makeMover(uint32_t width, uint32_t height) {
@@ -325,18 +331,18 @@ TEST_F(BlockLists, WhereLittleMovesThePictureIsTheSameAndStillBlocksAreNotTouche
     const Image motion = makeMover(240, 96);
     MotionBlurSettings settings;
     settings.tileSizePx = 16;
-    for (const Method method : kTiledMethods) {
+    for (const Method* method : listBlockMethods()) {
         settings.method = method;
         Effect effect(device());
         const Image first = effect.blur(color, motion, settings, true);
-        EXPECT_TRUE(effect.hasWholeCopy) << int(method) << ": nothing is known yet";
+        EXPECT_TRUE(effect.hasWholeCopy) << method->name << ": nothing is known yet";
         const Image second = effect.blur(color, motion, settings, true);
-        EXPECT_FALSE(effect.hasWholeCopy) << int(method);
-        EXPECT_TRUE(test::sameBits(first, second)) << int(method);
-        EXPECT_FALSE(test::sameBits(first, color)) << int(method);
+        EXPECT_FALSE(effect.hasWholeCopy) << method->name;
+        EXPECT_TRUE(test::sameBits(first, second)) << method->name;
+        EXPECT_FALSE(test::sameBits(first, color)) << method->name;
         const auto isFar = [](uint32_t x, uint32_t) { return x >= 72; };
-        EXPECT_EQ(test::computeMaxDifferenceWhere(first, color, isFar), 0.0) << int(method);
-        EXPECT_GT(effect.blocks().still, 280u) << int(method) << " of 360";
+        EXPECT_EQ(test::computeMaxDifferenceWhere(first, color, isFar), 0.0) << method->name;
+        EXPECT_GT(effect.countBlocks("still"), 280u) << method->name << " of 360";
         effect.blur(color, motion, settings, false);
         EXPECT_TRUE(effect.hasWholeCopy) << "the picture may not be written";
     }
@@ -348,12 +354,12 @@ TEST_F(BlockLists, MuchMotionIsWrittenOverACopyOfThePicture) {
         for (uint32_t x = 0; x < 64; ++x)
             motion.at(x, y, 0) = 5.0f;
     MotionBlurSettings settings;
-    settings.method = Method::Gather;
+    settings.method = &getMethod("gather");
     Effect effect(device());
     effect.blur(makeNoise(64, 64), motion, settings, true);
     effect.blur(makeNoise(64, 64), motion, settings, true);
     EXPECT_TRUE(effect.hasWholeCopy);
-    EXPECT_EQ(effect.blocks().uniform, 64u);
+    EXPECT_EQ(effect.countBlocks("uniform"), 64u);
 }
 
 TEST(StillPixels, TheChoiceHasSlack) {
@@ -376,15 +382,15 @@ TEST_F(BlockLists, NoSeamShowsWhereUniformMotionMeetsMixed) {
             motion.at(x, y, 2) = 3.0f;
         }
     MotionBlurSettings settings;
-    settings.method = Method::Gather;
+    settings.method = &getMethod("gather");
     settings.tileSizePx = 16;
     Effect effect(device());
     const Image fast = effect.blur(color, motion, settings, false);
-    EXPECT_GT(effect.blocks().uniform, 100u);
-    EXPECT_GT(effect.blocks().mixed, 40u);
+    EXPECT_GT(effect.countBlocks("uniform"), 100u);
+    EXPECT_GT(effect.countBlocks("mixed"), 40u);
     settings.uniformMotionPx = 0.0f;
     const Image full = effect.blur(color, motion, settings, false);
-    EXPECT_EQ(effect.blocks().uniform, 0u);
+    EXPECT_EQ(effect.countBlocks("uniform"), 0u);
     const auto everywhere = [](uint32_t, uint32_t) { return true; };
     EXPECT_LE(test::computeMaxDifferenceWhere(fast, full, everywhere), 0.5 / 255.0);
 }
@@ -401,7 +407,7 @@ TEST_F(BlockLists, OverDepthStepsThatMoveAlikeTheUniformPathIsNearerToTheTruth) 
             motion.at(x, y, 2) = x / 24 % 2 == 0 ? 2.0f : 6.0f;
         }
     MotionBlurSettings settings;
-    settings.method = Method::Gather;
+    settings.method = &getMethod("gather");
     settings.sampleCount = 64;
     Effect effect(device());
     const auto error = [&](float uniformMotionPx) {
@@ -437,7 +443,7 @@ TEST_F(BlockLists, WhatLiesBeyondTheDepthLimitCountsAsStill) {
         for (uint32_t x = 0; x < 96; ++x)
             if (x % 24 >= 12)
                 near.at(x, y, 0) = 0.0f;
-    for (const Method method : kTiledMethods) {
+    for (const Method* method : listBlockMethods()) {
         MotionBlurSettings settings;
         settings.method = method;
         settings.tileSizePx = 16;
@@ -446,14 +452,14 @@ TEST_F(BlockLists, WhatLiesBeyondTheDepthLimitCountsAsStill) {
         const Image unlimited = effect.blur(color, motion, settings, false);
         settings.maxMotionDepth = 10.0f;
         const Image limited = effect.blur(color, motion, settings, false);
-        EXPECT_FALSE(test::sameBits(unlimited, limited)) << int(method);
+        EXPECT_FALSE(test::sameBits(unlimited, limited)) << method->name;
         settings.maxMotionDepth = std::numeric_limits<float>::infinity();
         EXPECT_TRUE(test::sameBits(effect.blur(color, near, settings, false), limited))
-            << int(method);
+            << method->name;
         settings.maxMotionDepth = 0.0f;
         EXPECT_TRUE(test::sameBits(effect.blur(color, motion, settings, false), color))
-            << int(method);
-        EXPECT_EQ(effect.blocks().still, 12u * 8u) << int(method);
+            << method->name;
+        EXPECT_EQ(effect.countBlocks("still"), 12u * 8u) << method->name;
     }
 }
 

@@ -162,7 +162,7 @@ TEST_F(DeviceWithoutRays, GatherIsTheSameWithAndWithoutRays) {
     const auto lower = openWithoutRays();
     ASSERT_TRUE(lower);
     const test::SceneBuilder scene = makeScene();
-    const test::Shot shot{.method = test::Method::Gather, .width = 64, .height = 48};
+    const test::Shot shot{.method = "gather", .width = 64, .height = 48};
     const auto with = test::renderOnce(device(), scene, shot);
     const auto without = test::renderOnce(*lower, scene, shot);
     EXPECT_TRUE(test::sameBits(with.color, without.color));

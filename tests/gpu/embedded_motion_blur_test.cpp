@@ -25,6 +25,7 @@ using motion_blur::EmbeddedMotionBlur;
 using motion_blur::HostDevice;
 using motion_blur::HostImage;
 using motion_blur::HostInputs;
+using motion_blur::getMethod;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
 
@@ -259,7 +260,7 @@ class Foreign : public test::GpuTest {
     }
 
     /// Draws a frame with the host's blur before the plugin's, which must be the same.
-    static void expectSameAsPlugin(HostDevice host, std::span<const Method> methods) {
+    static void expectSameAsPlugin(HostDevice host, std::span<const Method* const> methods) {
         test::SceneBuilder scene;
         build(scene);
         render::Renderer renderer(device(), scene.world.assets);
@@ -278,8 +279,8 @@ class Foreign : public test::GpuTest {
         const auto sharp = renderer.renderFrame(scene.world, request, {});
         ASSERT_TRUE(sharp.ok()) << sharp.error().message;
         request.intermediates = {"mask"};
-        for (const Method method : methods) {
-            SCOPED_TRACE(static_cast<int>(method));
+        for (const Method* method : methods) {
+            SCOPED_TRACE(method->name);
             MotionBlurSettings settings;
             settings.method = method;
             HostOfTheGBuffer foreign(device(), *blur, settings);
@@ -291,7 +292,7 @@ class Foreign : public test::GpuTest {
             EXPECT_FALSE(test::sameBits(expected, sharp.value().color)) << "nothing was blurred";
             EXPECT_TRUE(test::sameBits(foreign.output.read(), expected));
             EXPECT_TRUE(test::sameBits(foreign.inPlace.read(), expected));
-            if (method == Method::Hybrid) {
+            if (method == &getMethod("hybrid")) {
                 EXPECT_GT(test::countSet(drawn.value().intermediates.at("mask")), 50u);
             }
         }
@@ -299,12 +300,10 @@ class Foreign : public test::GpuTest {
 };
 
 TEST_F(Foreign, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
-    const std::array methods{
-        Method::Gather,
-        Method::OwnVelocity,
-        Method::McGuire2012,
-        Method::Guertin2014,
-        Method::Jimenez2014};
+    std::vector<const Method*> methods;
+    for (const Method* method : motion_blur::listMethods())
+        if (method->rays == motion_blur::RayNeed::None)
+            methods.push_back(method);
     expectSameAsPlugin(describeHost(), methods);
 }
 
@@ -313,7 +312,7 @@ TEST_F(Foreign, HybridGivesTheBitsOfThePlugin) {
         GTEST_SKIP() << "the device traces no rays";
     HostDevice host = describeHost();
     host.rayTier = device().info().rayTier;
-    expectSameAsPlugin(host, std::array{Method::Hybrid});
+    expectSameAsPlugin(host, std::array{&getMethod("hybrid")});
 }
 
 /// Pictures of the host that are cleared in each frame, and a command buffer of its own.
@@ -352,7 +351,7 @@ struct HostFrame {
 
 MotionBlurSettings gather() {
     MotionBlurSettings settings;
-    settings.method = Method::Gather;
+    settings.method = &getMethod("gather");
     return settings;
 }
 
@@ -481,9 +480,9 @@ TEST_F(ForeignRefusals, EachMethodThatCannotRunIsNamed) {
     settings.sampleCount = 0;
     expectRefusal(record(), "sampleCount");
     settings = gather();
-    settings.method = Method::Denoised;
+    settings.method = &getMethod("denoised");
     expectRefusal(record(), "denoised");
-    settings.method = Method::Hybrid;
+    settings.method = &getMethod("hybrid");
     expectRefusal(record(), "the method hybrid needs rays");
 }
 
@@ -512,7 +511,7 @@ TEST_F(ForeignRefusals, RaysWithoutTheirTablesAreNamed) {
     host.rayTier = device().info().rayTier;
     host.sceneLayout = renderer.scene().textureLayout();
     mBlur = create(host);
-    settings.method = Method::Hybrid;
+    settings.method = &getMethod("hybrid");
     expectRefusal(record(), "normal.image is null");
     inputs.normal = {mHost->output.handle(), kSampled, kSampled};
     inputs.output = {};

@@ -197,14 +197,14 @@ TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
     test::Stage stage(device(), scene);
     app::WindowOutput window(device());
     window.setTarget({.size = {96, 64}});
-    const auto passesOf = [&](test::Method method) {
+    const auto passesOf = [&](std::string_view method) {
         return stage.render({.method = method, .wantDisplay = true, .last = &window})
             .statistics.passes;
     };
-    const auto sharp = passesOf(test::Method::Sharp);
+    const auto sharp = passesOf("sharp");
     ASSERT_GE(sharp.size(), 4u);
-    for (const test::Method method : {test::Method::OwnVelocity, test::Method::Hybrid}) {
-        const game::MethodInfo& info = *game::findMethod(test::describe(method)).value();
+    for (const std::string_view method : {"own_velocity", "hybrid"}) {
+        const game::MethodInfo& info = *game::findMethod(method).value();
         size_t blurs = 0;
         for (const render::PassTime& pass : passesOf(method)) {
             const bool isSharps = std::any_of(sharp.begin(), sharp.end(), [&](const auto& other) {
@@ -214,7 +214,7 @@ TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
             EXPECT_NE(isSharps, isBlurs) << info.name << ": " << pass.name;
             blurs += isBlurs;
         }
-        EXPECT_GE(blurs, method == test::Method::OwnVelocity ? 1u : 3u) << info.name;
+        EXPECT_GE(blurs, method == "own_velocity" ? 1u : 3u) << info.name;
     }
 }
 

@@ -69,7 +69,7 @@ class RayPipelineTier : public test::GpuTest {
     /// bit-identical on the software device; elsewhere a hit's place may differ by its rounding,
     /// which a half-float colour shows as 1/512 of it at most.
     void expectSamePictures(const test::SceneBuilder& scene, test::Shot shot, size_t leastMasked) {
-        shot.method = test::Method::Hybrid;
+        shot.method = "hybrid";
         shot.width = 96;
         shot.height = 64;
         shot.background = math::vec3(0.2f, 0.3f, 0.4f);

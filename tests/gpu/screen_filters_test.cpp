@@ -18,6 +18,7 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 using image::Image;
+using motion_blur::getMethod;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
 
@@ -69,7 +70,7 @@ Image blur(
 }
 
 /// One tile holds the whole picture; no noise.
-MotionBlurSettings oneTile(Method method) {
+MotionBlurSettings oneTile(const Method* method) {
     MotionBlurSettings settings;
     settings.method = method;
     settings.tileSizePx = 64;
@@ -221,17 +222,17 @@ void expectFilter(const Scene& scene, const Image& picture, Filter filter) {
 
 TEST_F(ScreenFilters, McGuireIsThePapersInACentredExposure) {
     const Scene scene = makeScene();
-    expectFilter(scene, blur(device(), scene, oneTile(Method::McGuire2012)), filterMcGuire);
+    expectFilter(scene, blur(device(), scene, oneTile(&getMethod("mcguire2012"))), filterMcGuire);
 }
 
 TEST_F(ScreenFilters, GuertinIsThePapersInACentredExposure) {
     const Scene scene = makeScene();
-    expectFilter(scene, blur(device(), scene, oneTile(Method::Guertin2014)), filterGuertin);
+    expectFilter(scene, blur(device(), scene, oneTile(&getMethod("guertin2014"))), filterGuertin);
 }
 
 TEST_F(ScreenFilters, JimenezIsThePublishedOneInACentredExposure) {
     const Scene scene = makeScene();
-    MotionBlurSettings settings = oneTile(Method::Jimenez2014);
+    MotionBlurSettings settings = oneTile(&getMethod("jimenez2014"));
     settings.sampleCount = 16;
     expectFilter(scene, blur(device(), scene, settings), filterJimenez);
     settings.sampleCount = 15; // pairs: rounded up
@@ -247,7 +248,7 @@ TEST_F(ScreenFilters, OwnVelocityIsTheMeanAlongThePixelsMotionInEveryPhase) {
             scene.motionDepth.at(x, y, 0) = y < 16 ? 8.0f : 0.4f; // below half a pixel: still
             scene.motionDepth.at(x, y, 2) = 3.0f;
         }
-    MotionBlurSettings settings = oneTile(Method::OwnVelocity);
+    MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
     settings.sampleCount = 16;
     for (const double share : {0.0, 0.5, 1.0}) {
         const Image picture = blur(device(), scene, settings, share);
@@ -276,7 +277,7 @@ TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
             scene.motionDepth.at(x, y, 0) = post ? 0.0f : 12.0f;
             scene.motionDepth.at(x, y, 2) = post ? 2.0f : 9.0f;
         }
-    MotionBlurSettings settings = oneTile(Method::OwnVelocity);
+    MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
     const Image plain = blur(device(), scene, settings);
     EXPECT_GT(plain.at(20, 9, 0), 0.2f) << "without it the post smears";
     settings.occluderTest = motion_blur::OccluderTest::Velocity;
@@ -296,7 +297,7 @@ TEST_F(ScreenFilters, WhereEveryTapIsAnOccluderTheSharpColourStays) {
             scene.motionDepth.at(x, y, 0) = x == 24 ? 400.0f : 0.0f; // no tap at its own place
             scene.motionDepth.at(x, y, 2) = x == 24 ? 9.0f : 2.0f;
         }
-    MotionBlurSettings settings = oneTile(Method::OwnVelocity);
+    MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
     settings.occluderTest = motion_blur::OccluderTest::Velocity;
     settings.sampleCount = 16;
     EXPECT_TRUE(test::sameBits(blur(device(), scene, settings), scene.color));
@@ -311,7 +312,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
             scene.motionDepth.at(x, y, 1) = 0.0f;
             scene.motionDepth.at(x, y, 2) = 3.0f;
         }
-    for (const Method method : {Method::Guertin2014, Method::Jimenez2014}) {
+    for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
         MotionBlurSettings settings = oneTile(method);
         settings.tileSizePx = 16;
         settings.neighbourhoodTiles = 1;
@@ -322,7 +323,7 @@ TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
             for (uint32_t x = 0; x < 16; ++x)
                 sharp += std::abs(picture.at(x, y, 0) - scene.color.at(x, y, 0)) < 1e-4f &&
                          std::abs(picture.at(x, y, 1) - scene.color.at(x, y, 1)) < 1e-4f;
-        EXPECT_EQ(sharp, 0u) << int(method);
+        EXPECT_EQ(sharp, 0u) << method->name;
     }
 }
 
@@ -338,7 +339,7 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
             scene.motionDepth.at(x, y, 2) = slab ? 3.0f : 9.0f;
         }
     scene.motionDepth.at(22, 15, 0) = 12.0f;
-    MotionBlurSettings settings = oneTile(Method::Guertin2014);
+    MotionBlurSettings settings = oneTile(&getMethod("guertin2014"));
     settings.tileSizePx = 24; // two tiles beside each other; the other one's motion goes up
     scene.motionDepth.at(40, 15, 0) = 0.6f;
     scene.motionDepth.at(40, 15, 1) = 9.0f;
@@ -358,12 +359,12 @@ TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
                 scene.motionDepth.at(x, y, 2) = 3.0f;
             }
     scene.motionDepth.at(20, 13, 2) = 9.0f; // behind them all: it may cover nothing
-    for (const Method method : {Method::McGuire2012, Method::Guertin2014, Method::OwnVelocity}) {
+    for (const Method* method : {&getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("own_velocity")}) {
         const Image picture = blur(device(), scene, oneTile(method));
         const auto still = [](uint32_t x, uint32_t y) { return x != 20 || y != 13; };
         // A sum of one weighted colour divided by its weight, as a half float.
         EXPECT_LE(test::computeMaxDifferenceWhere(picture, scene.color, still), 1.0 / 1024.0)
-            << int(method);
+            << method->name;
     }
 }
 
@@ -378,7 +379,7 @@ TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
             scene.motionDepth.at(x, y, 1) = 0.0f;
             scene.motionDepth.at(x, y, 2) = x < kTile ? 1.0f : 3.0f;
         }
-    for (const Method method : {Method::Guertin2014, Method::Jimenez2014}) {
+    for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
         MotionBlurSettings settings;
         settings.method = method;
         settings.tileSizePx = kTile;
@@ -388,12 +389,12 @@ TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
             test::computeMaxDifferenceWhere(blurred, scene.color, [](uint32_t x, uint32_t) {
                 return x >= kTile && x < kTile + kTile / 4;
             });
-        EXPECT_GT(across, 0.05) << int(method);
+        EXPECT_GT(across, 0.05) << method->name;
         const double beyond =
             test::computeMaxDifferenceWhere(blurred, scene.color, [](uint32_t x, uint32_t) {
                 return x >= 2 * kTile;
             });
-        EXPECT_LE(beyond, 1e-3) << int(method); // rounding to half floats
+        EXPECT_LE(beyond, 1e-3) << method->name; // rounding to half floats
     }
 }
 
@@ -414,13 +415,13 @@ TEST_F(ScreenFilters, MotionThatIsNotFiniteCountsAsNone) {
             scene.motionDepth.at(column, row, 1) = y;
             zeroed.motionDepth.at(column, row, 0) = zeroed.motionDepth.at(column, row, 1) = 0.0f;
         }
-        for (const Method method :
-             {Method::OwnVelocity, Method::McGuire2012, Method::Guertin2014, Method::Jimenez2014}) {
+        for (const Method* method :
+             {&getMethod("own_velocity"), &getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("jimenez2014")}) {
             MotionBlurSettings settings = oneTile(method);
             settings.occluderTest = motion_blur::OccluderTest::Velocity;
             const Image picture = blur(device(), scene, settings);
-            EXPECT_TRUE(test::allFinite(picture)) << int(method);
-            EXPECT_TRUE(test::sameBits(picture, blur(device(), zeroed, settings))) << int(method);
+            EXPECT_TRUE(test::allFinite(picture)) << method->name;
+            EXPECT_TRUE(test::sameBits(picture, blur(device(), zeroed, settings))) << method->name;
         }
     }
 }

@@ -12,7 +12,6 @@ namespace shutter {
 namespace {
 
 using accumulate::PixelModel;
-using test::Method;
 using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
@@ -21,7 +20,7 @@ class AccumulateLaw : public test::GpuTest {};
 
 TEST_F(AccumulateLaw, AQuadAtConstantSpeedIsTheExactTrapezoid) {
     // An end of the interval of s is met to half a stratum: two ends, 1/512 < 1/255.
-    test::expectTrapezoidInEachPhase(device(), Method::Accumulate, 512, 1.0 / 255.0);
+    test::expectTrapezoidInEachPhase(device(), "accumulate", 512, 1.0 / 255.0);
 }
 
 TEST_F(AccumulateLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
@@ -32,7 +31,7 @@ TEST_F(AccumulateLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
     const auto result = test::renderOnce(
         device(),
         scene,
-        {.method = Method::Accumulate, .height = 8, .instants = 256, .pixel = PixelModel::Box}
+        {.method = "accumulate", .height = 8, .instants = 256, .pixel = PixelModel::Box}
     );
     // Hammersley's first 256 radical inverses of base 2 are the multiples of 1/256: the count to
     // one side of an edge is right to one.
@@ -61,7 +60,7 @@ TEST_F(AccumulateLaw, MoreInstantsComeNearerToTheMean) {
     Stage stage(device(), scene);
     const auto accumulated = [&](uint32_t instants) {
         return stage
-            .render({.method = Method::Accumulate, .width = 64, .height = 48, .instants = instants})
+            .render({.method = "accumulate", .width = 64, .height = 48, .instants = instants})
             .color;
     };
     const auto truth = accumulated(256);
@@ -75,7 +74,7 @@ TEST_F(AccumulateLaw, OneInstantIsTheSharpPictureOfTheMiddle) {
     const SceneBuilder scene = makeScene();
     Stage stage(device(), scene);
     const auto sharp = stage.render({});
-    const auto one = stage.render({.method = Method::Accumulate, .instants = 1});
+    const auto one = stage.render({.method = "accumulate", .instants = 1});
     EXPECT_TRUE(test::sameBits(sharp.color, one.color));
 }
 

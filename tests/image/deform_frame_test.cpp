@@ -17,7 +17,6 @@ namespace shutter {
 namespace {
 
 using math::dvec3;
-using test::Method;
 using test::Placement;
 using test::SceneBuilder;
 
@@ -171,9 +170,9 @@ TEST_F(DeformFrame, TruthOfAnotherTimeIsNotTheLastOnes) {
 TEST_F(DeformFrame, TheDenoisedRivalSeesWhatTruthSees) {
     const SceneBuilder scene = makeScene(true);
     test::Stage stage(device(), scene);
-    const auto truth = stage.render({.method = Method::Truth, .instants = 64});
+    const auto truth = stage.render({.method = "truth", .instants = 64});
     motion_blur::MotionBlurSettings settings;
-    settings.method = motion_blur::Method::Denoised;
+    settings.method = &motion_blur::getMethod("denoised");
     render::Renderer renderer(device(), scene.world.assets);
     motion_blur::MotionBlurPlugin blur(device(), renderer.scene(), settings);
     render::FrameRequest request;

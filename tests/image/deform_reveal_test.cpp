@@ -13,7 +13,6 @@ namespace shutter {
 namespace {
 
 using math::dvec3;
-using test::Method;
 using test::Placement;
 using test::SceneBuilder;
 using test::Shot;
@@ -48,11 +47,11 @@ void expectRevealIsRaster(
     background(both);
     occluder(both);
     Shot shot{
-        .method = Method::Hybrid,
+        .method = "hybrid",
         .background = math::vec3(0.2f, 0.3f, 0.4f),
         .aovs = {"mask", "reveal", "reveal_motion", "motion", "mesh_id"}};
     const auto result = test::renderOnce(device, both, shot);
-    shot.method = Method::Sharp;
+    shot.method = "sharp";
     const auto expected = test::renderOnce(device, alone, shot);
     const image::Image& mask = result.intermediates.at("mask");
     const image::Image& ids = result.intermediates.at("mesh_id");

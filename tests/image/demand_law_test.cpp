@@ -16,7 +16,6 @@ using math::dvec3;
 using motion_blur::BlurBudget;
 using motion_blur::MotionBlurPlugin;
 using motion_blur::MotionBlurSettings;
-using test::Method;
 using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
@@ -54,7 +53,7 @@ SceneBuilder makePan(const dvec3& velocity) {
 
 Shot hybridShot() {
     return {
-        .method = Method::Hybrid,
+        .method = "hybrid",
         .width = 160,
         .height = 120,
         .background = math::vec3(0.2f, 0.3f, 0.4f),
@@ -142,7 +141,7 @@ TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
         GTEST_SKIP() << "the device traces no rays";
     const SceneBuilder scene = makeCrossing();
     MotionBlurSettings settings;
-    settings.method = motion_blur::Method::Hybrid;
+    settings.method = &motion_blur::getMethod("hybrid");
     Loop loop(device(), scene, settings);
     (void)loop.draw(0.0);
     (void)loop.draw(0.0);
@@ -164,7 +163,7 @@ TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
 TEST_F(DemandLaw, ATooSmallBudgetEndsWithoutBlurAndSaysSo) {
     const SceneBuilder scene = makeCrossing();
     MotionBlurSettings settings;
-    settings.method = motion_blur::Method::Gather;
+    settings.method = &motion_blur::getMethod("gather");
     Loop loop(device(), scene, settings, {1e-6});
     for (int i = 0; i < 40; ++i) {
         const auto frame = loop.draw(0.5);
@@ -186,7 +185,7 @@ TEST_F(DemandLaw, ATooSmallBudgetEndsWithoutBlurAndSaysSo) {
 TEST_F(DemandLaw, ABudgetOfPlentyChangesNoBit) {
     const SceneBuilder scene = makeCrossing();
     MotionBlurSettings settings;
-    settings.method = motion_blur::Method::Gather;
+    settings.method = &motion_blur::getMethod("gather");
     Loop limited(device(), scene, settings, {1e9});
     Loop unlimited(device(), scene, settings);
     for (int i = 0; i < 5; ++i)
@@ -221,7 +220,7 @@ TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
             EXPECT_GT(psnr, share >= 0.25f ? 40.0 : 25.0) << share;
         if (share == 0.0f) {
             Shot gather = hybridShot();
-            gather.method = Method::Gather;
+            gather.method = "gather";
             EXPECT_TRUE(test::sameBits(frame.color, test::renderOnce(device(), scene, gather).color)
             );
         }
@@ -231,7 +230,7 @@ TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
 TEST_F(DemandLaw, HalfOfTheResolutionIsForSmearsAlongRowsAndColumns) {
     const SceneBuilder scene = makePan({20.0, 20.0, 0});
     Shot shot = hybridShot();
-    shot.method = Method::Gather;
+    shot.method = "gather";
     const auto full = test::renderOnce(device(), scene, shot);
     EXPECT_GT(full.statistics.counters.at("blocks uniform"), 200u);
     shot.settings.halfResolutionPx = 8.0f;
@@ -241,7 +240,7 @@ TEST_F(DemandLaw, HalfOfTheResolutionIsForSmearsAlongRowsAndColumns) {
 TEST_F(DemandLaw, HalfOfTheResolutionAlongAPanIsHardToTell) {
     const SceneBuilder scene = makePan({24.0, 3.0, 0});
     Shot shot = hybridShot();
-    shot.method = Method::Gather;
+    shot.method = "gather";
     const auto full = test::renderOnce(device(), scene, shot);
     shot.settings.halfResolutionPx = 8.0f;
     const auto half = test::renderOnce(device(), scene, shot);

@@ -11,7 +11,6 @@ namespace shutter {
 namespace {
 
 using math::dvec3;
-using test::Method;
 using test::SceneBuilder;
 using test::Shot;
 using test::Stage;
@@ -21,7 +20,7 @@ class MaskLaw : public test::GpuTest {};
 constexpr double kHalfPx = 14.0; // the mover covers 34 <= x < 62 and 18 <= y < 46
 
 Shot maskShot() {
-    return {.method = Method::Hybrid, .aovs = {"mask", "edge"}};
+    return {.method = "hybrid", .aovs = {"mask", "edge"}};
 }
 
 /// A mover `gap` metres before a wall that fills the picture.

@@ -13,7 +13,6 @@ namespace {
 
 using math::dvec3;
 using scene::Material;
-using test::Method;
 using test::Placement;
 using test::SceneBuilder;
 using test::Shot;
@@ -25,7 +24,7 @@ using AddToScene = std::function<void(SceneBuilder&)>;
 
 Shot revealShot() {
     return {
-        .method = Method::Hybrid,
+        .method = "hybrid",
         .background = math::vec3(0.2f, 0.3f, 0.4f),
         .aovs = {"mask", "reveal", "mesh_id"}};
 }
@@ -46,7 +45,7 @@ void expectRevealIsRaster(
     background(both);
     occluder(both);
     Shot sharp = shot;
-    sharp.method = Method::Sharp;
+    sharp.method = "sharp";
     const auto expected = test::renderOnce(device, alone, sharp);
     const auto result = test::renderOnce(device, both, shot);
     ASSERT_TRUE(result.intermediates.contains("mask"));

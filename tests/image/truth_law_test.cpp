@@ -13,7 +13,6 @@ namespace shutter {
 namespace {
 
 using accumulate::PixelModel;
-using test::Method;
 using test::SceneBuilder;
 using test::Stage;
 
@@ -50,7 +49,7 @@ TEST_F(TruthLaw, AStillSceneIsTheSharpPicture) {
     Stage stage(device(), scene);
     const auto sharp = stage.render({.ambient = math::vec3(0.3f)});
     const auto rays =
-        stage.render({.method = Method::Truth, .ambient = math::vec3(0.3f), .instants = 4});
+        stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 4});
     EXPECT_EQ(rays.statistics.measures.at("standard error"), 0.0);
     // The raster image is stored in half floats: 2^-11 of a value. A silhouette that runs through a
     // pixel's centre may fall to either side.
@@ -67,14 +66,14 @@ TEST_F(TruthLaw, WithoutAnExposureAMoverIsSharpToo) {
     const SceneBuilder scene = makeScene(true);
     Stage stage(device(), scene);
     const auto sharp = stage.render({.exposureSeconds = 0.0});
-    const auto rays = stage.render({.method = Method::Truth, .exposureSeconds = 0.0});
+    const auto rays = stage.render({.method = "truth", .exposureSeconds = 0.0});
     EXPECT_GT(image::computePsnr(sharp.color, rays.color), 50.0);
     EXPECT_EQ(rays.statistics.measures.at("standard error"), 0.0);
 }
 
 TEST_F(TruthLaw, AQuadAtConstantSpeedIsTheExactTrapezoidInEachPhase) {
     // Each end of the interval of s is met to a stratum of the 256 of each set.
-    test::expectTrapezoidInEachPhase(device(), Method::Truth, 512, 2.0 / 256.0);
+    test::expectTrapezoidInEachPhase(device(), "truth", 512, 2.0 / 256.0);
 }
 
 TEST_F(TruthLaw, AnyNumberOfRaysHasTheTrapezoidForItsMean) {
@@ -87,7 +86,7 @@ TEST_F(TruthLaw, AnyNumberOfRaysHasTheTrapezoidForItsMean) {
     );
     Stage stage(device(), scene);
     for (const uint32_t rays : {1u, 3u, 5u}) {
-        const auto result = stage.render({.method = Method::Truth, .instants = rays, .seed = rays});
+        const auto result = stage.render({.method = "truth", .instants = rays, .seed = rays});
         for (const uint32_t x : {32u, 40u, 47u, 55u}) {
             double mean = 0.0;
             for (uint32_t y = 0; y < 64; ++y)
@@ -109,7 +108,7 @@ TEST_F(TruthLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
     const auto result = test::renderOnce(
         device(),
         scene,
-        {.method = Method::Truth, .height = 8, .instants = 256, .pixel = PixelModel::Box}
+        {.method = "truth", .height = 8, .instants = 256, .pixel = PixelModel::Box}
     );
     // An upright edge is met to one of the 128 strata of each set.
     EXPECT_NEAR(result.color.at(37, 4, 0), 0.0, 1e-6);
@@ -133,7 +132,7 @@ TEST_F(TruthLaw, TheErrorItEstimatesIsTheErrorItHas) {
     Stage stage(device(), scene);
     const auto draw = [&](uint32_t rays, uint32_t seed) {
         return stage.render(
-            {.method = Method::Truth, .width = 64, .height = 48, .instants = rays, .seed = seed}
+            {.method = "truth", .width = 64, .height = 48, .instants = rays, .seed = seed}
         );
     };
     const auto reference = draw(1024, 1000);
@@ -153,7 +152,7 @@ TEST_F(TruthLaw, TheErrorItEstimatesIsTheErrorItHas) {
 TEST_F(TruthLaw, TheErrorViewIsWhatTheFigureSums) {
     const SceneBuilder scene = makeScene(true);
     const auto result = test::renderOnce(
-        device(), scene, {.method = Method::Truth, .width = 61, .height = 43, .aovs = {"error"}}
+        device(), scene, {.method = "truth", .width = 61, .height = 43, .aovs = {"error"}}
     );
     const image::Image& error = result.intermediates.at("error");
     const image::Image nothing(61, 43, 4);
@@ -164,7 +163,7 @@ TEST_F(TruthLaw, TheErrorViewIsWhatTheFigureSums) {
 TEST_F(TruthLaw, OneRayHasNoEstimate) {
     const SceneBuilder scene = makeScene(true);
     const auto result = test::renderOnce(
-        device(), scene, {.method = Method::Truth, .instants = 1, .aovs = {"error"}}
+        device(), scene, {.method = "truth", .instants = 1, .aovs = {"error"}}
     );
     EXPECT_FALSE(result.statistics.measures.contains("standard error"));
     EXPECT_FALSE(result.intermediates.contains("error"));
@@ -174,9 +173,9 @@ TEST_F(TruthLaw, OneRayHasNoEstimate) {
 TEST_F(TruthLaw, TwoRunsHaveTheSameBitsAndSeedsAreIndependent) {
     const SceneBuilder scene = makeScene(true);
     Stage stage(device(), scene);
-    const auto first = stage.render({.method = Method::Truth});
-    const auto again = stage.render({.method = Method::Truth});
-    const auto other = stage.render({.method = Method::Truth, .seed = 1});
+    const auto first = stage.render({.method = "truth"});
+    const auto again = stage.render({.method = "truth"});
+    const auto other = stage.render({.method = "truth", .seed = 1});
     EXPECT_TRUE(test::sameBits(first.color, again.color));
     EXPECT_FALSE(test::sameBits(first.color, other.color));
 }
@@ -185,13 +184,13 @@ TEST_F(TruthLaw, BatchesAddUpToTheSamePicture) {
     const SceneBuilder scene = makeScene(true);
     Stage stage(device(), scene);
     for (const auto pixel : {PixelModel::Centre, PixelModel::Box}) {
-        const auto whole = stage.render({.method = Method::Truth, .instants = 13, .pixel = pixel});
+        const auto whole = stage.render({.method = "truth", .instants = 13, .pixel = pixel});
         for (const uint32_t batch : {1u, 5u})
             EXPECT_TRUE(test::sameBits(
                 whole.color,
                 stage
                     .render(
-                        {.method = Method::Truth, .instants = 13, .batch = batch, .pixel = pixel}
+                        {.method = "truth", .instants = 13, .batch = batch, .pixel = pixel}
                     )
                     .color
             )) << batch;
@@ -203,7 +202,7 @@ TEST_F(TruthLaw, OnePixelAndPartialGroupsWork) {
     Stage stage(device(), scene);
     for (const auto& [width, height] : {std::pair(1u, 1u), std::pair(9u, 1u), std::pair(3u, 17u)}) {
         const auto result =
-            stage.render({.method = Method::Truth, .width = width, .height = height, .instants = 2}
+            stage.render({.method = "truth", .width = width, .height = height, .instants = 2}
             );
         EXPECT_EQ(result.color.width, width);
         EXPECT_TRUE(test::allFinite(result.color));
@@ -217,7 +216,7 @@ TEST_F(TruthLaw, AnEmptySceneIsItsBackground) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     const auto result = test::renderOnce(
-        device(), scene, {.method = Method::Truth, .background = {0.25f, 0.5f, 0.75f}}
+        device(), scene, {.method = "truth", .background = {0.25f, 0.5f, 0.75f}}
     );
     for (uint32_t x = 0; x < 96; ++x)
         ASSERT_EQ(result.color.at(x, 20, 1), 0.5f);
@@ -225,9 +224,9 @@ TEST_F(TruthLaw, AnEmptySceneIsItsBackground) {
 
 TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessAsked) {
     const SceneBuilder scene = makeScene(true);
-    const auto without = test::renderOnce(device(), scene, {.method = Method::Truth});
+    const auto without = test::renderOnce(device(), scene, {.method = "truth"});
     const auto with =
-        test::renderOnce(device(), scene, {.method = Method::Truth, .aovs = {"depth"}});
+        test::renderOnce(device(), scene, {.method = "truth", .aovs = {"depth"}});
     const auto draws = [](const render::FrameResult& result) {
         const auto& passes = result.statistics.passes;
         return std::any_of(passes.begin(), passes.end(), [](const gpu::PassTime& pass) {

@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t kFiner = 8;
 
 math::dvec2 measurePosition(Stage& stage, Shot shot, double instant) {
-    shot.method = Method::Sharp;
+    shot.method = "sharp";
     shot.instant = instant;
     shot.width *= kFiner;
     shot.height *= kFiner;
@@ -47,7 +47,7 @@ ecs::Entity addMarker(SceneBuilder& scene, double sizeMetres, const Placement& p
 }
 
 void expectMotionOfMarker(Stage& stage, Shot shot, double longerThanPx) {
-    shot.method = Method::Sharp;
+    shot.method = "sharp";
     shot.aovs = {"motion", "mesh_id"};
     const double rasterTime =
         scene::computeExposure({shot.exposureSeconds, shot.phase}, shot.seconds).rasterTime;

@@ -31,29 +31,6 @@ render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     return request;
 }
 
-/// Of kBlurMethods; the default for the others, which do not use it.
-motion_blur::Method blurMethod(Method method) {
-    using Blur = motion_blur::Method;
-    switch (method) {
-    case Method::OwnVelocity:
-        return Blur::OwnVelocity;
-    case Method::McGuire2012:
-        return Blur::McGuire2012;
-    case Method::Guertin2014:
-        return Blur::Guertin2014;
-    case Method::Jimenez2014:
-        return Blur::Jimenez2014;
-    case Method::Gather:
-        return Blur::Gather;
-    case Method::Sharp:
-    case Method::Hybrid:
-    case Method::Accumulate:
-    case Method::Truth:
-        break;
-    }
-    return Blur::Hybrid;
-}
-
 render::FrameResult unwrap(core::Result<render::FrameResult> result) {
     if (result)
         return std::move(result).value();
@@ -63,28 +40,24 @@ render::FrameResult unwrap(core::Result<render::FrameResult> result) {
 
 } // namespace
 
-const char* describe(Method method) {
-    switch (method) {
-    case Method::Sharp:
-        return "sharp";
-    case Method::OwnVelocity:
-        return "own_velocity";
-    case Method::McGuire2012:
-        return "mcguire2012";
-    case Method::Guertin2014:
-        return "guertin2014";
-    case Method::Jimenez2014:
-        return "jimenez2014";
-    case Method::Gather:
-        return "gather";
-    case Method::Hybrid:
-        return "hybrid";
-    case Method::Accumulate:
-        return "accumulate";
-    case Method::Truth:
-        return "truth";
+std::vector<std::string_view> listBlurMethods(const gpu::Device& device) {
+    std::vector<std::string_view> names;
+    for (const motion_blur::Method* method : motion_blur::listMethods()) {
+        const bool isAble = method->rays == motion_blur::RayNeed::None ||
+                            (method->rays == motion_blur::RayNeed::Any && device.hasRays()) ||
+                            device.hasRayQuery();
+        if (isAble)
+            names.emplace_back(method->name);
     }
-    return "?";
+    return names;
+}
+
+std::vector<std::string_view> listRasterMethods(const gpu::Device& device) {
+    std::vector<std::string_view> names{"sharp", "accumulate"};
+    for (const std::string_view name : listBlurMethods(device))
+        if (motion_blur::getMethod(name).readsRaster)
+            names.push_back(name);
+    return names;
 }
 
 Stage::Stage(gpu::Device& device, const SceneBuilder& scene)
@@ -98,12 +71,15 @@ render::FrameResult Stage::render(const Shot& shot) {
         return {};
     }
     request.view.exposure.cap = std::move(cap).value();
-    if (shot.method == Method::Accumulate)
+    if (shot.method == "accumulate")
         return renderAccumulated(shot, request);
-    if (shot.method == Method::Truth)
+    if (shot.method == "truth")
         return renderTruth(shot, request);
     motion_blur::MotionBlurSettings settings = shot.settings;
-    settings.method = blurMethod(shot.method);
+    if (const motion_blur::Method* method = motion_blur::findMethod(shot.method))
+        settings.method = method;
+    else
+        EXPECT_EQ(shot.method, "sharp") << "there is no such method";
     const core::Status valid = motion_blur::validate(settings);
     if (!valid) {
         ADD_FAILURE() << valid.error().message;
@@ -112,7 +88,7 @@ render::FrameResult Stage::render(const Shot& shot) {
     motion_blur::MotionBlurPlugin blur(mDevice, mRenderer.scene(), settings);
     tonemap::Tonemap tonemap(mDevice, {});
     std::vector<render::PostEffect*> effects;
-    if (shot.method != Method::Sharp)
+    if (shot.method != "sharp")
         effects.push_back(&blur);
     effects.push_back(&tonemap);
     if (shot.last)

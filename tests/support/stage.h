@@ -6,7 +6,7 @@
 #include "engine/render/renderer.h"
 #include "engine/scene/motion.h"
 #include "modules/accumulate/accumulate.h"
-#include "modules/motion_blur/settings.h"
+#include "modules/motion_blur/methods.h"
 #include "tests/support/scene_builder.h"
 
 #include <cstdint>
@@ -14,45 +14,20 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace shutter::test {
 
-enum class Method {
-    Sharp,
-    OwnVelocity,
-    McGuire2012,
-    Guertin2014,
-    Jimenez2014,
-    Gather,
-    Hybrid,
-    Accumulate,
-    Truth
-};
+/// Names of the motion blur's methods, which the device must be able to run.
+[[nodiscard]] std::vector<std::string_view> listBlurMethods(const gpu::Device& device);
 
-/// Those that share the raster image's half floats and may be held against it bit by bit.
-inline constexpr Method kAllMethods[] = {
-    Method::Sharp,
-    Method::OwnVelocity,
-    Method::McGuire2012,
-    Method::Guertin2014,
-    Method::Jimenez2014,
-    Method::Gather,
-    Method::Hybrid,
-    Method::Accumulate};
-
-/// Those of modules/motion_blur.
-inline constexpr Method kBlurMethods[] = {
-    Method::OwnVelocity,
-    Method::McGuire2012,
-    Method::Guertin2014,
-    Method::Jimenez2014,
-    Method::Gather,
-    Method::Hybrid};
-
-[[nodiscard]] const char* describe(Method method);
+/// Names of the methods that share the raster image's half floats and may be held against it bit by
+/// bit: sharp, accumulate and the motion blur's that read the raster image.
+[[nodiscard]] std::vector<std::string_view> listRasterMethods(const gpu::Device& device);
 
 struct Shot {
-    Method method = Method::Sharp;
+    std::string_view method = "sharp"; ///< "accumulate", "truth" or one of the motion blur's
     uint32_t width = 96;
     uint32_t height = 64;
     double seconds = 0.0;
@@ -60,14 +35,14 @@ struct Shot {
     scene::ShutterPhase phase = scene::ShutterPhase::Centre;
     scene::CameraShutter shutter{}; ///< the rest of it; the two above count
     double frameSeconds = scene::kStillFrameSeconds;
-    std::optional<double> instant{}; ///< Sharp: shutter time; none: the raster instant
+    std::optional<double> instant{}; ///< sharp: shutter time; none: the raster instant
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
-    uint32_t instants = 16; ///< Accumulate: instants; Truth: rays a pixel
-    uint32_t seed = 0;      ///< Truth only
-    uint32_t batch = 0;     ///< Truth: rays a pixel of each frame; 0: all in one
+    uint32_t instants = 16; ///< accumulate: instants; truth: rays per pixel
+    uint32_t seed = 0;      ///< truth only
+    uint32_t batch = 0;     ///< truth: rays per pixel of each frame; 0: all in one
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
-    motion_blur::MotionBlurSettings settings{}; ///< kBlurMethods; their method is set here
+    motion_blur::MotionBlurSettings settings{}; ///< of the motion blur; its method is set here
     std::set<std::string> aovs{};
     bool wantDisplay = false;
     /// Declared after the method's own effects; null: none.

@@ -10,7 +10,7 @@
 namespace shutter::test {
 
 void expectTrapezoidInEachPhase(
-    gpu::Device& device, Method method, uint32_t samples, double tolerance
+    gpu::Device& device, std::string_view method, uint32_t samples, double tolerance
 ) {
     // A white quad w pixels wide, seen over [a, a + w] at open and moved by m to the right: pixel
     // centre x is covered for the share of s in [0, 1] with a + m s <= x <= a + m s + w.

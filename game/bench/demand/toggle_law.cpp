@@ -100,7 +100,8 @@ class Rig {
             options.height = mOptions.height;
             options.background = math::vec3(0.1f, 0.2f, 0.3f);
             options.ambient = math::vec3(0.3f);
-            options.motionBlur.method = switches.method->blur;
+            if (switches.method->blur)
+                options.motionBlur.method = switches.method->blur;
             options.motionBlur.sampleCount = std::max(options.samples, 1u);
             auto made =
                 game::MethodRenderer::create(mDevice, *mRenderer, mDraft.shot, kept.options);

@@ -39,15 +39,15 @@ GBuffer makeSmooth(float frontPx, float backPx) {
     return gbuffer;
 }
 
-MotionBlurSettings makeSettings(Method method) {
+MotionBlurSettings makeSettings(const Method& method) {
     MotionBlurSettings settings;
-    settings.method = method;
+    settings.method = &method;
     settings.tileSizePx = 24;
     return settings;
 }
 
 core::Result<Worst> compareSteps(
-    gpu::Device& device, Method method, const std::vector<std::pair<float, float>>& motions
+    gpu::Device& device, const Method& method, const std::vector<std::pair<float, float>>& motions
 ) {
     FilterRig rig(device);
     Worst worst;
@@ -76,13 +76,13 @@ constexpr double kBound = 0.2 * kSlope;
 
 core::Result<Measurements> measureSmall(gpu::Device& device) {
     Measurements found;
-    for (const Method method : kFilters) {
+    for (const Method* method : listFilters()) {
         auto worst = compareSteps(
             device, method, {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}}
         );
         if (!worst)
             return worst.error();
-        found.push_back(describe(worst.value(), describe(method), "brightness", kBound));
+        found.push_back(describe(worst.value(), method->name, "brightness", kBound));
     }
     return found;
 }
@@ -90,13 +90,13 @@ core::Result<Measurements> measureSmall(gpu::Device& device) {
 /// Where a decision flips: at half a pixel a still picture starts to blur.
 core::Result<Measurements> measureThreshold(gpu::Device& device) {
     Measurements found;
-    for (const Method method : kFilters) {
-        auto worst = compareSteps(device, method, {{0.47886f, 0.0f}, {0.0f, 0.49022f}});
+    for (const Method* method : listFilters()) {
+        auto worst = compareSteps(device, *method, {{0.47886f, 0.0f}, {0.0f, 0.49022f}});
         if (!worst)
             return worst.error();
         // The taps are in the pixel's own texel then: what is left is the rounding of their mean.
         found.push_back(describe(
-            worst.value(), std::string(describe(method)) + " at half a pixel", "brightness", 1e-6
+            worst.value(), std::string(method->name) + " at half a pixel", "brightness", 1e-6
         ));
     }
     return found;

@@ -74,12 +74,12 @@ void GBuffer::setMotion(uint32_t x, uint32_t y, float right, float down, float d
     motionDepth.at(x, y, 2) = depth;
 }
 
-const char* describe(Method method) {
-    for (const game::MethodInfo& info : game::listMethods())
-        if (info.family == game::MethodFamily::MotionBlur && info.blur == method)
-            return info.name;
-    SHUTTER_CHECK(false, "no method is made of the blur {}", static_cast<int>(method));
-    return "";
+std::vector<const motion_blur::Method*> listFilters() {
+    std::vector<const motion_blur::Method*> filters;
+    for (const motion_blur::Method* method : motion_blur::listMethods())
+        if (method->rays == motion_blur::RayNeed::None)
+            filters.push_back(method);
+    return filters;
 }
 
 core::Result<Blurred> FilterRig::blur(
@@ -94,9 +94,9 @@ core::Result<Blurred> FilterRig::blur(
     const size_t color = rig.want(outputs.color);
     std::optional<size_t> tiles;
     std::optional<size_t> dominant;
-    if (outputs.tiles.isValid()) {
-        tiles = rig.want(outputs.tiles);
-        dominant = rig.want(outputs.dominant);
+    if (outputs.view("tile_max").isValid()) {
+        tiles = rig.want(outputs.view("tile_max"));
+        dominant = rig.want(outputs.view("tiles"));
     }
     if (core::Status ran = rig.run(); !ran)
         return ran.error();

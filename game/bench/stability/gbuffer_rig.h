@@ -64,15 +64,8 @@ struct Blurred {
     image::Image dominant; ///< likewise
 };
 
-/// Methods that need no rays.
-inline constexpr motion_blur::Method kFilters[] = {
-    motion_blur::Method::OwnVelocity,
-    motion_blur::Method::McGuire2012,
-    motion_blur::Method::Guertin2014,
-    motion_blur::Method::Jimenez2014,
-    motion_blur::Method::Gather};
-
-[[nodiscard]] const char* describe(motion_blur::Method method);
+/// The motion blur's methods that need no rays.
+[[nodiscard]] std::vector<const motion_blur::Method*> listFilters();
 
 /// Filters G-buffers with one set of pipelines.
 class FilterRig {

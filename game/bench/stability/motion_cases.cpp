@@ -51,9 +51,9 @@ void addMotion(GBuffer& gbuffer, float longestPx) {
         }
 }
 
-MotionBlurSettings makeSettings(motion_blur::Method method) {
+MotionBlurSettings makeSettings(const motion_blur::Method& method) {
     MotionBlurSettings settings;
-    settings.method = method;
+    settings.method = &method;
     settings.tileSizePx = 16;
     settings.occluderTest = motion_blur::OccluderTest::Velocity;
     return settings;
@@ -66,19 +66,19 @@ core::Status
 filterAll(gpu::Device& device, const GBuffer& gbuffer, const GBuffer* other, const Judge& judge) {
     FilterRig rig(device);
     for (const double share : {0.0, 0.5, 1.0})
-        for (const motion_blur::Method method : kFilters) {
-            const MotionBlurSettings settings = makeSettings(method);
+        for (const motion_blur::Method* method : listFilters()) {
+            const MotionBlurSettings settings = makeSettings(*method);
             auto blurred = rig.blur(gbuffer, settings, share);
             if (!blurred)
                 return blurred.error();
             if (other == nullptr) {
-                judge(blurred.value(), nullptr, describe(method));
+                judge(blurred.value(), nullptr, method->name);
                 continue;
             }
             auto reference = rig.blur(*other, settings, share);
             if (!reference)
                 return reference.error();
-            judge(blurred.value(), &reference.value(), describe(method));
+            judge(blurred.value(), &reference.value(), method->name);
         }
     return {};
 }

@@ -67,7 +67,7 @@ Layer makeLayer() {
 
 motion_blur::MotionBlurSettings makeSettings() {
     motion_blur::MotionBlurSettings settings;
-    settings.method = motion_blur::Method::Gather;
+    settings.method = &motion_blur::getMethod("gather");
     settings.tileSizePx = 16;
     settings.softDepthExtent = float(kSoftExtent);
     return settings;
@@ -303,10 +303,11 @@ bool meetsEdge(Reader& reader, const Image& edges, int x, int y, const dvec2& of
 core::Result<Measurements> measureMask(gpu::Device& device) {
     const Layer layer = makeLayer();
     motion_blur::MotionBlurSettings settings = makeSettings();
+    settings.method = &motion_blur::getMethod("hybrid");
     settings.edgeThreshold = 0.8f;
     const motion_blur::TileMotion tileMotion(device);
     const motion_blur::BlockSorter sorter(device);
-    const motion_blur::RayMask instanceMask(device);
+    const motion_blur::RayMask rayMask(device);
     Worst measure;
     Worst edges;
     Worst masks;
@@ -317,7 +318,7 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
         const auto params = motion_blur::resolve(settings, kWidth, kHeight, share);
         const graph::ImageHandle motionDepth = rig.upload(layer.gbuffer.motionDepth);
         const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
-        const auto outputs = instanceMask.add(
+        const auto outputs = rayMask.add(
             rig.graph,
             {motionDepth,
              rig.upload(layer.normal),

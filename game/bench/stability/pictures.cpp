@@ -75,7 +75,8 @@ Drawer::draw(std::string_view name, const View& view, bool intermediates) {
     if (!kept.renderer) {
         kept.options.samples = method.value()->defaultSamples;
         kept.options.motionBlur = mSettings;
-        kept.options.motionBlur.method = method.value()->blur;
+        if (method.value()->blur)
+            kept.options.motionBlur.method = method.value()->blur;
         kept.options.motionBlur.sampleCount = std::max(kept.options.samples, 1u);
     }
     applyView(kept.options, view, intermediates);

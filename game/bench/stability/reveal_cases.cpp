@@ -44,10 +44,13 @@ class RevealEverywhere : public render::PostEffect {
         motion_blur::MotionBlurSettings settings;
         settings.recursionLimit = 2; // the raster's surface and one ray
         settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
-        shader::MotionBlurParams params = motion_blur::resolve(
+        settings.method = &motion_blur::getMethod("hybrid");
+        motion_blur::PassParams params = motion_blur::resolve(
             settings, context.facts.width, context.facts.height, context.facts.rasterTime
         );
-        params.frame = gpu::splitAddress(context.rays->frameConstants);
+        auto own = params.getMethod<shader::HybridParams>();
+        own.frame = gpu::splitAddress(context.rays->frameConstants);
+        params.setMethod(own);
         const motion_blur::RayRevealInputs inputs{
             context.color,
             context.gbuffer.motionDepth,
@@ -55,12 +58,7 @@ class RevealEverywhere : public render::PostEffect {
             context.color, // of the mask: read for entries that share a ray only, and none does
             context.graph.importBuffer("all pixels", mList.handle(), mList.bytes()),
             context.graph.importBuffer("all groups", mArguments.handle(), mArguments.bytes()),
-            motion_blur::RayInputs{
-                .tlasBuffer = context.rays->tlasBuffer,
-                .movingTlasBuffer = context.rays->movingTlasBuffer,
-                .tlas = context.rays->tlas,
-                .scene = context.rays->textures,
-                .frame = params.frame}};
+            *context.rays};
         const motion_blur::RayRevealOutputs outputs = mReveal.add(context.graph, inputs, params);
         context.color = outputs.color;
         context.intermediates.publish("reveal_id", outputs.entityId);

@@ -119,7 +119,7 @@ int main() try {
     inputs.color = {*color.image, kDrawn, kCopied};
     inputs.motionDepth = {*motion.image, kDrawn, {}};
     inputs.output = {*output.image, {}, kCopied};
-    constexpr motion_blur::MotionBlurSettings kSettings{motion_blur::Method::Gather};
+    constexpr motion_blur::MotionBlurSettings kSettings{&motion_blur::getMethod("gather")};
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         if (frame >= kInFlight) // (4) is given the number of a frame that the GPU is done with
             (void)gpu.device.waitForFences(*fences[frame - kInFlight], true, UINT64_MAX);

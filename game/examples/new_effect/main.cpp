@@ -23,7 +23,7 @@ core::Status draw(const char* scene, const char* out) {
     request.view.exposure = scene::computeExposure({.exposureSeconds = 1.0 / 60.0}, 0.0);
     request.wantDisplay = true;
     render::Renderer renderer(*device.value(), world.assets);
-    const motion_blur::MotionBlurSettings settings{motion_blur::Method::Gather};
+    const motion_blur::MotionBlurSettings settings{&motion_blur::getMethod("gather")};
     motion_blur::MotionBlurPlugin blur(*device.value(), renderer.scene(), settings);
     Vignette vignette(*device.value(), 1.0f);
     tonemap::Tonemap tonemap(*device.value(), {});

@@ -118,20 +118,27 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() = default;
 core::Status EmbeddedMotionBlur::checkMethod(
     const HostInputs& inputs, const MotionBlurSettings& settings
 ) const {
-    if (settings.method == Method::Denoised)
-        return makeError("motion blur: the method denoised draws no raster image; "
-                         "it is not for hosts that have one");
-    if (settings.method != Method::Hybrid)
+    const Method& method = *settings.method;
+    if (!method.readsRaster)
+        return makeError(
+            "motion blur: the method {} reads no raster image; it is not for hosts that have one",
+            method.name
+        );
+    if (method.readsSurface)
+        for (const auto& [name, image] :
+             {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
+            if (core::Status given = checkImage(name, *image); !given)
+                return given;
+    if (method.rays == RayNeed::None)
         return {};
     if (!mHasRays)
-        return makeError("motion blur: the method hybrid needs rays, and HostDevice::rayTier "
-                         "was none");
-    for (const auto& [name, image] :
-         {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
-        if (core::Status given = checkImage(name, *image); !given)
-            return given;
+        return makeError(
+            "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
+        );
     if (inputs.rays.frameConstants == 0)
-        return makeError("motion blur: rays.frameConstants is 0, which the method hybrid needs");
+        return makeError(
+            "motion blur: rays.frameConstants is 0, which the method {} needs", method.name
+        );
     if (inputs.rays.tlas && (!inputs.rays.tlasBuffer || !inputs.rays.scene))
         return makeError(
             "motion blur: rays.{} is null", inputs.rays.tlasBuffer ? "scene" : "tlasBuffer"
@@ -227,13 +234,12 @@ core::Status EmbeddedMotionBlur::recordInto(
         own.target = own.color;
     own.rasterTime = inputs.rasterTime;
     own.response = gpu::splitAddress(inputs.response);
-    if (settings.method == Method::Hybrid) {
-        RayInputs rays;
-        rays.frame = gpu::splitAddress(inputs.rays.frameConstants);
+    if (settings.method->rays == RayNeed::Any) {
+        graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (inputs.rays.tlas) {
             rays.tlasBuffer = graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
             rays.tlas = inputs.rays.tlas;
-            rays.scene = inputs.rays.scene;
+            rays.textures = inputs.rays.scene;
             rays.hasBlended = inputs.rays.hasBlended;
         }
         own.rays = rays;

@@ -27,7 +27,7 @@ struct HostDevice {
     /// 64].
     uint32_t framesInFlight = 2;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
-    /// Method::Hybrid alone: which rays of HostFeatures are enabled, and the layout of
+    /// For methods of RayNeed::Any: which rays of HostFeatures are enabled, and the layout of
     /// HostRays::scene.
     gpu::RayTier rayTier = gpu::RayTier::None;
     VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
@@ -42,7 +42,7 @@ struct HostImage {
     graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
 };
 
-/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants Method::Hybrid
+/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of RayNeed::Any
 /// fills those tables.
 struct HostRays {
     /// Custom index of an instance: its mesh id. Null: nothing but sky lies behind what moves.
@@ -58,13 +58,13 @@ struct HostInputs {
     uint32_t height = 0;
     HostImage color;       ///< RGBA16F; sampled, transfer source; in place: storage, too
     HostImage motionDepth; ///< RGBA32F: motion.xy, depth; every value finite; sampled
-    HostImage normal;      ///< RGBA16F: xyz unit; sampled; Method::Hybrid alone
-    HostImage entityId;    ///< R32_UINT; sampled; Method::Hybrid alone
+    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for methods that read the surface
+    HostImage entityId;    ///< R32_UINT; sampled; for methods that read the surface
     /// RGBA16F; storage, transfer target. Null: in place, the blurred picture replaces `color`.
     HostImage output;
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
-    HostRays rays;                ///< Method::Hybrid alone
+    HostRays rays;                ///< for methods of RayNeed::Any
 };
 
 class EmbeddedMotionBlur {
@@ -86,7 +86,7 @@ class EmbeddedMotionBlur {
     /// this number: then the host has waited for it, or never submits it.
     /// Errors name what is wrong, and nothing was recorded; an error that tells of memory or the
     /// device may leave a part, and the command buffer must be reset then.
-    /// Method::Denoised is refused: it draws no raster image.
+    /// Methods that read no raster image are refused.
     [[nodiscard]] core::Status record(
         VkCommandBuffer commands,
         uint32_t frame,

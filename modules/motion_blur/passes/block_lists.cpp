@@ -89,7 +89,7 @@ BlockSorter::BlockSorter(gpu::Device& device)
 SortedBlocks BlockSorter::add(
     graph::Graph& graph,
     const TileMotionOutputs& tiles,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     bool forMask
 ) const {
     const glm::uvec2 extent = countBlocks(params);
@@ -125,7 +125,8 @@ SortedBlocks BlockSorter::add(
             for (const BlockLists* pair : {&data.sorted.lists, &data.sorted.candidates})
                 bindings.buffer(resources.buffer(pair->blocks))
                     .buffer(resources.buffer(pair->arguments));
-            dispatchPixels(context, forMask ? mSortForMask : mSort, bindings, params, extent);
+            dispatchPixels(
+                context, (forMask ? mSortForMask : mSort).get(), bindings, params, extent);
         }
     );
     return pass.sorted;
@@ -134,7 +135,7 @@ SortedBlocks BlockSorter::add(
 void BlockSorter::addCounters(
     graph::Graph& graph,
     const SortedBlocks& sorted,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     uint32_t slot
 ) {
     struct Data {

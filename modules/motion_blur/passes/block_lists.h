@@ -8,7 +8,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/tile_motion.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 #include <array>
 #include <cstdint>
@@ -45,7 +45,7 @@ class BlockSorter {
     SortedBlocks
     add(graph::Graph& graph,
         const TileMotionOutputs& tiles,
-        const shader::MotionBlurParams& params,
+        const PassParams& params,
         bool forMask) const;
 
     /// Reads the lists' lengths back, once all passes that append are declared.
@@ -53,7 +53,7 @@ class BlockSorter {
     void addCounters(
         graph::Graph& graph,
         const SortedBlocks& sorted,
-        const shader::MotionBlurParams& params,
+        const PassParams& params,
         uint32_t slot = 0
     );
 
@@ -63,8 +63,8 @@ class BlockSorter {
 
   private:
     VkSampler mSampler;
-    gpu::Pipeline mSort;
-    gpu::Pipeline mSortForMask;
+    gpu::LazyPipeline mSort;
+    gpu::LazyPipeline mSortForMask;
     gpu::Buffer mHeaders; ///< by slot: of the lists, of the candidates
     std::array<uint32_t, gpu::kMaxFramesInFlight> mBlockCounts{}; ///< by slot: of the picture
 };

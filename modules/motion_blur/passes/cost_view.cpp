@@ -11,7 +11,7 @@ namespace shutter::motion_blur {
 
 namespace {
 
-graph::ImageHandle addCleared(graph::Graph& graph, const shader::MotionBlurParams& params) {
+graph::ImageHandle addCleared(graph::Graph& graph, const PassParams& params) {
     struct Data {
         graph::ImageHandle image;
     };
@@ -44,18 +44,17 @@ graph::ImageHandle addCleared(graph::Graph& graph, const shader::MotionBlurParam
 } // namespace
 
 CostView::CostView(gpu::Device& device)
-    : mUniform(device, "cost, uniform", motion_blur_cost_view_comp, 1, shader::kUniformList, {1}),
-      mMixed(device, "cost, mixed", motion_blur_cost_view_comp, 1, shader::kMixedList, {2}),
+    : mUniform(
+          device, shader::kUniformList, {"cost, uniform", motion_blur_cost_view_comp, 1, {1}}
+      ),
+      mMixed(device, shader::kMixedList, {"cost, mixed", motion_blur_cost_view_comp, 1, {2}}),
       mCandidates(
-          device, "cost, candidates", motion_blur_cost_view_comp, 1, shader::kCandidateList, {2}
+          device, shader::kCandidateList, {"cost, candidates", motion_blur_cost_view_comp, 1, {2}}
       ),
       mMasked(
           device,
-          "cost, masked",
-          motion_blur_cost_view_comp,
-          1,
           shader::kMaskedList,
-          {4, kFetchesPerRay}
+          {"cost, masked", motion_blur_cost_view_comp, 1, {4, kFetchesPerRay}}
       ) {}
 
 graph::ImageHandle CostView::add(
@@ -63,7 +62,7 @@ graph::ImageHandle CostView::add(
     graph::ImageHandle motionDepth,
     graph::ImageHandle mask,
     const SortedBlocks& blocks,
-    const shader::MotionBlurParams& params
+    const PassParams& params
 ) const {
     const bool hasMask = mask.isValid();
     const std::array inputs{hasMask ? mask : motionDepth};

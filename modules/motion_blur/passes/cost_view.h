@@ -2,7 +2,7 @@
 // Where the time of a filter over lists of blocks goes, as a picture.
 #pragma once
 
-#include "modules/motion_blur/passes/block_filter.h"
+#include "modules/motion_blur/passes/filter.h"
 
 namespace shutter::motion_blur {
 
@@ -21,7 +21,7 @@ class CostView {
         graph::ImageHandle motionDepth,
         graph::ImageHandle mask,
         const SortedBlocks& blocks,
-        const shader::MotionBlurParams& params) const;
+        const PassParams& params) const;
 
   private:
     BlockFilter mUniform;

@@ -4,7 +4,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/execute.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace shutter::motion_blur {
 
-/// A compute pipeline of this module: every pass pushes MotionBlurParams.
+/// A compute pipeline of this module: every pass pushes PassParams.
 [[nodiscard]] inline gpu::ComputePipelineDesc describePass(
     std::string name, std::span<const uint32_t> spirv, std::vector<VkDescriptorType> bindings
 ) {
@@ -22,7 +22,7 @@ namespace shutter::motion_blur {
     desc.name = std::move(name);
     desc.spirv = spirv;
     desc.interface.bindings = std::move(bindings);
-    desc.interface.pushConstantBytes = sizeof(shader::MotionBlurParams);
+    desc.interface.pushConstantBytes = sizeof(PassParams);
     return desc;
 }
 
@@ -31,7 +31,7 @@ inline void dispatchPixels(
     graph::PassContext& context,
     const gpu::Pipeline& pipeline,
     const gpu::BindingList& bindings,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     glm::uvec2 extent,
     VkDescriptorSet sceneSet = VK_NULL_HANDLE
 ) {
@@ -46,7 +46,7 @@ inline void dispatchList(
     graph::PassContext& context,
     const gpu::Pipeline& pipeline,
     const gpu::BindingList& bindings,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     graph::BufferHandle arguments,
     uint32_t list
 ) {
@@ -59,7 +59,7 @@ inline void dispatchList(
 }
 
 /// Blocks of a picture, across and down.
-[[nodiscard]] inline glm::uvec2 countBlocks(const shader::MotionBlurParams& params) {
+[[nodiscard]] inline glm::uvec2 countBlocks(const PassParams& params) {
     return (params.sizePx + shader::kGroupSize - 1u) / shader::kGroupSize;
 }
 

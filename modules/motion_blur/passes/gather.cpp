@@ -11,23 +11,18 @@ namespace shutter::motion_blur {
 
 Gather::Gather(gpu::Device& device)
     : mUniform(
-          device, "gather uniform", motion_blur_reconstruct_uniform_comp, 2, shader::kUniformList
+          device, shader::kUniformList, {"gather uniform", motion_blur_reconstruct_uniform_comp, 2}
       ),
-      mOneLayer(device, "gather", motion_blur_reconstruct_comp, 3, shader::kMixedList, {0}),
+      mOneLayer(device, shader::kMixedList, {"gather", motion_blur_reconstruct_comp, 3, {0}}),
       mOneLayerOfCandidates(
           device,
-          "gather without mask",
-          motion_blur_reconstruct_comp,
-          3,
           shader::kCandidateList,
-          {1}
+          {"gather without mask", motion_blur_reconstruct_comp, 3, {1}}
       ),
       mTwoLayers(
           device,
-          "gather and composite",
-          motion_blur_reconstruct_masked_comp,
-          7,
-          shader::kMaskedList
+          shader::kMaskedList,
+          {"gather and composite", motion_blur_reconstruct_masked_comp, 7}
       ) {}
 
 graph::ImageHandle Gather::add(
@@ -35,7 +30,7 @@ graph::ImageHandle Gather::add(
     const GatherInputs& inputs,
     const SortedBlocks& blocks,
     graph::ImageHandle target,
-    const shader::MotionBlurParams& params
+    const PassParams& params
 ) const {
     const std::array raster{inputs.color, inputs.motionDepth, inputs.dominant};
     if (params.uniformMotionPx > 0.0f) {

@@ -5,8 +5,8 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/block_filter.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/passes/filter.h"
+#include "modules/motion_blur/params.h"
 
 #include <optional>
 
@@ -38,7 +38,7 @@ class Gather {
         const GatherInputs& inputs,
         const SortedBlocks& blocks,
         graph::ImageHandle target,
-        const shader::MotionBlurParams& params) const;
+        const PassParams& params) const;
 
   private:
     BlockFilter mUniform;

@@ -17,7 +17,7 @@ GuertinTiles::GuertinTiles(gpu::Device& device)
       ) {}
 
 GuertinTilesOutputs GuertinTiles::add(
-    graph::Graph& graph, graph::ImageHandle tiles, const shader::MotionBlurParams& params
+    graph::Graph& graph, graph::ImageHandle tiles, const PassParams& params
 ) const {
     using graph::Access;
 
@@ -46,7 +46,7 @@ GuertinTilesOutputs GuertinTiles::add(
             bindings.sampled(context.resources.view(data.tiles), mSampler)
                 .storage(context.resources.view(data.outputs.dominant))
                 .storage(context.resources.view(data.outputs.variance));
-            dispatchPixels(context, mPipeline, bindings, params, params.tileCount);
+            dispatchPixels(context, mPipeline.get(), bindings, params, params.tileCount);
         }
     );
     return pass.outputs;

@@ -4,7 +4,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
 
@@ -19,12 +19,12 @@ class GuertinTiles {
 
     /// \param tiles TileMotion's: the longest motion of each tile
     [[nodiscard]] GuertinTilesOutputs
-    add(graph::Graph& graph, graph::ImageHandle tiles, const shader::MotionBlurParams& params
+    add(graph::Graph& graph, graph::ImageHandle tiles, const PassParams& params
     ) const;
 
   private:
     VkSampler mSampler;
-    gpu::Pipeline mPipeline;
+    gpu::LazyPipeline mPipeline;
 };
 
 } // namespace shutter::motion_blur

@@ -64,7 +64,7 @@ struct Cleared {
     graph::BufferHandle tileArguments;
 };
 
-Cleared createCleared(graph::Graph& graph, const shader::MotionBlurParams& params) {
+Cleared createCleared(graph::Graph& graph, const PassParams& params) {
     const glm::uvec2 size = params.sizePx;
     const glm::uvec2 blocks = countBlocks(params);
     const VkDeviceSize pixelCount = VkDeviceSize(size.x) * size.y;
@@ -85,7 +85,7 @@ Cleared createCleared(graph::Graph& graph, const shader::MotionBlurParams& param
         createArguments(graph, "masked tile arguments", 2)};
 }
 
-Cleared addClear(graph::Graph& graph, const shader::MotionBlurParams& params) {
+Cleared addClear(graph::Graph& graph, const PassParams& params) {
     return graph.addPass<Cleared>(
         "clear ray mask",
         graph::PassKind::Transfer,
@@ -129,14 +129,15 @@ RayMask::RayMask(gpu::Device& device)
       mEdgeViewEverywhere(device, describeEdgeView(true)), mMask(device, describeMask()) {}
 
 graph::ImageHandle RayMask::addEdgeView(
-    graph::Graph& graph, const RayMaskInputs& inputs, const shader::MotionBlurParams& params
+    graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
 ) const {
     struct Data {
         std::array<graph::ImageHandle, 3> in;
         graph::ImageHandle edge;
     };
 
-    const gpu::Pipeline& pipeline = inputs.measureEverywhere ? mEdgeViewEverywhere : mEdgeView;
+    const gpu::LazyPipeline& pipeline =
+        inputs.measureEverywhere ? mEdgeViewEverywhere : mEdgeView;
     const Data& pass = graph.addPass<Data>(
         "edge view",
         graph::PassKind::Compute,
@@ -156,7 +157,7 @@ graph::ImageHandle RayMask::addEdgeView(
             for (graph::ImageHandle image : data.in)
                 bindings.sampled(context.resources.view(image), mSampler);
             bindings.storage(context.resources.view(data.edge));
-            dispatchPixels(context, pipeline, bindings, params, params.sizePx);
+            dispatchPixels(context, pipeline.get(), bindings, params, params.sizePx);
         }
     );
     return pass.edge;
@@ -166,7 +167,7 @@ RayMask::Edges RayMask::addEdges(
     graph::Graph& graph,
     const RayMaskInputs& inputs,
     const Edges& cleared,
-    const shader::MotionBlurParams& params
+    const PassParams& params
 ) const {
     struct Data {
         std::array<graph::ImageHandle, 3> in;
@@ -196,7 +197,7 @@ RayMask::Edges RayMask::addEdges(
                 .storage(resources.view(data.out.blocks))
                 .buffer(resources.buffer(data.candidates.blocks));
             dispatchList(
-                context, mEdge, bindings, params, data.candidates.arguments, shader::kCandidateList
+                context, mEdge.get(), bindings, params, data.candidates.arguments, shader::kCandidateList
             );
         }
     );
@@ -204,7 +205,7 @@ RayMask::Edges RayMask::addEdges(
 }
 
 RayMaskOutputs RayMask::add(
-    graph::Graph& graph, const RayMaskInputs& inputs, const shader::MotionBlurParams& params
+    graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
 ) const {
     const Cleared cleared = addClear(graph, params);
     const Edges edges = addEdges(graph, inputs, {cleared.images[0], cleared.images[1]}, params);
@@ -252,7 +253,7 @@ RayMaskOutputs RayMask::add(
                 .buffer(resources.buffer(data.out.tileArguments));
             dispatchList(
                 context,
-                mMask,
+                mMask.get(),
                 bindings,
                 params,
                 data.out.blocks.candidates.arguments,

@@ -6,7 +6,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/block_lists.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
 
@@ -32,7 +32,7 @@ class RayMask {
   public:
     explicit RayMask(gpu::Device& device);
     RayMaskOutputs
-    add(graph::Graph& graph, const RayMaskInputs& inputs, const shader::MotionBlurParams& params
+    add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
     ) const;
 
   private:
@@ -42,20 +42,20 @@ class RayMask {
     };
 
     graph::ImageHandle addEdgeView(
-        graph::Graph& graph, const RayMaskInputs& inputs, const shader::MotionBlurParams& params
+        graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
     ) const;
     Edges addEdges(
         graph::Graph& graph,
         const RayMaskInputs& inputs,
         const Edges& cleared,
-        const shader::MotionBlurParams& params
+        const PassParams& params
     ) const;
 
     VkSampler mSampler;
-    gpu::Pipeline mEdge;
-    gpu::Pipeline mEdgeView;
-    gpu::Pipeline mEdgeViewEverywhere;
-    gpu::Pipeline mMask;
+    gpu::LazyPipeline mEdge;
+    gpu::LazyPipeline mEdgeView;
+    gpu::LazyPipeline mEdgeViewEverywhere;
+    gpu::LazyPipeline mMask;
 };
 
 } // namespace shutter::motion_blur

@@ -71,7 +71,7 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
           gpu::MemoryUse::Readback
       ) {}
 
-const gpu::Pipeline& RayReveal::findPipeline(const RayInputs& rays) {
+const gpu::Pipeline& RayReveal::findPipeline(const graph::RayScene& rays) {
     if (rays.tlas == VK_NULL_HANDLE) {
         if (!mSky)
             mSky.emplace(mDevice, describeSky());
@@ -137,7 +137,7 @@ graph::BufferHandle RayReveal::addLaunchSize(graph::Graph& graph, graph::BufferH
 void RayReveal::launch(
     graph::PassContext& context,
     const RayRevealInputs& inputs,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     graph::BufferHandle launchSize
 ) const {
     const graph::PassResources& resources = context.resources;
@@ -148,7 +148,7 @@ void RayReveal::launch(
 }
 
 RayRevealOutputs RayReveal::add(
-    graph::Graph& graph, const RayRevealInputs& inputs, const shader::MotionBlurParams& params
+    graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params
 ) {
     using graph::Access;
     const auto create = [&](const char* name, graph::ImageHandle like) {
@@ -211,7 +211,7 @@ RayRevealOutputs RayReveal::add(
                 .buffer(resources.buffer(data.list));
             if (data.in.rays.tlas != VK_NULL_HANDLE)
                 bindings.accelerationStructure(data.in.rays.tlas);
-            context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.scene);
+            context.frame.bind(pipeline, bindings, &params, sizeof(params), data.in.rays.textures);
             if (byCompute)
                 vkCmdDispatchIndirect(context.commands, resources.buffer(data.in.arguments), 0);
             else

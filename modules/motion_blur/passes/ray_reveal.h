@@ -6,26 +6,13 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/ray_pipeline.h"
 #include "engine/graph/graph.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "engine/graph/ray_scene.h"
+#include "modules/motion_blur/params.h"
 
 #include <array>
 #include <optional>
 
 namespace shutter::motion_blur {
-
-/// What rays meet, in the terms of shaders/render/: another engine fills the same tables.
-struct RayInputs {
-    graph::BufferHandle tlasBuffer;         ///< read with Access::AccelerationRead
-    graph::BufferHandle movingTlasBuffer;   ///< likewise, unless it is invalid: there is no second
-    graph::BufferHandle deformedBlasBuffer; ///< likewise, unless it is invalid: nothing is deformed
-    graph::BufferHandle deformedBuffer;     ///< read with Access::ShaderRead, unless it is invalid
-    /// Custom index: row of the entity table. Null: nothing but sky lies behind what moves, and no
-    /// ray is traced; `frame` alone counts then.
-    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
-    VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
-    glm::uvec2 frame{0u};                   ///< address of FrameConstants
-    bool hasBlended = false; ///< blended surfaces lie over what is revealed, as over the raster's
-};
 
 struct RayRevealInputs {
     graph::ImageHandle color;
@@ -34,7 +21,7 @@ struct RayRevealInputs {
     graph::ImageHandle mask;       ///< of RayMask
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
-    RayInputs rays;
+    graph::RayScene rays; ///< no TLAS: nothing but sky is found
     uint32_t slot = 0; ///< of the frames in flight, below gpu::kMaxFramesInFlight
 };
 
@@ -50,7 +37,7 @@ class RayReveal {
   public:
     RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
     RayRevealOutputs
-    add(graph::Graph& graph, const RayRevealInputs& inputs, const shader::MotionBlurParams& params);
+    add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params);
 
     /// What the slot's last frame counted; valid once the GPU is done with it.
     [[nodiscard]] shader::MaskHeader lastHeader(uint32_t slot) const;
@@ -59,11 +46,11 @@ class RayReveal {
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
     graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
     /// Made for the first frame that needs it.
-    const gpu::Pipeline& findPipeline(const RayInputs& rays);
+    const gpu::Pipeline& findPipeline(const graph::RayScene& rays);
     void launch(
         graph::PassContext& context,
         const RayRevealInputs& inputs,
-        const shader::MotionBlurParams& params,
+        const PassParams& params,
         graph::BufferHandle launchSize
     ) const;
 

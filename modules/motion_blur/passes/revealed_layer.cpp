@@ -51,12 +51,12 @@ RevealedLayerPasses::RevealedLayerPasses(gpu::Device& device)
       ) {}
 
 graph::ImageHandle RevealedLayerPasses::addDominant(
-    graph::Graph& graph, const RevealedLayerInputs& inputs, const shader::MotionBlurParams& params
+    graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
 ) const {
     const graph::TransientImageDesc desc{
         params.tileCount.x, params.tileCount.y, VK_FORMAT_R32G32_SFLOAT};
     const auto addPass = [&](const std::string& name,
-                             const gpu::Pipeline& pipeline,
+                             const gpu::LazyPipeline& pipeline,
                              std::vector<graph::ImageHandle> sampled,
                              const char* image,
                              uint32_t list) {
@@ -78,7 +78,7 @@ graph::ImageHandle RevealedLayerPasses::addDominant(
                         bindings.sampled(context.resources.view(in), mSampler);
                     bindings.storage(context.resources.view(data.out))
                         .buffer(context.resources.buffer(data.tiles));
-                    dispatchList(context, pipeline, bindings, params, data.arguments, list);
+                    dispatchList(context, pipeline.get(), bindings, params, data.arguments, list);
                 }
             )
             .out;
@@ -100,7 +100,7 @@ graph::ImageHandle RevealedLayerPasses::addDominant(
 }
 
 RevealedViews RevealedLayerPasses::addViews(
-    graph::Graph& graph, const RevealedLayerInputs& inputs, const shader::MotionBlurParams& params
+    graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
 ) const {
     struct Data {
         std::array<graph::ImageHandle, 5> in;
@@ -136,7 +136,7 @@ RevealedViews RevealedLayerPasses::addViews(
                 bindings.sampled(context.resources.view(in), mSampler);
             bindings.storage(context.resources.view(data.out.color))
                 .storage(context.resources.view(data.out.motionDepth));
-            dispatchPixels(context, mView, bindings, params, params.sizePx);
+            dispatchPixels(context, mView.get(), bindings, params, params.sizePx);
         }
     );
     return pass.out;

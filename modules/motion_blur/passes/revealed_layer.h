@@ -7,7 +7,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
 
@@ -32,21 +32,21 @@ class RevealedLayerPasses {
     [[nodiscard]] graph::ImageHandle addDominant(
         graph::Graph& graph,
         const RevealedLayerInputs& inputs,
-        const shader::MotionBlurParams& params
+        const PassParams& params
     ) const;
 
     /// Drawn only if they are read.
     [[nodiscard]] RevealedViews addViews(
         graph::Graph& graph,
         const RevealedLayerInputs& inputs,
-        const shader::MotionBlurParams& params
+        const PassParams& params
     ) const;
 
   private:
     VkSampler mSampler;
-    gpu::Pipeline mTileMax;
-    gpu::Pipeline mNeighbourMax;
-    gpu::Pipeline mView;
+    gpu::LazyPipeline mTileMax;
+    gpu::LazyPipeline mNeighbourMax;
+    gpu::LazyPipeline mView;
 };
 
 } // namespace shutter::motion_blur

@@ -42,11 +42,11 @@ StillPixelsBy chooseStillPixels(double movingShare, StillPixelsBy last) {
 
 StillPixels::StillPixels(gpu::Device& device)
     : mUniform(
-          device, "write uniform blocks", motion_blur_copy_blocks_comp, 1, shader::kUniformList
+          device, shader::kUniformList, {"write uniform blocks", motion_blur_copy_blocks_comp, 1}
       ),
-      mMixed(device, "write mixed blocks", motion_blur_copy_blocks_comp, 1, shader::kMixedList),
+      mMixed(device, shader::kMixedList, {"write mixed blocks", motion_blur_copy_blocks_comp, 1}),
       mCandidates(
-          device, "write candidate blocks", motion_blur_copy_blocks_comp, 1, shader::kCandidateList
+          device, shader::kCandidateList, {"write candidate blocks", motion_blur_copy_blocks_comp, 1}
       ) {}
 
 graph::ImageHandle StillPixels::begin(
@@ -87,7 +87,7 @@ graph::ImageHandle StillPixels::end(
     graph::ImageHandle filtered,
     const SortedBlocks& blocks,
     bool hasCandidates,
-    const shader::MotionBlurParams& params,
+    const PassParams& params,
     StillPixelsBy by
 ) const {
     if (by == StillPixelsBy::WholeCopy)

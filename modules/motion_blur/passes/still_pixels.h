@@ -8,8 +8,8 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/block_filter.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/passes/filter.h"
+#include "modules/motion_blur/params.h"
 
 #include <cstdint>
 
@@ -45,7 +45,7 @@ class StillPixels {
         graph::ImageHandle filtered,
         const SortedBlocks& blocks,
         bool hasCandidates,
-        const shader::MotionBlurParams& params,
+        const PassParams& params,
         StillPixelsBy by) const;
 
   private:

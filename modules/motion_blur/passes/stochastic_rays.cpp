@@ -25,7 +25,7 @@ StochasticRays::StochasticRays(gpu::Device& device, VkDescriptorSetLayout sceneL
     : mPipeline(device, describePipeline(sceneLayout)) {}
 
 StochasticRaysOutputs StochasticRays::add(
-    graph::Graph& graph, const TimedRayInputs& rays, const shader::MotionBlurParams& params
+    graph::Graph& graph, const graph::TimedRays& rays, const PassParams& params
 ) const {
     using graph::Access;
     const glm::uvec2 size = params.sizePx;
@@ -49,7 +49,7 @@ StochasticRaysOutputs StochasticRays::add(
             bindings.accelerationStructure(rays.tlas)
                 .storage(context.resources.view(data.color))
                 .storage(context.resources.view(data.motionDepth));
-            dispatchPixels(context, mPipeline, bindings, params, params.sizePx, rays.scene);
+            dispatchPixels(context, mPipeline.get(), bindings, params, params.sizePx, rays.textures);
         }
     );
 }

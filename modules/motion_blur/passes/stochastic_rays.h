@@ -4,20 +4,10 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "engine/graph/ray_scene.h"
+#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
-
-/// What rays at any time meet, in the terms of shaders/render/timed_scene_shared.h.
-struct TimedRayInputs {
-    graph::BufferHandle tlasBuffer;     ///< read with Access::AccelerationRead
-    graph::BufferHandle boxesBuffer;    ///< likewise, unless it is invalid: then nothing moves
-    graph::BufferHandle deformedBuffer; ///< read with Access::ShaderRead, unless it is invalid
-    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
-    VkDescriptorSet scene = VK_NULL_HANDLE; ///< set 1: bindless textures
-    glm::uvec2 frame{0u};                   ///< address of FrameConstants
-    glm::uvec2 moving{0u};                  ///< address of TimedConstants
-};
 
 struct StochasticRaysOutputs {
     graph::ImageHandle color;       ///< RGBA16F: mean of the rays; a: deviation of its luminance
@@ -30,11 +20,11 @@ class StochasticRays {
 
     /// Traces params.sampleCount rays a pixel; `params` needs the addresses of `rays`.
     [[nodiscard]] StochasticRaysOutputs
-    add(graph::Graph& graph, const TimedRayInputs& rays, const shader::MotionBlurParams& params
+    add(graph::Graph& graph, const graph::TimedRays& rays, const PassParams& params
     ) const;
 
   private:
-    gpu::Pipeline mPipeline;
+    gpu::LazyPipeline mPipeline;
 };
 
 } // namespace shutter::motion_blur

@@ -8,13 +8,13 @@
 namespace shutter::motion_blur {
 
 TapFloor::TapFloor(gpu::Device& device)
-    : mFilter(device, "gather floor", motion_blur_tap_floor_comp, 3, shader::kMixedList) {}
+    : mFilter(device, shader::kMixedList, {"gather floor", motion_blur_tap_floor_comp, 3}) {}
 
 graph::ImageHandle TapFloor::add(
     graph::Graph& graph,
     const TapFloorInputs& inputs,
     const BlockLists& lists,
-    const shader::MotionBlurParams& params
+    const PassParams& params
 ) const {
     const auto mean = graph.createImage("gather floor", graph.describeImage(inputs.color));
     return mFilter.add(

@@ -3,7 +3,7 @@
 // averaged. A benchmark's measure; its picture means nothing.
 #pragma once
 
-#include "modules/motion_blur/passes/block_filter.h"
+#include "modules/motion_blur/passes/filter.h"
 
 namespace shutter::motion_blur {
 
@@ -23,7 +23,7 @@ class TapFloor {
     add(graph::Graph& graph,
         const TapFloorInputs& inputs,
         const BlockLists& lists,
-        const shader::MotionBlurParams& params) const;
+        const PassParams& params) const;
 
   private:
     BlockFilter mFilter;

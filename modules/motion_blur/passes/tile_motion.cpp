@@ -37,7 +37,7 @@ TileMotion::TileMotion(gpu::Device& device)
       ) {}
 
 TileMaxOutputs TileMotion::addTileMax(
-    graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
+    graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
 ) const {
     struct Data {
         graph::ImageHandle motionDepth;
@@ -64,7 +64,7 @@ TileMaxOutputs TileMotion::addTileMax(
             bindings.sampled(context.resources.view(data.motionDepth), mSampler)
                 .storage(context.resources.view(data.out.tiles))
                 .storage(context.resources.view(data.out.ranges));
-            context.frame.bind(mTileMax, bindings, &params, sizeof(params));
+            context.frame.bind(mTileMax.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(context.commands, params.tileCount.x, params.tileCount.y, 1);
         }
     );
@@ -72,7 +72,7 @@ TileMaxOutputs TileMotion::addTileMax(
 }
 
 TileMotionOutputs TileMotion::add(
-    graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
+    graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
 ) const {
     struct Data {
         TileMaxOutputs in;
@@ -104,7 +104,7 @@ TileMotionOutputs TileMotion::add(
                 .sampled(context.resources.view(data.in.ranges), mSampler)
                 .storage(context.resources.view(data.out.dominant))
                 .storage(context.resources.view(data.out.tileClass));
-            dispatchPixels(context, mNeighbourMax, bindings, params, params.tileCount);
+            dispatchPixels(context, mNeighbourMax.get(), bindings, params, params.tileCount);
         }
     );
     return pass.out;

@@ -5,7 +5,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "shaders/motion_blur/motion_blur_shared.h"
+#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
 
@@ -25,17 +25,17 @@ class TileMotion {
     explicit TileMotion(gpu::Device& device);
 
     TileMotionOutputs
-    add(graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
+    add(graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
     ) const;
 
   private:
     TileMaxOutputs addTileMax(
-        graph::Graph& graph, graph::ImageHandle motionDepth, const shader::MotionBlurParams& params
+        graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
     ) const;
 
     VkSampler mSampler;
-    gpu::Pipeline mTileMax;
-    gpu::Pipeline mNeighbourMax;
+    gpu::LazyPipeline mTileMax;
+    gpu::LazyPipeline mNeighbourMax;
 };
 
 } // namespace shutter::motion_blur

@@ -38,7 +38,7 @@ void MotionBlurPlugin::configure(const MotionBlurSettings& settings, const BlurB
 }
 
 core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
-    if (settings().method == Method::Hybrid && !facts.deviceHasRays)
+    if (settings().method->rays == RayNeed::Any && !facts.deviceHasRays)
         return {false, "it needs rays, which the device cannot trace"};
     if (!(facts.exposureSeconds > 0.0))
         return {false, "the exposure is 0"};
@@ -51,17 +51,16 @@ core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
 }
 
 core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
-    if (settings().method != Method::Hybrid)
+    const Method& method = *settings().method;
+    if (method.rays != RayNeed::Any)
         return {}; // it never does
-    // Other tests than by mesh id, and steps that end at a limit, show an entity behind itself.
-    if (settings().objectTest != ObjectTest::MeshId ||
-        settings().revealTraversal != RevealTraversal::Single)
+    if (method.alwaysTraces && method.alwaysTraces(settings()))
         return {true, "an entity may come into sight behind itself"};
     return facts.reveal;
 }
 
 core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts&) const {
-    if (settings().method != Method::Denoised)
+    if (settings().method->rays != RayNeed::Query)
         return {}; // it never does
     return {true, "its method has rays with times of their own"};
 }
@@ -76,83 +75,41 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.response = gpu::splitAddress(context.response);
     inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
-    RayInputs sky;
-    sky.frame = gpu::splitAddress(context.frameConstants);
-    inputs.rays = sky;
     if (context.rays)
-        inputs.rays = RayInputs{
-            context.rays->tlasBuffer,
-            context.rays->movingTlasBuffer,
-            context.rays->deformedBlasBuffer,
-            context.rays->deformedBuffer,
-            context.rays->tlas,
-            context.rays->textures,
-            gpu::splitAddress(context.rays->frameConstants),
-            context.rays->hasBlended};
+        inputs.rays = *context.rays;
+    else
+        inputs.rays = graph::RayScene{.frameConstants = context.frameConstants};
     if (context.timedRays)
-        inputs.timedRays = TimedRayInputs{
-            context.timedRays->tlasBuffer,
-            context.timedRays->boxesBuffer,
-            context.timedRays->deformedBuffer,
-            context.timedRays->tlas,
-            context.timedRays->textures,
-            gpu::splitAddress(context.timedRays->frameConstants),
-            gpu::splitAddress(context.timedRays->timedConstants)};
-    mDrawn.at(context.slot) = {settings().method, mBudget.level()};
+        inputs.timedRays = *context.timedRays;
+    mDrawnLevels.at(context.slot) = mBudget.level();
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
-    if (settings().method == Method::Hybrid && !context.rays)
+    if (settings().method->rays == RayNeed::Any && !context.rays)
         context.explainer.decide(
             render::ExplainedKind::Pass, "ray reveal", {false, context.facts.reveal.reason}
         );
     context.color = outputs.color;
-    const std::pair<const char*, graph::ImageHandle> views[] = {
-        {"tiles", outputs.dominant},
-        {"variance", outputs.variance},
-        {"edge", outputs.edge},
-        {"mask", outputs.mask},
-        {"reveal", outputs.revealColor},
-        {"reveal_motion", outputs.revealMotionDepth},
-        {"reveal_id", outputs.revealEntityId},
-        {"cost", outputs.cost},
-        {"noisy", outputs.noisy}};
-    for (const auto& [name, image] : views)
-        if (image.isValid())
-            context.intermediates.publish(name, image);
+    for (const View& view : outputs.views)
+        context.intermediates.publish(std::string(view.name), view.image);
 }
 
 void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
-    const Drawn& drawn = mDrawn.at(frame.slot);
+    const size_t level = mDrawnLevels.at(frame.slot);
     double milliseconds = 0.0;
     for (const gpu::PassTime& pass : frame.passes)
         milliseconds += pass.gpuMilliseconds;
     if (!frame.passes.empty())
-        mBudget.observe(drawn.level, milliseconds);
+        mBudget.observe(level, milliseconds);
     else if (!mBudget.current().runs) // and waits to be tried again
         mBudget.observe(mBudget.level(), 0.0);
     if (!frame.ran)
         return;
-    count(frame);
+    for (const auto& [name, value] : mEffect.counters(frame.slot))
+        frame.counters[name] = value;
     frame.measures["blur ms"] = milliseconds;
     if (!mBudget.budget().isUnlimited())
-        frame.measures["blur budget level"] = double(drawn.level);
-}
-
-void MotionBlurPlugin::count(const render::FinishedFrame& frame) const {
-    const MotionBlurCounters counted = mEffect.counters(frame.slot);
-    const Method method = mDrawn.at(frame.slot).method;
-    render::Counters& counters = frame.counters;
-    if (method != Method::Denoised) {
-        counters["blocks still"] = counted.blocks.still;
-        counters["blocks uniform"] = counted.blocks.uniform;
-        counters["blocks mixed"] = counted.blocks.mixed;
-        counters["blocks masked"] = counted.blocks.masked;
-    }
-    if (method != Method::Hybrid)
-        return;
-    counters["pixels masked"] = counted.maskedPixels;
-    counters["rays traced"] = counted.raysTraced;
+        frame.measures["blur budget level"] = double(level);
 }
 
 } // namespace shutter::motion_blur

@@ -31,9 +31,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Skipped when nothing moves, the exposure is 0, or the budget is too small for any blur.
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 
-    /// The hybrid method's.
+    /// For methods of RayNeed::Any.
     [[nodiscard]] core::Decision askRays(const render::ViewFacts& facts) const override;
-    /// The denoised method's.
+    /// For methods of RayNeed::Query.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
@@ -43,17 +43,9 @@ class MotionBlurPlugin : public render::PostEffect {
   private:
     [[nodiscard]] const MotionBlurSettings& settings() const { return mBudget.current().settings; }
 
-    /// How a frame was declared.
-    struct Drawn {
-        Method method = Method::Hybrid;
-        size_t level = 0;
-    };
-
-    void count(const render::FinishedFrame& frame) const;
-
     MotionBlurSettings mWanted;
     BudgetController mBudget;
-    std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
+    std::array<size_t, gpu::kMaxFramesInFlight> mDrawnLevels{}; ///< of the budget, by slot
     MotionBlur mEffect;
 };
 

@@ -295,7 +295,7 @@ TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
         ).motionBlur;
     };
     const auto guertin = with("guertin2014", {"centreBias=20", "speedThresholdPx=3"});
-    EXPECT_EQ(guertin.method, motion_blur::Method::Guertin2014);
+    EXPECT_EQ(guertin.method, &motion_blur::getMethod("guertin2014"));
     EXPECT_EQ(guertin.sampleCount, 35u);
     EXPECT_EQ(guertin.centreBias, 20.0f);
     EXPECT_EQ(guertin.speedThresholdPx, 3.0f);
@@ -316,7 +316,7 @@ TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
             a.method = method.name;
             a.settings = {foreign};
         });
-        const bool jitters = blurs && method.blur != motion_blur::Method::Denoised;
+        const bool jitters = blurs && method.blur != &motion_blur::getMethod("denoised");
         if (jitters)
             accept([&](auto& a) {
                 a.method = method.name;

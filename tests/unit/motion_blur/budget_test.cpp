@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace shutter::motion_blur {
 
 namespace {
 
-MotionBlurSettings settingsOf(Method method, uint32_t samples = 15) {
+MotionBlurSettings settingsOf(const Method* method, uint32_t samples = 15) {
     MotionBlurSettings settings;
     settings.method = method;
     settings.sampleCount = samples;
@@ -32,7 +33,7 @@ struct Load {
             return 0.0;
         const MotionBlurSettings& s = level.settings;
         const double resolution = std::isinf(s.halfResolutionPx) ? 1.0 : 0.8;
-        const double traced = s.method == Method::Hybrid ? rays * s.rayShare : 0.0;
+        const double traced = s.method == &getMethod("hybrid") ? rays * s.rayShare : 0.0;
         return tiles + perSample * s.sampleCount * resolution + traced;
     }
 };
@@ -80,19 +81,11 @@ Drive drive(
     return result;
 }
 
-constexpr Method kEveryMethod[] = {
-    Method::Gather,
-    Method::Hybrid,
-    Method::OwnVelocity,
-    Method::McGuire2012,
-    Method::Guertin2014,
-    Method::Jimenez2014,
-    Method::Denoised};
 
 } // namespace
 
 TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
-    for (const Method method : kEveryMethod)
+    for (const Method* method : listMethods())
         for (const uint32_t samples : {1u, 4u, 15u, 256u}) {
             const auto levels = makeLevels(settingsOf(method, samples));
             ASSERT_GE(levels.size(), 2u);
@@ -102,7 +95,7 @@ TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
             EXPECT_FALSE(levels.back().runs);
             std::set<std::string> said;
             for (size_t i = 1; i < levels.size(); ++i) {
-                EXPECT_LT(levels[i].cost, levels[i - 1].cost) << int(method) << " level " << i;
+                EXPECT_LT(levels[i].cost, levels[i - 1].cost) << method->name << " level " << i;
                 EXPECT_TRUE(validate(levels[i].settings).ok()) << levels[i].gaveUp;
                 EXPECT_TRUE(said.insert(levels[i].gaveUp).second) << levels[i].gaveUp;
                 EXPECT_LE(levels[i].settings.rayShare, levels[i - 1].settings.rayShare);
@@ -111,7 +104,7 @@ TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
 }
 
 TEST(Budget, TheLadderSaysWhatItGivesUp) {
-    const auto levels = makeLevels(settingsOf(Method::Hybrid));
+    const auto levels = makeLevels(settingsOf(&getMethod("hybrid")));
     EXPECT_EQ(levels[1].gaveUp, "half of the resolution along long uniform motion");
     EXPECT_EQ(
         levels[3].gaveUp, "half of the resolution along long uniform motion, 50 % of the rays"
@@ -124,16 +117,16 @@ TEST(Budget, TheLadderSaysWhatItGivesUp) {
 }
 
 TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
-    const auto levels = makeLevels(settingsOf(Method::Denoised, 4));
+    const auto levels = makeLevels(settingsOf(&getMethod("denoised"), 4));
     EXPECT_EQ(levels[1].gaveUp, "2 of 4 samples");
     EXPECT_EQ(levels[2].gaveUp, "3 of 4 samples");
     EXPECT_EQ(levels[3].gaveUp, "all rays");
-    EXPECT_EQ(levels[3].settings.method, Method::Gather);
+    EXPECT_EQ(levels[3].settings.method, &getMethod("gather"));
     EXPECT_EQ(levels[4].gaveUp, "all rays, 3 of 15 samples");
 }
 
 TEST(Budget, WithoutAUniformPathThereIsNoResolutionToGiveUp) {
-    MotionBlurSettings settings = settingsOf(Method::Hybrid);
+    MotionBlurSettings settings = settingsOf(&getMethod("hybrid"));
     settings.uniformMotionPx = 0.0f;
     for (const BudgetLevel& level : makeLevels(settings))
         EXPECT_EQ(level.gaveUp.find("resolution"), std::string::npos) << level.gaveUp;
@@ -147,7 +140,7 @@ TEST(Budget, OnlyATimeAboveZeroIsABudget) {
 }
 
 TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
-    BudgetController controller({}, settingsOf(Method::Hybrid));
+    BudgetController controller({}, settingsOf(&getMethod("hybrid")));
     for (const double time : {1.0, 1e9, std::numeric_limits<double>::infinity(), 0.0})
         for (int i = 0; i < 50; ++i) {
             controller.observe(0, time);
@@ -156,24 +149,24 @@ TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
 }
 
 TEST(Budget, WhatFitsIsLeftAlone) {
-    BudgetController controller({50.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({50.0}, settingsOf(&getMethod("hybrid")));
     EXPECT_EQ(drive(controller, {}, 500).changes(0), 0u);
     EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
-    for (const Method method : {Method::Hybrid, Method::Gather, Method::Jimenez2014})
+    for (const Method* method : {&getMethod("hybrid"), &getMethod("gather"), &getMethod("jimenez2014")})
         for (const double budget : {3.0, 6.0, 9.0, 12.0, 15.0, 20.0, 30.0, 40.0, 60.0}) {
             BudgetController controller({budget}, settingsOf(method));
             drive(controller, {}, 400);
             const Drive later = drive(controller, {}, 1000);
             // Now and then it tries the level above, for two frames at most.
-            EXPECT_LT(later.shareOver(budget, 0), 0.02) << int(method) << ", " << budget << " ms";
+            EXPECT_LT(later.shareOver(budget, 0), 0.02) << method->name << ", " << budget << " ms";
             // It does not give up more than two levels that would fit.
             const size_t better = controller.level() >= 2 ? controller.level() - 2 : 0;
             if (controller.level() >= 2) {
                 EXPECT_GT(Load{}.of(makeLevels(settingsOf(method))[better]), 0.7 * budget)
-                    << int(method) << ", " << budget << " ms";
+                    << method->name << ", " << budget << " ms";
             }
         }
 }
@@ -181,7 +174,7 @@ TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
 TEST(Budget, NoiseDoesNotMakeItPump) {
     for (uint32_t seed = 1; seed <= 5; ++seed)
         for (const double budget : {8.0, 15.0, 25.0, 38.0}) {
-            BudgetController controller({budget}, settingsOf(Method::Hybrid));
+            BudgetController controller({budget}, settingsOf(&getMethod("hybrid")));
             drive(controller, {}, 1000, 0.1, seed);
             const Drive later = drive(controller, {}, 2000, 0.1, seed + 100);
             EXPECT_LE(later.changes(0), 40u) << budget << " ms, seed " << seed;
@@ -189,7 +182,7 @@ TEST(Budget, NoiseDoesNotMakeItPump) {
 }
 
 TEST(Budget, OneSlowFrameIsAHiccup) {
-    BudgetController controller({50.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({50.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {}, 20);
     controller.observe(0, 500.0);
     drive(controller, {}, 20);
@@ -197,16 +190,16 @@ TEST(Budget, OneSlowFrameIsAHiccup) {
 }
 
 TEST(Budget, ALittleTooMuchCostsOneRungAndFarTooMuchSeveral) {
-    BudgetController little({45.0}, settingsOf(Method::Hybrid));
+    BudgetController little({45.0}, settingsOf(&getMethod("hybrid")));
     drive(little, {}, 2);
     EXPECT_EQ(little.level(), 1u);
-    BudgetController far({12.0}, settingsOf(Method::Hybrid));
+    BudgetController far({12.0}, settingsOf(&getMethod("hybrid")));
     drive(far, {}, 2);
     EXPECT_GT(far.level(), 3u);
 }
 
 TEST(Budget, ASuddenLoadIsJudgedByItselfNotByTheCalmBefore) {
-    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({20.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {0.2, 0.2, 2.0}, 500);
     ASSERT_EQ(controller.level(), 0u);
     drive(controller, {1.0, 1.0, 40.0}, 2);
@@ -214,13 +207,13 @@ TEST(Budget, ASuddenLoadIsJudgedByItselfNotByTheCalmBefore) {
 }
 
 TEST(Budget, TriesThatKeepFailingGrowRare) {
-    BudgetController controller({18.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({18.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {1.0, 1.0, 25.0}, 6000);
     EXPECT_LE(drive(controller, {1.0, 1.0, 25.0}, 3000).changes(0), 8u);
 }
 
 TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {
-    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({20.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {4.0, 3.0, 200.0}, 300);
     EXPECT_GT(controller.level(), 4u);
     const Drive back = drive(controller, {0.2, 0.2, 2.0}, 3000);
@@ -230,7 +223,7 @@ TEST(Budget, ItComesBackRungByRungWhenTheLoadGoes) {
 }
 
 TEST(Budget, ARungThatWouldJustFitIsNotTriedSoTheMarginStays) {
-    BudgetController controller({46.5}, settingsOf(Method::Hybrid));
+    BudgetController controller({46.5}, settingsOf(&getMethod("hybrid")));
     drive(controller, {3.0, 3.0, 10.0}, 2); // 58 ms: down by one
     ASSERT_EQ(controller.level(), 1u);
     // All of it would take 46 ms now.
@@ -238,7 +231,7 @@ TEST(Budget, ARungThatWouldJustFitIsNotTriedSoTheMarginStays) {
 }
 
 TEST(Budget, StepsUpThatFailedLongAgoDoNotHoldItBackForLong) {
-    BudgetController controller({18.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({18.0}, settingsOf(&getMethod("hybrid")));
     drive(controller, {1.0, 1.0, 60.0}, 5000);
     ASSERT_GT(controller.level(), 2u);
     drive(controller, {0.2, 0.2, 2.0}, 2000);
@@ -246,7 +239,7 @@ TEST(Budget, StepsUpThatFailedLongAgoDoNotHoldItBackForLong) {
 }
 
 TEST(Budget, ItComesBackFromNoBlurAtAll) {
-    BudgetController controller({0.5}, settingsOf(Method::Gather));
+    BudgetController controller({0.5}, settingsOf(&getMethod("gather")));
     drive(controller, {}, 200);
     EXPECT_FALSE(controller.current().runs);
     drive(controller, {0.01, 0.01, 0.0}, 4000);
@@ -254,7 +247,7 @@ TEST(Budget, ItComesBackFromNoBlurAtAll) {
 }
 
 TEST(Budget, TimesOfOtherRungsAndNoNumbersArePassedOver) {
-    BudgetController controller({20.0}, settingsOf(Method::Hybrid));
+    BudgetController controller({20.0}, settingsOf(&getMethod("hybrid")));
     for (int i = 0; i < 10; ++i) {
         controller.observe(3, 1e6);
         controller.observe(0, std::numeric_limits<double>::quiet_NaN());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/methods.h"
 
 #include <gtest/gtest.h>
 
@@ -94,15 +95,8 @@ TEST(SettingRows, EverySettingIsReadByAMethodAndEachNameReadHasARow) {
     for (const Row& row : listSettingRows())
         rows.insert(row.name);
     std::set<std::string_view> read = {"sampleCount"};
-    for (const Method method :
-         {Method::Gather,
-          Method::Hybrid,
-          Method::OwnVelocity,
-          Method::McGuire2012,
-          Method::Guertin2014,
-          Method::Jimenez2014,
-          Method::Denoised})
-        for (const std::string_view name : listSettings(method))
+    for (const Method* method : listMethods())
+        for (const std::string_view name : method->settings)
             read.insert(name);
     EXPECT_EQ(rows, read);
 }

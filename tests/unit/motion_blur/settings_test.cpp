@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/settings.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/params.h"
+#include "modules/motion_blur/setting_rows.h"
+#include "shaders/motion_blur/hybrid_shared.h"
 
 #include <gtest/gtest.h>
 
@@ -50,12 +54,12 @@ TEST(MotionBlurSettings, TheDepthLimitMayBeInfiniteButNotNegativeOrNoNumber) {
 
 TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
     MotionBlurSettings settings;
-    for (const Method method : {Method::Gather, Method::Hybrid}) {
+    for (const Method* method : {&getMethod("gather"), &getMethod("hybrid")}) {
         settings.method = method;
         EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.5f);
     }
-    for (const Method method :
-         {Method::OwnVelocity, Method::McGuire2012, Method::Guertin2014, Method::Jimenez2014}) {
+    for (const Method* method :
+         {&getMethod("own_velocity"), &getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("jimenez2014")}) {
         settings.method = method;
         EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.0f);
     }
@@ -63,17 +67,17 @@ TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
 
 TEST(MotionBlurSettings, BlocksLookAsFarAsTheirFiltersDo) {
     MotionBlurSettings settings;
-    const auto margin = [&](Method method, float jitter) {
+    const auto margin = [&](const Method* method, float jitter) {
         settings.method = method;
         settings.jitter = jitter;
         return resolve(settings, 8, 8, 1.0).marginPx;
     };
-    EXPECT_EQ(margin(Method::Gather, 1.0f), 0.0f);
-    EXPECT_EQ(margin(Method::Guertin2014, 1.0f), 10.0f) << "a quarter of a tile";
-    EXPECT_EQ(margin(Method::Guertin2014, 0.0f), 0.0f);
-    EXPECT_EQ(margin(Method::Jimenez2014, 1.0f), 10.0f);
+    EXPECT_EQ(margin(&getMethod("gather"), 1.0f), 0.0f);
+    EXPECT_EQ(margin(&getMethod("guertin2014"), 1.0f), 10.0f) << "a quarter of a tile";
+    EXPECT_EQ(margin(&getMethod("guertin2014"), 0.0f), 0.0f);
+    EXPECT_EQ(margin(&getMethod("jimenez2014"), 1.0f), 10.0f);
     settings.sampleCount = 8;
-    EXPECT_EQ(margin(Method::Jimenez2014, 0.0f), 5.0f) << "one tap's distance";
+    EXPECT_EQ(margin(&getMethod("jimenez2014"), 0.0f), 5.0f) << "one tap's distance";
 }
 
 TEST(MotionBlurSettings, ANeighbourhoodWithoutAMiddleTileIsRefused) {
@@ -92,79 +96,77 @@ TEST(MotionBlurSettings, TilesCoverThePictureAndNoMore) {
     EXPECT_EQ(tiles(1280, 720), glm::uvec2(32, 18));
 }
 
-TEST(MotionBlurSettings, ResolveHandsEverySettingOn) {
+TEST(MotionBlurSettings, ResolveTurnsSettingsIntoWhatShadersRead) {
     MotionBlurSettings settings;
+    settings.method = &getMethod("gather");
     settings.tileSizePx = 20;
     settings.neighbourhoodTiles = 7;
     settings.sampleCount = 31;
     settings.softDepthExtent = 0.5f;
-    settings.edgeThreshold = 0.25f;
-    settings.recursionLimit = 9;
-    settings.objectTest = ObjectTest::Luminance;
-    settings.luminanceThreshold = 0.125f;
-    settings.foregroundMagnification = 12.0f;
-    settings.backgroundMagnification = 6.0f;
     settings.jitter = 0.75f;
-    settings.occluderTest = OccluderTest::Velocity;
-    settings.centreBias = 20.0f;
-    settings.speedThresholdPx = 2.5f;
     settings.uniformMotionPx = 0.25f;
     settings.maxMotionDepth = 50.0f;
-    const shader::MotionBlurParams params = resolve(settings, 100, 50, 0.5);
-    EXPECT_EQ(params.uniformMotionPx, 0.25f);
-    EXPECT_EQ(params.maxMotionDepth, 50.0f);
+    const PassParams params = resolve(settings, 100, 50, 0.5);
     EXPECT_EQ(params.sizePx, glm::uvec2(100, 50));
     EXPECT_EQ(params.tileCount, glm::uvec2(5, 3));
     EXPECT_EQ(params.tileSizePx, 20u);
     EXPECT_EQ(params.neighbourRadius, 3);
     EXPECT_EQ(params.sampleCount, 31u);
     EXPECT_EQ(params.softDepthExtent, 0.5f);
-    EXPECT_EQ(params.edgeThreshold, 0.25f);
     EXPECT_EQ(params.rasterTime, 0.5f);
-    EXPECT_EQ(params.foregroundMagnification, 12.0f);
-    EXPECT_EQ(params.backgroundMagnification, 6.0f);
     EXPECT_EQ(params.jitter, 0.75f);
-    EXPECT_EQ(params.recursionLimit, 9u);
-    EXPECT_EQ(
-        params.flags,
-        shader::kFlagLuminanceTest | shader::kFlagSteppingReveal | // by luminance: always
-            shader::kFlagVelocityOccluder
-    );
-    EXPECT_EQ(params.luminanceThreshold, 0.125f);
-    EXPECT_EQ(params.centreBias, 20.0f);
-    EXPECT_EQ(params.speedThresholdPx, 2.5f);
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).flags, 0u);
-    settings = {};
-    settings.revealTraversal = RevealTraversal::Stepping;
-    EXPECT_EQ(resolve(settings, 8, 8, 1.0).flags, shader::kFlagSteppingReveal);
+    EXPECT_EQ(params.uniformMotionPx, 0.25f);
+    EXPECT_EQ(params.maxMotionDepth, 50.0f);
 }
 
-TEST(MotionBlurSettings, EachMethodListsWhatItReads) {
-    const auto reads = [](Method method, std::string_view name) {
-        const auto names = listSettings(method);
-        return std::find(names.begin(), names.end(), name) != names.end();
+TEST(MotionBlurSettings, TheHybridMethodsOwnBlockHoldsItsSettings) {
+    MotionBlurSettings settings;
+    settings.method = &getMethod("hybrid");
+    const auto own = [&] { return resolve(settings, 8, 8, 1.0).getMethod<shader::HybridParams>(); };
+    EXPECT_EQ(own().flags, 0u);
+    settings.edgeThreshold = 0.25f;
+    settings.recursionLimit = 9;
+    settings.luminanceThreshold = 0.125f;
+    settings.foregroundMagnification = 12.0f;
+    settings.backgroundMagnification = 6.0f;
+    settings.halfResolutionPx = 24.0f;
+    settings.rayShare = 0.5f;
+    EXPECT_EQ(own().edgeThreshold, 0.25f);
+    EXPECT_EQ(own().recursionLimit, 9u);
+    EXPECT_EQ(own().luminanceThreshold, 0.125f);
+    EXPECT_EQ(own().gather.foregroundMagnification, 12.0f);
+    EXPECT_EQ(own().gather.backgroundMagnification, 6.0f);
+    EXPECT_EQ(own().gather.halfResolutionPx, 24.0f);
+    EXPECT_EQ(own().rayShare, 0.5f);
+    settings.objectTest = ObjectTest::Luminance;
+    EXPECT_EQ(own().flags, shader::kFlagLuminanceTest | shader::kFlagSteppingReveal)
+        << "by luminance it always steps";
+    settings.objectTest = ObjectTest::MeshId;
+    settings.revealTraversal = RevealTraversal::Stepping;
+    EXPECT_EQ(own().flags, shader::kFlagSteppingReveal);
+}
+
+/// A setting that changed nothing of what its method's shaders get would be read by nobody.
+TEST(MotionBlurSettings, EachSettingOfAMethodReachesItsShaders) {
+    const auto bytes = [](const MotionBlurSettings& settings) {
+        const PassParams params = resolve(settings, 640, 360, 0.5);
+        return std::string(reinterpret_cast<const char*>(&params), sizeof(params));
     };
-    const Method methods[] = {
-        Method::Gather,
-        Method::Hybrid,
-        Method::OwnVelocity,
-        Method::McGuire2012,
-        Method::Guertin2014,
-        Method::Jimenez2014};
-    for (const Method method : methods) {
-        EXPECT_TRUE(reads(method, "jitter"));
-        EXPECT_TRUE(reads(method, "maxMotionDepth"));
-        EXPECT_EQ(
-            reads(method, "uniformMotionPx"), method == Method::Gather || method == Method::Hybrid
-        );
-        EXPECT_EQ(reads(method, "edgeThreshold"), method == Method::Hybrid);
-        EXPECT_EQ(reads(method, "occluderTest"), method == Method::OwnVelocity);
-        EXPECT_EQ(reads(method, "centreBias"), method == Method::Guertin2014);
-        EXPECT_EQ(reads(method, "tileSizePx"), method != Method::OwnVelocity);
-        EXPECT_EQ(
-            reads(method, "foregroundMagnification"),
-            method == Method::Gather || method == Method::Hybrid
-        );
+    for (const Method* method : listMethods()) {
+        MotionBlurSettings settings;
+        settings.method = method;
+        for (const std::string_view name : method->settings) {
+            if (name == "filterLevels")
+                continue; // the number of passes
+            const auto* row = core::findRow(listSettingRows(), name);
+            ASSERT_TRUE(row) << method->name << " " << name;
+            MotionBlurSettings changed = settings;
+            if (const auto* words = std::get_if<core::WordField<MotionBlurSettings>>(&row->field))
+                words->set(changed, words->words.size() - 1);
+            else
+                ASSERT_TRUE(core::setNumber(*row, changed, row->range.lowest)) << name;
+            EXPECT_NE(bytes(changed), bytes(settings)) << method->name << " " << name;
+        }
     }
 }
 

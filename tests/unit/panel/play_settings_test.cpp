@@ -226,7 +226,7 @@ TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
     EXPECT_EQ(count("denoised"), 2u);
     EXPECT_EQ(
         game::makeBlurSettings(settings, *game::findMethod("gather").value()).method,
-        motion_blur::Method::Gather
+        &motion_blur::getMethod("gather")
     );
 }
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/budget_ladder.h"
+
+#include "modules/motion_blur/methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+constexpr float kHalfResolutionPx = 8.0f; ///< motion long enough for half of the resolution
+constexpr uint32_t kLeastSamples = 4;     ///< fewer show ghosts, not blur
+
+} // namespace
+
+BudgetLadder::BudgetLadder(const MotionBlurSettings& wanted) : mWanted(wanted) {
+    mLevels.push_back({wanted, true, 1.0, ""});
+}
+
+void BudgetLadder::halveResolution(double cost) {
+    // Only the path for uniform motion has it, which may be off.
+    if (!(mNext.halfResolutionPx > kHalfResolutionPx) || !(mNext.uniformMotionPx > 0.0f))
+        return;
+    mNext.halfResolutionPx = kHalfResolutionPx;
+    mResolution = "half of the resolution along long uniform motion";
+    add(cost);
+}
+
+void BudgetLadder::shareRays(float share, double cost) {
+    if (!(share < mNext.rayShare))
+        return;
+    mNext.rayShare = share;
+    mRays = fmt::format("{:.0f} % of the rays", 100.0 * (1.0 - share / mWanted.rayShare));
+    add(cost);
+}
+
+void BudgetLadder::reduceSamples(uint32_t count, double cost) {
+    if (count >= mNext.sampleCount)
+        return;
+    mNext.sampleCount = count;
+    mSamples = fmt::format("{} of {} samples", mMostSamples - count, mMostSamples);
+    add(cost);
+}
+
+void BudgetLadder::reduceSamplesInSteps(uint32_t wanted, double cost) {
+    const uint32_t first = mNext.sampleCount;
+    for (const double share : {0.8, 0.6, 0.4, 0.0}) {
+        const uint32_t count = shareOfSamples(wanted, share);
+        reduceSamples(count, cost * (0.15 + 0.85 * count / first));
+    }
+}
+
+void BudgetLadder::changeMethod(
+    std::string_view method, const char* givenUp, uint32_t samples, double cost
+) {
+    if (mWanted.method->sampleUnit != getMethod(method).sampleUnit) {
+        mSamples.clear(); // they counted something else
+        mMostSamples = samples;
+    }
+    mNext.method = &getMethod(method);
+    mNext.sampleCount = samples;
+    mRays = givenUp;
+    add(cost);
+}
+
+std::vector<BudgetLevel> BudgetLadder::finish() {
+    mLevels.push_back({mNext, false, 0.0, "motion blur altogether"});
+    return std::move(mLevels);
+}
+
+void BudgetLadder::add(double cost) {
+    std::string gaveUp;
+    for (const std::string& part : {mResolution, mRays, mSamples})
+        if (!part.empty())
+            gaveUp += (gaveUp.empty() ? "" : ", ") + part;
+    mLevels.push_back({mNext, true, cost, gaveUp});
+}
+
+uint32_t shareOfSamples(uint32_t samples, double share) {
+    return std::max(kLeastSamples, static_cast<uint32_t>(std::lround(samples * share)));
+}
+
+void addSampleLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
+    ladder.reduceSamplesInSteps(wanted.sampleCount, 1.0);
+}
+
+} // namespace shutter::motion_blur

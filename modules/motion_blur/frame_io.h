@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What a frame gives to the effect and gets from it.
+//
+// Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
+// (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the sky
+// too. `depth` is metres along the view direction, kSkyDepth (1e9) where nothing is. The entity id is
+// the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
+#pragma once
+
+#include "engine/graph/ray_scene.h"
+#include "engine/graph/types.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+struct MotionBlurInputs {
+    graph::ImageHandle color;       ///< RGBA16F
+    graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
+    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for methods that read the surface
+    graph::ImageHandle entityId;    ///< R32_UINT; for methods that read the surface
+    double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
+    glm::uvec2 response{0u}; ///< address of shader::ResponseTable (shutter_response_shared.h); 0: box
+    /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves
+    /// and no ray is traced; `frameConstants` alone counts then.
+    std::optional<graph::RayScene> rays;
+    std::optional<graph::TimedRays> timedRays; ///< for methods of RayNeed::Query (CHECKed)
+    bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
+    /// The colour image may be written in place: it is a transient, or has storage usage. Where
+    /// little moves, still pixels are then not touched.
+    bool colorIsWritable = false;
+    /// Index of the frame in flight, below gpu::kMaxFramesInFlight: the GPU must be done with the
+    /// slot's last frame.
+    uint32_t slot = 0;
+    /// Image that gets the blurred picture: one with storage and transfer usage that is no other
+    /// input, or `color` if that is writable. Invalid: the cheapest. Unused by methods that do not
+    /// read the raster image.
+    graph::ImageHandle target;
+};
+
+/// An intermediate for debug views; drawn only if something reads it.
+struct View {
+    std::string_view name;
+    graph::ImageHandle image;
+};
+
+struct MotionBlurOutputs {
+    graph::ImageHandle color; ///< RGBA16F: the blurred picture
+    std::vector<View> views;  ///< those of the method, README.md, "Debug views"
+
+    /// Invalid: the method has no such view.
+    [[nodiscard]] graph::ImageHandle view(std::string_view name) const {
+        for (const View& one : views)
+            if (one.name == name)
+                return one.image;
+        return {};
+    }
+};
+
+} // namespace shutter::motion_blur

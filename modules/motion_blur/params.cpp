@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/params.h"
+
+#include "modules/motion_blur/method.h"
+
+#include <algorithm>
+
+namespace shutter::motion_blur {
+
+float measureTileJitter(const MotionBlurSettings& settings) {
+    return 0.25f * static_cast<float>(settings.tileSizePx) * settings.jitter;
+}
+
+PassParams
+resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime) {
+    PassParams params{};
+    const uint32_t tile = settings.tileSizePx;
+    params.sizePx = {width, height};
+    params.tileCount = {(width + tile - 1) / tile, (height + tile - 1) / tile};
+    params.tileSizePx = tile;
+    params.neighbourRadius = static_cast<int32_t>(settings.neighbourhoodTiles / 2);
+    params.sampleCount = settings.sampleCount;
+    params.softDepthExtent = settings.softDepthExtent;
+    params.rasterTime = static_cast<float>(std::clamp(rasterTime, 0.0, 1.0));
+    params.jitter = settings.jitter;
+    params.maxMotionDepth = settings.maxMotionDepth;
+    params.uniformMotionPx = settings.method->usesUniformMotion ? settings.uniformMotionPx : 0.0f;
+    if (settings.method->resolve)
+        settings.method->resolve(settings, params);
+    return params;
+}
+
+} // namespace shutter::motion_blur

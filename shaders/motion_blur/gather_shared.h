@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Push constants of the gathers, behind MotionBlurParams.
+#ifndef SHUTTER_GATHER_SHARED_H
+#define SHUTTER_GATHER_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+struct GatherParams {
+    float foregroundMagnification;
+    float backgroundMagnification;
+    float halfResolutionPx; // uniform motion from which two pixels along it are one
+    float padding0;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::GatherParams) == 16);
+#endif
+
+#endif
