@@ -41,7 +41,9 @@ function(shutter_shaders target)
             COMMAND
                 ${SHUTTER_GLSLANG} -V --target-env vulkan1.3 --quiet -I${ARG_ROOT}
                 -I${SHUTTER_SHADER_DIR} --depfile ${output}.d --vn ${symbol} -o ${output} ${source}
-            DEPENDS ${source}
+            COMMAND
+                ${CMAKE_COMMAND} -D HEADER=${output} -P ${SHUTTER_TOOLS_DIR}/MakeSelfContained.cmake
+            DEPENDS ${source} ${SHUTTER_TOOLS_DIR}/MakeSelfContained.cmake
             DEPFILE ${output}.d
             COMMENT "GLSL ${shader}"
             VERBATIM)

@@ -42,9 +42,8 @@ Status applySetting(
             method.name,
             fmt::join(known, ", ")
         );
-    const auto* row = core::findRow(motion_blur::listSettingRows(), name);
-    SHUTTER_CHECK(row, "the setting {} has no row", name);
-    if (Status parsed = core::parseValue(*row, value, settings); !parsed)
+    const auto& row = core::getRow(motion_blur::listSettingRows(), name);
+    if (Status parsed = core::parseValue(row, value, settings); !parsed)
         return makeError("--set {}: {}", name, parsed.error().message);
     return {};
 }

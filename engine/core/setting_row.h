@@ -166,6 +166,14 @@ template <class Owner>
     return nullptr;
 }
 
+/// The row of that name, which must exist (CHECKed).
+template <class Owner>
+[[nodiscard]] const SettingRow<Owner>& getRow(SettingRows<Owner> rows, std::string_view name) {
+    const SettingRow<Owner>* row = findRow(rows, name);
+    SHUTTER_CHECK(row, "there is no row {}", name);
+    return *row;
+}
+
 /// True if both have the same values in all rows.
 template <class Owner>
 [[nodiscard]] bool areEqual(SettingRows<Owner> rows, const Owner& a, const Owner& b) {

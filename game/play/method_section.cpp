@@ -78,7 +78,7 @@ void drawPlayRows(const char* id, PlaySettings& settings, std::span<const std::s
     if (names.empty() || !beginRows(id))
         return;
     for (const std::string_view name : names)
-        drawRow(findRow(listPlayRows(), name), settings, kDefaults);
+        drawRow(core::getRow(listPlayRows(), name), settings, kDefaults);
     endRows();
 }
 

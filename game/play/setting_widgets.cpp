@@ -21,10 +21,10 @@ std::string describeShortly(const core::NumberRange& range) {
     return fmt::format("{:g} to {:g}", range.lowest, range.highest);
 }
 
-std::string describeAtLength(const WidgetLook& look, const NumberRange* range) {
+std::string describeAtLength(const WidgetLook& look, const core::NumberRange* range) {
     std::string text = look.meaning;
     if (range)
-        text += fmt::format("\n\nRange: {}.", describeRange(*range, look.unit));
+        text += fmt::format("\n\nRange: {}.", core::describeRange(*range, look.unit));
     else
         text += "\n";
     return text + fmt::format("\nDefault: {} (right click).", look.fallback);

@@ -81,15 +81,4 @@ void drawRows(
     endRows();
 }
 
-/// The row of that name (CHECKed).
-template <class Owner>
-[[nodiscard]] const core::SettingRow<Owner>&
-findRow(std::span<const core::SettingRow<Owner>> rows, std::string_view name) {
-    for (const core::SettingRow<Owner>& row : rows)
-        if (row.name == name)
-            return row;
-    SHUTTER_CHECK(false, "there is no row {}", name);
-    return rows.front();
-}
-
 } // namespace shutter::game

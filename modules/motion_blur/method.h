@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/params.h"
 

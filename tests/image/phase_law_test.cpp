@@ -37,17 +37,13 @@ double expectedShift(ShutterPhase phase) {
 /// Least share of the true shift that a method's blur has. Those that see no background, or weigh
 /// samples as if a still pixel had none, leave a part of the sharp quad where it was.
 double leastShare(std::string_view method) {
-    switch (method) {
-    case "own_velocity":
-        // It blurs inside the quad alone: 24 px, of which 18 px fall off linearly, have their
-        // middle at (6 * 3 + 9 * 12) / 15 = 8.4 px from the end, 3.6 px from the quad's and not 9.
+    // It blurs inside the quad alone: 24 px, of which 18 px fall off linearly, have their middle at
+    // (6 * 3 + 9 * 12) / 15 = 8.4 px from the end, 3.6 px from the quad's and not 9.
+    if (method == "own_velocity")
         return 0.39;
-    case "mcguire2012":
-    case "guertin2014":
+    if (method == "mcguire2012" || method == "guertin2014")
         return 0.6;
-    default:
-        return 0.94; // half a pixel
-    }
+    return 0.94; // half a pixel
 }
 
 TEST_F(PhaseLaw, TheBlurLiesWhereTheAccumulatedPicturesDoesInEveryPhase) {

@@ -78,7 +78,7 @@ core::Result<Measurements> measureSmall(gpu::Device& device) {
     Measurements found;
     for (const Method* method : listFilters()) {
         auto worst = compareSteps(
-            device, method, {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}}
+            device, *method, {{11.3f, 7.1f}, {7.9f, 17.3f}, {19.7f, 3.3f}, {14.2f, 14.9f}}
         );
         if (!worst)
             return worst.error();

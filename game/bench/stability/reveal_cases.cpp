@@ -7,8 +7,10 @@
 #include "engine/render/post_effect.h"
 #include "game/bench/stability/case_lists.h"
 #include "game/bench/stability/pictures.h"
-#include "modules/motion_blur/motion_blur.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
 #include "modules/tonemap/tonemap.h"
+#include "shaders/motion_blur/hybrid_shared.h"
 
 #include <array>
 #include <cmath>
