@@ -1,60 +1,48 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_setup.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace shutter::bench {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 class CaseSetupTest : public testing::Test {
   protected:
     void SetUp() override {
-        mFolder = fs::path(testing::TempDir()) / "shutter_case_setup";
-        fs::remove_all(mFolder);
-        fs::create_directories(mFolder);
-        write("s.gltf", R"({"asset": {"version": "2.0"},
+        mFolder.write("s.gltf", R"({"asset": {"version": "2.0"},
             "buffers": [{"uri": "a.bin", "byteLength": 1}]})");
-        write("a.bin", "1");
-    }
-
-    void TearDown() override { fs::remove_all(mFolder); }
-
-    void write(const fs::path& name, const std::string& text) const {
-        fs::create_directories((mFolder / name).parent_path());
-        std::ofstream(mFolder / name, std::ios::binary) << text;
+        mFolder.write("a.bin", "1");
     }
 
     [[nodiscard]] std::string hash() const {
         Case shot;
-        shot.shot.scene = (mFolder / "s.gltf").string();
-        const auto setup = setUpCase(shot, {}, mFolder);
+        shot.shot.scene = (mFolder.path() / "s.gltf").string();
+        const auto setup = setUpCase(shot, {}, mFolder.path());
         EXPECT_TRUE(setup.ok());
         return setup ? setup.value().hash : std::string();
     }
 
-    fs::path mFolder;
+    test::TempFolder mFolder;
 };
 
 } // namespace
 
 TEST_F(CaseSetupTest, WhatTheSceneDoesNotNameIsNotPartOfIt) {
     const std::string before = hash();
-    write("notes.txt", "beside the scene");
-    write("below/deep/file.bin", "below the scene");
-    fs::create_symlink("nowhere", mFolder / "broken");
+    mFolder.write("notes.txt", "beside the scene");
+    mFolder.write("below/deep/file.bin", "below the scene");
+    std::filesystem::create_symlink("nowhere", mFolder.path() / "broken");
     EXPECT_EQ(hash(), before);
 }
 
 TEST_F(CaseSetupTest, ABufferIsPartOfTheScene) {
     const std::string before = hash();
-    write("a.bin", "2");
+    mFolder.write("a.bin", "2");
     EXPECT_NE(hash(), before);
 }
 

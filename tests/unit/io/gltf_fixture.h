@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/io/gltf_loader.h"
+#include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,37 +18,7 @@
 
 namespace shutter::io {
 
-class TempFolder {
-  public:
-    TempFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "shutter_io_test_XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw std::runtime_error("cannot make a temporary folder");
-        mPath = name;
-    }
-
-    ~TempFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(mPath, ignored);
-    }
-
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return mPath; }
-
-    std::filesystem::path write(const std::string& name, std::string_view content) const {
-        const std::filesystem::path file = mPath / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary)
-            .write(content.data(), std::streamsize(content.size()));
-        return file;
-    }
-
-  private:
-    std::filesystem::path mPath;
-};
+using test::TempFolder;
 
 inline constexpr int kByte = 5120;
 inline constexpr int kUnsignedByte = 5121;
