@@ -3,6 +3,7 @@
 // them.
 #include "modules/motion_blur/motion_blur.h"
 #include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/still_pixels.h"
 #include "modules/motion_blur/passes/tap_floor.h"
 #include "shaders/motion_blur/block_class.glsl"
 #include "tests/gpu/graph_rig.h"

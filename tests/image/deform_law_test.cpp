@@ -35,8 +35,7 @@ class DeformLaw : public test::GpuTest {
     }
 };
 
-constexpr Method kMethods[] = {
-    "sharp", "gather", "hybrid", "accumulate", "truth"};
+constexpr std::string_view kMethods[] = {"sharp", "gather", "hybrid", "accumulate", "truth"};
 
 /// A textured wall, lit.
 SceneBuilder makeRoom() {

@@ -28,7 +28,7 @@ void expectFinite(gpu::Device& device, const SceneBuilder& scene, Shot shot = {}
     shot.wantDisplay = true;
     shot.instants = 3;
     shot.ambient = math::vec3(0.3f);
-    for (std::string_view method : test::listRasterMethods(device()))
+    for (std::string_view method : test::listRasterMethods(device))
         for (auto phase :
              {scene::ShutterPhase::Start, scene::ShutterPhase::Centre, scene::ShutterPhase::End}) {
             shot.method = method;

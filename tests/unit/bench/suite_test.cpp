@@ -70,7 +70,7 @@ TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
         };
         const auto count = std::count_if(sweep.begin(), sweep.end(), isDefault);
         // The truth's own default is what the others are compared with.
-        EXPECT_EQ(count, method->dial == game::Dial::Instants ? 0 : 1) << method->name;
+        EXPECT_EQ(count, method->sampleUnit == game::SampleUnit::Instants ? 0 : 1) << method->name;
     }
 }
 

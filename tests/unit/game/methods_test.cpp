@@ -25,9 +25,9 @@ TEST(Methods, NamesAreDistinct) {
     EXPECT_EQ(names.size(), listMethods().size());
 }
 
-TEST(Methods, ADialHasADefault) {
+TEST(Methods, ASampleUnitHasADefault) {
     for (const MethodInfo& method : listMethods())
-        EXPECT_EQ(method.dial == Dial::None, method.defaultSamples == 0) << method.name;
+        EXPECT_EQ(method.sampleUnit.has_value(), method.defaultSamples != 0) << method.name;
 }
 
 TEST(Methods, TheHybridNeedsRaysAndTheGatherDoesWithout) {
