@@ -35,4 +35,12 @@ struct FrameStatistics {
     uint64_t transientBytes = 0;           ///< memory of the graph's images
 };
 
+/// Adds times pass by pass (passes are the same where name and owner are) and counters. Measures
+/// and explanations are the later frame's; transientBytes is the larger one.
+void addStatistics(FrameStatistics& total, const FrameStatistics& frame);
+
+/// Medians pass by pass of frames that ran the same passes; the rest is the last frame's.
+/// \param frames at least one (CHECKed)
+[[nodiscard]] FrameStatistics computeMedian(const std::vector<FrameStatistics>& frames);
+
 } // namespace shutter::render

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/device.h"
 #include "game/bench/bench_run.h"
-#include "game/bench/report_page.h"
-#include "game/bench/suite.h"
-#include "game/cache_folder.h"
-#include "game/commands.h"
-#include "game/report.h"
+#include "game/bench/report/report_page.h"
+#include "game/bench/suites/suite.h"
+#include "game/cli/commands.h"
+#include "game/options/error_output.h"
+#include "game/options/user_folders.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "engine/io/file_bytes.h"
 #include "game/bench/environment.h"
 #include "game/bench/paper_figures.h"
-#include "game/bench/report_page.h"
+#include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 
 #include "engine/gpu/device.h"
 #include "game/bench/measure.h"
-#include "game/bench/suite.h"
-#include "game/render_options.h"
+#include "game/bench/suites/suite.h"
+#include "game/options/render_options.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
-#include "game/bench/suite.h"
+#include "game/bench/suites/suite.h"
 
 #include <filesystem>
 #include <string>

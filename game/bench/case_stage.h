@@ -8,9 +8,9 @@
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"
-#include "game/bench/suite.h"
-#include "game/method_renderer.h"
-#include "game/shot.h"
+#include "game/bench/suites/suite.h"
+#include "game/shot/method_renderer.h"
+#include "game/shot/shot.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/cost.h"
 
-#include "game/pass_groups.h"
+#include "game/shot/pass_groups.h"
 
 namespace shutter::bench {
 

@@ -8,7 +8,7 @@
 #include "engine/gpu/device.h"
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
-#include "game/bench/suite.h"
+#include "game/bench/suites/suite.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/results.h"
 
+#include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
 #include "game/bench/cost.h"
-#include "game/bench/fit.h"
-#include "game/pass_groups.h"
-#include "game/quartiles.h"
-#include "game/shutter_options.h"
+#include "game/options/shutter_options.h"
+#include "game/shot/pass_groups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +24,7 @@ json packQuartiles(
     std::vector<double> values;
     for (const Sample& sample : samples)
         values.push_back(of(sample));
-    const game::Quartiles quartiles = game::computeQuartiles(std::move(values));
+    const math::Quartiles quartiles = math::computeQuartiles(std::move(values));
     return {{"median", quartiles.median}, {"q1", quartiles.q1}, {"q3", quartiles.q3}};
 }
 
@@ -95,8 +94,8 @@ double distanceFrom(double milliseconds, const json& measurement) {
     return std::abs(std::log(frameTimeOf(measurement) / milliseconds));
 }
 
-json describeFit(const std::vector<CurvePoint>& curve) {
-    const auto fit = fitPower(curve);
+json describeFit(const std::vector<math::CurvePoint>& curve) {
+    const auto fit = math::fitPower(curve);
     if (!fit)
         return {};
     return {{"exponent", fit->exponent}, {"r2", fit->r2}, {"from", fit->from}, {"to", fit->to}};
@@ -250,8 +249,8 @@ json describeAxis(
     json series = json::array();
     for (const DialPoint& dial : sweep) {
         json rows = json::array();
-        std::vector<CurvePoint> frames;
-        std::vector<CurvePoint> effects;
+        std::vector<math::CurvePoint> frames;
+        std::vector<math::CurvePoint> effects;
         for (const MeasuredPoint& measured : points) {
             const auto found = measured.result.records.find(makeKey(dial));
             if (found == measured.result.records.end() || found->second.samples.empty())

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "game/bench/measure.h"
-#include "game/bench/suite.h"
+#include "game/bench/suites/suite.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures on the way of a progressive method, as a benchmark takes them.
-#include "game/method_renderer.h"
-#include "game/statistics.h"
+#include "game/output/statistics_file.h"
+#include "game/shot/method_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_builder.h"

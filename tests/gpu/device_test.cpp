@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which device is taken, what is said when there is none, and what a device without rays refuses.
 #include "engine/gpu/device.h"
-#include "game/method_renderer.h"
+#include "game/shot/method_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"

@@ -2,10 +2,10 @@
 // The panel: nothing changes by itself, and whatever is clicked, settings stay valid.
 #include "engine/app/window_output.h"
 #include "engine/io/image_file.h"
-#include "game/pass_groups.h"
-#include "game/play/panel.h"
-#include "game/play/panel_sections.h"
-#include "game/play/setting_widgets.h"
+#include "game/play/panel/panel.h"
+#include "game/play/panel/panel_sections.h"
+#include "game/play/panel/setting_widgets.h"
+#include "game/shot/pass_groups.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 

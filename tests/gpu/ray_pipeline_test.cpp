@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray-tracing pipelines: their tables, and that what they reveal is what ray queries reveal.
 #include "engine/gpu/ray_pipeline.h"
-#include "game/method_renderer.h"
+#include "game/shot/method_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"

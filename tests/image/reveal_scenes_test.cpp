@@ -2,7 +2,7 @@
 // On scenes of many objects: one traversal reveals what stepping from hit to hit reveals.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scenes.h"
-#include "game/method_renderer.h"
+#include "game/shot/method_renderer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 

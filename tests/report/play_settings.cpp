@@ -2,7 +2,7 @@
 // Settings files for the test that holds them against their schema.
 //   write FOLDER COUNT   writes that many files of random valid settings
 //   check FILE...        prints of each file "ok", or why it is refused
-#include "game/play/play_settings.h"
+#include "game/play/panel/play_settings.h"
 
 #include "tests/unit/panel/random_settings.h"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Settings of the player against game/play/settings.schema.json: what the program writes is valid,
+"""Settings of the player against game/play/panel/settings.schema.json: what the program writes is valid,
 and what the schema refuses the program refuses too, with line and field."""
 
 import json
@@ -16,7 +16,7 @@ except ImportError:
     print("skipped: the package python3-jsonschema is missing")
     sys.exit(77)
 
-SCHEMA = pathlib.Path(__file__).parents[2] / "game/play/settings.schema.json"
+SCHEMA = pathlib.Path(__file__).parents[2] / "game/play/panel/settings.schema.json"
 PROGRAM = os.environ["SHUTTER_PLAY_SETTINGS"]
 FILES = 20
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every hard case keeps within its bounds, under validation. What each draws and measures stands in
 // game/bench/stability; README.md beside this file says which row of the design each is.
-#include "game/bench/stability/measured.h"
+#include "tests/conformance/stability/measured.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <set>

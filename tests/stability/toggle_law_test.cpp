@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Effects that are switched every frame leave nothing behind; a message of the validation layers
 // fails the test as everywhere.
-#include "game/bench/demand/toggle_law.h"
+#include "tests/conformance/demand/toggle_law.h"
 #include "tests/support/gpu_fixture.h"
 
 namespace shutter {

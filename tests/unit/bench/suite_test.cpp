@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/suite.h"
+#include "game/bench/suites/suite.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/page_template.h"
+#include "game/bench/report/page_template.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
-#include "game/bench/base64.h"
-#include "game/bench/report_page.h"
+#include "game/bench/report/base64.h"
+#include "game/bench/report/report_page.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

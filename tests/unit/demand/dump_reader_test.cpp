@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/demand/dump_reader.h"
+#include "tests/conformance/demand/dump_reader.h"
 
 #include <gtest/gtest.h>
 

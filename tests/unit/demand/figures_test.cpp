@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/demand/figures.h"
+#include "tests/conformance/demand/figures.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ TEST(Figures, RatiosAreTakenRoundByRound) {
     }
     EXPECT_EQ(compare(a, b, wall, wall).median, 3.0);
     b[1].wallMilliseconds = 0.0;
-    const game::Quartiles ratio = compare(a, b, wall, wall);
+    const math::Quartiles ratio = compare(a, b, wall, wall);
     EXPECT_FALSE(stability::holds(checkMedian("c", ratio, 1e9, "", 3)))
         << "nothing to compare with";
 }
@@ -73,11 +73,11 @@ TEST(Figures, ALineHoldsFromR2Of098) {
     Curve curve;
     for (const double x : {0.0, 1.0, 2.0, 3.0})
         curve.points.push_back({x, {2.0 * x + 1.0, 0.0, 0.0}, ""});
-    fitLine(curve);
+    addLine(curve);
     ASSERT_TRUE(curve.line);
     EXPECT_TRUE(stability::holds(checkLine("line", curve)));
     curve.points.back().y.median = 3.0;
-    fitLine(curve);
+    addLine(curve);
     EXPECT_FALSE(stability::holds(checkLine("line", curve)));
     curve.line.reset();
     EXPECT_FALSE(stability::holds(checkLine("line", curve)));

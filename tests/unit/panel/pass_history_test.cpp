@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/pass_history.h"
+#include "game/play/panel/pass_history.h"
 
 #include <gtest/gtest.h>
 

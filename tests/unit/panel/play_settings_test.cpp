@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/play_settings.h"
+#include "game/play/panel/play_settings.h"
 #include "tests/unit/panel/random_settings.h"
 
 #include <gtest/gtest.h>

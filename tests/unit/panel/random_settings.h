@@ -2,8 +2,8 @@
 // Settings that are valid and otherwise anything.
 #pragma once
 
-#include "game/play/play_rows.h"
-#include "game/play/play_settings.h"
+#include "game/play/panel/play_rows.h"
+#include "game/play/panel/play_settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/components.h"
 #include "engine/scene/motion.h"
-#include "game/play/flythrough_recorder.h"
+#include "game/play/loop/flythrough_recorder.h"
 
 #include <gtest/gtest.h>
 

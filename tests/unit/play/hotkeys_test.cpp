@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/hotkeys.h"
+#include "game/play/loop/hotkeys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/play_options.h"
+#include "game/play/loop/play_options.h"
 
 #include <gtest/gtest.h>
 

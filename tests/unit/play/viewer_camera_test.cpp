@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/motion.h"
 #include "engine/scene/path.h"
-#include "game/play/viewer_camera.h"
+#include "game/play/loop/viewer_camera.h"
 
 #include <gtest/gtest.h>
 

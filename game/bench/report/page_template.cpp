@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/report/page_template.h"
+
+#include <set>
+
+namespace shutter::bench {
+
+core::Result<std::string>
+fillPage(std::string_view page, const std::map<std::string, std::string_view>& values) {
+    std::string filled;
+    std::set<std::string> used;
+    while (true) {
+        const size_t open = page.find("{{");
+        filled += page.substr(0, open);
+        if (open == std::string_view::npos)
+            break;
+        const size_t close = page.find("}}", open);
+        if (close == std::string_view::npos)
+            return core::makeError("the page has '{{{{' without '}}}}'");
+        const std::string name(page.substr(open + 2, close - open - 2));
+        const auto value = values.find(name);
+        if (value == values.end())
+            return core::makeError("the page asks for '{}', which has no value", name);
+        filled += value->second;
+        used.insert(name);
+        page.remove_prefix(close + 2);
+    }
+    for (const auto& [name, value] : values)
+        if (!used.contains(name))
+            return core::makeError("the page has no place for '{}'", name);
+    return filled;
+}
+
+std::string escapeForScript(std::string_view json) {
+    // Outside its strings JSON holds none of these, and inside a string each may be written so.
+    constexpr std::string_view kLineSeparators = "\xE2\x80"; // then A8 (U+2028) or A9 (U+2029)
+    std::string escaped;
+    escaped.reserve(json.size());
+    for (size_t i = 0; i < json.size(); ++i) {
+        const std::string_view rest = json.substr(i);
+        const bool separates = rest.size() >= 3 && rest.starts_with(kLineSeparators) &&
+                               (rest[2] == '\xA8' || rest[2] == '\xA9');
+        if (separates) {
+            escaped += rest[2] == '\xA8' ? "\\u2028" : "\\u2029";
+            i += 2;
+        } else if (json[i] == '<') {
+            escaped += "\\u003c";
+        } else {
+            escaped += json[i];
+        }
+    }
+    return escaped;
+}
+
+} // namespace shutter::bench

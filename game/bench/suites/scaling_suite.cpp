@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "assets/generator/scaling_scenes.h"
+#include "assets/generator/scenes.h"
+#include "game/bench/suites/suites.h"
+
+#include <array>
+
+namespace shutter::bench {
+
+namespace {
+
+/// A case of a scaling axis; `name` ends in the point's label.
+Case makeCase(const std::string& name, std::function<generator::GltfWriter()> build) {
+    Case shot;
+    shot.name = name;
+    shot.title = name;
+    shot.shot.camera = generator::kScalingCamera;
+    shot.shot.time = generator::kScalingSeconds;
+    shot.shot.exposureSeconds = generator::kScalingExposureSeconds;
+    shot.shot.phase = generator::kScalingPhase;
+    shot.writeScene = makeWriter(std::move(build));
+    return shot;
+}
+
+ScalingAxis makeResolutionAxis() {
+    struct Size {
+        uint32_t width;
+        uint32_t height;
+        const char* label;
+    };
+
+    constexpr std::array kSizes = {
+        Size{640, 360, "360p"},
+        Size{960, 540, "540p"},
+        Size{1280, 720, "720p"},
+        Size{1920, 1080, "1080p"},
+        Size{2560, 1440, "1440p"},
+        Size{3840, 2160, "4K"},
+    };
+    ScalingAxis axis{"resolution", "Resolution", "pixels", {}};
+    for (const Size& size : kSizes) {
+        Case shot = makeCase(fmt::format("resolution-{}", size.label), &generator::buildVaseScene);
+        shot.size = fmt::format("{}x{}", size.width, size.height);
+        axis.points.push_back({double(size.width) * size.height, size.label, std::move(shot)});
+    }
+    return axis;
+}
+
+ScalingAxis makeEntitiesAxis() {
+    ScalingAxis axis{"entities", "Moving entities", "entities", {}};
+    for (int count : {1, 10, 100, 1000, 10000})
+        axis.points.push_back(
+            {double(count),
+             std::to_string(count),
+             makeCase(
+                 fmt::format("entities-{}", count),
+                 [count] { return generator::buildEntitiesScene(count); }
+             )}
+        );
+    return axis;
+}
+
+ScalingAxis makeTrianglesAxis() {
+    ScalingAxis axis{"triangles", "Triangles", "triangles", {}};
+    for (int count : {10'000, 31'623, 100'000, 316'228, 1'000'000})
+        axis.points.push_back(
+            {double(count),
+             std::to_string(count),
+             makeCase(
+                 fmt::format("triangles-{}", count),
+                 [count] { return generator::buildTrianglesScene(count); }
+             )}
+        );
+    return axis;
+}
+
+ScalingAxis makeMovingShareAxis() {
+    ScalingAxis axis{"moving-share", "Moving share of the screen", "%", {}};
+    for (int percent : {0, 5, 10, 25, 50, 75, 100})
+        axis.points.push_back(
+            {double(percent),
+             fmt::format("{} %", percent),
+             makeCase(
+                 fmt::format("moving-{}", percent),
+                 [percent] { return generator::buildMovingShareScene(float(percent) / 100.0f); }
+             )}
+        );
+    return axis;
+}
+
+ScalingAxis makeExposureAxis() {
+    ScalingAxis axis{"exposure", "Exposure, times 1/60 s", "x", {}};
+    for (int times : {1, 2, 4, 8}) {
+        Case shot = makeCase(fmt::format("exposure-{}", times), &generator::buildVaseScene);
+        shot.shot.exposureSeconds = times * generator::kScalingExposureSeconds;
+        axis.points.push_back({double(times), fmt::format("x{}", times), std::move(shot)});
+    }
+    return axis;
+}
+
+} // namespace
+
+Suite makeScalingSuite() {
+    Suite suite;
+    suite.name = "scaling";
+    suite.repeats = 3;
+    suite.limitSeconds = 30.0;
+    suite.axes = {
+        makeResolutionAxis(),
+        makeEntitiesAxis(),
+        makeTrianglesAxis(),
+        makeMovingShareAxis(),
+        makeExposureAxis()};
+    return suite;
+}
+
+} // namespace shutter::bench

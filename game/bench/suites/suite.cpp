@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/suites/suite.h"
+
+#include "game/bench/suites/suites.h"
+
+#include <algorithm>
+#include <array>
+
+namespace shutter::bench {
+
+namespace {
+
+struct SuiteRow {
+    std::string_view name;
+    Suite (*make)();
+};
+
+constexpr std::array kSuites = {
+    SuiteRow{"paper", makePaperSuite},
+    SuiteRow{"hard", makeHardSuite},
+    SuiteRow{"scaling", makeScalingSuite},
+    SuiteRow{"stability", makeStabilitySuite},
+    SuiteRow{"demand", makeDemandSuite},
+};
+
+std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
+    std::vector<uint32_t> powers;
+    for (uint32_t power = first; power <= last; power *= 2)
+        powers.push_back(power);
+    return powers;
+}
+
+/// Positions of a dial, rising; the method's default joins them where it lies among them.
+std::vector<uint32_t> listPositions(const game::MethodInfo& method, uint32_t maxRays) {
+    if (!method.sampleUnit)
+        return {0};
+    std::vector<uint32_t> positions;
+    switch (*method.sampleUnit) {
+    case game::SampleUnit::Taps:
+        positions = listPowersOfTwo(4, 64);
+        break;
+    case game::SampleUnit::Instants:
+        positions = listPowersOfTwo(2, 64); // its default is the truth itself
+        break;
+    case game::SampleUnit::Rays:
+        positions = listPowersOfTwo(1, maxRays);
+        break;
+    }
+    if (method.defaultSamples < positions.back())
+        positions.push_back(method.defaultSamples);
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
+}
+
+} // namespace
+
+std::function<core::Status(const std::filesystem::path&)>
+makeWriter(std::function<generator::GltfWriter()> build) {
+    return [build = std::move(build)](const std::filesystem::path& file) -> core::Status {
+        if (const std::string error = build().write(file); !error.empty())
+            return core::Error{error};
+        return {};
+    };
+}
+
+core::Result<Suite> findSuite(std::string_view name) {
+    std::string names;
+    for (const SuiteRow& row : kSuites) {
+        if (row.name == name)
+            return row.make();
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+    }
+    return core::makeError("--suite '{}' is not one of {}", name, names);
+}
+
+Suite makeOwnSuite(const game::RenderArguments& shot) {
+    Suite suite;
+    suite.name = "own";
+    Case own;
+    own.name = "own";
+    own.title = std::filesystem::path(shot.scene).filename().string();
+    own.description = "A scene given on the command line.";
+    own.shot = shot;
+    suite.cases = {own};
+    return suite;
+}
+
+std::vector<DialPoint>
+makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays) {
+    std::vector<DialPoint> points;
+    for (const game::MethodInfo* method : methods)
+        for (uint32_t position : listPositions(*method, maxRays))
+            points.push_back({method, position, position == method->defaultSamples});
+    return points;
+}
+
+std::vector<DialPoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
+    constexpr uint32_t kMostSamples = 4;
+    std::vector<DialPoint> points;
+    for (const game::MethodInfo* method : methods) {
+        const bool isTruth = method->family == game::MethodFamily::Accumulate ||
+                             method->family == game::MethodFamily::Truth;
+        points.push_back({method, isTruth ? kMostSamples : method->defaultSamples, !isTruth});
+    }
+    return points;
+}
+
+} // namespace shutter::bench

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// What a benchmark suite consists of, as data.
+#pragma once
+
+#include "engine/core/result.h"
+#include "game/options/render_options.h"
+#include "game/shot/methods.h"
+#include "tests/conformance/demand/claim.h"
+#include "tests/conformance/stability/measured.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shutter::bench {
+
+/// One shot, as a person would type it for `shutter render`; method, samples and --out are left to
+/// the benchmark.
+struct Case {
+    std::string name; ///< unique in its suite; part of file names
+    std::string title;
+    std::string description;
+    game::RenderArguments shot;
+    std::string size; ///< WxH that belongs to the case; empty: the run's
+    /// Writes the scene to a file; empty where `shot.scene` names one that is there.
+    std::function<core::Status(const std::filesystem::path&)> writeScene;
+};
+
+/// A point of a scaling curve.
+struct ScalingPoint {
+    double value = 0.0; ///< in the axis' unit
+    std::string label;
+    Case shot;
+};
+
+/// What time does when one thing grows.
+struct ScalingAxis {
+    std::string name; ///< letters, digits, -
+    std::string title;
+    std::string unit;
+    std::vector<ScalingPoint> points;
+};
+
+struct Suite {
+    std::string name;
+    std::vector<Case> cases;                    ///< compared with the truth
+    std::vector<ScalingAxis> axes;              ///< timed only
+    std::vector<stability::HardCase> hardCases; ///< measured against bounds
+    std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
+    const char* size = "640x360";               ///< WxH of its pictures where none is asked for
+    uint32_t repeats = 7;                       ///< timed pictures of each method and dial
+    double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
+    uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays
+};
+
+/// Error: the suites there are.
+[[nodiscard]] core::Result<Suite> findSuite(std::string_view name);
+
+/// A user's own shot as a suite of one case, swept like `paper`.
+[[nodiscard]] Suite makeOwnSuite(const game::RenderArguments& shot);
+
+/// A method at one position of its dial.
+struct DialPoint {
+    const game::MethodInfo* method = nullptr;
+    uint32_t samples = 0; ///< 0: the method has no dial
+    bool isDefault = false;
+};
+
+/// Every dial position of the methods, cheap to dear.
+[[nodiscard]] std::vector<DialPoint>
+makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
+
+/// The methods at their defaults; truths with a few samples, since their time is proportional to
+/// them.
+[[nodiscard]] std::vector<DialPoint>
+makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
+
+} // namespace shutter::bench

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gpu/device_select.h"
+#include "engine/io/gltf_loader.h"
+#include "engine/scene/framing.h"
+#include "game/cli/commands.h"
+#include "game/options/error_output.h"
+#include "game/shot/methods.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+namespace shutter::game {
+
+namespace {
+
+struct InfoArguments {
+    std::string scene;
+    bool devices = false;
+    bool methods = false;
+};
+
+core::Status printDevices() {
+    VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    application.apiVersion = VK_API_VERSION_1_3;
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pApplicationInfo = &application;
+    VkInstance instance = VK_NULL_HANDLE;
+    if (vkCreateInstance(&info, nullptr, &instance) != VK_SUCCESS)
+        return core::makeError("no Vulkan driver is installed (package mesa-vulkan-drivers)");
+    const auto devices = gpu::listDevices(instance);
+    for (size_t i = 0; i < devices.size(); ++i)
+        fmt::print(
+            "{}: {} ({}, {}), rays: {}{}\n",
+            i,
+            devices[i].name,
+            devices[i].kind,
+            devices[i].driver,
+            gpu::describeTiers(devices[i]),
+            devices[i].missing.empty() ? "" : ", unusable: lacks " + devices[i].missing
+        );
+    vkDestroyInstance(instance, nullptr);
+    if (devices.empty())
+        return core::makeError("no Vulkan device was found");
+    return {};
+}
+
+core::Status printScene(const std::string& path) {
+    auto loaded = io::loadGltf(path);
+    if (!loaded)
+        return loaded.error();
+    const scene::World& world = loaded.value().world;
+    uint64_t drawn = 0;
+    uint64_t instances = 0;
+    uint64_t lights = 0;
+    for (auto [entity, instance] : world.registry.view<scene::MeshInstance>()) {
+        (void)entity;
+        ++instances;
+        for (const auto& primitive : world.assets.meshes[instance.mesh].primitives)
+            drawn += primitive.indices.size() / 3;
+    }
+    for (auto [entity, light] : world.registry.view<scene::Light>()) {
+        (void)entity;
+        (void)light;
+        ++lights;
+    }
+    fmt::print(
+        "entities {}, drawn {}, triangles drawn {}\nmeshes {}, materials {}, textures {}, lights "
+        "{}\n",
+        world.registry.aliveCount(),
+        instances,
+        drawn,
+        world.assets.meshes.size(),
+        world.assets.materials.size(),
+        world.assets.textures.size(),
+        lights
+    );
+    const math::Bounds bounds = scene::computeWorldBounds(world, 0.0);
+    if (!bounds.isEmpty())
+        fmt::print(
+            "bounds {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} m\n",
+            bounds.min.x,
+            bounds.min.y,
+            bounds.min.z,
+            bounds.max.x,
+            bounds.max.y,
+            bounds.max.z
+        );
+    for (size_t i = 0; i < world.cameras.size(); ++i) {
+        const auto& camera = world.registry.get<scene::Camera>(world.cameras[i]);
+        const auto* name = world.registry.find<scene::Name>(world.cameras[i]);
+        fmt::print("camera {}: '{}' at node '{}'\n", i, camera.name, name ? name->value : "");
+    }
+    for (const auto& clip : world.assets.clips)
+        fmt::print(
+            "clip {}: {:.4g} s, {} channels\n",
+            clip.name,
+            clip.duration,
+            clip.channels.size() + clip.weightChannels.size()
+        );
+    for (const auto& skin : world.assets.skins)
+        fmt::print("skin {}: {} joints\n", skin.name, skin.jointFromBind.size());
+    for (const auto& mesh : world.assets.meshes)
+        if (!mesh.morphWeights.empty())
+            fmt::print("mesh {}: {} morph targets\n", mesh.name, mesh.morphWeights.size());
+    for (const std::string& warning : loaded.value().warnings)
+        fmt::print("warning: {}\n", warning);
+    return {};
+}
+
+int runInfo(const InfoArguments& arguments) {
+    if (arguments.scene.empty() && !arguments.devices && !arguments.methods) {
+        fmt::print(stderr, "shutter: info needs a SCENE, --devices or --methods\n");
+        return kExitUsage;
+    }
+    if (arguments.methods)
+        for (const MethodInfo& method : listMethods())
+            fmt::print("{}\n", method.name);
+    core::Status done;
+    if (arguments.devices)
+        done = printDevices();
+    if (done && !arguments.scene.empty())
+        done = printScene(arguments.scene);
+    if (!done)
+        printError(done.error());
+    return done ? kExitDone : kExitFailed;
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& app, int& exitStatus) {
+    CLI::App* command = app.add_subcommand(
+        "info", "what a scene holds, what a device can do, which methods there are"
+    );
+    auto arguments = std::make_shared<InfoArguments>();
+    command->add_option("scene", arguments->scene, "glTF 2.0 scene");
+    command->add_flag("--devices", arguments->devices, "list the Vulkan devices");
+    command->add_flag("--methods", arguments->methods, "list the methods, one a line");
+    command->callback([arguments, &exitStatus] { exitStatus = runInfo(*arguments); });
+}
+
+} // namespace shutter::game

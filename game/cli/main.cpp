@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "engine/core/log.h"
+#include "engine/gpu/vulkan.h"
+#include "game/cli/commands.h"
+#include "game/options/error_output.h"
+
+#include <CLI/CLI.hpp>
+
+#include <new>
+
+using namespace shutter;
+
+int main(int argc, char** argv) {
+    CLI::App app("Shutter: motion blur that is right", "shutter");
+    app.require_subcommand(1);
+    bool verbose = false;
+    app.add_flag("-v,--verbose", verbose, "say what was chosen and found");
+    app.parse_complete_callback([&] {
+        if (verbose)
+            core::setLogLevel(core::LogLevel::Info);
+    });
+    int exitStatus = game::kExitDone;
+    game::addRenderCommand(app, exitStatus);
+    game::addCompareCommand(app, exitStatus);
+    game::addInfoCommand(app, exitStatus);
+    game::addBenchCommand(app, exitStatus);
+    game::addPlayCommand(app, exitStatus);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) { // --help
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        game::printError({error.what()});
+        return game::kExitUsage;
+    } catch (const gpu::DeviceError& error) {
+        game::printError({error.what()});
+        return game::kExitFailed;
+    } catch (const std::bad_alloc&) {
+        game::printError({"out of main memory"});
+        return game::kExitFailed;
+    }
+    return exitStatus;
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "game/output/film.h"
+
+#include "engine/core/log.h"
+#include "engine/io/file_bytes.h"
+#include "engine/io/image_file.h"
+
+#include <system_error>
+#include <vector>
+
+namespace shutter::game {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kPattern = "frame_%06d.png";
+
+} // namespace
+
+fs::path filmFrames(const fs::path& film) {
+    return fs::path(film.string() + ".frames") / kPattern;
+}
+
+core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options) {
+    std::error_code ignored;
+    if (fs::is_directory(options.film, ignored))
+        return core::makeError("--out: cannot write '{}': it is a folder", options.film.string());
+    // Of a picture in its place: the folder is what counts.
+    const fs::path folder = options.film.has_parent_path() ? options.film.parent_path() : ".";
+    if (core::Status writable = io::checkWritable(folder / "frame.png"); !writable)
+        return core::makeError(
+            "--out: cannot write '{}': the folder '{}' does not exist or cannot be written",
+            options.film.string(),
+            folder.string()
+        );
+    auto encoder = io::findVideoEncoder(options.ffmpeg);
+    if (!encoder)
+        return core::makeError(
+            "{}: {}", options.ffmpeg.empty() ? "--out" : "--ffmpeg", encoder.error().message
+        );
+    return encoder;
+}
+
+core::Status makeFilmFolder(const RenderOptions& options) {
+    std::error_code failure;
+    const fs::path folder = options.out.parent_path();
+    fs::create_directory(folder, failure);
+    if (failure || !fs::is_directory(folder, failure))
+        return core::makeError(
+            "--out: cannot make the folder '{}': {}", folder.string(), failure.message()
+        );
+    return {};
+}
+
+core::Status encodeFilm(const io::VideoEncoder& encoder, const RenderOptions& options) {
+    io::VideoFrames frames;
+    frames.folder = options.out.parent_path();
+    frames.pattern = kPattern;
+    frames.count = uint32_t(options.frameTimes.size());
+    frames.framesPerSecond = options.fps;
+    if (core::Status encoded = io::encodeVideo(encoder, frames, options.film); !encoded)
+        return core::makeError("--out: {}", encoded.error().message);
+    return {};
+}
+
+void removeFilmFrames(const RenderOptions& options, const fs::path& framesJournal) {
+    if (options.keepFrames)
+        return;
+    std::error_code ignored;
+    const fs::path folder = options.out.parent_path();
+    for (size_t i = 0; i < options.frameTimes.size(); ++i)
+        fs::remove(frameFile(options.out, int(i)), ignored);
+    fs::remove(framesJournal, ignored);
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
+            left.push_back(entry.path()); // of a run that was killed
+    for (const fs::path& file : left)
+        fs::remove(file, ignored);
+    fs::remove(folder, ignored);
+    if (fs::exists(folder, ignored))
+        core::logWarning("'{}' holds other files and is kept", folder.string());
+}
+
+} // namespace shutter::game

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "game/output/sequence_journal.h"
+
+#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
+#include "engine/io/json_file.h"
+#include "game/options/render_options.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace shutter::game {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint64_t kMaxJournalBytes = uint64_t{1} << 30;
+constexpr std::string_view kJournalName = "shutter frames 1";
+/// File systems take 255.
+constexpr size_t kMaxNameBytes = 200;
+
+fs::path folderOf(const fs::path& file) {
+    return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+std::string formatHeader(const std::string& fingerprint) {
+    return nlohmann::json{{"journal", kJournalName}, {"fingerprint", fingerprint}}.dump() + "\n";
+}
+
+/// Empty where the line is none.
+std::string readHeader(std::string_view line) {
+    auto document = io::JsonDocument::parse(line, "journal");
+    if (!document)
+        return {};
+    const io::JsonObject header = document.value().root().readObject({"journal", "fingerprint"});
+    const std::string name = header.require("journal").readString();
+    std::string fingerprint = header.require("fingerprint").readString();
+    return document.value().finish() && name == kJournalName ? fingerprint : std::string();
+}
+
+/// The lines that end; the rest of a killed run's last one is not among them.
+std::vector<std::string_view> splitLines(std::string_view text) {
+    std::vector<std::string_view> lines;
+    for (size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+        lines.push_back(text.substr(0, end));
+        text.remove_prefix(end + 1);
+    }
+    return lines;
+}
+
+core::Status appendLine(const fs::path& file, const std::string& line) {
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    // At once: two runs that draw parts of one sequence share the journal.
+    const ssize_t written = descriptor < 0 ? -1 : ::write(descriptor, line.data(), line.size());
+    const int why = errno;
+    if (descriptor >= 0)
+        ::close(descriptor);
+    if (written == ssize_t(line.size()))
+        return {};
+    return core::makeError(
+        "cannot write '{}': {}",
+        file.string(),
+        written < 0 ? std::generic_category().message(why) : "the disk is full"
+    );
+}
+
+} // namespace
+
+fs::path journalFile(const fs::path& pattern) {
+    // Above the first part that has the frame's number: a folder a frame, perhaps.
+    fs::path folder;
+    for (const fs::path& part : pattern.parent_path()) {
+        if (frameFile(part, 0) != part)
+            break;
+        folder /= part;
+    }
+    std::string name = pattern.lexically_relative(folder.empty() ? "." : folder).string();
+    std::replace(name.begin(), name.end(), '/', '_');
+    if (name.size() > kMaxNameBytes)
+        name = io::computeContentHash(name);
+    return folder / ("." + name + ".journal");
+}
+
+core::Result<SequenceJournal> SequenceJournal::open(fs::path file, const std::string& fingerprint) {
+    SequenceJournal journal(std::move(file), Before::Nothing);
+    std::error_code ignored;
+    bool isWhole = false;
+    if (fs::is_regular_file(journal.mFile, ignored)) {
+        const auto bytes = io::readFileBytes(journal.mFile, kMaxJournalBytes);
+        if (!bytes)
+            return bytes.error();
+        const auto* text = reinterpret_cast<const char*>(bytes.value().data());
+        isWhole = journal.readLines({text, bytes.value().size()}, fingerprint);
+    }
+    if (isWhole)
+        return journal;
+    if (core::Status written = journal.rewrite(fingerprint); !written)
+        return written.error();
+    return journal;
+}
+
+bool SequenceJournal::readLines(std::string_view text, const std::string& fingerprint) {
+    mBefore = Before::OtherPictures;
+    const std::vector<std::string_view> lines = splitLines(text);
+    if (lines.empty() || readHeader(lines.front()) != fingerprint)
+        return false;
+    mBefore = Before::SamePictures;
+    bool isWhole = text.ends_with('\n');
+    for (size_t i = 1; i < lines.size(); ++i) {
+        auto document = io::JsonDocument::parse(lines[i], "journal");
+        if (!document) {
+            isWhole = false;
+            continue;
+        }
+        const io::JsonObject line = document.value().root().readObject({"frame", "files"});
+        const auto frame = int(line.require("frame").readInteger(INT32_MIN, INT32_MAX));
+        std::vector<File> files;
+        for (const io::JsonNode& node : line.require("files").readArray(1)) {
+            const io::JsonObject file = node.readObject({"name", "hash"});
+            files.push_back({file.require("name").readString(), file.require("hash").readString()});
+        }
+        if (document.value().finish())
+            mFrames[frame] = std::move(files);
+        else
+            isWhole = false;
+    }
+    return isWhole;
+}
+
+core::Status SequenceJournal::rewrite(const std::string& fingerprint) const {
+    std::string text = formatHeader(fingerprint);
+    for (const auto& [frame, files] : mFrames)
+        text += formatLine(frame, files);
+    return io::writeFileText(mFile, text);
+}
+
+std::string SequenceJournal::formatLine(int frame, const std::vector<File>& files) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const File& file : files)
+        list.push_back({{"name", file.name}, {"hash", file.hash}});
+    // A name that is no UTF-8 is replaced, is then not found, and its frame is drawn again.
+    return nlohmann::json{{"frame", frame}, {"files", list}}.dump(
+               -1, ' ', false, nlohmann::json::error_handler_t::replace
+           ) +
+           "\n";
+}
+
+bool SequenceJournal::isComplete(int frame) const {
+    const auto found = mFrames.find(frame);
+    return found != mFrames.end() &&
+           std::all_of(found->second.begin(), found->second.end(), [&](const File& file) {
+               const auto hash = io::computeFileHash(folderOf(mFile) / file.name);
+               return hash && hash.value() == file.hash;
+           });
+}
+
+core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files) {
+    std::vector<File> complete;
+    for (const fs::path& file : files) {
+        auto hash = io::computeFileHash(file);
+        if (!hash)
+            return hash.error();
+        complete.push_back(
+            {file.lexically_relative(folderOf(mFile)).string(), std::move(hash).value()}
+        );
+    }
+    if (core::Status written = appendLine(mFile, formatLine(frame, complete)); !written)
+        return written;
+    mFrames[frame] = std::move(complete);
+    return {};
+}
+
+} // namespace shutter::game

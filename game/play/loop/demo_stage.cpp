@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/stage.h"
+
+#include <algorithm>
+
+namespace shutter::game {
+
+namespace {
+
+using app::InputState;
+using app::Key;
+using app::PadButton;
+
+DemoControls readControls(const InputState& input) {
+    const app::Gamepad& pad = input.pad;
+    DemoControls controls;
+    controls.turn = std::clamp(
+        axisOf(input, Key::A, Key::D) + axisOf(input, Key::Left, Key::Right) + pad.leftStick.x,
+        -1.0,
+        1.0
+    );
+    controls.drive = std::clamp(
+        axisOf(input, Key::S, Key::W) + axisOf(input, Key::Down, Key::Up) + pad.rightTrigger -
+            pad.leftTrigger + pad.rightStick.y,
+        -1.0,
+        1.0
+    );
+    controls.action = input.isDown(Key::Space) || input.isDown(app::MouseButton::Left) ||
+                      pad.down[static_cast<size_t>(PadButton::A)];
+    controls.switchCamera = input.wasPressed(Key::C) || input.wasPressed(PadButton::Y);
+    controls.toggleExclusion = input.wasPressed(Key::E) || input.wasPressed(PadButton::X);
+    return controls;
+}
+
+class DemoStage : public Stage {
+  public:
+    explicit DemoStage(std::unique_ptr<Demo> demo) : mDemo(std::move(demo)) {}
+
+    [[nodiscard]] std::string title() const override { return mDemo->name(); }
+
+    [[nodiscard]] scene::World& world() override { return mDemo->world(); }
+
+    [[nodiscard]] ecs::Entity camera() const override { return mDemo->camera(); }
+
+    [[nodiscard]] DemoLook look() const override { return mDemo->look(); }
+
+    void advance(const InputState& input, const StageFrame& frame) override {
+        const DemoControls read = readControls(input);
+        mPressed.switchCamera = mPressed.switchCamera || read.switchCamera;
+        mPressed.toggleExclusion = mPressed.toggleExclusion || read.toggleExclusion;
+        mPressed.action = mPressed.action || input.wasPressed(Key::Space) ||
+                          input.wasClicked(app::MouseButton::Left) ||
+                          input.wasPressed(PadButton::A);
+        for (uint32_t i = 0; i < frame.time.steps; ++i) {
+            // What was tapped, in a frame without steps even, belongs to one step.
+            DemoControls controls = read;
+            controls.switchCamera = mPressed.switchCamera;
+            controls.toggleExclusion = mPressed.toggleExclusion;
+            controls.action = controls.action || mPressed.action;
+            mPressed = {};
+            mDemo->step(controls);
+        }
+    }
+
+    [[nodiscard]] std::vector<HudLine> hud() const override { return mDemo->hud(); }
+
+    [[nodiscard]] bool isOver() const override { return mDemo->isOver(); }
+
+    [[nodiscard]] std::optional<int> score() const override { return mDemo->score(); }
+
+  private:
+    std::unique_ptr<Demo> mDemo;
+    DemoControls mPressed; ///< and not yet told to a step
+};
+
+} // namespace
+
+std::unique_ptr<Stage> makeDemoStage(std::unique_ptr<Demo> demo) {
+    return std::make_unique<DemoStage>(std::move(demo));
+}
+
+} // namespace shutter::game

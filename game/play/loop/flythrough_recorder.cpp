@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/flythrough_recorder.h"
+
+#include "engine/math/transform.h"
+#include "engine/scene/motion.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <system_error>
+
+namespace shutter::game {
+
+namespace {
+
+constexpr int kMostFiles = 1000;
+
+io::FlythroughKey makeKey(const scene::World& world, ecs::Entity camera, double seconds) {
+    const math::dmat4 rigid = math::removeScale(worldFromEntity(world, camera, seconds));
+    io::FlythroughKey key;
+    key.position = math::dvec3(rigid[3]);
+    key.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
+    const auto& lens = world.registry.get<scene::Camera>(camera);
+    key.fieldOfView = lens.yFov * 180.0 / std::numbers::pi;
+    return key;
+}
+
+} // namespace
+
+void FlythroughRecorder::start() {
+    mFlight.emplace();
+    mFlight->name = "recorded";
+    mLast.reset();
+}
+
+void FlythroughRecorder::addFrame(const scene::World& world, ecs::Entity camera, double seconds) {
+    if (!mFlight)
+        return;
+    auto& keys = mFlight->keys;
+    if (keys.empty()) {
+        mStartSeconds = seconds;
+        mCamera = camera;
+    }
+    io::FlythroughKey key = makeKey(world, camera, seconds);
+    key.seconds = seconds - mStartSeconds;
+    if (!keys.empty() && key.seconds <= keys.back().seconds)
+        return; // paused
+    key.cut = camera != mCamera;
+    const bool isDue =
+        keys.empty() || key.cut || key.seconds >= keys.back().seconds + kRecordedKeySeconds - 1e-9;
+    mCamera = camera;
+    if (!isDue) {
+        mLast = key;
+        return;
+    }
+    // What came just before a cut is where the shot ended.
+    if (key.cut && mLast && mLast->seconds > keys.back().seconds)
+        keys.push_back(*mLast);
+    keys.push_back(key);
+    mLast.reset();
+}
+
+core::Result<std::filesystem::path> FlythroughRecorder::finish(const std::filesystem::path& folder
+) {
+    io::Flythrough flight = std::move(mFlight).value_or(io::Flythrough());
+    mFlight.reset();
+    if (mLast)
+        flight.keys.push_back(*mLast);
+    mLast.reset();
+    if (flight.keys.empty())
+        return core::makeError("nothing was recorded: no game time passed");
+    std::error_code ignored;
+    for (int i = 1; i < kMostFiles; ++i) {
+        const auto file = folder / fmt::format("flythrough_{:03}.json", i);
+        if (std::filesystem::exists(file, ignored))
+            continue;
+        if (core::Status written = io::writeFlythrough(file, flight); !written)
+            return written.error();
+        return file;
+    }
+    return core::makeError("{} holds {} flythroughs already", folder.string(), kMostFiles - 1);
+}
+
+} // namespace shutter::game

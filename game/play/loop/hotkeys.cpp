@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/hotkeys.h"
+
+#include "engine/core/check.h"
+
+#include <algorithm>
+#include <array>
+
+namespace shutter::game {
+
+namespace {
+
+using app::Key;
+using app::PadButton;
+
+constexpr std::array kSpeeds = {0.05, 0.1, 0.25, 0.5, 1.0};
+
+constexpr std::array kPresetKeys = {
+    Key::Digit1, Key::Digit2, Key::Digit3, Key::Digit4, Key::Digit5};
+
+/// The picture itself comes before the first and after the last view.
+void cycleView(std::span<const std::string> views, int step, std::string& view) {
+    const auto found = std::find(views.begin(), views.end(), view);
+    const auto count = static_cast<int>(views.size());
+    const int place = found == views.end() ? 0 : static_cast<int>(found - views.begin()) + 1;
+    const int next = (place + step + count + 1) % (count + 1);
+    view = next == 0 ? std::string() : views[static_cast<size_t>(next - 1)];
+}
+
+} // namespace
+
+const std::string&
+cycle(std::span<const std::string> choices, const std::string& current, int step) {
+    SHUTTER_CHECK(!choices.empty(), "there is nothing to go through");
+    const auto found = std::find(choices.begin(), choices.end(), current);
+    if (found == choices.end())
+        return choices.front();
+    const auto count = static_cast<int>(choices.size());
+    const int next = (static_cast<int>(found - choices.begin()) + step + count) % count;
+    return choices[static_cast<size_t>(next)];
+}
+
+double nextSpeed(double speed, int step) {
+    const auto nearest = std::min_element(kSpeeds.begin(), kSpeeds.end(), [&](double a, double b) {
+        return std::abs(a - speed) < std::abs(b - speed);
+    });
+    const auto place = static_cast<int>(nearest - kSpeeds.begin()) + step;
+    return kSpeeds[static_cast<size_t>(std::clamp(place, 0, int(kSpeeds.size()) - 1))];
+}
+
+PanelWishes applyHotkeys(
+    const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings
+) {
+    const int step = input.isDown(Key::Shift) ? -1 : 1;
+    if (input.wasPressed(Key::M) || input.wasPressed(PadButton::RightBumper))
+        settings.method = cycle(choices.methods, settings.method, step);
+    if (input.wasPressed(PadButton::LeftBumper))
+        settings.method = cycle(choices.methods, settings.method, -1);
+    if (input.wasPressed(Key::N))
+        settings.leftMethod = cycle(choices.methods, settings.leftMethod, step);
+    if (input.wasPressed(Key::X))
+        settings.split = !settings.split;
+    if (input.wasPressed(Key::V))
+        cycleView(choices.views, step, settings.view);
+    if (input.wasPressed(Key::B))
+        settings.cameraBlurScale = settings.cameraBlurScale > 0.0 ? 0.0 : 1.0;
+    if (input.wasPressed(Key::F1) || input.wasPressed(PadButton::Back))
+        settings.showPanel = !settings.showPanel;
+    for (size_t i = 0; i < kPresetKeys.size() && i < listPresets().size(); ++i)
+        if (input.wasPressed(kPresetKeys[i]))
+            applyPreset(listPresets()[i], settings);
+    PanelWishes wishes;
+    wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
+    wishes.singleStep = input.wasPressed(Key::Period);
+    wishes.toggleRecording = input.wasPressed(Key::R);
+    wishes.toggleFullScreen = input.wasPressed(Key::F11);
+    wishes.save = input.wasPressed(Key::F5);
+    wishes.load = input.wasPressed(Key::F9);
+    wishes.quit = input.wasPressed(Key::Escape);
+    if (input.wasPressed(Key::Comma))
+        wishes.speed = nextSpeed(speed, -1);
+    if (input.wasPressed(Key::Slash))
+        wishes.speed = nextSpeed(speed, 1);
+    return wishes;
+}
+
+} // namespace shutter::game

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Keys that change what is seen rather than what is played.
+#pragma once
+
+#include "engine/app/input.h"
+#include "game/play/panel/panel.h"
+#include "game/play/panel/play_settings.h"
+
+#include <span>
+#include <string>
+
+namespace shutter::game {
+
+/// What there is to go through.
+struct Choices {
+    std::span<const std::string> methods; ///< that the device can run; one at least
+    std::span<const std::string> views;
+};
+
+/// The element after (`step` 1) or before (-1) `current`, round at the ends; the first where it is
+/// none of them. \param choices one at least
+[[nodiscard]] const std::string&
+cycle(std::span<const std::string> choices, const std::string& current, int step);
+
+/// Slower and faster speeds of the game, 0.05 to 1.
+[[nodiscard]] double nextSpeed(double speed, int step);
+
+/// Changes the settings as the keys say; the rest is left as wishes.
+/// \param speed of the game now
+[[nodiscard]] PanelWishes applyHotkeys(
+    const app::InputState& input, const Choices& choices, double speed, PlaySettings& settings
+);
+
+} // namespace shutter::game

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/play_options.h"
+
+#include "engine/io/image_file.h"
+#include "game/demos/demo.h"
+#include "game/play/loop/asset_folder.h"
+#include "game/shot/flight.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace shutter::game {
+
+namespace {
+
+using core::makeError;
+
+constexpr const char* kFirstDemo = "rally";
+constexpr uint32_t kMaxFrames = 1'000'000;
+
+bool isDemo(const std::string& name) {
+    const auto demos = listDemos();
+    return std::any_of(demos.begin(), demos.end(), [&](const DemoInfo& demo) {
+        return name == demo.name;
+    });
+}
+
+std::string listDemoNames() {
+    std::string names;
+    for (const DemoInfo& demo : listDemos())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", demo.name);
+    return names;
+}
+
+core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options) {
+    options.film = arguments.film;
+    if (options.film.empty())
+        return {};
+    if (options.film.extension() == ".mp4")
+        return {};
+    auto isDisplay = io::isDisplayFormat(options.film);
+    if (!isDisplay)
+        return makeError("--film: {}", isDisplay.error().message);
+    if (!isDisplay.value())
+        return makeError("--film '{}': a window's picture is no linear light", arguments.film);
+    if (frameFile(options.film, 0) == frameFile(options.film, 1))
+        return makeError("--film '{}' needs a frame number such as %04d", arguments.film);
+    return {};
+}
+
+} // namespace
+
+void definePlayOptions(CLI::App& command, PlayArguments& a) {
+    command.add_option(
+        "scene", a.shot.scene, "a demo (" + listDemoNames() + ") or a glTF scene; default: rally"
+    );
+    command.add_option("--camera", a.shot.camera, "of a scene: name or index");
+    command.add_option("--flythrough", a.shot.flythrough, "of a scene: JSON file, or clip:NAME");
+    command.add_option("--clip", a.shot.clips, "of a scene (repeatable), or none; default: all");
+    command.add_flag("--loop,!--no-loop", a.shot.loop, "of a scene: clips start again (default)");
+    command.add_option("--background", a.shot.background, "of a scene: R,G,B linear");
+    command.add_option("--ambient", a.shot.ambient, "of a scene: uniform light, R,G,B");
+    command.add_option(
+        "--method", a.method, "see `shutter info --methods`; default: the settings'"
+    );
+    command.add_option("--size", a.shot.size, "WxH of the window; default 960x540");
+    command.add_option("--vsync", a.vsync, "on or off; default: the settings'");
+    command.add_option("--settings", a.settings, "JSON file; default: the player's own");
+    command.add_option("--script", a.script, "JSON file of input: plays unattended");
+    command.add_option("--film", a.film, "every picture: .png or .jpg with %04d, or an .mp4");
+    command.add_option(
+        "--fps", a.shot.fps, "of --film and --no-window without a script; default 30"
+    );
+    command.add_option("--ffmpeg", a.shot.ffmpeg, "program that makes an .mp4; default: on PATH");
+    command.add_option("--frames", a.frames, "end after as many frames")
+        ->check(CLI::Range(1u, kMaxFrames));
+    command.add_option("--stats", a.stats, "frame times, score and more as JSON, at the end");
+    command.add_option("--assets", a.assets, "folder of the demos' scenes");
+    command.add_flag(
+        "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
+    );
+    defineDeviceOptions(command, a.shot);
+}
+
+core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
+    PlayOptions options;
+    RenderArguments shot = arguments.shot;
+    if (shot.scene.empty() || isDemo(shot.scene))
+        options.demo = shot.scene.empty() ? kFirstDemo : shot.scene;
+    shot.out = "window%d.png"; // pictures for a display, as a window's are; none is written there
+    if (!arguments.method.empty())
+        shot.method = arguments.method;
+    auto interpreted = interpret(shot);
+    if (!interpreted)
+        return interpreted.error();
+    options.shot = std::move(interpreted).value();
+    if (!options.demo.empty() &&
+        (!shot.camera.empty() || !shot.clips.empty() || !shot.flythrough.empty()))
+        return makeError(
+            "--camera, --flythrough and --clip belong to a scene, {} is a demo", options.demo
+        );
+    if (core::Status flies = loadFlythrough(shot, options.shot); !flies)
+        return flies.error();
+    options.fps = shot.fps;
+    if (!arguments.method.empty())
+        options.method = arguments.method;
+    if (!arguments.vsync.empty()) {
+        if (arguments.vsync != "on" && arguments.vsync != "off")
+            return makeError("--vsync '{}' is not on or off", arguments.vsync);
+        options.vsync = arguments.vsync == "on";
+    }
+    if (core::Status film = interpretFilm(arguments, options); !film)
+        return film.error();
+    options.script = arguments.script;
+    options.settings = arguments.settings;
+    options.assets =
+        arguments.assets.empty() ? findAssetFolder() : std::filesystem::path(arguments.assets);
+    options.stats = arguments.stats;
+    options.hasWindow = !arguments.noWindow;
+    options.frames = arguments.frames;
+    if (!options.hasWindow && options.script.empty() && options.frames == 0)
+        return makeError("--no-window: nobody could end it; give --script or --frames");
+    return options;
+}
+
+} // namespace shutter::game

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// `shutter play`'s options as a person types them, and what they mean.
+#pragma once
+
+#include "engine/core/result.h"
+#include "game/options/render_options.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace shutter::game {
+
+/// As typed.
+struct PlayArguments {
+    PlayArguments() {
+        shot.size = "960x540";
+        shot.loop = true;
+        shot.fps = 30.0;
+    }
+
+    RenderArguments shot; ///< scene, camera, flythrough, clips, loop, size, light and device count
+    std::string method;   ///< empty: the settings' own
+    std::string script;
+    std::string film;
+    std::string settings;
+    std::string assets;
+    std::string stats;
+    std::string vsync;
+    bool noWindow = false;
+    uint32_t frames = 0;
+};
+
+/// As meant.
+struct PlayOptions {
+    std::string demo;                  ///< of listDemos(); empty: a scene is looked at
+    RenderOptions shot;                ///< scene, camera, clips, loop, size, light and device count
+    std::optional<std::string> method; ///< wins over the settings' own
+    std::filesystem::path script;      ///< empty: a person plays
+    std::filesystem::path film;        ///< %04d.png or .mp4; empty: none
+    double fps = 30.0;                 ///< of frames that nobody waits for
+    std::filesystem::path settings;    ///< empty: the player's own
+    std::filesystem::path assets;      ///< folder of the demos' scenes
+    std::filesystem::path stats;       ///< empty: none
+    std::optional<bool> vsync;         ///< wins over the settings' own
+    bool hasWindow = true;
+    uint32_t frames = 0; ///< ends after as many; 0: never
+};
+
+void definePlayOptions(CLI::App& command, PlayArguments& arguments);
+
+/// Error: names the option that was used wrongly.
+[[nodiscard]] core::Result<PlayOptions> interpret(const PlayArguments& arguments);
+
+} // namespace shutter::game

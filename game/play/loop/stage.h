@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What is played or looked at: a world, the camera to look through, and what a hand on the controls
+// does to both.
+#pragma once
+
+#include "engine/app/input.h"
+#include "engine/app/step_clock.h"
+#include "engine/core/result.h"
+#include "game/demos/demo.h"
+#include "game/options/render_options.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace shutter::game {
+
+/// One frame of a stage.
+struct StageFrame {
+    app::FrameTime time;
+    double wallSeconds = 0.0; ///< since the frame before
+    double heightPx = 1.0;    ///< of the window, above 0
+    bool paused = false;
+};
+
+class Stage {
+  public:
+    virtual ~Stage() = default;
+
+    [[nodiscard]] virtual std::string title() const = 0;
+    [[nodiscard]] virtual scene::World& world() = 0;
+    [[nodiscard]] virtual ecs::Entity camera() const = 0;
+    [[nodiscard]] virtual DemoLook look() const = 0;
+    /// Moves on by a frame, as the player wants.
+    virtual void advance(const app::InputState& input, const StageFrame& frame) = 0;
+
+    /// What the stage itself says of its camera's shutter at the time.
+    virtual void adjustShutter(double seconds, scene::CameraShutter& shutter) const {
+        (void)seconds;
+        (void)shutter;
+    }
+
+    /// Where its time starts, seconds.
+    [[nodiscard]] virtual double startSeconds() const { return 0.0; }
+
+    /// Lines for the head-up display.
+    [[nodiscard]] virtual std::vector<HudLine> hud() const = 0;
+
+    /// True at the end of a game.
+    [[nodiscard]] virtual bool isOver() const { return false; }
+
+    /// Of a game; nothing else has one.
+    [[nodiscard]] virtual std::optional<int> score() const { return std::nullopt; }
+};
+
+[[nodiscard]] std::unique_ptr<Stage> makeDemoStage(std::unique_ptr<Demo> demo);
+
+/// A scene file to look at: its cameras, one that goes round it, and one that flies.
+/// \param options scene, camera, flythrough, clips, loop, background, ambient and size count
+[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadSceneStage(const RenderOptions& options);
+
+} // namespace shutter::game

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "engine/core/check.h"
+#include "game/play/panel/panel_sections.h"
+#include "game/play/panel/play_rows.h"
+#include "game/play/panel/setting_widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <imgui.h>
+#include <set>
+
+namespace shutter::game {
+
+namespace {
+
+constexpr double kSlowest = 1.0 / 64.0;
+constexpr double kFastest = 1.0;
+
+/// Buttons beside one another, on a new line where the panel ends.
+class ButtonRow {
+  public:
+    bool add(const char* text, const char* tooltip, bool enabled = true) {
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float width = ImGui::CalcTextSize(text).x + 2.0f * style.FramePadding.x;
+        if (!mIsFirst) {
+            ImGui::SameLine();
+            if (ImGui::GetContentRegionAvail().x < width)
+                ImGui::NewLine();
+        }
+        mIsFirst = false;
+        ImGui::BeginDisabled(!enabled);
+        const bool pressed = ImGui::Button(text);
+        ImGui::EndDisabled();
+        drawTooltip(tooltip);
+        return pressed;
+    }
+
+  private:
+    bool mIsFirst = true;
+};
+
+bool hasName(std::span<const std::string> names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A combo box of names. \param none what an empty choice is called; null: there is none
+void drawNames(
+    const char* label,
+    std::span<const std::string> names,
+    const char* none,
+    const char* tooltip,
+    std::string& chosen
+) {
+    ImGui::SetNextItemWidth(24.0f * ImGui::CalcTextSize("0").x);
+    if (ImGui::BeginCombo(label, chosen.empty() && none ? none : chosen.c_str())) {
+        if (none && ImGui::Selectable(none, chosen.empty()))
+            chosen.clear();
+        for (const std::string& name : names)
+            if (ImGui::Selectable(name.c_str(), name == chosen))
+                chosen = name;
+        ImGui::EndCombo();
+    }
+    drawTooltip(tooltip);
+}
+
+void drawMethod(const char* label, std::span<const std::string> names, std::string& method) {
+    drawNames(label, names, nullptr, "Key M; left of a split key N.", method);
+    if (const auto info = findMethod(method)) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled("%s", info.value()->description);
+        ImGui::PopTextWrapPos();
+    }
+}
+
+/// Rows of PlaySettings by name.
+void drawPlayRows(const char* id, PlaySettings& settings, std::span<const std::string_view> names) {
+    static const PlaySettings kDefaults;
+    if (names.empty() || !beginRows(id))
+        return;
+    for (const std::string_view name : names)
+        drawRow(core::getRow(listPlayRows(), name), settings, kDefaults);
+    endRows();
+}
+
+/// Methods on the screen.
+std::vector<const MethodInfo*> listShown(const PlaySettings& settings) {
+    std::vector<const MethodInfo*> shown;
+    if (const auto right = findMethod(settings.method))
+        shown.push_back(right.value());
+    if (const auto left = findMethod(settings.leftMethod); left && settings.split)
+        shown.push_back(left.value());
+    return shown;
+}
+
+/// Counts that are not of the blur's settings.
+std::vector<std::string_view> listCounts(std::span<const MethodInfo* const> shown) {
+    std::vector<std::string_view> names;
+    for (const MethodInfo* method : shown) {
+        std::string_view name;
+        if (method->family == MethodFamily::Accumulate)
+            name = "instants";
+        else if (method->family == MethodFamily::Truth)
+            name = "rays";
+        else if (method->sampleUnit == SampleUnit::Rays)
+            name = "denoisedRays";
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
+    return names;
+}
+
+} // namespace
+
+std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
+    if (!method.blur)
+        return {};
+    std::vector<std::string_view> names = method.blur->settings;
+    if (method.sampleUnit == SampleUnit::Taps)
+        names.emplace_back("sampleCount");
+    return names;
+}
+
+void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes) {
+    ButtonRow buttons;
+    wishes.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
+    wishes.singleStep = buttons.add("Step", "One frame on, and pause. Key period.");
+    wishes.toggleRecording = buttons.add(
+        facts.recording ? "Stop recording" : "Record", "The camera's way as a flythrough. Key R."
+    );
+    wishes.toggleFullScreen = buttons.add("Full screen", "Key F11.");
+    wishes.save = buttons.add("Save", "Keep all settings for the next time. Key F5.");
+    wishes.load = buttons.add("Load", "The settings that were kept. Key F9.");
+    wishes.quit = buttons.add("Quit", "Key Escape.");
+    double speed = std::isnan(facts.speed) ? 1.0 : std::clamp(facts.speed, kSlowest, kFastest);
+    ImGui::SetNextItemWidth(24.0f * ImGui::CalcTextSize("0").x);
+    const bool moved = ImGui::SliderScalar(
+        "speed",
+        ImGuiDataType_Double,
+        &speed,
+        &kSlowest,
+        &kFastest,
+        "%.3g x",
+        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp
+    );
+    if (moved && std::isfinite(speed))
+        wishes.speed = std::clamp(speed, kSlowest, kFastest);
+    drawTooltip("Of the world's time. Range: 1/64 to 1. Keys comma and slash.");
+    drawNames(
+        "view",
+        facts.views,
+        "picture",
+        "An intermediate in the picture's place. Key V.",
+        settings.view
+    );
+    drawPlayRows("display", settings, std::vector<std::string_view>{"resolutionScale", "vsync"});
+}
+
+void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {
+    ImGui::TextUnformatted("Presets, keys 1 to 5");
+    ButtonRow buttons;
+    for (const Preset& preset : listPresets()) {
+        const bool canRun = hasName(facts.methods, preset.method);
+        const bool isOn = isApplied(preset, settings);
+        if (isOn)
+            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+        const std::string tooltip = fmt::format(
+            "{}: {}", preset.method, canRun ? preset.description : "not on this device"
+        );
+        if (buttons.add(preset.name, tooltip.c_str(), canRun))
+            applyPreset(preset, settings);
+        if (isOn)
+            ImGui::PopStyleColor();
+    }
+    drawMethod(settings.split ? "right method" : "method", facts.methods, settings.method);
+    if (settings.split)
+        drawMethod("left method", facts.methods, settings.leftMethod);
+    drawPlayRows("split", settings, std::vector<std::string_view>{"split", "dividerShare"});
+}
+
+void drawReducedMotionSection(PlaySettings& settings) {
+    drawPlayRows("reduced", settings, std::vector<std::string_view>{"cameraBlurScale"});
+}
+
+void drawSettingSection(PlaySettings& settings) {
+    const std::vector<const MethodInfo*> shown = listShown(settings);
+    std::set<std::string_view> read;
+    for (const MethodInfo* method : shown)
+        for (const std::string_view name : listReadSettings(*method))
+            read.insert(name);
+    drawPlayRows("counts", settings, listCounts(shown));
+    static const motion_blur::MotionBlurSettings kDefaults;
+    const auto draw = [&](const char* id, bool wanted) {
+        if (!beginRows(id))
+            return;
+        for (const auto& row : motion_blur::listSettingRows())
+            if (read.contains(row.name) == wanted)
+                drawRow(row, settings.blur, kDefaults);
+        endRows();
+    };
+    if (read.empty())
+        ImGui::TextDisabled("The method on the screen reads none of them.");
+    else
+        draw("read", true);
+    if (!read.empty())
+        drawRows("budget", listBudgetRows(), settings.budget);
+    if (read.size() == motion_blur::listSettingRows().size() ||
+        !ImGui::TreeNode("Of other methods"))
+        return;
+    ImGui::BeginDisabled();
+    draw("unread", false);
+    ImGui::EndDisabled();
+    ImGui::TreePop();
+}
+
+} // namespace shutter::game

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What a player sees over the picture: head-up display and panel. Made of settings and statistics,
+// leaves changed settings and wishes.
+#pragma once
+
+#include "engine/app/ui.h"
+#include "engine/render/renderer.h"
+#include "game/demos/demo.h"
+#include "game/play/panel/pass_history.h"
+#include "game/play/panel/play_settings.h"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace shutter::game {
+
+/// What a frame tells the panel.
+struct PanelFacts {
+    std::string title;            ///< of the demo or scene
+    std::span<const HudLine> hud; ///< of a demo
+    std::string message;          ///< one line, e.g. what could not be done; empty: none
+    /// The last finished frame's; null: none yet. Passes and work say why they ran where the frame
+    /// was asked for reasons (FrameRequest::wantReasons).
+    const render::FrameStatistics* right = nullptr;
+    const render::FrameStatistics* left = nullptr; ///< of a split; null: no split
+    double frameMilliseconds = 0.0;   ///< wall time of a frame, mean of the last second's
+    math::uvec2 pictureSize{1u};      ///< pixels
+    scene::ExposureInterval exposure; ///< of the frame
+    bool paused = false;
+    double speed = 1.0;
+    bool recording = false;               ///< a flythrough is being recorded
+    std::span<const std::string> methods; ///< that the device can run
+    std::span<const std::string> views;   ///< intermediates that can be shown
+};
+
+/// What the player asked for by the panel.
+struct PanelWishes {
+    bool save = false;
+    bool load = false;
+    bool togglePause = false;
+    bool singleStep = false;
+    bool toggleRecording = false;
+    bool toggleFullScreen = false;
+    bool quit = false;
+    std::optional<double> speed; ///< [1/64, 1]
+};
+
+class Panel {
+  public:
+    /// Declares the user interface of one frame (between Ui::begin and Ui::end). Changes
+    /// `settings`, which are valid before and after.
+    PanelWishes draw(const PanelFacts& facts, PlaySettings& settings);
+
+  private:
+    PassHistory mHistory; ///< of the right side
+};
+
+} // namespace shutter::game

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What a player sets and keeps from one session to the next.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/scene/components.h"
+#include "game/shot/methods.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace shutter::game {
+
+/// The shutter of a new player: half of the frame open, as film has it, and never longer than at 24
+/// frames a second, so that a slow machine does not smear.
+[[nodiscard]] scene::CameraShutter makePlayShutter();
+
+/// The blur of a new player: the preset "balanced".
+[[nodiscard]] motion_blur::MotionBlurSettings makePlayBlur();
+
+struct PlaySettings {
+    std::string method = "hybrid";    ///< of the picture, right of a split; a name of listMethods()
+    std::string leftMethod = "sharp"; ///< left of a split
+    bool split = false;
+    double dividerShare = 0.5; ///< of the window's width, [0, 1]
+    std::string view; ///< the intermediate that is shown (debug_view.h); empty: the picture
+    motion_blur::MotionBlurSettings blur =
+        makePlayBlur(); ///< of every method that reads the field; `method` unused
+    motion_blur::BlurBudget budget;
+    scene::CameraShutter shutter = makePlayShutter();
+    /// Of the blur by the camera's own motion, [0, 1]: for players whom it makes sick. 0 leaves the
+    /// blur of what moves in the world alone.
+    double cameraBlurScale = 1.0;
+    uint32_t instants = 16;       ///< of `accumulate`, a frame, [1, 256]
+    uint32_t rays = 4;            ///< a pixel and frame, of `truth`, [1, 256]
+    uint32_t denoisedRays = 1;    ///< a pixel and frame, of `denoised`, whose blur.sampleCount they
+                                  ///< are, [1, 256]
+    double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
+    bool vsync = true;
+    bool showPanel = true;
+};
+
+/// What a method of modules/motion_blur gets: `blur` with the method, and with its own count where
+/// samples are rays. \param method of MethodFamily::MotionBlur (CHECKed)
+[[nodiscard]] motion_blur::MotionBlurSettings
+makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
+
+/// Named sets of the blur's own fields (sampleCount, rayShare, ...); the rest stays.
+struct Preset {
+    const char* name;                     ///< "off", "performance", "balanced", "quality", "paper"
+    const char* description;              ///< one line
+    const char* method;                   ///< of listMethods()
+    motion_blur::MotionBlurSettings blur; ///< unused where the method is sharp
+};
+
+[[nodiscard]] std::span<const Preset> listPresets();
+/// Turning the blur off leaves its settings.
+void applyPreset(const Preset& preset, PlaySettings& settings);
+/// The settings are as the preset makes them.
+[[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);
+
+/// One sentence naming the field that is out of its range.
+[[nodiscard]] core::Status validate(const PlaySettings& settings);
+
+/// settings.schema.json says what a file holds. Fields that it lacks keep their defaults; the file
+/// says nothing of which intermediates there are (`view`). Error: names file, line and field.
+[[nodiscard]] core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path);
+/// Renamed into place. Error: settings that validate() refuses, or names the file.
+[[nodiscard]] core::Status
+savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings);
+
+/// The shutter as the camera gets it: reduced motion applied.
+[[nodiscard]] scene::CameraShutter makeShutter(const PlaySettings& settings);
+
+} // namespace shutter::game

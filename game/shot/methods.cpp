@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "game/shot/methods.h"
+
+namespace shutter::game {
+
+namespace {
+
+MethodInfo describe(const motion_blur::Method& blur) {
+    return {
+        .name = blur.name,
+        .description = blur.description,
+        .publication = blur.publication,
+        .family = MethodFamily::MotionBlur,
+        .blur = &blur,
+        .rays = blur.rays,
+        .sampleUnit = blur.sampleUnit,
+        .defaultSamples = blur.defaultSamples,
+        .aovs = {blur.views.begin(), blur.views.end()}};
+}
+
+std::vector<MethodInfo> makeMethods() {
+    std::vector<MethodInfo> methods;
+    methods.push_back(
+        {.name = "sharp",
+         .description = "the raster image, no motion blur",
+         .publication = "",
+         .family = MethodFamily::Sharp}
+    );
+    for (const motion_blur::Method* blur : motion_blur::listMethods())
+        methods.push_back(describe(*blur));
+    methods.push_back(
+        {.name = "accumulate",
+         .description = "truth: sharp frames at many instants, averaged",
+         .publication = "Haeberli and Akeley 1990",
+         .family = MethodFamily::Accumulate,
+         .sampleUnit = SampleUnit::Instants,
+         .defaultSamples = 256}
+    );
+    methods.push_back(
+        {.name = "truth",
+         .description = "truth: rays that each have their own time, averaged",
+         .publication = "Cook, Porter, Carpenter 1984",
+         .family = MethodFamily::Truth,
+         .rays = RayNeed::Query,
+         .sampleUnit = SampleUnit::Rays,
+         .defaultSamples = 256,
+         .aovs = {"error"}}
+    );
+    return methods;
+}
+
+} // namespace
+
+std::span<const MethodInfo> listMethods() {
+    static const std::vector<MethodInfo> kMethods = makeMethods();
+    return kMethods;
+}
+
+bool canRun(const MethodInfo& method, const gpu::Device& device) {
+    switch (method.rays) {
+    case RayNeed::None:
+        return true;
+    case RayNeed::Any:
+        return device.hasRays();
+    case RayNeed::Query:
+        return device.hasRayQuery();
+    }
+    return false;
+}
+
+core::Result<const MethodInfo*> findMethod(std::string_view name) {
+    std::string names;
+    for (const MethodInfo& method : listMethods()) {
+        if (method.name == name)
+            return &method;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
+    }
+    return core::makeError("--method '{}' is not one of {}", name, names);
+}
+
+} // namespace shutter::game

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "game/shot/shot.h"
+
+#include "engine/core/log.h"
+#include "engine/io/gltf_loader.h"
+#include "engine/scene/framing.h"
+#include "game/shot/flight.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace shutter::game {
+
+namespace {
+
+using core::makeError;
+
+std::string nameOf(const scene::World& world, ecs::Entity entity) {
+    const auto* name = world.registry.find<scene::Name>(entity);
+    return name ? name->value : std::string();
+}
+
+core::Status selectClips(scene::World& world, const RenderOptions& options) {
+    const auto& clips = world.assets.clips;
+    world.playback.loop = options.loop;
+    if (options.clips.empty()) {
+        world.playback.activeClips.assign(clips.size(), true);
+        return {};
+    }
+    world.playback.activeClips.assign(clips.size(), false);
+    for (const std::string& wanted : options.clips) {
+        if (wanted == "none")
+            continue;
+        bool found = false;
+        std::string names;
+        for (size_t i = 0; i < clips.size(); ++i) {
+            names += fmt::format("{}{}", i ? ", " : "", clips[i].name);
+            if (clips[i].name != wanted)
+                continue;
+            world.playback.activeClips[i] = true;
+            found = true;
+        }
+        if (!found)
+            return makeError(
+                "{}: --clip '{}' is none of its clips ({})",
+                options.scene.string(),
+                wanted,
+                names.empty() ? "it has none" : names
+            );
+    }
+    return {};
+}
+
+core::Result<ecs::Entity> chooseCamera(scene::World& world, const RenderOptions& options) {
+    if (options.flythrough)
+        return io::addFlythroughCamera(world, *options.flythrough);
+    if (!options.flythroughClip.empty())
+        return chooseClipCamera(world, options);
+    return findCamera(world, options);
+}
+
+/// A scene without lights gets a sun from above left of the world's axes.
+void lightUnlitScene(scene::World& world) {
+    for (auto [entity, light] : world.registry.view<scene::Light>()) {
+        (void)entity;
+        (void)light;
+        return;
+    }
+    const ecs::Entity sun = world.registry.create();
+    scene::Light light;
+    light.kind = scene::LightKind::Directional;
+    light.intensity = 3.0f;
+    world.registry.add(sun, light);
+    math::Transform transform;
+    transform.rotation = math::dquat(math::dvec3(-0.9, 0.5, 0.0));
+    world.registry.add(sun, scene::LocalTransform{transform});
+}
+
+} // namespace
+
+core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& options) {
+    const std::string& wanted = options.camera;
+    if (wanted.empty()) {
+        if (!world.cameras.empty())
+            return world.cameras.front();
+        const double aspect = double(options.width) / options.height;
+        return scene::addFramingCamera(world, aspect, options.frameTimes.front());
+    }
+    std::string names;
+    for (size_t i = 0; i < world.cameras.size(); ++i) {
+        const std::string& name = world.registry.get<scene::Camera>(world.cameras[i]).name;
+        const std::string entityName = nameOf(world, world.cameras[i]);
+        if (name == wanted || entityName == wanted)
+            return world.cameras[i];
+        names += fmt::format("{}{}: {}", i ? ", " : "", i, name.empty() ? entityName : name);
+    }
+    size_t index = 0;
+    const auto [end, problem] =
+        std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (problem == std::errc() && end == wanted.data() + wanted.size() &&
+        index < world.cameras.size())
+        return world.cameras[index];
+    return makeError(
+        "{}: --camera '{}' is none of its cameras ({})",
+        options.scene.string(),
+        wanted,
+        names.empty() ? "it has none" : names
+    );
+}
+
+core::Result<Shot> loadShot(const RenderOptions& options) {
+    auto loaded = io::loadGltf(options.scene);
+    if (!loaded)
+        return loaded.error();
+    for (const std::string& warning : loaded.value().warnings)
+        core::logWarning("{}", warning);
+    Shot shot;
+    shot.world = std::move(loaded.value().world);
+    if (core::Status selected = selectClips(shot.world, options); !selected)
+        return selected.error();
+    auto camera = chooseCamera(shot.world, options);
+    if (!camera)
+        return camera.error();
+    shot.camera = camera.value();
+    shot.world.registry.add(shot.camera, options.shutter);
+    lightUnlitScene(shot.world);
+    return shot;
+}
+
+extract::ViewRequest makeView(const Shot& shot, const RenderOptions& options, double seconds) {
+    extract::ViewRequest view;
+    view.camera = shot.camera;
+    auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
+    if (options.flythrough && options.isFlythroughShutter)
+        io::applyShutter(*options.flythrough, seconds, shutter);
+    view.exposure = scene::computeExposure(shutter, seconds, options.frameSeconds);
+    view.width = options.width;
+    view.height = options.height;
+    view.background = options.background;
+    view.ambient = options.ambient;
+    view.unlit = options.unlit;
+    return view;
+}
+
+} // namespace shutter::game

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/demand/figures.h"
+
+#include "game/shot/pass_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace shutter::demand {
+
+namespace {
+
+bool contains(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
+} // namespace
+
+double sumPasses(
+    const render::FrameStatistics& frame, const std::function<bool(const render::PassTime&)>& counts
+) {
+    double sum = 0.0;
+    for (const render::PassTime& pass : frame.passes)
+        if (counts(pass))
+            sum += pass.gpuMilliseconds;
+    return sum;
+}
+
+Figure effectOf(const game::MethodInfo& method) {
+    return [&method](const render::FrameStatistics& frame) {
+        return game::sumBlurMilliseconds(method, frame);
+    };
+}
+
+Figure frameTime() {
+    return game::sumFrameMilliseconds;
+}
+
+bool isTileMax(const render::PassTime& pass) {
+    return pass.name.starts_with("tile max") || pass.name.starts_with("neighbour max");
+}
+
+bool isMaskOrReveal(const render::PassTime& pass) {
+    const bool isNamedSo =
+        contains(pass.name, "edge") || contains(pass.name, "mask") || contains(pass.name, "reveal");
+    return isNamedSo && !pass.name.starts_with("gather");
+}
+
+bool isReveal(const render::PassTime& pass) {
+    return contains(pass.name, "reveal") && !contains(pass.name, " of reveal");
+}
+
+math::Quartiles summarize(const Frames& frames, const Figure& figure) {
+    std::vector<double> values;
+    for (const render::FrameStatistics& frame : frames)
+        values.push_back(figure(frame));
+    return math::computeQuartiles(std::move(values));
+}
+
+math::Quartiles compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB) {
+    std::vector<double> ratios;
+    for (size_t round = 0; round < std::min(a.size(), b.size()); ++round) {
+        const double below = ofB(b[round]);
+        // A NaN among them would leave them without an order.
+        ratios.push_back(
+            below > 0.0 ? ofA(a[round]) / below : std::numeric_limits<double>::infinity()
+        );
+    }
+    return math::computeQuartiles(std::move(ratios));
+}
+
+std::string describeSpread(const math::Quartiles& quartiles, size_t rounds) {
+    return fmt::format("{} rounds, quartiles {:.4g} to {:.4g}", rounds, quartiles.q1, quartiles.q3);
+}
+
+stability::Measured checkMedian(
+    std::string check,
+    const math::Quartiles& quartiles,
+    double bound,
+    std::string unit,
+    size_t rounds,
+    std::string_view more
+) {
+    std::string note = describeSpread(quartiles, rounds);
+    if (!more.empty())
+        note += fmt::format("; {}", more);
+    return {std::move(check), quartiles.median, bound, std::move(unit), rounds, 0, std::move(note)};
+}
+
+stability::Measured checkLine(std::string check, const Curve& curve) {
+    constexpr double kUnexplained = 0.02;
+    stability::Measured row{std::move(check), 0.0, kUnexplained, "1 - r²", curve.points.size()};
+    // Any two points lie on a line.
+    constexpr size_t kLeastPoints = 4;
+    if (!curve.line || curve.points.size() < kLeastPoints) {
+        row.worst = std::numeric_limits<double>::quiet_NaN();
+        row.note = "too few points for a line";
+        return row;
+    }
+    row.worst = std::max(1.0 - curve.line->r2, 0.0);
+    row.note = fmt::format(
+        "{:.4g} {} and {:.4g} a unit of {}",
+        curve.line->intercept,
+        curve.yUnit,
+        curve.line->slope,
+        curve.xTitle
+    );
+    return row;
+}
+
+void addLine(Curve& curve) {
+    std::vector<math::CurvePoint> points;
+    for (const Point& point : curve.points)
+        points.push_back({point.x, point.y.median});
+    curve.line = math::fitLine(points);
+}
+
+} // namespace shutter::demand

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Figures of frames and what is said of them.
+#pragma once
+
+#include "tests/conformance/demand/claim.h"
+#include "tests/conformance/demand/subject.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace shutter::demand {
+
+/// A number taken from one frame.
+using Figure = std::function<double(const render::FrameStatistics&)>;
+
+/// GPU milliseconds of the passes that `counts` picks.
+[[nodiscard]] double sumPasses(
+    const render::FrameStatistics& frame, const std::function<bool(const render::PassTime&)>& counts
+);
+
+/// GPU milliseconds that a method adds to the sharp frame, as everywhere in the benchmark.
+[[nodiscard]] Figure effectOf(const game::MethodInfo& method);
+/// GPU milliseconds from the G-buffer to the linear picture.
+[[nodiscard]] Figure frameTime();
+
+/// Longest motion of tiles and of their neighbourhoods.
+[[nodiscard]] bool isTileMax(const render::PassTime& pass);
+/// Finding what will be revealed, and revealing it; what `hybrid` does beyond `gather`, apart from
+/// the top level and the second layer of the last pass.
+[[nodiscard]] bool isMaskOrReveal(const render::PassTime& pass);
+/// Tracing and shading the rays.
+[[nodiscard]] bool isReveal(const render::PassTime& pass);
+
+[[nodiscard]] math::Quartiles summarize(const Frames& frames, const Figure& figure);
+
+/// Of a's figure over b's in the same round.
+[[nodiscard]] math::Quartiles
+compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB);
+
+/// "7 rounds, quartiles 1.02 to 1.06": how far a median can be trusted.
+[[nodiscard]] std::string describeSpread(const math::Quartiles& quartiles, size_t rounds);
+
+/// A check of the median; the note says the spread, then `more`.
+[[nodiscard]] stability::Measured checkMedian(
+    std::string check,
+    const math::Quartiles& quartiles,
+    double bound,
+    std::string unit,
+    size_t rounds,
+    std::string_view more = {}
+);
+
+/// How far the points are from a line: 1 - r2 of its fit, at most 0.02 (r2 0.98 and more). Broken
+/// where there is no fit.
+[[nodiscard]] stability::Measured checkLine(std::string check, const Curve& curve);
+
+/// The medians' line.
+void addLine(Curve& curve);
+
+} // namespace shutter::demand

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/demand/rooms.h"
+
+#include "assets/generator/scenes.h"
+
+namespace shutter::demand {
+
+const std::array<Room, 2>& listRooms() {
+    static constexpr std::array kRooms = {
+        Room{"vase", &generator::buildVaseScene},
+        Room{"courtyard", &generator::buildCourtyardScene}};
+    return kRooms;
+}
+
+core::Result<std::unique_ptr<Stage>> loadRoom(const DemandOptions& options, const Room& room) {
+    game::RenderArguments arguments;
+    arguments.camera = "main";
+    arguments.phase = "end";
+    arguments.exposureSeconds = generator::kExposureSeconds;
+    return loadStage(options, room.name, room.build, std::move(arguments));
+}
+
+core::Result<Findings> measureRooms(
+    gpu::Device& device,
+    const DemandOptions& options,
+    const std::function<core::Status(Findings&, gpu::Device&, const DemandOptions&, const Room&)>&
+        add
+) {
+    if (!device.hasRays())
+        return core::makeError("{} traces no rays", device.info().name);
+    Findings findings;
+    for (const Room& room : listRooms())
+        if (core::Status added = add(findings, device, options, room); !added)
+            return added.error();
+    return findings;
+}
+
+} // namespace shutter::demand

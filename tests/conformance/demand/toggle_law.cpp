@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/demand/toggle_law.h"
+
+#include "engine/core/check.h"
+#include "game/shot/method_renderer.h"
+#include "tests/conformance/stability/pictures.h"
+#include "tests/conformance/stability/scene_draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <unistd.h>
+
+namespace shutter::demand {
+
+namespace {
+
+using stability::Measured;
+using stability::Measurements;
+
+constexpr double kExposureSeconds = 0.25;
+constexpr double kTimes[] = {0.0, 0.1};
+
+/// Less than what one more page a frame would come to; allocators and drivers may take some.
+constexpr double kProcessBytesAFrame = 2048.0;
+
+/// What can be switched.
+struct Switches {
+    const game::MethodInfo* method = nullptr;
+    bool exposed = false;
+    bool toneMapped = false; ///< or the linear picture
+    bool intermediates = false;
+
+    [[nodiscard]] std::string describe() const {
+        return fmt::format(
+            "{}{}{}{}",
+            method->name,
+            exposed ? ", exposed" : "",
+            toneMapped ? ", tone mapped" : "",
+            intermediates ? ", intermediates" : ""
+        );
+    }
+};
+
+struct Moment {
+    Switches switches;
+    double seconds = 0.0;
+};
+
+/// Movers before each other, one with holes, light, a camera that turns.
+void buildScene(stability::SceneDraft& draft) {
+    draft.add(stability::makeSheet(6, 5), draft.addLitWaves(), {.position = {0, 0, -5}});
+    draft.add(
+        generator::sphere(0.5f, 16, 8),
+        draft.addLitWaves(),
+        stability::Stand{
+            .position = {0.1, 0, -2.5}, .velocity = {1.0, 0.2, 0.1}, .angularVelocity = {0, 0.9, 0}}
+    );
+    draft.add(
+        stability::makeSheet(0.8, 0.8),
+        draft.addWaves(true),
+        stability::Stand{.position = {-0.3, 0.1, -2}, .velocity = {-0.8, 0.1, 0}}
+    );
+    draft.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
+    draft.place(draft.shot.camera, {.angularVelocity = {0.02, 0.05, 0}});
+}
+
+/// One renderer, and every method's effects as they are needed.
+class Rig {
+  public:
+    Rig(gpu::Device& device, const ToggleOptions& options) : mDevice(device), mOptions(options) {
+        buildScene(mDraft);
+        mRenderer.emplace(device, mDraft.shot.world.assets);
+    }
+
+    core::Result<render::FrameResult> draw(const Moment& moment) {
+        const Switches& switches = moment.switches;
+        mDraft.shot.world.registry.add(
+            mDraft.shot.camera,
+            scene::CameraShutter{
+                switches.exposed ? kExposureSeconds : 0.0, scene::ShutterPhase::Centre}
+        );
+        Kept& kept = mKept[switches.method];
+        game::RenderOptions& options = kept.options;
+        options.displayOut = switches.toneMapped;
+        options.aovs.clear();
+        if (switches.intermediates) {
+            options.aovs = {"motion", "normal", "mesh_id"};
+            options.aovs.insert(switches.method->aovs.begin(), switches.method->aovs.end());
+        }
+        if (!kept.renderer) {
+            options.method = switches.method;
+            options.samples = switches.method->defaultSamples;
+            options.width = mOptions.width;
+            options.height = mOptions.height;
+            options.background = math::vec3(0.1f, 0.2f, 0.3f);
+            options.ambient = math::vec3(0.3f);
+            if (switches.method->blur)
+                options.motionBlur.method = switches.method->blur;
+            options.motionBlur.sampleCount = std::max(options.samples, 1u);
+            auto made =
+                game::MethodRenderer::create(mDevice, *mRenderer, mDraft.shot, kept.options);
+            if (!made)
+                return made.error();
+            kept.renderer = std::move(made).value();
+        }
+        return kept.renderer->renderPicture(moment.seconds, [] {});
+    }
+
+  private:
+    struct Kept {
+        game::RenderOptions options; ///< the renderer keeps a reference
+        std::unique_ptr<game::MethodRenderer> renderer;
+    };
+
+    gpu::Device& mDevice;
+    const ToggleOptions& mOptions;
+    stability::SceneDraft mDraft;
+    std::optional<render::Renderer> mRenderer;
+    std::map<const game::MethodInfo*, Kept> mKept;
+};
+
+/// The truths take many times as long and are no effect that a game would switch.
+std::vector<const game::MethodInfo*> listSwitched(const gpu::Device& device) {
+    std::vector<const game::MethodInfo*> methods;
+    for (const game::MethodInfo& method : game::listMethods()) {
+        const bool isEffect = method.family == game::MethodFamily::Sharp ||
+                              method.family == game::MethodFamily::MotionBlur;
+        if (isEffect && game::canRun(method, device))
+            methods.push_back(&method);
+    }
+    return methods;
+}
+
+/// Every combination of switches and times, the methods by turns, the rest in an order of chance
+/// that is the same in every run; from the beginning again where the cycle is longer.
+std::vector<Moment> listCycle(const gpu::Device& device) {
+    const std::vector<const game::MethodInfo*> methods = listSwitched(device);
+    std::minstd_rand random(7);
+    std::vector<std::vector<Moment>> moments;
+    for (const game::MethodInfo* method : methods) {
+        std::vector<Moment>& own = moments.emplace_back();
+        for (const double seconds : kTimes)
+            for (int bits = 0; bits < 8; ++bits)
+                own.push_back({{method, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}, seconds}
+                );
+        for (size_t i = own.size() - 1; i > 0; --i) // std::shuffle differs between libraries
+            std::swap(own[i], own[random() % (i + 1)]);
+    }
+    const size_t each = moments.front().size();
+    SHUTTER_CHECK(methods.size() * each <= kToggleCycle, "a cycle is too short for all switches");
+    std::vector<Moment> cycle;
+    for (size_t frame = 0; frame < kToggleCycle; ++frame)
+        cycle.push_back(moments[frame % methods.size()][frame / methods.size() % each]);
+    return cycle;
+}
+
+/// Hashes of the cycle's pictures, each by a renderer that has drawn these switches alone.
+core::Result<std::vector<uint64_t>>
+drawUntoggled(gpu::Device& device, const ToggleOptions& options, const std::vector<Moment>& cycle) {
+    std::map<std::string, std::unique_ptr<Rig>> rigs;
+    std::map<std::string, uint64_t> known;
+    std::vector<uint64_t> hashes;
+    for (const Moment& moment : cycle) {
+        const std::string key = moment.switches.describe();
+        const std::string keyAndTime = fmt::format("{} {}", key, moment.seconds);
+        if (const auto found = known.find(keyAndTime); found != known.end()) {
+            hashes.push_back(found->second);
+            continue;
+        }
+        std::unique_ptr<Rig>& rig = rigs[key];
+        if (!rig)
+            rig = std::make_unique<Rig>(device, options);
+        auto drawn = rig->draw(moment);
+        if (!drawn)
+            return drawn.error();
+        hashes.push_back(known[keyAndTime] = stability::hashFrame(drawn.value()));
+    }
+    return hashes;
+}
+
+/// Bytes of this process in memory; nothing where the system does not say.
+std::optional<double> findProcessBytes() {
+    std::ifstream file("/proc/self/statm");
+    uint64_t all = 0;
+    uint64_t resident = 0;
+    if (!(file >> all >> resident))
+        return std::nullopt;
+    return double(resident) * double(sysconf(_SC_PAGESIZE));
+}
+
+/// At the end of a cycle, once the GPU is done.
+struct Holdings {
+    gpu::LivingObjects device;
+    std::optional<double> processBytes;
+};
+
+double countGained(uint64_t before, uint64_t after) {
+    return after > before ? double(after - before) : 0.0;
+}
+
+void addHoldings(
+    Measurements& rows, const Holdings& before, const Holdings& after, uint32_t frames
+) {
+    const gpu::LivingObjects& a = before.device;
+    const gpu::LivingObjects& b = after.device;
+    const auto add = [&](const char* check, uint64_t from, uint64_t to, const char* unit) {
+        rows.push_back(
+            {check,
+             countGained(from, to),
+             0.0,
+             unit,
+             frames,
+             0,
+             fmt::format("{} after {} frames", to, frames)}
+        );
+    };
+    add("device memory gained", a.memoryBytes, b.memoryBytes, "bytes");
+    add("blocks of device memory gained", a.memoryBlocks, b.memoryBlocks, "");
+    add("buffers gained", a.buffers, b.buffers, "");
+    add("images gained", a.images, b.images, "");
+    add("acceleration structures gained", a.accelerationStructures, b.accelerationStructures, "");
+    Measured process{"memory of the process gained", 0.0, kProcessBytesAFrame, "bytes a frame"};
+    if (before.processBytes && after.processBytes) {
+        process.samples = frames - kToggleCycle;
+        process.worst =
+            std::max(*after.processBytes - *before.processBytes, 0.0) / double(process.samples);
+        process.note = fmt::format("{:.1f} MiB at the end", *after.processBytes / 0x1p20);
+    }
+    rows.push_back(std::move(process));
+}
+
+} // namespace
+
+core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptions& options) {
+    SHUTTER_CHECK(
+        options.frames >= 2 * kToggleCycle && options.frames % kToggleCycle == 0,
+        "{} frames are no two cycles or more",
+        options.frames
+    );
+    const std::vector<Moment> cycle = listCycle(device);
+    const auto expected = drawUntoggled(device, options, cycle);
+    if (!expected)
+        return expected.error();
+    Rig rig(device, options);
+    Measured differing{"pictures that differ from a run without toggling", 0.0, 0.0, ""};
+    std::optional<Holdings> first;
+    Holdings last;
+    for (uint32_t frame = 0; frame < options.frames; ++frame) {
+        const size_t at = frame % kToggleCycle;
+        auto drawn = rig.draw(cycle[at]);
+        if (!drawn)
+            return drawn.error();
+        ++differing.samples;
+        if (stability::hashFrame(drawn.value()) != expected.value()[at]) {
+            if (differing.worst == 0.0)
+                differing.note =
+                    fmt::format("first: frame {}, {}", frame, cycle[at].switches.describe());
+            differing.worst += 1.0;
+        }
+        if (at + 1 < kToggleCycle)
+            continue;
+        device.waitIdle();
+        last = {device.living(), findProcessBytes()};
+        if (!first)
+            first = last;
+    }
+    Measurements rows{std::move(differing)};
+    addHoldings(rows, *first, last, options.frames);
+    return rows;
+}
+
+} // namespace shutter::demand

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// What has no past in a frame, and frames of no and of great length. Each picture must be that of a
+// scene in which nothing of the kind happened.
+#include "engine/scene/history.h"
+#include "tests/conformance/stability/case_lists.h"
+#include "tests/conformance/stability/pictures.h"
+
+#include <functional>
+
+namespace shutter::stability {
+
+namespace {
+
+using math::dvec3;
+
+/// Inside the frame in each phase of the shutter: shortly before the raster instant.
+constexpr double kEvent = -0.01;
+
+const View kView{.background = math::vec3(0.1f, 0.2f, 0.3f), .ambient = math::vec3(0.3f)};
+
+/// A change to the stage. \param sphere its mover
+using Change = std::function<void(SceneDraft& draft, ecs::Entity sphere)>;
+
+/// Every method's picture of the changed stage against the sharp picture of another one.
+core::Result<Measurements> measureAgainstSharp(
+    gpu::Device& device,
+    const Change& happened,
+    const Change& instead,
+    const View& view,
+    const View& sharpView
+) {
+    SceneDraft draft;
+    happened(draft, buildStage(draft));
+    SceneDraft other;
+    instead(other, buildStage(other));
+    Drawer drawer(device, draft);
+    Drawer otherDrawer(device, other);
+    auto found = measureEveryMethod(drawer, view);
+    if (!found)
+        return found;
+    const auto sharp = otherDrawer.draw("sharp", sharpView);
+    if (!sharp)
+        return sharp.error();
+    Worst worst;
+    for (const game::MethodInfo& method : game::listMethods()) {
+        const auto frame = drawer.draw(method.name, view);
+        if (!frame)
+            return frame.error();
+        addDifference(worst, frame.value().color, sharp.value().color, method.name);
+    }
+    // Rays shade at their own hit, a few float steps from the raster's place.
+    found.value().push_back(
+        describe(worst, "the sharp picture, by every method", "brightness", 1.0 / 255.0)
+    );
+    return found;
+}
+
+HardCase makeCase(
+    const char* name,
+    const char* title,
+    const char* description,
+    Change happened,
+    Change instead = [](SceneDraft&, ecs::Entity) {},
+    View view = kView
+) {
+    return {name, title, description, [=](gpu::Device& device) {
+                return measureAgainstSharp(device, happened, instead, view, kView);
+            }};
+}
+
+math::Transform elsewhere() {
+    math::Transform transform;
+    transform.translation = {-0.6, 0.3, -2.2};
+    return transform;
+}
+
+void teleportSphere(SceneDraft& draft, ecs::Entity sphere) {
+    scene::teleport(draft.shot.world, sphere, elsewhere(), kEvent);
+}
+
+/// Another view: a step aside and a turn.
+void cutCamera(SceneDraft& draft) {
+    math::Transform transform;
+    transform.translation = {0.4, 0.2, 0.3};
+    transform.rotation = glm::angleAxis(0.3, dvec3(0, 1, 0));
+    scene::cutTo(draft.shot.world, draft.shot.camera, transform, kEvent);
+}
+
+/// The sphere is gone, and so is its light on the picture.
+core::Result<Measurements> measureDespawn(gpu::Device& device) {
+    SceneDraft draft;
+    const ecs::Entity sphere = buildStage(draft);
+    Drawer drawer(device, draft);
+    // Drawn once with it: whatever the renderer keeps of a frame must not come back.
+    if (auto before = drawer.draw("hybrid", kView); !before)
+        return before.error();
+    scene::despawn(draft.shot.world, sphere);
+    auto found = measureEveryMethod(drawer, kView);
+    if (!found)
+        return found;
+    SceneDraft without;
+    const ecs::Entity other = buildStage(without);
+    scene::hide(without.shot.world, other);
+    Drawer otherDrawer(device, without);
+    const auto sharp = otherDrawer.draw("sharp", kView);
+    if (!sharp)
+        return sharp.error();
+    Worst worst;
+    for (const game::MethodInfo& method : game::listMethods()) {
+        const auto frame = drawer.draw(method.name, kView);
+        if (!frame)
+            return frame.error();
+        addDifference(worst, frame.value().color, sharp.value().color, method.name);
+    }
+    found.value().push_back(
+        describe(worst, "no hole and no trace of it, by every method", "brightness", 1.0 / 255.0)
+    );
+    return found;
+}
+
+/// A hitch of 10 s with a capped shutter is a frame of the reference's length.
+core::Result<Measurements> measureCappedHitch(gpu::Device& device) {
+    SceneDraft draft;
+    buildStage(draft);
+    Drawer drawer(device, draft);
+    View hitch = kView;
+    hitch.mode = scene::ShutterMode::Capped;
+    hitch.frameSeconds = 10.0;
+    auto found = measureEveryMethod(drawer, hitch);
+    if (!found)
+        return found;
+    View reference = hitch;
+    reference.frameSeconds = 1.0 / scene::CameraShutter{}.referenceFps;
+    Worst worst;
+    for (const game::MethodInfo& method : game::listMethods()) {
+        const auto frame = drawer.draw(method.name, hitch);
+        const auto expected = drawer.draw(method.name, reference);
+        if (!frame || !expected)
+            return frame ? expected.error() : frame.error();
+        addDifference(worst, frame.value().color, expected.value().color, method.name);
+    }
+    found.value().push_back(
+        describe(worst, "as at the reference rate, by every method", "brightness", 0.0)
+    );
+    return found;
+}
+
+} // namespace
+
+std::vector<HardCase> listHistoryCases() {
+    View paused = kView;
+    paused.frameSeconds = 0.0;
+    return {
+        makeCase(
+            "Spawn",
+            "An entity that was just made",
+            "The mover appears within the frame: nothing streaks in from anywhere.",
+            [](SceneDraft& draft, ecs::Entity sphere) {
+                scene::appear(draft.shot.world, sphere, kEvent);
+            }
+        ),
+        {"Despawn",
+         "An entity that was just destroyed",
+         "The mover is gone, after a frame that showed it.",
+         measureDespawn},
+        makeCase(
+            "Teleport",
+            "A teleport within the exposure",
+            "The mover is put elsewhere within the frame: no streak from its old place.",
+            teleportSphere,
+            teleportSphere
+        ),
+        makeCase(
+            "CameraCut",
+            "A camera cut within the exposure",
+            "The camera is put elsewhere while the sphere moves: the whole picture stands still.",
+            [](SceneDraft& draft, ecs::Entity) { cutCamera(draft); },
+            [](SceneDraft& draft, ecs::Entity) { cutCamera(draft); }
+        ),
+        makeCase(
+            "WorldBegins",
+            "The first frame of a world",
+            "The world was loaded within the frame: it has no past.",
+            [](SceneDraft& draft, ecs::Entity) { draft.shot.world.startSeconds = kEvent; }
+        ),
+        makeCase(
+            "Paused",
+            "A frame of no length",
+            "The frame time is 0: a paused world does not move, whatever the exposure.",
+            [](SceneDraft&, ecs::Entity) {},
+            [](SceneDraft&, ecs::Entity) {},
+            paused
+        ),
+        {"CappedHitch",
+         "A frame of 10 seconds, capped",
+         "The shutter stays open for its angle at the reference rate, not for half of 10 s.",
+         measureCappedHitch},
+    };
+}
+
+} // namespace shutter::stability

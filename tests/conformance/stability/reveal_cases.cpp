@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// Rays that go on from a surface: how many meet it again, how many miss the next one a millimetre
+// behind.
+#include "engine/core/check.h"
+#include "engine/gpu/address.h"
+#include "engine/gpu/memory.h"
+#include "engine/render/post_effect.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
+#include "modules/tonemap/tonemap.h"
+#include "shaders/motion_blur/hybrid_shared.h"
+#include "tests/conformance/stability/case_lists.h"
+#include "tests/conformance/stability/pictures.h"
+
+#include <array>
+#include <cmath>
+
+namespace shutter::stability {
+
+namespace {
+
+using math::dvec3;
+
+constexpr uint32_t kSizePx = 560;
+constexpr double kGap = 1e-3; // metres between the two surfaces
+constexpr double kYFov = 0.6;
+
+/// The reveal of every pixel, as if the mask were full; one ray each.
+class RevealEverywhere : public render::PostEffect {
+  public:
+    RevealEverywhere(gpu::Device& device, const gpu_scene::GpuScene& scene)
+        : mDevice(device), mReveal(device, scene.textureLayout()) {}
+
+    [[nodiscard]] std::string name() const override { return "reveal everywhere"; }
+
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+        return {true, "every pixel is asked"};
+    }
+
+    [[nodiscard]] core::Decision askRays(const render::ViewFacts&) const override {
+        return {true, "it is held against raster"};
+    }
+
+    void declare(render::PostContext& context) override {
+        fillList(context.facts.width, context.facts.height);
+        motion_blur::MotionBlurSettings settings;
+        settings.recursionLimit = 2; // the raster's surface and one ray
+        settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
+        settings.method = &motion_blur::getMethod("hybrid");
+        motion_blur::PassParams params = motion_blur::resolve(
+            settings, context.facts.width, context.facts.height, context.facts.rasterTime
+        );
+        auto own = params.getMethod<shader::HybridParams>();
+        own.frame = gpu::splitAddress(context.rays->frameConstants);
+        params.setMethod(own);
+        const motion_blur::RayRevealInputs inputs{
+            context.color,
+            context.gbuffer.motionDepth,
+            context.gbuffer.entityId,
+            context.color, // of the mask: read for entries that share a ray only, and none does
+            context.graph.importBuffer("all pixels", mList.handle(), mList.bytes()),
+            context.graph.importBuffer("all groups", mArguments.handle(), mArguments.bytes()),
+            *context.rays};
+        const motion_blur::RayRevealOutputs outputs = mReveal.add(context.graph, inputs, params);
+        context.color = outputs.color;
+        context.intermediates.publish("reveal_id", outputs.entityId);
+    }
+
+  private:
+    void fillList(uint32_t width, uint32_t height) {
+        const uint32_t count = width * height;
+        std::vector<uint32_t> list(sizeof(shader::MaskHeader) / sizeof(uint32_t));
+        list[0] = count;
+        for (uint32_t y = 0; y < height; ++y)
+            for (uint32_t x = 0; x < width; ++x)
+                list.push_back(x | y << 16);
+        const auto makeBuffer = [&](const char* name, size_t bytes, VkBufferUsageFlags usage) {
+            return gpu::Buffer(mDevice, name, bytes, usage, gpu::MemoryUse::Upload);
+        };
+        mList = makeBuffer(
+            "all pixels", list.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
+        );
+        mList.write(std::span<const uint32_t>(list));
+        const std::array arguments{
+            (count + shader::kRevealThreads - 1) / shader::kRevealThreads, 1u, 1u};
+        mArguments =
+            makeBuffer("all groups", sizeof(arguments), VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+        mArguments.write(std::span<const uint32_t>(arguments));
+    }
+
+    gpu::Device& mDevice;
+    motion_blur::RayReveal mReveal;
+    gpu::Buffer mList;
+    gpu::Buffer mArguments;
+};
+
+/// Rows of the entity table, in the order in which the scene adds them.
+constexpr float kFront = 0.0f;
+constexpr float kBehind = 1.0f;
+
+/// A sphere, another of the same facets a millimetre within it, a wall far behind.
+void buildShells(SceneDraft& draft, double radius, const dvec3& centre) {
+    constexpr int kSegments = 160;
+    constexpr int kRings = 80;
+    const auto color = draft.addColor({0.5f, 0.5f, 0.5f});
+    const Stand stand{
+        .position = centre, .rotation = glm::angleAxis(0.7, glm::normalize(dvec3(0.3, 0.8, 0.2)))};
+    draft.add(generator::sphere(float(radius), kSegments, kRings), color, stand);
+    draft.add(generator::sphere(float(radius - kGap), kSegments, kRings), color, stand);
+    draft.add(
+        makeSheet(40.0 * radius, 40.0 * radius),
+        color,
+        Stand{.position = centre - dvec3(0, 0, 3.0 * radius)}
+    );
+    draft.camera().yFov = kYFov;
+    draft.camera().near = std::min(0.05, 0.1 * radius);
+}
+
+/// Whether the pixel's ray passes well within the inner sphere, so that missing it is a leak.
+bool meetsInner(uint32_t x, uint32_t y, double radius, double distance) {
+    const double focal = 0.5 * kSizePx / std::tan(0.5 * kYFov);
+    const dvec3 direction =
+        glm::normalize(dvec3(x + 0.5 - 0.5 * kSizePx, y + 0.5 - 0.5 * kSizePx, focal));
+    const double nearest = distance * std::sqrt(1.0 - direction.z * direction.z);
+    return nearest < 0.98 * (radius - kGap); // 2 %: facets lie within the sphere
+}
+
+struct Place {
+    std::string label;
+    double radius;
+    dvec3 offset{0.0};
+};
+
+core::Result<Measurements> measurePlace(gpu::Device& device, const Place& place) {
+    const double distance = 3.0 * place.radius;
+    SceneDraft draft;
+    buildShells(draft, place.radius, {0, 0, -distance});
+    draft.moveAll(place.offset);
+    render::Renderer renderer(device, draft.shot.world.assets);
+    RevealEverywhere reveal(device, renderer.scene());
+    render::FrameRequest request;
+    request.view.camera = draft.shot.camera;
+    request.view.width = request.view.height = kSizePx;
+    request.intermediates = {"mesh_id", "reveal_id"};
+    const std::array<render::PostEffect*, 1> effects{&reveal};
+    auto frame = renderer.renderFrame(draft.shot.world, request, effects);
+    if (!frame)
+        return frame.error();
+    const image::Image& seen = frame.value().intermediates.at("mesh_id");
+    const image::Image& revealed = frame.value().intermediates.at("reveal_id");
+    uint64_t rays = 0;
+    uint64_t again = 0;
+    uint64_t through = 0;
+    for (uint32_t y = 0; y < kSizePx; ++y)
+        for (uint32_t x = 0; x < kSizePx; ++x) {
+            if (seen.at(x, y, 0) != kFront || !meetsInner(x, y, place.radius, distance))
+                continue;
+            const float id = revealed.at(x, y, 0);
+            ++rays;
+            again += id == kFront;
+            through += id != kFront && id != kBehind;
+        }
+    constexpr double kBound = 1e-5; // of the rays
+    const auto share = [&](uint64_t count) { return double(count) / double(std::max(rays, 1ul)); };
+    return Measurements{
+        {"own surface met again, " + place.label, share(again), kBound, "share of rays", rays},
+        {"next surface missed, " + place.label, share(through), kBound, "share of rays", rays}};
+}
+
+core::Result<Measurements> measureSelfIntersection(gpu::Device& device) {
+    Measurements all;
+    if (!device.hasRays())
+        return core::makeError("{} traces no rays", device.info().name);
+    for (const Place& place : {
+             Place{"sphere of 1 cm", 0.01},
+             Place{"sphere of 1 m", 1.0},
+             Place{"sphere of 1 km", 1000.0},
+             Place{"sphere of 1 m, 10 km from the origin", 1.0, {6e3, -5e3, 6.2e3}},
+             Place{"sphere of 1 km, 10 km from the origin", 1000.0, {6e3, -5e3, 6.2e3}},
+         }) {
+        auto found = measurePlace(device, place);
+        if (!found)
+            return found;
+        all.insert(all.end(), found.value().begin(), found.value().end());
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<HardCase> listRevealCases() {
+    return {
+        {"SelfIntersection",
+         "Rays that go on from a surface",
+         "From every pixel of a sphere one ray on, with another entity's surface a millimetre "
+         "behind: no ray may meet its own surface again, none may miss the next.",
+         measureSelfIntersection},
+    };
+}
+
+} // namespace shutter::stability

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+#include "game/options/render_options.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace shutter::game {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Change = std::function<void(RenderArguments&)>;
+
+class RenderOptionsTest : public testing::Test {
+  protected:
+    RenderOptionsTest()
+        : mFolder(fs::temp_directory_path() / fmt::format("shutter_options_{}", getpid())) {
+        fs::create_directories(mFolder);
+    }
+
+    ~RenderOptionsTest() override { fs::remove_all(mFolder); }
+
+    RenderArguments makeArguments(const Change& change) const {
+        RenderArguments arguments;
+        arguments.scene = "scene.glb";
+        arguments.out = (mFolder / "out.exr").string();
+        change(arguments);
+        return arguments;
+    }
+
+    RenderOptions accept(const Change& change) const {
+        auto options = interpret(makeArguments(change));
+        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
+        return options.ok() ? options.value() : RenderOptions{};
+    }
+
+    /// The sentence names `option`, is one line and ends without a full stop.
+    void refuse(const std::string& option, const Change& change) const {
+        const auto options = interpret(makeArguments(change));
+        ASSERT_FALSE(options.ok()) << option;
+        const std::string& message = options.error().message;
+        EXPECT_NE(message.find(option), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_NE(message.back(), '.') << message;
+    }
+
+    fs::path mFolder;
+};
+
+} // namespace
+
+TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
+    const RenderOptions options = accept([](auto&) {});
+    EXPECT_EQ(options.width, 1280u);
+    EXPECT_EQ(options.height, 720u);
+    EXPECT_EQ(options.frameTimes, std::vector<double>{0.0});
+    EXPECT_FALSE(options.isSequence);
+    EXPECT_DOUBLE_EQ(options.shutter.exposureSeconds, 1.0 / 60.0);
+    EXPECT_EQ(options.shutter.phase, scene::ShutterPhase::End);
+    EXPECT_STREQ(options.method->name, "hybrid");
+    EXPECT_EQ(options.samples, 15u);
+    EXPECT_EQ(options.pixel, accumulate::PixelModel::Centre);
+    EXPECT_EQ(options.background, math::vec3(0.18f));
+    EXPECT_EQ(options.ambient, math::vec3(0.25f));
+    EXPECT_EQ(options.tonemap.op, tonemap::Operator::Neutral);
+    EXPECT_TRUE(options.aovs.empty());
+}
+
+TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
+    EXPECT_EQ(accept([](auto& a) { a.size = "1x16384"; }).height, 16384u);
+    for (const char* size :
+         {"",
+          "0x0",
+          "0x5",
+          "5x0",
+          "12",
+          "12x",
+          "x12",
+          "-1x5",
+          "16385x1",
+          "99999x1",
+          "1.5x2",
+          "64x36x3",
+          " 64x36",
+          "64X36",
+          "999999999999x1"})
+        refuse("--size", [&](auto& a) { a.size = size; });
+}
+
+TEST_F(RenderOptionsTest, ATimeIsAFiniteNumberOfSeconds) {
+    EXPECT_EQ(accept([](auto& a) { a.time = -2.5; }).frameTimes, std::vector<double>{-2.5});
+    for (const double time : {kNan, kInfinity, -kInfinity, 1e300})
+        refuse("--time", [&](auto& a) { a.time = time; });
+}
+
+TEST_F(RenderOptionsTest, FramesAreTimesOfTheirNumbers) {
+    const RenderOptions options = accept([&](auto& a) {
+        a.frames = "-1:2";
+        a.fps = 10.0;
+        a.out = (mFolder / "f_%04d.png").string();
+    });
+    EXPECT_EQ(options.frameTimes, (std::vector<double>{-0.1, 0.0, 0.1, 0.2}));
+    EXPECT_EQ(options.firstFrame, -1);
+    EXPECT_TRUE(options.isSequence);
+}
+
+TEST_F(RenderOptionsTest, BadFramesAreRefused) {
+    for (const char* frames : {"5:1", "1", ":", "1:", "a:b", "0:1000000", "1:2:3", "0.5:2"})
+        refuse("--frames", [&](auto& a) {
+            a.frames = frames;
+            a.out = (mFolder / "f_%04d.png").string();
+        });
+    for (const double fps : {0.0, -24.0, kNan, kInfinity})
+        refuse("--fps", [&](auto& a) { a.fps = fps; });
+    // Times that overflow.
+    refuse("--frames", [&](auto& a) {
+        a.frames = "1:2";
+        a.fps = 1e-310;
+    });
+}
+
+TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
+    refuse("--out", [](auto& a) { a.frames = "0:1"; });
+    accept([](auto& a) { a.frames = "3:3"; });
+    accept([&](auto& a) {
+        a.frames = "0:1";
+        a.out = (mFolder / "f%d.png").string();
+    });
+}
+
+TEST_F(RenderOptionsTest, AShutterAngleIsAShareOfAFrame) {
+    const auto exposure = [&](const Change& change) {
+        const RenderOptions options = accept(change);
+        return scene::computeExposureSeconds(options.shutter, options.frameSeconds);
+    };
+    EXPECT_DOUBLE_EQ(exposure([](auto& a) { a.shutterAngle = 180.0; }), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(
+        exposure([](auto& a) {
+            a.shutterAngle = 360.0;
+            a.fps = 50.0;
+        }),
+        0.02
+    );
+    EXPECT_EQ(exposure([](auto& a) { a.exposureSeconds = 0.0; }), 0.0);
+    EXPECT_EQ(exposure([](auto& a) { a.exposureSeconds = 0.25; }), 0.25);
+}
+
+TEST_F(RenderOptionsTest, BadExposuresAreRefused) {
+    for (const double value : {-0.1, kNan, kInfinity, 1e300}) {
+        refuse("--exposure", [&](auto& a) { a.exposureSeconds = value; });
+        refuse("--shutter-angle", [&](auto& a) { a.shutterAngle = value; });
+    }
+    refuse("--shutter-angle", [](auto& a) {
+        a.exposureSeconds = 0.1;
+        a.shutterAngle = 180.0;
+    });
+}
+
+TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
+    using scene::ShutterPhase;
+    const auto phase = [&](const char* name) {
+        return accept([&](auto& a) { a.phase = name; }).shutter.phase;
+    };
+    EXPECT_EQ(phase("start"), ShutterPhase::Start);
+    EXPECT_EQ(phase("centre"), ShutterPhase::Centre);
+    EXPECT_EQ(phase("end"), ShutterPhase::End);
+    for (const char* name : {"", "center", "END", "middle"})
+        refuse("--phase", [&](auto& a) { a.phase = name; });
+}
+
+TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
+    for (const char* name : {"", "Hybrid", "nosuch"})
+        refuse("--method", [&](auto& a) { a.method = name; });
+    refuse("gather, hybrid, denoised, accumulate, truth", [](auto& a) { a.method = "nosuch"; });
+}
+
+TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
+    const auto samples = [&](const char* method, uint32_t count) {
+        return accept([&](auto& a) {
+            a.method = method;
+            a.samples = count;
+        });
+    };
+    EXPECT_EQ(samples("gather", 0).motionBlur.sampleCount, 15u);
+    EXPECT_EQ(samples("gather", 256).motionBlur.sampleCount, 256u);
+    EXPECT_EQ(samples("accumulate", 0).samples, 256u);
+    EXPECT_EQ(samples("accumulate", 65536).samples, 65536u);
+    EXPECT_EQ(samples("truth", 0).samples, 256u);
+    EXPECT_EQ(samples("sharp", 0).samples, 0u);
+    for (const char* method : {"gather", "hybrid"})
+        refuse("--samples", [&](auto& a) {
+            a.method = method;
+            a.samples = 257;
+        });
+    refuse("--samples", [](auto& a) {
+        a.method = "accumulate";
+        a.samples = 65537;
+    });
+}
+
+TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
+    EXPECT_EQ(
+        accept([](auto& a) {
+            a.method = "accumulate";
+            a.pixel = "box";
+        }).pixel,
+        accumulate::PixelModel::Box
+    );
+    EXPECT_EQ(
+        accept([](auto& a) {
+            a.method = "truth";
+            a.pixel = "box";
+        }).pixel,
+        accumulate::PixelModel::Box
+    );
+    refuse("--pixel", [](auto& a) { a.pixel = "box"; });
+    refuse("--pixel", [](auto& a) { a.pixel = "gauss"; });
+}
+
+TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
+    const auto truth = [](double error) {
+        return [error](auto& a) {
+            a.method = "truth";
+            a.error = error;
+        };
+    };
+    EXPECT_EQ(accept(truth(0.01)).error, 0.01);
+    EXPECT_FALSE(accept([](auto& a) { a.method = "truth"; }).error.has_value());
+    for (const double bad :
+         {0.0,
+          -1.0,
+          std::numeric_limits<double>::quiet_NaN(),
+          std::numeric_limits<double>::infinity()})
+        refuse("--error", truth(bad));
+    for (const char* method : {"sharp", "hybrid", "accumulate"})
+        refuse("--error", [&](auto& a) {
+            a.method = method;
+            a.error = 0.01;
+        });
+}
+
+TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
+    const motion_blur::MotionBlurSettings settings = accept([](auto& a) {
+                                                         a.settings = {
+                                                             "tileSizePx=20",
+                                                             "neighbourhoodTiles=5",
+                                                             "recursionLimit=9",
+                                                             "softDepthExtent=0.5",
+                                                             "edgeThreshold=0.25",
+                                                             "luminanceThreshold=0.125",
+                                                             "foregroundMagnification=12",
+                                                             "backgroundMagnification=6",
+                                                             "jitter=0",
+                                                             "objectTest=luminance",
+                                                             "revealTraversal=stepping"};
+                                                     }).motionBlur;
+    EXPECT_EQ(settings.tileSizePx, 20u);
+    EXPECT_EQ(settings.neighbourhoodTiles, 5u);
+    EXPECT_EQ(settings.recursionLimit, 9u);
+    EXPECT_EQ(settings.softDepthExtent, 0.5f);
+    EXPECT_EQ(settings.edgeThreshold, 0.25f);
+    EXPECT_EQ(settings.luminanceThreshold, 0.125f);
+    EXPECT_EQ(settings.foregroundMagnification, 12.0f);
+    EXPECT_EQ(settings.backgroundMagnification, 6.0f);
+    EXPECT_EQ(settings.jitter, 0.0f);
+    EXPECT_EQ(settings.objectTest, motion_blur::ObjectTest::Luminance);
+    EXPECT_EQ(settings.revealTraversal, motion_blur::RevealTraversal::Stepping);
+    EXPECT_EQ(
+        accept([](auto& a) { a.settings = {"revealTraversal=single"}; }).motionBlur.revealTraversal,
+        motion_blur::RevealTraversal::Single
+    );
+    EXPECT_EQ(
+        accept([](auto& a) { a.settings = {"objectTest=mesh_id"}; }).motionBlur.objectTest,
+        motion_blur::ObjectTest::MeshId
+    );
+}
+
+TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
+    const auto with = [&](const char* method, std::vector<std::string> settings) {
+        return accept([&](auto& a) {
+                   a.method = method;
+                   a.settings = std::move(settings);
+               }
+        ).motionBlur;
+    };
+    const auto guertin = with("guertin2014", {"centreBias=20", "speedThresholdPx=3"});
+    EXPECT_EQ(guertin.method, &motion_blur::getMethod("guertin2014"));
+    EXPECT_EQ(guertin.sampleCount, 35u);
+    EXPECT_EQ(guertin.centreBias, 20.0f);
+    EXPECT_EQ(guertin.speedThresholdPx, 3.0f);
+    using motion_blur::OccluderTest;
+    EXPECT_EQ(with("own_velocity", {"occluderTest=velocity"}).occluderTest, OccluderTest::Velocity);
+    EXPECT_EQ(with("own_velocity", {"occluderTest=none"}).occluderTest, OccluderTest::None);
+    EXPECT_EQ(with("jimenez2014", {"softDepthExtent=1"}).softDepthExtent, 1.0f);
+    EXPECT_EQ(with("mcguire2012", {"tileSizePx=20"}).tileSizePx, 20u);
+}
+
+TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
+    // Each name is some method's, and each method lacks some.
+    for (const MethodInfo& method : listMethods()) {
+        const bool blurs = method.family == MethodFamily::MotionBlur;
+        const char* foreign =
+            method.name == std::string("own_velocity") ? "tileSizePx=20" : "occluderTest=none";
+        refuse(method.name, [&](auto& a) {
+            a.method = method.name;
+            a.settings = {foreign};
+        });
+        const bool jitters = blurs && method.blur != &motion_blur::getMethod("denoised");
+        if (jitters)
+            accept([&](auto& a) {
+                a.method = method.name;
+                a.settings = {"jitter=0.5"};
+            });
+        else
+            refuse("--set 'jitter'", [&](auto& a) {
+                a.method = method.name;
+                a.settings = {"jitter=0.5"};
+            });
+    }
+}
+
+TEST_F(RenderOptionsTest, BadSettingsAreRefused) {
+    for (const char* setting :
+         {"",
+          "jitter",
+          "jitter=",
+          "jitter=x",
+          "jitter=nan",
+          "jitter=inf",
+          "jitter=2",
+          "jitter=0.5x",
+          "nosuch=1",
+          "=1",
+          "tileSizePx=1.5",
+          "tileSizePx=-1",
+          "tileSizePx=0",
+          "tileSizePx=1e30",
+          "neighbourhoodTiles=4",
+          "objectTest=nosuch",
+          "revealTraversal=nosuch"})
+        refuse("--set", [&](auto& a) { a.settings = {setting}; });
+}
+
+TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
+    const auto aovs = [&](const char* method, const char* names) {
+        return accept([&](auto& a) {
+                   a.method = method;
+                   a.aov = names;
+               }
+        ).aovs;
+    };
+    EXPECT_EQ(aovs("sharp", "depth,motion"), (std::set<std::string>{"depth", "motion"}));
+    EXPECT_EQ(aovs("sharp", "all").size(), 4u);
+    EXPECT_EQ(aovs("gather", "all").size(), 5u);
+    EXPECT_EQ(aovs("hybrid", "all").size(), 8u);
+    EXPECT_EQ(aovs("own_velocity", "all").size(), 4u);
+    EXPECT_EQ(aovs("guertin2014", "variance,tiles").size(), 2u);
+    for (const char* names : {"nosuch", "motion,", ",", "motion,nosuch", "Motion", "motion depth"})
+        refuse("--aov", [&](auto& a) { a.aov = names; });
+    refuse("--aov", [](auto& a) {
+        a.method = "gather";
+        a.aov = "mask";
+    });
+}
+
+TEST_F(RenderOptionsTest, TheExtensionDecidesWhetherAPictureIsForDisplays) {
+    const auto isDisplay = [&](const char* name) {
+        return accept([&](auto& a) { a.out = (mFolder / name).string(); }).displayOut;
+    };
+    EXPECT_FALSE(isDisplay("a.exr"));
+    EXPECT_TRUE(isDisplay("a.png"));
+    EXPECT_TRUE(isDisplay("a.JPG"));
+    for (const char* name : {"a.bmp", "a", "png"})
+        refuse("--out", [&](auto& a) { a.out = (mFolder / name).string(); });
+}
+
+TEST_F(RenderOptionsTest, OutputsNeedAFolderThatIsThere) {
+    fs::create_directory(mFolder / "folder.png");
+    for (const char* name : {"a.png/b.png", "nosuch/a.png", "folder.png"}) {
+        const core::Status checked =
+            checkOutputs(accept([&](auto& a) { a.out = (mFolder / name).string(); }));
+        ASSERT_FALSE(checked.ok()) << name;
+        EXPECT_NE(checked.error().message.find("--out"), std::string::npos);
+    }
+    for (const auto& stats : {mFolder / "nosuch" / "s.json", mFolder}) {
+        const core::Status checked =
+            checkOutputs(accept([&](auto& a) { a.stats = stats.string(); }));
+        ASSERT_FALSE(checked.ok()) << stats;
+        EXPECT_NE(checked.error().message.find("--stats"), std::string::npos);
+    }
+    EXPECT_TRUE(checkOutputs(accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); })));
+}
+
+TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
+    accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); });
+    EXPECT_TRUE(fs::is_empty(mFolder));
+}
+
+TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
+    EXPECT_EQ(accept([](auto& a) { a.tonemap = "none"; }).tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept([](auto& a) { a.unlit = true; }).tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept([](auto& a) { a.exposureValue = -32.0; }).tonemap.exposureValue, -32.0);
+    refuse("--tonemap", [](auto& a) { a.tonemap = "aces"; });
+    for (const double value : {32.5, -33.0, kNan, kInfinity})
+        refuse("--ev", [&](auto& a) { a.exposureValue = value; });
+}
+
+TEST_F(RenderOptionsTest, ColoursAreThreeNumbersThatAPictureCanHold) {
+    EXPECT_EQ(
+        accept([](auto& a) { a.background = "0,0.5,65000"; }).background,
+        math::vec3(0.0f, 0.5f, 65000.0f)
+    );
+    for (const char* color :
+         {"", "1", "1,2", "1,2,3,4", "1,,3", "a,b,c", "-1,0,0", "nan,0,0", "1e30,0,0", "1,2,3 "}) {
+        refuse("--background", [&](auto& a) { a.background = color; });
+        refuse("--ambient", [&](auto& a) { a.ambient = color; });
+    }
+}
+
+TEST(FrameFile, TheNumberIsFilledWithZeros) {
+    EXPECT_EQ(frameFile("a_%04d.png", 7), fs::path("a_0007.png"));
+    EXPECT_EQ(frameFile("a_%d.png", 7), fs::path("a_7.png"));
+    EXPECT_EQ(frameFile("a_%3d.png", 7), fs::path("a_007.png"));
+    EXPECT_EQ(frameFile("x/%02d/b.png", 123), fs::path("x/123/b.png"));
+    EXPECT_EQ(frameFile("a_%04d.png", -7), fs::path("a_-007.png"));
+}
+
+TEST(FrameFile, ANameWithoutANumberStaysAsItIs) {
+    for (const char* name : {"a.png", "100%.png", "a%s.png", ""})
+        EXPECT_EQ(frameFile(name, 7), fs::path(name));
+}
+
+} // namespace shutter::game

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "engine/io/file_bytes.h"
+#include "game/output/sequence_journal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace shutter::game {
+namespace {
+
+namespace fs = std::filesystem;
+using Before = SequenceJournal::Before;
+
+class JournalOfASequence : public testing::Test {
+  protected:
+    JournalOfASequence() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        mFolder = fs::path(testing::TempDir()) / (std::string("sequence_") + test->name());
+        fs::remove_all(mFolder);
+        fs::create_directories(mFolder);
+    }
+
+    ~JournalOfASequence() override { fs::remove_all(mFolder); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(mFolder / name, std::ios::binary) << text;
+        return mFolder / name;
+    }
+
+    [[nodiscard]] SequenceJournal open(const std::string& fingerprint) const {
+        auto opened = SequenceJournal::open(file(), fingerprint);
+        EXPECT_TRUE(opened.ok());
+        return std::move(opened).value();
+    }
+
+    [[nodiscard]] fs::path file() const { return journalFile(mFolder / "f_%04d.png"); }
+
+    [[nodiscard]] std::string text() const {
+        std::ifstream stream(file(), std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    fs::path mFolder;
+};
+
+TEST_F(JournalOfASequence, KnowsWhatIsCompleteWhenItIsOpenedAgain) {
+    {
+        SequenceJournal journal = open("a");
+        EXPECT_EQ(journal.before(), Before::Nothing);
+        EXPECT_FALSE(journal.isComplete(3));
+        ASSERT_TRUE(journal.add(3, {write("f_0003.png", "x"), write("f_0003.mask.exr", "y")}).ok());
+        ASSERT_TRUE(journal.add(-1, {write("f_-001.png", "z")}).ok());
+        EXPECT_TRUE(journal.isComplete(3));
+    }
+    const SequenceJournal again = open("a");
+    EXPECT_EQ(again.before(), Before::SamePictures);
+    EXPECT_TRUE(again.isComplete(3));
+    EXPECT_TRUE(again.isComplete(-1));
+    EXPECT_FALSE(again.isComplete(4));
+    write("f_0003.mask.exr", "Y");
+    EXPECT_FALSE(again.isComplete(3)) << "one of its files was changed";
+    fs::remove(mFolder / "f_-001.png");
+    EXPECT_FALSE(again.isComplete(-1)) << "its file is gone";
+}
+
+TEST_F(JournalOfASequence, OtherPicturesBeginAnew) {
+    ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
+    const SequenceJournal other = open("b");
+    EXPECT_EQ(other.before(), Before::OtherPictures);
+    EXPECT_FALSE(other.isComplete(0));
+    EXPECT_FALSE(open("b").isComplete(0));
+    EXPECT_EQ(open("a").before(), Before::OtherPictures);
+}
+
+TEST_F(JournalOfASequence, CutOffAnywhereItStillTellsTheTruth) {
+    {
+        SequenceJournal journal = open("a");
+        for (int frame = 0; frame < 3; ++frame) {
+            const std::string name = "f_000" + std::to_string(frame) + ".png";
+            ASSERT_TRUE(journal.add(frame, {write(name, name)}).ok());
+        }
+    }
+    const std::string whole = text();
+    for (size_t bytes = 0; bytes <= whole.size(); ++bytes) {
+        ASSERT_TRUE(io::writeFileText(file(), whole.substr(0, bytes)).ok());
+        const auto lines = std::count(whole.begin(), whole.begin() + std::ptrdiff_t(bytes), '\n');
+        SequenceJournal journal = open("a");
+        for (int frame = 0; frame < 3; ++frame)
+            ASSERT_EQ(journal.isComplete(frame), frame < lines - 1) << bytes;
+        // And goes on from there.
+        ASSERT_TRUE(journal.add(2, {mFolder / "f_0002.png"}).ok());
+        ASSERT_TRUE(open("a").isComplete(2)) << bytes;
+    }
+}
+
+TEST_F(JournalOfASequence, WhatIsNoJournalBeginsAnew) {
+    ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
+    const std::string header = text().substr(0, text().find('\n') + 1);
+    for (const std::string& wrong :
+         {std::string("\n"),
+          std::string("[]\n"),
+          std::string("{\"journal\": \"another\", \"fingerprint\": \"a\"}\n"),
+          header + "{\"frame\": \"0\", \"files\": []}\n",
+          header + "{\"frame\": 0, \"files\": []}\n",
+          header + "{\"frame\": 1e300, \"files\": [{\"name\": \"x\", \"hash\": \"y\"}]}\n",
+          header + "\xFF\xFE\n"}) {
+        ASSERT_TRUE(io::writeFileText(file(), wrong).ok());
+        EXPECT_FALSE(open("a").isComplete(0)) << wrong;
+        EXPECT_EQ(text(), header) << wrong;
+    }
+}
+
+TEST_F(JournalOfASequence, WhatCannotBeReadOrWrittenIsNamed) {
+    const auto nowhere = SequenceJournal::open(mFolder / "no/such/.journal", "a");
+    ASSERT_FALSE(nowhere.ok());
+    EXPECT_NE(nowhere.error().message.find("no/such/.journal"), std::string::npos);
+    SequenceJournal journal = open("a");
+    const core::Status missing = journal.add(0, {mFolder / "missing.png"});
+    ASSERT_FALSE(missing.ok());
+    EXPECT_NE(missing.error().message.find("missing.png"), std::string::npos);
+    fs::remove(file());
+    const core::Status gone = journal.add(0, {write("f_0000.png", "x")});
+    ASSERT_FALSE(gone.ok());
+    EXPECT_NE(gone.error().message.find(".f_%04d.png.journal"), std::string::npos);
+}
+
+TEST(JournalFile, LiesHiddenBesideThePictures) {
+    EXPECT_EQ(journalFile("f_%04d.png"), ".f_%04d.png.journal");
+    EXPECT_EQ(journalFile("out/f_%04d.png"), "out/.f_%04d.png.journal");
+    EXPECT_EQ(journalFile("/a/b/f_%d.exr"), "/a/b/.f_%d.exr.journal");
+    EXPECT_EQ(journalFile("out/%04d/f.png"), "out/.%04d_f.png.journal");
+    EXPECT_EQ(journalFile("%04d/f.png"), ".%04d_f.png.journal");
+    const std::string longest(251, 'x');
+    EXPECT_LE(journalFile(longest).string().size(), 255u);
+}
+
+} // namespace
+} // namespace shutter::game
