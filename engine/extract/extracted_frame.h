@@ -21,6 +21,12 @@ namespace shutter::extract {
 /// Most rows of the entity table: ray tracing gives instances 24 bits.
 inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
 
+/// Where inside the pixel a sample is taken.
+enum class PixelModel : uint8_t {
+    Centre, ///< at the centre: isolates motion from anti-aliasing
+    Box,    ///< anywhere, evenly: a box filter one pixel wide
+};
+
 struct ViewRequest {
     ecs::Entity camera;
     scene::ExposureInterval exposure;

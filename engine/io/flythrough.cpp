@@ -2,7 +2,8 @@
 #include "engine/io/flythrough.h"
 
 #include "engine/core/check.h"
-#include "engine/io/json_file.h"
+#include "engine/io/json_rows.h"
+#include "engine/scene/shutter_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,6 @@ constexpr size_t kMaxKeys = 100'000;
 constexpr JsonRange kTimes{.min = -1.0e6, .max = 1.0e6};
 constexpr JsonRange kPlaces{.min = -1.0e9, .max = 1.0e9};
 constexpr JsonRange kFieldsOfView{.min = 0.01, .max = 179.0};
-constexpr JsonRange kExposures{.min = 0.0, .max = 1.0e6};
-constexpr JsonRange kAngles{.min = 0.0, .max = 36000.0};
 constexpr JsonRange kRates{.min = 0.0, .max = 1000.0, .isAboveMin = true};
 /// How far from 1 the length of a written rotation may be: it was rounded.
 constexpr double kUnitTolerance = 1.0e-3;
@@ -31,10 +30,6 @@ constexpr std::array<std::pair<std::string_view, scene::PathInterpolation>, 2> k
      {"linear", scene::PathInterpolation::Linear}}};
 constexpr std::array<std::pair<std::string_view, scene::PathEase>, 2> kEases{
     {{"none", scene::PathEase::None}, {"inOut", scene::PathEase::InOut}}};
-constexpr std::array<std::pair<std::string_view, scene::ShutterPhase>, 3> kPhases{
-    {{"start", scene::ShutterPhase::Start},
-     {"centre", scene::ShutterPhase::Centre},
-     {"end", scene::ShutterPhase::End}}};
 
 template <class Value, size_t Count>
 std::string_view
@@ -64,12 +59,17 @@ FlythroughShutter readShutter(const JsonNode& node) {
     const JsonObject object = node.readObject({"exposure", "shutterAngle", "phase"});
     const auto exposure = object.find("exposure");
     const auto angle = object.find("shutterAngle");
+    const auto read = [](const JsonNode& field, std::string_view row) {
+        scene::CameraShutter read;
+        readRow(field, core::getRow(scene::listShutterRows(), row), read);
+        return read;
+    };
     if (exposure)
-        shutter.exposureSeconds = exposure->readNumber(kExposures);
+        shutter.exposureSeconds = read(*exposure, "exposureSeconds").exposureSeconds;
     if (angle)
-        shutter.angleDegrees = angle->readNumber(kAngles);
+        shutter.angleDegrees = read(*angle, "angleDegrees").angleDegrees;
     if (const auto phase = object.find("phase"))
-        shutter.phase = phase->readChoice(kPhases);
+        shutter.phase = read(*phase, "phase").phase;
     if (exposure && angle)
         node.fail("exposure and shutterAngle exclude each other");
     if (!exposure && !angle && !shutter.phase)
@@ -155,7 +155,10 @@ void writeShutter(JsonWriter& writer, const FlythroughShutter& shutter) {
     if (shutter.angleDegrees)
         writer.key("shutterAngle").value(*shutter.angleDegrees);
     if (shutter.phase)
-        writer.key("phase").value(findName(kPhases, *shutter.phase));
+        writer.key("phase").value(core::describeValue(
+            core::getRow(scene::listShutterRows(), "phase"),
+            scene::CameraShutter{.phase = *shutter.phase}
+        ));
     writer.endObject();
 }
 

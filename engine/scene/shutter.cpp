@@ -14,13 +14,13 @@ namespace {
 /// Of a trapezoid's flanks and top: shorter ones would be of no length in single precision.
 constexpr double kShortestShare = 1.0e-6;
 
-/// Where the piecewise linear response deforms.
-struct Dispatch {
+/// A corner of the piecewise linear response.
+struct Knot {
     double s = 0.0;
     double height = 0.0;
 };
 
-std::vector<Dispatch> listDeformations(const ShutterResponse& response) {
+std::vector<Knot> listKnots(const ShutterResponse& response) {
     switch (response.shape) {
     case ResponseShape::Box:
         break;
@@ -31,26 +31,26 @@ std::vector<Dispatch> listDeformations(const ShutterResponse& response) {
         const bool closes = response.closeShare > kShortestShare;
         const double from = opens ? response.openShare : 0.0;
         const double to = closes ? 1.0 - response.closeShare : 1.0;
-        std::vector<Dispatch> deforms;
+        std::vector<Knot> knots;
         if (opens)
-            deforms.push_back({0.0, 0.0});
-        deforms.push_back({from, 1.0});
+            knots.push_back({0.0, 0.0});
+        knots.push_back({from, 1.0});
         if (to > from + kShortestShare)
-            deforms.push_back({to, 1.0});
+            knots.push_back({to, 1.0});
         if (closes)
-            deforms.push_back({1.0, 0.0});
+            knots.push_back({1.0, 0.0});
         else
-            deforms.back().s = 1.0;
-        return deforms;
+            knots.back().s = 1.0;
+        return knots;
     }
     case ResponseShape::Sampled: {
         // Relative to the largest, so that no sum overflows.
         const double largest = *std::max_element(response.samples.begin(), response.samples.end());
         const double intervals = double(response.samples.size() - 1);
-        std::vector<Dispatch> deforms;
+        std::vector<Knot> knots;
         for (const double sample : response.samples)
-            deforms.push_back({double(deforms.size()) / intervals, sample / largest});
-        return deforms;
+            knots.push_back({double(knots.size()) / intervals, sample / largest});
+        return knots;
     }
     }
     return {{0.0, 1.0}, {1.0, 1.0}};
@@ -140,25 +140,24 @@ core::Status validateResponse(const ShutterResponse& response) {
 std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse& response) {
     const core::Status valid = validateResponse(response);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
-    const std::vector<Dispatch> deforms = listDeformations(response);
-    const bool isConstant =
-        std::all_of(deforms.begin(), deforms.end(), [&](const Dispatch& deform) {
-            return deform.height == deforms.front().height;
-        });
+    const std::vector<Knot> knots = listKnots(response);
+    const bool isConstant = std::all_of(knots.begin(), knots.end(), [&](const Knot& knot) {
+        return knot.height == knots.front().height;
+    });
     if (isConstant)
         return std::nullopt;
     std::vector<double> taken{0.0};
-    for (size_t i = 1; i < deforms.size(); ++i)
+    for (size_t i = 1; i < knots.size(); ++i)
         taken.push_back(
             taken.back() +
-            (deforms[i].s - deforms[i - 1].s) * 0.5 * (deforms[i].height + deforms[i - 1].height)
+            (knots[i].s - knots[i - 1].s) * 0.5 * (knots[i].height + knots[i - 1].height)
         );
     shader::ResponseTable table{};
-    table.knotCount = static_cast<uint32_t>(deforms.size());
-    for (size_t i = 0; i < deforms.size(); ++i)
+    table.knotCount = static_cast<uint32_t>(knots.size());
+    for (size_t i = 0; i < knots.size(); ++i)
         table.knots[i] = {
-            static_cast<float>(deforms[i].s),
-            static_cast<float>(deforms[i].height / taken.back()),
+            static_cast<float>(knots[i].s),
+            static_cast<float>(knots[i].height / taken.back()),
             static_cast<float>(taken[i] / taken.back()),
             0.0f};
     return table;

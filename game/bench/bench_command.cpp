@@ -5,6 +5,7 @@
 #include "game/bench/suites/suite.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
+#include "game/options/render_arguments.h"
 #include "game/options/user_folders.h"
 
 #include <CLI/CLI.hpp>
@@ -26,7 +27,9 @@ using core::Status;
 using game::MethodInfo;
 
 struct BenchArguments {
-    game::RenderArguments shot;
+    game::ShotArguments shot;
+    gpu::DeviceOptions device;
+    std::optional<game::PictureSize> size; ///< nothing: the suite's
     std::string suite;
     fs::path out;
     std::vector<std::string> methods;
@@ -75,12 +78,11 @@ core::Result<Suite> chooseSuite(BenchArguments& arguments) {
         arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
     if (!suite)
         return suite;
-    if (arguments.shot.size.empty())
-        arguments.shot.size = suite.value().size;
+    arguments.shot.size = arguments.size.value_or(suite.value().size);
     if (arguments.suite.empty())
         return makeOwnSuite(arguments.shot);
     const auto applySize = [&](Case& shot) {
-        shot.shot.size = shot.size.empty() ? arguments.shot.size : shot.size;
+        shot.shot.size = shot.size.value_or(arguments.shot.size);
     };
     for (Case& shot : suite.value().cases)
         applySize(shot);
@@ -148,14 +150,11 @@ Status measureSuite(
     const BenchArguments& arguments,
     Suite suite,
     std::vector<const MethodInfo*> methods,
-    game::RenderOptions shot
+    game::ShotOptions shot
 ) {
     if (Status made = makeFolders(arguments); !made)
         return made;
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.wanted = arguments.shot.device;
-    deviceOptions.bestTier = shot.bestTier;
-    deviceOptions.validate = arguments.shot.validate;
+    gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
@@ -197,9 +196,7 @@ int runBench(BenchArguments& arguments) {
     if (!methods)
         return fail(game::kExitUsage, methods.error());
     // Wrong options of the shot are told before anything is made.
-    game::RenderArguments probe = arguments.shot;
-    probe.out = "picture.png";
-    auto shot = game::interpret(probe);
+    auto shot = game::interpret(arguments.shot);
     if (!shot)
         return fail(game::kExitUsage, shot.error());
     const Status done = measureSuite(
@@ -216,7 +213,6 @@ namespace shutter::game {
 void addBenchCommand(CLI::App& app, int& exitStatus) {
     CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
     auto arguments = std::make_shared<bench::BenchArguments>();
-    arguments->shot.size.clear(); // the suite's
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
     command->add_option("--suite", arguments->suite, "paper, hard, scaling, stability or demand");
     command->add_option("--out", arguments->out, "folder of results.json and index.html")
@@ -234,11 +230,22 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
         ->check(CLI::Range(1u, 65536u));
     command->add_flag("--restart", arguments->restart, "measure anew what an earlier run left");
     command->add_flag("--report-only", arguments->reportOnly, "make the page from results.json");
-    command->add_option("--size", arguments->shot.size, "WxH; default 640x360, demand 1280x720");
-    game::defineDeviceOptions(*command, arguments->shot);
+    addParsedOption(
+        *command,
+        "--size",
+        "WxH; default 640x360, demand 1280x720",
+        [arguments](const std::string& text) -> core::Status {
+            const auto size = parseSize(text);
+            if (!size)
+                return size.error();
+            arguments->size = size.value();
+            return {};
+        }
+    );
+    defineDeviceOptions(*command, arguments->device);
     std::vector<CLI::Option*> shotOptions;
     const std::vector<CLI::Option*> before = command->get_options();
-    game::defineShotOptions(*command, arguments->shot);
+    defineShotOptions(*command, arguments->shot);
     for (CLI::Option* option : command->get_options())
         if (std::find(before.begin(), before.end(), option) == before.end())
             shotOptions.push_back(option->group("Shot (with a SCENE)"));

@@ -107,7 +107,7 @@ class BenchRun {
             {"truthSamples", mOptions.truthSamples},
             {"repeats", mOptions.repeats},
             {"limitSeconds", mOptions.limitSeconds},
-            {"pixel", mShot.pixel == accumulate::PixelModel::Box ? "box" : "centre"},
+            {"pixel", mShot.pixel == extract::PixelModel::Box ? "box" : "centre"},
             {"tonemap",
              mShot.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
                                                             : "sRGB"}};
@@ -200,7 +200,7 @@ class BenchRun {
     gpu::Device& mDevice;
     const Suite& mSuite;
     const std::vector<const game::MethodInfo*>& mMethods;
-    const game::RenderOptions& mShot;
+    const game::ShotOptions& mShot;
     const StopQuestion& mStop;
     std::vector<DialPoint> mSweep;
     std::vector<DialPoint> mScalingPoints;

@@ -4,7 +4,7 @@
 #include "engine/gpu/device.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
-#include "game/options/render_options.h"
+#include "game/shot/shot_options.h"
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace shutter::bench {
 struct RunOptions {
     Suite suite;
     std::vector<const game::MethodInfo*> methods;
-    game::RenderOptions shot; ///< what the suite's cases leave open: size, tone map
+    game::ShotOptions shot; ///< what the suite's cases leave open: size, tone map
     MeasureOptions measure;
 };
 

@@ -4,8 +4,6 @@
 #include "engine/io/content_hash.h"
 #include "engine/io/gltf_content.h"
 
-#include <fmt/ranges.h>
-
 namespace shutter::bench {
 
 namespace {
@@ -19,29 +17,6 @@ core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
     if (core::Status written = shot.writeScene(file); !written)
         return written.error();
     return file;
-}
-
-/// Every option that changes a picture; the order is part of the hash.
-std::string describeShot(const game::RenderArguments& shot) {
-    return fmt::format(
-        "camera {} time {} clips {} loop {} shutter {} fps {} pixel {} seed {} size {} unlit {} "
-        "background {} ambient {} ev {} tonemap {} set {}",
-        shot.camera,
-        shot.time,
-        fmt::join(shot.clips, ","),
-        shot.loop,
-        game::describeShutter(shot),
-        shot.fps,
-        shot.pixel,
-        shot.seed,
-        shot.size,
-        shot.unlit,
-        shot.background,
-        shot.ambient,
-        shot.exposureValue,
-        shot.tonemap,
-        fmt::join(shot.settings, ",")
-    );
 }
 
 } // namespace
@@ -63,7 +38,7 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
         program.value(),
         device.name,
         device.driver,
-        describeShot(shot.shot)
+        game::describe(shot.shot)
     );
     return CaseSetup{scene.value(), io::computeContentHash(facts)};
 }

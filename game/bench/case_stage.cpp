@@ -7,6 +7,7 @@
 #include "engine/io/content_hash.h"
 #include "engine/io/image_file.h"
 #include "game/bench/case_setup.h"
+#include "game/options/render_arguments.h"
 
 #include <fmt/format.h>
 
@@ -49,25 +50,19 @@ CaseStage::CaseStage(
       mJournal(options.folder / "journal" / (shot.name + ".json"), hash) {}
 
 Status CaseStage::load() {
-    auto options = makeOptions(*game::findMethod("sharp").value(), 0);
+    game::ShotArguments arguments = mCase.shot;
+    arguments.scene = mScene.string();
+    auto options = game::interpret(arguments);
     if (!options)
         return options.error();
-    auto loaded = game::loadShot(options.value());
+    mShotOptions = std::move(options).value();
+    auto loaded = game::loadShot(mShotOptions);
     if (!loaded)
         return loaded.error();
     mShot = std::move(loaded.value());
     mRenderer = std::make_unique<render::Renderer>(mDevice, mShot.world.assets);
+    mTonemap.emplace(mDevice, mShotOptions.tonemap);
     return {};
-}
-
-core::Result<game::RenderOptions>
-CaseStage::makeOptions(const game::MethodInfo& method, uint32_t samples) const {
-    game::RenderArguments arguments = mCase.shot;
-    arguments.scene = mScene.string();
-    arguments.method = method.name;
-    arguments.samples = samples;
-    arguments.out = "picture.png"; // a display-encoded picture; nothing is written there
-    return game::interpret(arguments);
 }
 
 Status CaseStage::provideTruth() {
@@ -99,18 +94,21 @@ Status CaseStage::drawTruth(const fs::path& file) {
 
 core::Result<render::FrameResult>
 CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
-    if (!drawn.renderer) {
-        auto options = makeOptions(*drawn.point.method, drawn.point.samples);
-        if (!options)
-            return options.error();
-        drawn.options = std::move(options.value());
-        auto created = game::MethodRenderer::create(mDevice, *mRenderer, mShot, drawn.options);
-        if (!created)
-            return created.error();
-        drawn.renderer = std::move(created.value());
-    }
-    return drawn.renderer->renderPicture(
-        drawn.options.frameTimes.front(), [&] { mProgress.advance(); }, checkpoints
+    const auto method = game::interpret(game::MethodArguments{
+        .method = drawn.point.method->name, .samples = drawn.point.samples});
+    if (!method)
+        return method.error();
+    if (Status fits = game::checkPixel(mShotOptions, *drawn.point.method); !fits)
+        return fits.error();
+    if (!drawn.drawer)
+        drawn.drawer = std::make_unique<game::PictureDrawer>(mDevice, *mRenderer);
+    game::PictureRequest picture =
+        game::makePicture(mShot, mShotOptions, method.value(), mShotOptions.frameTimes.front());
+    picture.frame.wantColor = false;
+    picture.frame.wantDisplay = true;
+    picture.ending = {&*mTonemap};
+    return drawn.drawer->draw(
+        mShot.world, picture, [&] { mProgress.advance(); }, checkpoints
     );
 }
 

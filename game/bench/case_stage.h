@@ -9,21 +9,21 @@
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace shutter::bench {
 
-/// A method at one position of its dial, drawn again and again.
+/// A method at one sample count, drawn again and again.
 struct DrawnPoint {
     DialPoint point;
-    game::RenderOptions options{};                    ///< the renderer keeps a reference
-    std::unique_ptr<game::MethodRenderer> renderer{}; ///< made when it is drawn first
+    std::unique_ptr<game::PictureDrawer> drawer{}; ///< made when it is drawn first
 };
 
 class CaseStage {
@@ -71,8 +71,6 @@ class CaseStage {
     );
     core::Status load();
     core::Status drawTruth(const std::filesystem::path& file);
-    [[nodiscard]] core::Result<game::RenderOptions>
-    makeOptions(const game::MethodInfo& method, uint32_t samples) const;
     [[nodiscard]] core::Result<image::Image> readDefault(std::string_view method) const;
 
     gpu::Device& mDevice;
@@ -83,7 +81,9 @@ class CaseStage {
     std::string mTruthHash;
     std::string mTruthImage; ///< empty until there is one
     Journal mJournal;
+    game::ShotOptions mShotOptions;
     game::Shot mShot;
+    std::optional<tonemap::Tonemap> mTonemap;
     std::unique_ptr<render::Renderer> mRenderer;
     image::Image mTruth;
 };

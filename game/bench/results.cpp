@@ -3,8 +3,8 @@
 
 #include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
+#include "engine/scene/shutter_rows.h"
 #include "game/bench/cost.h"
-#include "game/options/shutter_options.h"
 #include "game/shot/pass_groups.h"
 
 #include <algorithm>
@@ -102,10 +102,12 @@ json describeFit(const std::vector<math::CurvePoint>& curve) {
 }
 
 /// Seconds; the shot's options were checked when it was set up.
-double findExposure(const game::RenderArguments& shot) {
-    const double frameSeconds = 1.0 / shot.fps;
-    const auto shutter = game::interpretShutter(shot, frameSeconds);
-    return shutter ? scene::computeExposureSeconds(shutter.value(), frameSeconds) : 0.0;
+double findExposure(const game::ShotArguments& shot) {
+    const auto options = game::interpret(shot);
+    return options ? scene::computeExposureSeconds(
+                         options.value().shutter, options.value().frameSeconds
+                     )
+                   : 0.0;
 }
 
 bool holdAll(const stability::Measurements& checks) {
@@ -167,7 +169,10 @@ json describeCase(
         {"description", shot.description},
         {"time", shot.shot.time},
         {"exposure", findExposure(shot.shot)},
-        {"phase", shot.shot.phase},
+        {"phase",
+         core::describeValue(
+             core::getRow(scene::listShutterRows(), "phase"), shot.shot.shutter.shutter
+         )},
         {"camera", shot.shot.camera},
         {"measurements", json::array()},
         {"skipped", json::array()},

@@ -6,7 +6,7 @@
 #include "game/cli/commands.h"
 #include "game/cli/compare_input.h"
 #include "game/options/error_output.h"
-#include "game/options/tonemap_options.h"
+#include "game/options/shot_arguments.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,9 +26,8 @@ struct CompareArguments {
     std::string a;
     std::string b;
     std::string out;
-    std::string map; ///< empty: flip where both are display values, else difference
-    std::string tonemap = "neutral";
-    double exposureValue = 0.0;
+    std::string map;       ///< empty: flip where both are display values, else difference
+    ShotArguments display; ///< --tonemap and --ev
     bool linear = false;
     bool json = false;
 };
@@ -141,7 +140,7 @@ std::string describeValues(const CompareArguments& arguments, const Comparison& 
         return "display values as stored";
     std::string text = fmt::format(
         "display values, tone map {}, EV {:g}",
-        nameOf(pictures.tonemap.op),
+        kTonemapWords[static_cast<size_t>(pictures.tonemap.op)],
         pictures.tonemap.exposureValue
     );
     if (!both)
@@ -160,7 +159,7 @@ nlohmann::json describeTonemap(const Comparison& pictures) {
     if (applied.empty())
         return {};
     return {
-        {"operator", nameOf(pictures.tonemap.op)},
+        {"operator", kTonemapWords[static_cast<size_t>(pictures.tonemap.op)]},
         {"ev", pictures.tonemap.exposureValue},
         {"applied_to", applied}};
 }
@@ -236,8 +235,7 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
     CLI::Option* linear = command->add_flag(
         "--linear", arguments->linear, "no tone mapping: values as stored, clamped to [0, 1]"
     );
-    for (CLI::Option* option :
-         defineTonemapOptions(*command, arguments->tonemap, arguments->exposureValue))
+    for (CLI::Option* option : defineTonemapOptions(*command, arguments->display))
         option->excludes(linear);
     command->callback([arguments, &exitStatus] {
         const auto fail = [&](int status, const core::Error& error) {
@@ -246,7 +244,7 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
         };
         if (const core::Status sensible = checkArguments(*arguments); !sensible)
             return fail(kExitUsage, sensible.error());
-        const auto tonemap = interpretTonemap(arguments->tonemap, arguments->exposureValue);
+        const auto tonemap = interpretTonemap(arguments->display);
         if (!tonemap)
             return fail(kExitUsage, tonemap.error());
         if (const core::Status done = runCompare(*arguments, tonemap.value()); !done)

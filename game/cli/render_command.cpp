@@ -2,11 +2,10 @@
 #include "engine/gpu/device.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
-#include "game/options/render_options.h"
+#include "game/options/render_arguments.h"
 #include "game/options/user_folders.h"
 #include "game/output/film.h"
 #include "game/output/sequence.h"
-#include "game/shot/flight.h"
 
 #include <CLI/CLI.hpp>
 
@@ -27,21 +26,18 @@ int runRender(const RenderArguments& arguments) {
     auto options = interpret(arguments);
     if (!options)
         return fail(kExitUsage, options.error());
-    if (core::Status loaded = loadFlythrough(arguments, options.value()); !loaded)
+    if (core::Status loaded = loadFlythrough(arguments.shot, options.value().shot); !loaded)
         return fail(kExitFailed, loaded.error());
     if (core::Status writable = checkOutputs(options.value()); !writable)
         return fail(kExitFailed, writable.error());
     std::optional<io::VideoEncoder> encoder;
-    if (!options.value().film.empty()) {
+    if (!options.value().output.film.empty()) {
         auto found = prepareFilm(options.value());
         if (!found)
             return fail(kExitFailed, found.error());
         encoder = std::move(found).value();
     }
-    gpu::DeviceOptions deviceOptions;
-    deviceOptions.wanted = options.value().device;
-    deviceOptions.validate = options.value().validate;
-    deviceOptions.bestTier = options.value().bestTier;
+    gpu::DeviceOptions deviceOptions = options.value().device;
     deviceOptions.cacheFolder = findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
@@ -59,11 +55,7 @@ void addRenderCommand(CLI::App& app, int& exitStatus) {
     CLI::App* command = app.add_subcommand("render", "render frames without a window");
     auto arguments = std::make_shared<RenderArguments>();
     defineRenderOptions(*command, *arguments);
-    command->callback([command, arguments, &exitStatus] {
-        arguments->isFpsTyped = command->count("--fps") > 0;
-        arguments->pictureOptions = describePictureOptions(*command);
-        exitStatus = runRender(*arguments);
-    });
+    command->callback([arguments, &exitStatus] { exitStatus = runRender(*arguments); });
 }
 
 } // namespace shutter::game

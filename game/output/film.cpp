@@ -24,27 +24,30 @@ fs::path filmFrames(const fs::path& film) {
 
 core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options) {
     std::error_code ignored;
-    if (fs::is_directory(options.film, ignored))
-        return core::makeError("--out: cannot write '{}': it is a folder", options.film.string());
+    if (fs::is_directory(options.output.film, ignored))
+        return core::makeError(
+            "--out: cannot write '{}': it is a folder", options.output.film.string()
+        );
     // Of a picture in its place: the folder is what counts.
-    const fs::path folder = options.film.has_parent_path() ? options.film.parent_path() : ".";
+    const fs::path folder =
+        options.output.film.has_parent_path() ? options.output.film.parent_path() : ".";
     if (core::Status writable = io::checkWritable(folder / "frame.png"); !writable)
         return core::makeError(
             "--out: cannot write '{}': the folder '{}' does not exist or cannot be written",
-            options.film.string(),
+            options.output.film.string(),
             folder.string()
         );
-    auto encoder = io::findVideoEncoder(options.ffmpeg);
+    auto encoder = io::findVideoEncoder(options.output.ffmpeg);
     if (!encoder)
         return core::makeError(
-            "{}: {}", options.ffmpeg.empty() ? "--out" : "--ffmpeg", encoder.error().message
+            "{}: {}", options.output.ffmpeg.empty() ? "--out" : "--ffmpeg", encoder.error().message
         );
     return encoder;
 }
 
 core::Status makeFilmFolder(const RenderOptions& options) {
     std::error_code failure;
-    const fs::path folder = options.out.parent_path();
+    const fs::path folder = options.output.out.parent_path();
     fs::create_directory(folder, failure);
     if (failure || !fs::is_directory(folder, failure))
         return core::makeError(
@@ -55,22 +58,22 @@ core::Status makeFilmFolder(const RenderOptions& options) {
 
 core::Status encodeFilm(const io::VideoEncoder& encoder, const RenderOptions& options) {
     io::VideoFrames frames;
-    frames.folder = options.out.parent_path();
+    frames.folder = options.output.out.parent_path();
     frames.pattern = kPattern;
-    frames.count = uint32_t(options.frameTimes.size());
-    frames.framesPerSecond = options.fps;
-    if (core::Status encoded = io::encodeVideo(encoder, frames, options.film); !encoded)
+    frames.count = uint32_t(options.shot.frameTimes.size());
+    frames.framesPerSecond = options.shot.fps;
+    if (core::Status encoded = io::encodeVideo(encoder, frames, options.output.film); !encoded)
         return core::makeError("--out: {}", encoded.error().message);
     return {};
 }
 
 void removeFilmFrames(const RenderOptions& options, const fs::path& framesJournal) {
-    if (options.keepFrames)
+    if (options.output.keepFrames)
         return;
     std::error_code ignored;
-    const fs::path folder = options.out.parent_path();
-    for (size_t i = 0; i < options.frameTimes.size(); ++i)
-        fs::remove(frameFile(options.out, int(i)), ignored);
+    const fs::path folder = options.output.out.parent_path();
+    for (size_t i = 0; i < options.shot.frameTimes.size(); ++i)
+        fs::remove(frameFile(options.output.out, int(i)), ignored);
     fs::remove(framesJournal, ignored);
     std::vector<fs::path> left;
     for (const auto& entry : fs::directory_iterator(folder, ignored))

@@ -4,7 +4,7 @@
 
 #include "engine/core/result.h"
 #include "engine/io/video.h"
-#include "game/options/render_options.h"
+#include "game/output/render_options.h"
 
 #include <filesystem>
 #include <string>

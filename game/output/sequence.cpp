@@ -11,7 +11,7 @@
 #include "game/output/sequence_journal.h"
 #include "game/output/statistics_file.h"
 #include "game/shot/flight.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -30,13 +29,13 @@ namespace {
 /// \return the files that were written
 core::Result<std::vector<std::filesystem::path>>
 writePicture(const RenderOptions& options, int frameNumber, const render::FrameResult& result) {
-    const std::filesystem::path file = frameFile(options.out, frameNumber);
+    const std::filesystem::path file = frameFile(options.output.out, frameNumber);
     std::vector<std::filesystem::path> files = {file};
-    const image::Image& drawn = options.displayOut ? result.display : result.color;
+    const image::Image& drawn = options.output.displayOut ? result.display : result.color;
     const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
     if (core::Status written = io::writeImage(file, picture); !written)
         return written.error();
-    for (const std::string& aov : options.aovs) {
+    for (const std::string& aov : options.output.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
             const core::Decision* blur =
@@ -73,30 +72,11 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
         );
 }
 
-/// With --repeat, the picture drawn first warms the driver up and is not timed.
-core::Result<render::FrameResult> renderRepeated(
-    MethodRenderer& renderer, const RenderOptions& options, double seconds, core::Progress& progress
-) {
-    const auto onStep = [&] { progress.advance(); };
-    auto result = renderer.renderPicture(seconds, onStep);
-    if (options.repeat <= 1 || !result)
-        return result;
-    std::vector<render::FrameStatistics> frames;
-    for (uint32_t i = 0; i < options.repeat; ++i) {
-        result = renderer.renderPicture(seconds, onStep);
-        if (!result)
-            return result;
-        frames.push_back(result.value().statistics);
-    }
-    result.value().statistics = render::computeMedian(frames);
-    return result;
-}
-
-/// Of everything that a frame's picture depends on, but for its number. A film's frames are named
-/// from the first on, so their names depend on that.
+/// Hashes everything that a frame's picture depends on, except its number. A film's frames are
+/// named from the first on, so their names depend on that.
 core::Result<std::string>
 computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) {
-    auto scene = io::computeSceneHash(options.scene);
+    auto scene = io::computeSceneHash(options.shot.scene);
     if (!scene)
         return scene.error();
     auto program = io::computeFileHash("/proc/self/exe");
@@ -108,28 +88,28 @@ computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) 
         program.value(),
         device.name,
         device.driver,
-        options.flythroughHash,
-        options.flythroughClip,
-        options.fps,
-        options.film.empty() ? 0 : options.firstFrame,
-        options.pictureOptions
+        options.shot.flythroughHash,
+        options.shot.flythroughClip,
+        options.shot.fps,
+        options.output.film.empty() ? 0 : options.shot.firstFrame,
+        options.fingerprint
     ));
 }
 
 /// Number in the file's name: a film's frames count from 0.
 int fileNumber(const RenderOptions& options, size_t frame) {
-    return static_cast<int>(frame) + (options.film.empty() ? options.firstFrame : 0);
+    return static_cast<int>(frame) + (options.output.film.empty() ? options.shot.firstFrame : 0);
 }
 
 /// Key in the journal.
 int frameNumber(const RenderOptions& options, size_t frame) {
-    return static_cast<int>(frame) + options.firstFrame;
+    return static_cast<int>(frame) + options.shot.firstFrame;
 }
 
 /// What drawing alone tells makes frames that need not be drawn needed.
 bool maySkip(const RenderOptions& options) {
-    return !options.restart && options.stats.empty() && !options.explain && !options.dumpGraph &&
-           options.repeat == 1;
+    return !options.output.restart && options.output.stats.empty() && !options.output.explain &&
+           !options.output.dumpGraph && options.output.repeat == 1;
 }
 
 /// A sequence on its way, with its journal; a single picture has none.
@@ -139,47 +119,52 @@ class Sequence {
 
     /// Error: the device cannot draw this. Nothing was written yet.
     core::Status prepare(gpu::Device& device, const Shot& shot) {
-        mDrawing.emplace(device, shot.world.assets);
-        auto created = MethodRenderer::create(device, *mDrawing, shot, mOptions);
-        if (!created)
-            return created.error();
-        mRenderer = std::move(created).value();
+        const ShotOptions& size = mOptions.shot;
+        core::Status able = PictureDrawer::check(device, mOptions.method, size.width, size.height);
+        if (!able)
+            return able;
+        mShot = &shot;
+        mRenderer.emplace(device, shot.world.assets);
+        mTonemap.emplace(device, mOptions.shot.tonemap);
+        mDrawer.emplace(device, *mRenderer);
         return {};
     }
 
     /// Looks for what an earlier run left, and says so.
     core::Status openJournal(const std::string& fingerprint) {
-        auto opened = SequenceJournal::open(journalFile(mOptions.out), fingerprint);
+        auto opened = SequenceJournal::open(journalFile(mOptions.output.out), fingerprint);
         if (!opened)
             return opened.error();
         mJournal = std::move(opened).value();
         if (mJournal->before() == SequenceJournal::Before::OtherPictures)
             fmt::print(
                 "{}: the frames on disk were drawn otherwise; all are drawn anew\n",
-                mOptions.out.string()
+                mOptions.output.out.string()
             );
         if (!maySkip(mOptions))
             return {};
-        for (size_t i = 0; i < mOptions.frameTimes.size(); ++i)
+        for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
             mIsComplete.push_back(mJournal->isComplete(frameNumber(mOptions, i)));
         if (countComplete() > 0)
             fmt::print(
                 "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
-                mOptions.out.string(),
+                mOptions.output.out.string(),
                 countComplete(),
-                mOptions.frameTimes.size()
+                mOptions.shot.frameTimes.size()
             );
         return {};
     }
 
     /// Draws and writes what is not complete.
     core::Status draw() {
-        const uint64_t draws = mOptions.repeat > 1 ? mOptions.repeat + 1 : 1;
-        const size_t count = mOptions.frameTimes.size() - countComplete();
+        const uint64_t draws = mOptions.output.repeat > 1 ? mOptions.output.repeat + 1 : 1;
+        const size_t count = mOptions.shot.frameTimes.size() - countComplete();
         if (count == 0)
             return {};
-        core::Progress progress("rendering", count * mRenderer->stepsPerPicture() * draws);
-        for (size_t i = 0; i < mOptions.frameTimes.size(); ++i)
+        core::Progress progress(
+            "rendering", count * PictureDrawer::countSteps(mOptions.method) * draws
+        );
+        for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
             if (!isComplete(i))
                 if (core::Status drawn = drawFrame(i, progress); !drawn)
                     return drawn;
@@ -191,6 +176,33 @@ class Sequence {
     [[nodiscard]] const std::optional<SequenceJournal>& journal() const { return mJournal; }
 
   private:
+    core::Result<render::FrameResult> drawOnce(double seconds, core::Progress& progress) {
+        PictureRequest request = makePicture(*mShot, mOptions.shot, mOptions.method, seconds);
+        request.frame.intermediates = mOptions.output.aovs;
+        request.frame.wantColor = !mOptions.output.displayOut;
+        request.frame.wantDisplay = mOptions.output.displayOut;
+        request.frame.wantDump = mOptions.output.dumpGraph;
+        request.frame.wantReasons = mOptions.output.explain;
+        request.ending = {&*mTonemap};
+        return mDrawer->draw(mShot->world, request, [&] { progress.advance(); });
+    }
+
+    /// With --repeat, the picture drawn first warms the driver up and is not timed.
+    core::Result<render::FrameResult> drawRepeated(double seconds, core::Progress& progress) {
+        auto result = drawOnce(seconds, progress);
+        if (mOptions.output.repeat <= 1 || !result)
+            return result;
+        std::vector<render::FrameStatistics> frames;
+        for (uint32_t i = 0; i < mOptions.output.repeat; ++i) {
+            result = drawOnce(seconds, progress);
+            if (!result)
+                return result;
+            frames.push_back(result.value().statistics);
+        }
+        result.value().statistics = render::computeMedian(frames);
+        return result;
+    }
+
     [[nodiscard]] bool isComplete(size_t frame) const {
         return frame < mIsComplete.size() && mIsComplete[frame];
     }
@@ -200,28 +212,30 @@ class Sequence {
     }
 
     core::Status drawFrame(size_t frame, core::Progress& progress) {
-        const double seconds = mOptions.frameTimes[frame];
-        auto result = renderRepeated(*mRenderer, mOptions, seconds, progress);
+        const double seconds = mOptions.shot.frameTimes[frame];
+        auto result = drawRepeated(seconds, progress);
         if (!result)
             return result.error();
-        if (frame == 0 && mOptions.dumpGraph)
+        if (frame == 0 && mOptions.output.dumpGraph)
             fmt::print("{}", result.value().dump);
-        if (mOptions.explain)
+        if (mOptions.output.explain)
             printExplanations(seconds, result.value().statistics);
         const auto files = writePicture(mOptions, fileNumber(mOptions, frame), result.value());
         if (!files)
             return files.error();
-        if (!mOptions.stats.empty())
+        if (!mOptions.output.stats.empty())
             mPictures.push_back({seconds, result.value().statistics});
         return mJournal ? mJournal->add(frameNumber(mOptions, frame), files.value())
                         : core::Status();
     }
 
     const RenderOptions& mOptions;
-    std::optional<render::Renderer> mDrawing;
-    std::unique_ptr<MethodRenderer> mRenderer;
+    const Shot* mShot = nullptr;
+    std::optional<render::Renderer> mRenderer;
+    std::optional<tonemap::Tonemap> mTonemap;
+    std::optional<PictureDrawer> mDrawer;
     std::optional<SequenceJournal> mJournal;
-    std::vector<bool> mIsComplete; ///< one a frame; empty: none is
+    std::vector<bool> mIsComplete; ///< one per frame; empty: none is
     std::vector<PictureStatistics> mPictures;
 };
 
@@ -230,12 +244,12 @@ core::Result<SequenceJournal> openFilmJournal(
     const io::VideoEncoder& encoder, const RenderOptions& options, const std::string& fingerprint
 ) {
     return SequenceJournal::open(
-        journalFile(options.film),
+        journalFile(options.output.film),
         io::computeContentHash(fmt::format(
             "{} frames {} {} {} {}",
             fingerprint,
-            options.firstFrame,
-            options.frameTimes.size(),
+            options.shot.firstFrame,
+            options.shot.frameTimes.size(),
             encoder.version,
             encoder.codec
         ))
@@ -252,8 +266,10 @@ core::Status renderFilm(
     if (!journal)
         return journal.error();
     if (maySkip(options) && journal.value().isComplete(0)) {
-        fmt::print("{}: is complete and skipped (--restart draws it)\n", options.film.string());
-        if (options.keepFrames && !std::filesystem::exists(options.out.parent_path()))
+        fmt::print(
+            "{}: is complete and skipped (--restart draws it)\n", options.output.film.string()
+        );
+        if (options.output.keepFrames && !std::filesystem::exists(options.output.out.parent_path()))
             core::logWarning("--keep-frames: its frames are gone; --restart draws them");
         return {};
     }
@@ -266,7 +282,7 @@ core::Status renderFilm(
     if (core::Status encoded = encodeFilm(encoder, options); !encoded)
         return encoded;
     // Known to be complete before its frames go: a run that ends here draws nothing again.
-    if (core::Status added = journal.value().add(0, {options.film}); !added)
+    if (core::Status added = journal.value().add(0, {options.output.film}); !added)
         return added;
     removeFilmFrames(options, sequence.journal()->file());
     return {};
@@ -277,16 +293,16 @@ core::Status renderFilm(
 core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
 ) {
-    auto shot = loadShot(options);
+    auto shot = loadShot(options.shot);
     if (!shot)
         return shot.error();
-    if (core::Status planned = planClipFrames(shot.value().world, options); !planned)
+    if (core::Status planned = planClipFrames(shot.value().world, options.shot); !planned)
         return planned;
     Sequence sequence(options);
     if (core::Status prepared = sequence.prepare(device, shot.value()); !prepared)
         return prepared;
     core::Status drawn;
-    if (options.isSequence) {
+    if (options.shot.isSequence) {
         const auto fingerprint = computeFingerprint(options, device.info());
         if (!fingerprint)
             return fingerprint.error();
@@ -299,9 +315,9 @@ core::Status renderSequence(
     } else {
         drawn = sequence.draw();
     }
-    if (!drawn || options.stats.empty())
+    if (!drawn || options.output.stats.empty())
         return drawn;
-    return writeStatistics(options.stats, options, device.info(), sequence.pictures());
+    return writeStatistics(options.output.stats, options, device.info(), sequence.pictures());
 }
 
 } // namespace shutter::game

@@ -5,7 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/io/video.h"
-#include "game/options/render_options.h"
+#include "game/output/render_options.h"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 #include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/json_file.h"
-#include "game/options/render_options.h"
+#include "game/output/render_options.h"
 
 #include <nlohmann/json.hpp>
 

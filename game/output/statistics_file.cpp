@@ -53,19 +53,19 @@ core::Status writeStatistics(
     const gpu::DeviceInfo& device,
     const std::vector<PictureStatistics>& pictures
 ) {
-    scene::CameraShutter shutter = options.shutter;
-    if (options.flythrough && options.isFlythroughShutter)
-        io::applyShutter(*options.flythrough, options.frameTimes.front(), shutter);
+    scene::CameraShutter shutter = options.shot.shutter;
+    if (options.shot.flythrough && options.shot.isFlythroughShutter)
+        io::applyShutter(*options.shot.flythrough, options.shot.frameTimes.front(), shutter);
     nlohmann::json root = {
-        {"scene", options.scene.string()},
-        {"method", options.method->name},
-        {"samples", options.samples},
-        {"width", options.width},
-        {"height", options.height},
-        {"exposure_s", scene::computeExposureSeconds(shutter, options.frameSeconds)},
+        {"scene", options.shot.scene.string()},
+        {"method", options.method.method->name},
+        {"samples", options.method.samples},
+        {"width", options.shot.width},
+        {"height", options.shot.height},
+        {"exposure_s", scene::computeExposureSeconds(shutter, options.shot.frameSeconds)},
         {"device", device.name},
         {"driver", device.driver},
-        {"repeat", options.repeat},
+        {"repeat", options.output.repeat},
         {"pictures", nlohmann::json::array()}};
     for (const PictureStatistics& picture : pictures)
         root["pictures"].push_back(describePicture(picture));

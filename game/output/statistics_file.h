@@ -4,7 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
 #include "engine/render/renderer.h"
-#include "game/options/render_options.h"
+#include "game/output/render_options.h"
 
 #include <filesystem>
 #include <vector>

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/flight.h"
 
-#include "engine/io/content_hash.h"
 #include "engine/scene/ancestors.h"
 #include "game/shot/shot.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -14,17 +15,10 @@ namespace shutter::game {
 namespace {
 
 using core::makeError;
-using core::Status;
 
 /// The frame times that are nearest to a flight's ends may be off by a rounding.
 constexpr double kFrameSlack = 1.0e-6;
-
-/// Every frame whose time lies in the flight, both ends included; at least one.
-Status planWholeFlight(double from, double to, RenderOptions& options) {
-    const double first = std::ceil(from * options.fps - kFrameSlack);
-    const double last = std::max(std::floor(to * options.fps + kFrameSlack), first);
-    return planFrames("--flythrough", first, last, options);
-}
+constexpr int kMaxFrames = 1000000;
 
 /// Clips that move the camera or one of its parents.
 std::set<uint32_t> listClipsOf(const scene::World& world, ecs::Entity camera) {
@@ -47,32 +41,36 @@ std::optional<uint32_t> findClip(const scene::World& world, const std::string& n
 
 } // namespace
 
-Status loadFlythrough(const RenderArguments& arguments, RenderOptions& options) {
-    if (arguments.flythrough.empty() || !options.flythroughClip.empty())
-        return {};
-    auto read = io::readFlythrough(arguments.flythrough);
-    if (!read)
-        return makeError("--flythrough: {}", read.error().message);
-    auto hash = io::computeFileHash(arguments.flythrough);
-    if (!hash)
-        return makeError("--flythrough: {}", hash.error().message);
-    options.flythroughHash = hash.value();
-    options.flythrough = std::move(read).value();
-    const io::Flythrough& flight = *options.flythrough;
-    if (!arguments.isFpsTyped) {
-        options.fps = flight.fps;
-        options.frameSeconds = 1.0 / options.fps;
-    }
-    if (!arguments.frames.empty()) {
-        const int first = options.firstFrame;
-        return planFrames(
-            "--frames", first, first + double(options.frameTimes.size()) - 1.0, options
+core::Status planFrames(const char* option, double first, double last, ShotOptions& options) {
+    const double fps = options.fps;
+    if (!(last - first < kMaxFrames))
+        return makeError("{}: {} frames are too many", option, last - first + 1.0);
+    // Written so that NaN fails.
+    if (!(std::max(std::abs(first), std::abs(last)) / fps <= kMaxSeconds))
+        return makeError(
+            "{}: frames {}:{} at {} a second lie beyond {} seconds",
+            option,
+            first,
+            last,
+            fps,
+            kMaxSeconds
         );
-    }
-    return planWholeFlight(flight.keys.front().seconds, flight.keys.back().seconds, options);
+    if (!(std::max(std::abs(first), std::abs(last)) < double(std::numeric_limits<int>::max())))
+        return makeError("{}: frames {:.0f}:{:.0f} have no numbers", option, first, last);
+    options.firstFrame = int(first);
+    options.frameTimes.clear();
+    for (double frame = first; frame <= last; ++frame)
+        options.frameTimes.push_back(frame / fps);
+    return {};
 }
 
-core::Result<ecs::Entity> chooseClipCamera(scene::World& world, const RenderOptions& options) {
+core::Status planWholeFlight(double from, double to, ShotOptions& options) {
+    const double first = std::ceil(from * options.fps - kFrameSlack);
+    const double last = std::max(std::floor(to * options.fps + kFrameSlack), first);
+    return planFrames("--flythrough", first, last, options);
+}
+
+core::Result<ecs::Entity> chooseClipCamera(scene::World& world, const ShotOptions& options) {
     const std::string& name = options.flythroughClip;
     const auto clip = findClip(world, name);
     if (!clip) {
@@ -110,7 +108,7 @@ core::Result<ecs::Entity> chooseClipCamera(scene::World& world, const RenderOpti
     return *found;
 }
 
-Status planClipFrames(const scene::World& world, RenderOptions& options) {
+Status planClipFrames(const scene::World& world, ShotOptions& options) {
     if (options.flythroughClip.empty() || !options.frameTimes.empty())
         return {};
     const auto clip = findClip(world, options.flythroughClip);

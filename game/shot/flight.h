@@ -6,21 +6,24 @@
 #include "engine/core/result.h"
 #include "engine/ecs/entity.h"
 #include "engine/scene/world.h"
-#include "game/options/render_options.h"
+#include "game/shot/shot_options.h"
 
 namespace shutter::game {
 
-/// Reads the file that `arguments.flythrough` names and plans its frames, unless --frames did; the
-/// file's frame rate counts unless --fps was typed, and its shutters unless the exposure was.
-/// Nothing where none is asked for, or a clip. Error: names the file and the field.
-[[nodiscard]] core::Status loadFlythrough(const RenderArguments& arguments, RenderOptions& options);
+/// Sets frameTimes and firstFrame: frames `first` to `last`, both included, at `options.fps`.
+/// Error: names `option`; there are too many frames, or they lie beyond the times that count.
+[[nodiscard]] core::Status
+planFrames(const char* option, double first, double last, ShotOptions& options);
+
+/// Plans every frame whose time, in seconds, lies in the flight, both ends included; at least one.
+[[nodiscard]] core::Status planWholeFlight(double from, double to, ShotOptions& options);
 
 /// The camera that the clip `options.flythroughClip` moves: --camera's, or the first. Other clips
 /// that drive this camera or its parents no longer play. Error: there is no such clip or camera.
 [[nodiscard]] core::Result<ecs::Entity>
-chooseClipCamera(scene::World& world, const RenderOptions& options);
+chooseClipCamera(scene::World& world, const ShotOptions& options);
 
 /// Plans the frames of the whole clip, unless --frames did.
-[[nodiscard]] core::Status planClipFrames(const scene::World& world, RenderOptions& options);
+[[nodiscard]] core::Status planClipFrames(const scene::World& world, ShotOptions& options);
 
 } // namespace shutter::game

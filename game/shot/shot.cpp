@@ -20,7 +20,7 @@ std::string nameOf(const scene::World& world, ecs::Entity entity) {
     return name ? name->value : std::string();
 }
 
-core::Status selectClips(scene::World& world, const RenderOptions& options) {
+core::Status selectClips(scene::World& world, const ShotOptions& options) {
     const auto& clips = world.assets.clips;
     world.playback.loop = options.loop;
     if (options.clips.empty()) {
@@ -51,7 +51,7 @@ core::Status selectClips(scene::World& world, const RenderOptions& options) {
     return {};
 }
 
-core::Result<ecs::Entity> chooseCamera(scene::World& world, const RenderOptions& options) {
+core::Result<ecs::Entity> chooseCamera(scene::World& world, const ShotOptions& options) {
     if (options.flythrough)
         return io::addFlythroughCamera(world, *options.flythrough);
     if (!options.flythroughClip.empty())
@@ -78,7 +78,7 @@ void lightUnlitScene(scene::World& world) {
 
 } // namespace
 
-core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& options) {
+core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options) {
     const std::string& wanted = options.camera;
     if (wanted.empty()) {
         if (!world.cameras.empty())
@@ -108,7 +108,7 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const RenderOptions& o
     );
 }
 
-core::Result<Shot> loadShot(const RenderOptions& options) {
+core::Result<Shot> loadShot(const ShotOptions& options) {
     auto loaded = io::loadGltf(options.scene);
     if (!loaded)
         return loaded.error();
@@ -127,7 +127,7 @@ core::Result<Shot> loadShot(const RenderOptions& options) {
     return shot;
 }
 
-extract::ViewRequest makeView(const Shot& shot, const RenderOptions& options, double seconds) {
+extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, double seconds) {
     extract::ViewRequest view;
     view.camera = shot.camera;
     auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);

@@ -5,7 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/scene/world.h"
-#include "game/options/render_options.h"
+#include "game/shot/shot_options.h"
 
 namespace shutter::game {
 
@@ -15,15 +15,14 @@ struct Shot {
 };
 
 /// The camera that --camera names, the first, or one made to fit.
-[[nodiscard]] core::Result<ecs::Entity>
-findCamera(scene::World& world, const RenderOptions& options);
+[[nodiscard]] core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options);
 
 /// Loads the scene (its warnings are logged), picks or makes the camera (a flythrough flies its
 /// own), puts the shutter on it, selects clips, and lights a scene that has no light of its own.
-[[nodiscard]] core::Result<Shot> loadShot(const RenderOptions& options);
+[[nodiscard]] core::Result<Shot> loadShot(const ShotOptions& options);
 
 /// The shot's view of the frame at `seconds`.
 [[nodiscard]] extract::ViewRequest
-makeView(const Shot& shot, const RenderOptions& options, double seconds);
+makeView(const Shot& shot, const ShotOptions& options, double seconds);
 
 } // namespace shutter::game

@@ -14,11 +14,7 @@
 
 namespace shutter::accumulate {
 
-/// Where inside the pixel an instant is seen.
-enum class PixelModel : uint8_t {
-    Centre, ///< at the centre: isolates motion from anti-aliasing
-    Box,    ///< anywhere, evenly: a box filter one pixel wide
-};
+using extract::PixelModel;
 
 /// The i-th of `count` sharp views: time stratified over the exposure's light (the middle of each
 /// stratum; with a box response, of each stretch of time), place in the pixel by a (2, 3)-Halton

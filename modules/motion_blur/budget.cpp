@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,7 @@ constexpr uint32_t kCalmFrames = 4 * kTrialFrames; ///< after a step up: it has 
 } // namespace
 
 core::Status validate(const BlurBudget& budget) {
-    // Written so that NaN fails.
-    if (budget.milliseconds > 0.0)
-        return {};
-    return core::makeError(
-        "motion blur: a budget of {} ms is no time above 0", budget.milliseconds
-    );
+    return core::validateRows(listBudgetRows(), budget, "motion blur: budget.");
 }
 
 std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted) {

@@ -15,7 +15,7 @@ namespace shutter::motion_blur {
 
 /// GPU time that the effect may take of a frame.
 struct BlurBudget {
-    /// Above 0. Infinity: unlimited, nothing is measured and nothing given up.
+    /// Infinity: unlimited; nothing is measured and nothing is given up.
     double milliseconds = std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool isUnlimited() const {
@@ -23,7 +23,7 @@ struct BlurBudget {
     }
 };
 
-/// One sentence where the budget is no time above 0.
+/// One sentence if the budget is out of its range (setting_rows.h).
 [[nodiscard]] core::Status validate(const BlurBudget& budget);
 
 struct BudgetLevel {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/setting_rows.h"
 
+#include <array>
 #include <vector>
 
 namespace shutter::motion_blur {
@@ -196,6 +197,26 @@ core::SettingRows<MotionBlurSettings> listSettingRows() {
             rows.insert(rows.end(), more.begin(), more.end());
         return rows;
     }();
+    return kRows;
+}
+
+core::SettingRows<BlurBudget> listBudgetRows() {
+    static const std::array<core::SettingRow<BlurBudget>, 1> kRows = {{
+        {"milliseconds",
+         &BlurBudget::milliseconds,
+         "ms",
+         {.lowest = 0,
+          .highest = 1e6,
+          .isLowestValid = false,
+          .isUnlimited = true,
+          .isLogarithmic = true,
+          .sliderLowest = 0.1,
+          .sliderHighest = 100},
+         "GPU time per frame that the blur may take. To keep to it, the blur gives up resolution, "
+         "rays and samples, and in the end itself.",
+         "Budget",
+         "--budget"},
+    }};
     return kRows;
 }
 

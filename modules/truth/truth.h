@@ -3,6 +3,7 @@
 // stratified over the exposure; their mean is the picture. Progressive, and it knows its error.
 #pragma once
 
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu_scene/gpu_scene.h"
@@ -16,15 +17,13 @@
 
 namespace shutter::truth {
 
-/// Where inside the pixel a ray goes.
-enum class PixelModel : uint8_t {
-    Centre, ///< through the centre: isolates motion from anti-aliasing
-    Box,    ///< anywhere, evenly: a box filter one pixel wide
-};
+using extract::PixelModel;
 
 struct TruthSettings {
     PixelModel pixel = PixelModel::Centre;
     uint32_t seed = 0; ///< another seed gives other times and places
+
+    bool operator==(const TruthSettings&) const = default;
 };
 
 /// Bias of texture levels that lets `rays` a pixel resolve what they can: 0 for the centre.

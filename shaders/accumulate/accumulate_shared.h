@@ -14,4 +14,8 @@ struct AccumulateParams {
 
 SHUTTER_SHADER_END
 
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::AccumulateParams) == 16);
+#endif
+
 #endif

@@ -22,6 +22,7 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::UiVertex) == 20);
+static_assert(sizeof(shutter::shader::UiParams) == 16);
 #endif
 
 #endif

@@ -29,7 +29,7 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::ResponseKnot) == 16);
-static_assert(sizeof(shutter::shader::ResponseTable) == 16 + 64 * 16);
+static_assert(sizeof(shutter::shader::ResponseTable) == 1040);
 #endif
 
 #endif

@@ -25,4 +25,8 @@ struct DebugViewParams {
 
 SHUTTER_SHADER_END
 
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::DebugViewParams) == 20);
+#endif
+
 #endif

@@ -17,4 +17,8 @@ struct TonemapParams {
 
 SHUTTER_SHADER_END
 
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::TonemapParams) == 16);
+#endif
+
 #endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures on the way of a progressive method, as a benchmark takes them.
-#include "game/output/statistics_file.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_builder.h"
@@ -34,28 +33,27 @@ game::Shot makeShot() {
     return shot;
 }
 
-game::RenderOptions makeOptions(uint32_t rays) {
-    game::RenderOptions options;
-    options.method = game::findMethod("truth").value();
-    options.samples = rays;
+game::PictureRequest makePicture(const game::Shot& shot, uint32_t rays) {
+    game::ShotOptions options;
     options.width = 40;
     options.height = 30;
-    return options;
+    game::MethodOptions method = game::makeMethod(*game::findMethod("truth").value());
+    method.samples = rays;
+    return game::makePicture(shot, options, method, 0.0);
 }
 
 TEST_F(Checkpoints, EachIsThePictureOfThatManyRays) {
     const game::Shot shot = makeShot();
-    render::Renderer drawing(device(), shot.world.assets);
+    render::Renderer renderer(device(), shot.world.assets);
     const auto draw = [&](uint32_t rays, const game::Checkpoints& checkpoints, uint32_t& steps) {
-        const game::RenderOptions options = makeOptions(rays);
-        auto renderer = game::MethodRenderer::create(device(), drawing, shot, options);
-        EXPECT_TRUE(renderer.ok());
+        const game::PictureRequest picture = makePicture(shot, rays);
         steps = 0;
-        auto result = renderer.value()->renderPicture(
-            0.0, [&] { ++steps; }, checkpoints
-        );
+        auto result = game::PictureDrawer(device(), renderer)
+                          .draw(
+                              shot.world, picture, [&] { ++steps; }, checkpoints
+                          );
         EXPECT_TRUE(result.ok());
-        EXPECT_EQ(steps, renderer.value()->stepsPerPicture());
+        EXPECT_EQ(steps, game::PictureDrawer::countSteps(picture.method));
         return std::move(result).value();
     };
     uint32_t steps = 0;
@@ -79,20 +77,18 @@ TEST_F(Checkpoints, EachIsThePictureOfThatManyRays) {
 
 TEST_F(Checkpoints, AnEarlyStopShowsTheMeanOfTheRaysThatWereTraced) {
     const game::Shot shot = makeShot();
-    render::Renderer drawing(device(), shot.world.assets);
-    game::RenderOptions options = makeOptions(64);
-    auto sixteen = makeOptions(16);
-    options.error = 1.0;
+    render::Renderer renderer(device(), shot.world.assets);
+    game::PictureDrawer drawer(device(), renderer);
+    game::PictureRequest picture = makePicture(shot, 64);
+    picture.method.error = 1.0;
     uint32_t steps = 0;
     const auto count = [&] { ++steps; };
     game::Checkpoints checkpoints{{16, 32}, [](uint32_t, const render::FrameResult&) {}};
-    auto early = game::MethodRenderer::create(device(), drawing, shot, options);
-    const auto stopped = early.value()->renderPicture(0.0, count, checkpoints);
+    const auto stopped = drawer.draw(shot.world, picture, count, checkpoints);
     ASSERT_TRUE(stopped.ok());
     EXPECT_EQ(steps, 64u) << "the bar is full";
     EXPECT_EQ(stopped.value().statistics.counters.at("rays a pixel"), 16u);
-    auto plain = game::MethodRenderer::create(device(), drawing, shot, sixteen);
-    const auto expected = plain.value()->renderPicture(0.0, count);
+    const auto expected = drawer.draw(shot.world, makePicture(shot, 16), count);
     EXPECT_TRUE(test::sameBits(stopped.value().color, expected.value().color));
     EXPECT_GT(stopped.value().statistics.measures.at("standard error"), 0.0);
 }

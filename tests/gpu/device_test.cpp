@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which device is taken, what is said when there is none, and what a device without rays refuses.
 #include "engine/gpu/device.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -143,19 +143,16 @@ TEST_F(DeviceWithoutRays, TheHybridMethodIsRefusedAndGatherIsNot) {
     const auto lower = openWithoutRays();
     ASSERT_TRUE(lower);
     EXPECT_FALSE(lower->hasRays());
-    test::SceneBuilder scene = makeScene();
-    const game::Shot shot{std::move(scene.world), scene.camera};
-    render::Renderer renderer(*lower, shot.world.assets);
-    game::RenderOptions options;
-    options.width = 64;
-    options.height = 48;
-    options.method = game::findMethod("hybrid").value();
-    const auto refused = game::MethodRenderer::create(*lower, renderer, shot, options);
+    const auto check = [&](const char* method) {
+        return game::PictureDrawer::check(
+            *lower, game::makeMethod(*game::findMethod(method).value()), 64, 48
+        );
+    };
+    const core::Status refused = check("hybrid");
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().message.find("hybrid"), std::string::npos);
     EXPECT_NE(refused.error().message.find("ray"), std::string::npos);
-    options.method = game::findMethod("gather").value();
-    EXPECT_TRUE(game::MethodRenderer::create(*lower, renderer, shot, options).ok());
+    EXPECT_TRUE(check("gather").ok());
 }
 
 TEST_F(DeviceWithoutRays, GatherIsTheSameWithAndWithoutRays) {

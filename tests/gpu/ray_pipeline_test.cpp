@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray-tracing pipelines: their tables, and that what they reveal is what ray queries reveal.
 #include "engine/gpu/ray_pipeline.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -195,16 +195,9 @@ TEST_F(RayPipelineTier, AnEmptyMaskLaunchesNothing) {
 }
 
 TEST_F(RayPipelineTier, MethodsThatNestQueriesAreRefusedAndHybridIsNot) {
-    test::SceneBuilder scene = makeScene();
-    const game::Shot shot{std::move(scene.world), scene.camera};
-    render::Renderer renderer(lower(), shot.world.assets);
-    game::RenderOptions options;
-    options.width = 64;
-    options.height = 48;
     for (const game::MethodInfo& method : game::listMethods()) {
-        options.method = &method;
-        options.samples = 1;
-        const auto created = game::MethodRenderer::create(lower(), renderer, shot, options);
+        const core::Status created =
+            game::PictureDrawer::check(lower(), game::makeMethod(method), 64, 48);
         EXPECT_EQ(created.ok(), method.rays != game::RayNeed::Query) << method.name;
         if (created.ok())
             continue;

@@ -29,7 +29,8 @@ test::SceneBuilder makeScene() {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
     const scene::AssetIndex waves = scene.addTextured(scene.addWaves(), true);
-    scene.add(test::makeQuad(24, 18, waves), {.position = {0, 0, -12}, .velocity = {0.6, 0.2, 0}});
+    // The wall alone is seen at the left and right: uniform motion, far from all else.
+    scene.add(test::makeQuad(64, 18, waves), {.position = {0, 0, -12}, .velocity = {0.6, 0.2, 0}});
     scene.add(test::makeQuad(2.4, 1.2, waves), {.position = {1, 1, -4}, .velocity = {2.5, 0, 0}});
     scene.add(
         test::makeBox({0.9, 0.7, 0.6}, waves),
@@ -55,7 +56,7 @@ class Drawer {
         render::FrameRequest request;
         request.view.camera = mScene.camera;
         request.view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, 0.0);
-        request.view.width = 128;
+        request.view.width = 320;
         request.view.height = 96;
         render::PostEffect* effects[] = {&mBlur};
         auto drawn = mRenderer.renderFrame(mScene.world, request, effects);

@@ -2,7 +2,8 @@
 // On scenes of many objects: one traversal reveals what stepping from hit to hit reveals.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scenes.h"
-#include "game/shot/method_renderer.h"
+#include "game/options/shot_arguments.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
@@ -64,18 +65,15 @@ class RevealOfScenes : public test::GpuTest, public testing::WithParamInterface<
         const fs::path file =
             fs::temp_directory_path() / fmt::format("reveal_{}_{}.glb", scene.name, ::getpid());
         ASSERT_EQ(scene.build().write(file), "");
-        game::RenderArguments arguments;
+        game::ShotArguments arguments;
         arguments.scene = file.string();
         arguments.camera = scene.camera;
         arguments.time = scene.seconds;
-        arguments.exposureSeconds = scene.exposureSeconds;
-        arguments.phase = scene.phase;
-        arguments.size = "240x136";
-        arguments.out = "unused.exr";
+        arguments.shutter = game::makeShutterArguments(scene.exposureSeconds, scene.phase);
+        arguments.size = {240, 136};
         auto options = game::interpret(arguments);
         ASSERT_TRUE(options.ok()) << options.error().message;
         mOptions = std::move(options).value();
-        mOptions.aovs = {"mask", "mesh_id", "reveal", "reveal_motion", "reveal_id"};
         auto shot = game::loadShot(mOptions);
         std::error_code ignored;
         fs::remove(file, ignored);
@@ -84,17 +82,19 @@ class RevealOfScenes : public test::GpuTest, public testing::WithParamInterface<
     }
 
     render::FrameResult draw(RevealTraversal traversal, uint32_t recursionLimit) {
-        mOptions.motionBlur.revealTraversal = traversal;
-        mOptions.motionBlur.recursionLimit = recursionLimit;
+        game::MethodOptions method = game::makeMethod(*game::findMethod("hybrid").value());
+        method.motionBlur.revealTraversal = traversal;
+        method.motionBlur.recursionLimit = recursionLimit;
         render::Renderer renderer(device(), mShot->world.assets);
-        auto method = game::MethodRenderer::create(device(), renderer, *mShot, mOptions);
-        EXPECT_TRUE(method.ok());
-        auto frame = method.value()->renderPicture(GetParam().seconds, [] {});
+        game::PictureRequest picture =
+            game::makePicture(*mShot, mOptions, method, GetParam().seconds);
+        picture.frame.intermediates = {"mask", "mesh_id", "reveal", "reveal_motion", "reveal_id"};
+        auto frame = game::PictureDrawer(device(), renderer).draw(mShot->world, picture);
         EXPECT_TRUE(frame.ok());
         return std::move(frame).value();
     }
 
-    game::RenderOptions mOptions;
+    game::ShotOptions mOptions;
     std::optional<game::Shot> mShot;
 };
 

@@ -115,13 +115,11 @@ Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) 
 }
 
 render::FrameResult Stage::renderTruth(const Shot& shot, const render::FrameRequest& request) {
-    const auto pixel = shot.pixel == accumulate::PixelModel::Box ? truth::PixelModel::Box
-                                                                 : truth::PixelModel::Centre;
-    truth::Truth rays(mDevice, mRenderer.scene(), {pixel, shot.seed});
+    truth::Truth rays(mDevice, mRenderer.scene(), {shot.pixel, shot.seed});
     tonemap::Tonemap tonemap(mDevice, {});
     const std::vector<render::PostEffect*> effects{&rays, &tonemap};
     render::FrameRequest batch = request;
-    batch.view.lodBias += truth::computeLodBias(pixel, shot.instants);
+    batch.view.lodBias += truth::computeLodBias(shot.pixel, shot.instants);
     const uint32_t longest = shot.batch > 0 ? shot.batch : shot.instants;
     render::FrameResult result;
     for (uint32_t done = 0; done < shot.instants;) {

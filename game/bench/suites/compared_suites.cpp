@@ -14,8 +14,7 @@ Suite makePaperSuite() {
         "A vase crosses in front of a sofa with a cushion: the kind of shot on which "
         "the paper compares methods. Motion 38 by 14 px at 1280x720.";
     vase.shot.camera = "main";
-    vase.shot.phase = "end";
-    vase.shot.exposureSeconds = generator::kExposureSeconds;
+    vase.shot.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
     vase.writeScene = makeWriter(&generator::buildVaseScene);
     Suite suite;
     suite.name = "paper";
@@ -37,10 +36,8 @@ Suite makeHardSuite() {
         shot.description = from.description;
         shot.shot.camera = from.camera;
         shot.shot.time = from.timeSeconds;
-        shot.shot.exposureSeconds = from.exposureSeconds;
-        shot.shot.phase = from.phase;
-        shot.shot.background =
-            fmt::format("{},{},{}", from.background.x, from.background.y, from.background.z);
+        shot.shot.shutter = game::makeShutterArguments(from.exposureSeconds, from.phase);
+        shot.shot.background = from.background;
         shot.writeScene = makeWriter(from.build);
         suite.cases.push_back(std::move(shot));
     }

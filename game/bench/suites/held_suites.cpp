@@ -7,7 +7,7 @@ namespace shutter::bench {
 Suite makeDemandSuite() {
     Suite suite;
     suite.name = "demand";
-    suite.size = "1280x720";
+    suite.size = {1280, 720};
     suite.claims = demand::listClaims();
     return suite;
 }

@@ -16,8 +16,8 @@ Case makeCase(const std::string& name, std::function<generator::GltfWriter()> bu
     shot.title = name;
     shot.shot.camera = generator::kScalingCamera;
     shot.shot.time = generator::kScalingSeconds;
-    shot.shot.exposureSeconds = generator::kScalingExposureSeconds;
-    shot.shot.phase = generator::kScalingPhase;
+    shot.shot.shutter =
+        game::makeShutterArguments(generator::kScalingExposureSeconds, generator::kScalingPhase);
     shot.writeScene = makeWriter(std::move(build));
     return shot;
 }
@@ -40,7 +40,7 @@ ScalingAxis makeResolutionAxis() {
     ScalingAxis axis{"resolution", "Resolution", "pixels", {}};
     for (const Size& size : kSizes) {
         Case shot = makeCase(fmt::format("resolution-{}", size.label), &generator::buildVaseScene);
-        shot.size = fmt::format("{}x{}", size.width, size.height);
+        shot.size = {size.width, size.height};
         axis.points.push_back({double(size.width) * size.height, size.label, std::move(shot)});
     }
     return axis;
@@ -92,7 +92,7 @@ ScalingAxis makeExposureAxis() {
     ScalingAxis axis{"exposure", "Exposure, times 1/60 s", "x", {}};
     for (int times : {1, 2, 4, 8}) {
         Case shot = makeCase(fmt::format("exposure-{}", times), &generator::buildVaseScene);
-        shot.shot.exposureSeconds = times * generator::kScalingExposureSeconds;
+        shot.shot.shutter.shutter.exposureSeconds = times * generator::kScalingExposureSeconds;
         axis.points.push_back({double(times), fmt::format("x{}", times), std::move(shot)});
     }
     return axis;

@@ -74,7 +74,7 @@ core::Result<Suite> findSuite(std::string_view name) {
     return core::makeError("--suite '{}' is not one of {}", name, names);
 }
 
-Suite makeOwnSuite(const game::RenderArguments& shot) {
+Suite makeOwnSuite(const game::ShotArguments& shot) {
     Suite suite;
     suite.name = "own";
     Case own;

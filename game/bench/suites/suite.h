@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "game/options/render_options.h"
+#include "game/options/shot_arguments.h"
 #include "game/shot/methods.h"
 #include "tests/conformance/demand/claim.h"
 #include "tests/conformance/stability/measured.h"
@@ -11,20 +11,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace shutter::bench {
 
-/// One shot, as a person would type it for `shutter render`; method, samples and --out are left to
-/// the benchmark.
+/// One shot, as a person would type it for `shutter render`; the benchmark chooses the methods.
 struct Case {
     std::string name; ///< unique in its suite; part of file names
     std::string title;
     std::string description;
-    game::RenderArguments shot;
-    std::string size; ///< WxH that belongs to the case; empty: the run's
+    game::ShotArguments shot;
+    std::optional<game::PictureSize> size; ///< that belongs to the case; nothing: the run's
     /// Writes the scene to a file; empty where `shot.scene` names one that is there.
     std::function<core::Status(const std::filesystem::path&)> writeScene;
 };
@@ -50,8 +50,8 @@ struct Suite {
     std::vector<ScalingAxis> axes;              ///< timed only
     std::vector<stability::HardCase> hardCases; ///< measured against bounds
     std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
-    const char* size = "640x360";               ///< WxH of its pictures where none is asked for
-    uint32_t repeats = 7;                       ///< timed pictures of each method and dial
+    game::PictureSize size{640, 360};           ///< of its pictures, unless another is asked for
+    uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
     uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays
 };
@@ -60,7 +60,7 @@ struct Suite {
 [[nodiscard]] core::Result<Suite> findSuite(std::string_view name);
 
 /// A user's own shot as a suite of one case, swept like `paper`.
-[[nodiscard]] Suite makeOwnSuite(const game::RenderArguments& shot);
+[[nodiscard]] Suite makeOwnSuite(const game::ShotArguments& shot);
 
 /// A method at one position of its dial.
 struct DialPoint {

@@ -89,11 +89,8 @@ core::Status PlayLoop::openSettings() {
 }
 
 core::Status PlayLoop::openDevice() {
-    const RenderOptions& shot = mOptions.shot;
-    gpu::DeviceOptions wanted;
-    wanted.wanted = shot.device;
-    wanted.validate = shot.validate;
-    wanted.bestTier = shot.bestTier;
+    const ShotOptions& shot = mOptions.shot;
+    gpu::DeviceOptions wanted = mOptions.device;
     wanted.cacheFolder = findCacheFolder();
     mHeadlessSize = {shot.width, shot.height};
     if (mOptions.hasWindow) {
@@ -171,7 +168,7 @@ core::Status PlayLoop::openFilm() {
     if (mOptions.film.empty())
         return {};
     const double fps = mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps;
-    auto film = FilmWriter::open(mOptions.film, mOptions.shot.ffmpeg, fps);
+    auto film = FilmWriter::open(mOptions.film, mOptions.ffmpeg, fps);
     if (!film)
         return film.error();
     mFilm = std::move(film).value();

@@ -3,12 +3,13 @@
 
 #include "engine/io/image_file.h"
 #include "game/demos/demo.h"
+#include "game/options/option_rows.h"
 #include "game/play/loop/asset_folder.h"
-#include "game/shot/flight.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace shutter::game {
 
@@ -18,6 +19,13 @@ using core::makeError;
 
 constexpr const char* kFirstDemo = "rally";
 constexpr uint32_t kMaxFrames = 1'000'000;
+constexpr double kDefaultFps = 30.0;
+
+constexpr std::array kShotRows = {
+    makeRow<&ShotArguments::background>("--background", "of a scene: R,G,B linear"),
+    makeRow<&ShotArguments::ambient>("--ambient", "of a scene: uniform light, R,G,B"),
+    makeRow<&ShotArguments::size>("--size", "WxH of the window; default 960x540"),
+};
 
 bool isDemo(const std::string& name) {
     const auto demos = listDemos();
@@ -59,20 +67,29 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option("--flythrough", a.shot.flythrough, "of a scene: JSON file, or clip:NAME");
     command.add_option("--clip", a.shot.clips, "of a scene (repeatable), or none; default: all");
     command.add_flag("--loop,!--no-loop", a.shot.loop, "of a scene: clips start again (default)");
-    command.add_option("--background", a.shot.background, "of a scene: R,G,B linear");
-    command.add_option("--ambient", a.shot.ambient, "of a scene: uniform light, R,G,B");
+    defineRows(command, OptionRows<ShotArguments>(kShotRows), a.shot);
     command.add_option(
         "--method", a.method, "see `shutter info --methods`; default: the settings'"
     );
-    command.add_option("--size", a.shot.size, "WxH of the window; default 960x540");
-    command.add_option("--vsync", a.vsync, "on or off; default: the settings'");
+    addParsedOption(
+        command,
+        "--vsync",
+        "on or off; default: the settings'",
+        [&a](const std::string& text) -> core::Status {
+            const auto on = parseSwitch(text);
+            if (!on)
+                return on.error();
+            a.vsync = on.value();
+            return {};
+        }
+    );
     command.add_option("--settings", a.settings, "JSON file; default: the player's own");
     command.add_option("--script", a.script, "JSON file of input: plays unattended");
     command.add_option("--film", a.film, "every picture: .png or .jpg with %04d, or an .mp4");
     command.add_option(
         "--fps", a.shot.fps, "of --film and --no-window without a script; default 30"
     );
-    command.add_option("--ffmpeg", a.shot.ffmpeg, "program that makes an .mp4; default: on PATH");
+    command.add_option("--ffmpeg", a.ffmpeg, "program that makes an .mp4; default: on PATH");
     command.add_option("--frames", a.frames, "end after as many frames")
         ->check(CLI::Range(1u, kMaxFrames));
     command.add_option("--stats", a.stats, "frame times, score and more as JSON, at the end");
@@ -80,17 +97,14 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_flag(
         "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
     );
-    defineDeviceOptions(command, a.shot);
+    defineDeviceOptions(command, a.device);
 }
 
 core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     PlayOptions options;
-    RenderArguments shot = arguments.shot;
+    const ShotArguments& shot = arguments.shot;
     if (shot.scene.empty() || isDemo(shot.scene))
         options.demo = shot.scene.empty() ? kFirstDemo : shot.scene;
-    shot.out = "window%d.png"; // pictures for a display, as a window's are; none is written there
-    if (!arguments.method.empty())
-        shot.method = arguments.method;
     auto interpreted = interpret(shot);
     if (!interpreted)
         return interpreted.error();
@@ -102,14 +116,15 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         );
     if (core::Status flies = loadFlythrough(shot, options.shot); !flies)
         return flies.error();
-    options.fps = shot.fps;
-    if (!arguments.method.empty())
+    options.fps = shot.fps.value_or(kDefaultFps);
+    options.device = arguments.device;
+    options.ffmpeg = arguments.ffmpeg;
+    if (!arguments.method.empty()) {
+        if (const auto method = findMethod(arguments.method); !method)
+            return method.error();
         options.method = arguments.method;
-    if (!arguments.vsync.empty()) {
-        if (arguments.vsync != "on" && arguments.vsync != "off")
-            return makeError("--vsync '{}' is not on or off", arguments.vsync);
-        options.vsync = arguments.vsync == "on";
     }
+    options.vsync = arguments.vsync;
     if (core::Status film = interpretFilm(arguments, options); !film)
         return film.error();
     options.script = arguments.script;

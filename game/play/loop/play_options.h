@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "game/options/render_options.h"
+#include "game/options/render_arguments.h"
 
 #include <filesystem>
 #include <optional>
@@ -14,27 +14,30 @@ namespace shutter::game {
 /// As typed.
 struct PlayArguments {
     PlayArguments() {
-        shot.size = "960x540";
+        shot.size = {960, 540};
         shot.loop = true;
-        shot.fps = 30.0;
     }
 
-    RenderArguments shot; ///< scene, camera, flythrough, clips, loop, size, light and device count
-    std::string method;   ///< empty: the settings' own
+    ShotArguments shot; ///< scene, camera, flythrough, clips, loop, fps, size and light count
+    gpu::DeviceOptions device;
+    std::string ffmpeg;
+    std::string method; ///< empty: the settings' own
     std::string script;
     std::string film;
     std::string settings;
     std::string assets;
     std::string stats;
-    std::string vsync;
+    std::optional<bool> vsync;
     bool noWindow = false;
     uint32_t frames = 0;
 };
 
 /// As meant.
 struct PlayOptions {
-    std::string demo;                  ///< of listDemos(); empty: a scene is looked at
-    RenderOptions shot;                ///< scene, camera, clips, loop, size, light and device count
+    std::string demo; ///< of listDemos(); empty: a scene is looked at
+    ShotOptions shot; ///< scene, camera, clips, loop, size and light count
+    gpu::DeviceOptions device;
+    std::filesystem::path ffmpeg;      ///< empty: the one on PATH
     std::optional<std::string> method; ///< wins over the settings' own
     std::filesystem::path script;      ///< empty: a person plays
     std::filesystem::path film;        ///< %04d.png or .mp4; empty: none

@@ -7,15 +7,11 @@
 #include "engine/app/window_output.h"
 #include "engine/render/renderer.h"
 #include "game/play/panel/play_settings.h"
-#include "game/shot/methods.h"
-#include "modules/accumulate/accumulate.h"
+#include "game/shot/picture_drawer.h"
 #include "modules/debug_view/debug_view.h"
-#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/tonemap/tonemap.h"
-#include "modules/truth/truth.h"
 
 #include <deque>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +33,6 @@ struct PlayPicture {
 class PlayRenderer {
   public:
     PlayRenderer(gpu::Device& device, const scene::Assets& assets);
-    ~PlayRenderer();
     PlayRenderer(const PlayRenderer&) = delete;
     PlayRenderer& operator=(const PlayRenderer&) = delete;
 
@@ -60,66 +55,20 @@ class PlayRenderer {
     [[nodiscard]] std::optional<image::Image> takePicture();
 
   private:
-    /// What each side has of its own.
-    struct SideEffects {
-        std::unique_ptr<motion_blur::MotionBlurPlugin> blur; ///< these made when first used
-        std::unique_ptr<accumulate::Accumulate> accumulate;
-        std::unique_ptr<truth::Truth> truth;
-        std::optional<render::FrameStatistics> shown;
-        render::FrameStatistics sum; ///< of the picture that is being drawn
-    };
+    [[nodiscard]] core::Result<PictureRequest>
+    makeRequest(PlaySide side, const render::FrameRequest& frame, const PlaySettings& settings);
+    /// Keeps what the finished pictures leave.
+    void takeFinished();
 
-    /// A submitted frame: what to do with it when it is finished.
-    struct Label {
-        PlaySide side = PlaySide::Right;
-        bool isFirst = true; ///< of its picture
-        bool isLast = true;
-        bool readBack = false;
-    };
-
-    /// Frames of one side's picture, and what ends them.
-    struct SidePicture {
-        PlaySide side = PlaySide::Right;
-        const MethodInfo* method = nullptr;
-        render::FrameRequest request;
-        std::vector<render::PostEffect*> ending; ///< after the method's own effect
-    };
-
-    void finishOldest();
-
-    SideEffects& effectsOf(PlaySide side) { return mSides[static_cast<size_t>(side)]; }
-
-    core::Status submit(
-        const scene::World& world,
-        const render::FrameRequest& request,
-        const std::vector<render::PostEffect*>& effects,
-        const Label& label
-    );
-    core::Status
-    drawSide(const scene::World& world, SidePicture& picture, const PlaySettings& settings);
-    /// One of the frames of a picture whose first effect adds them up; the last one shows it.
-    core::Status submitPart(
-        const scene::World& world,
-        const SidePicture& picture,
-        render::FrameRequest request,
-        size_t index,
-        size_t count
-    );
-    core::Status
-    drawInstants(const scene::World& world, SidePicture& picture, const PlaySettings& settings);
-    core::Status
-    drawRays(const scene::World& world, SidePicture& picture, const PlaySettings& settings);
-
-    gpu::Device& mDevice;
     render::Renderer mRenderer;
     tonemap::Tonemap mTonemap;
     debug_view::DebugView mLeftView;
     debug_view::DebugView mRightView;
     app::KeptPicture mKept;
     app::WindowOutput mWindow;
-    SideEffects mSides[2];
-    std::deque<Label> mLabels; ///< of the renderer's unfinished frames
+    std::optional<render::FrameStatistics> mShown[2]; ///< per PlaySide
     std::deque<image::Image> mPictures;
+    PictureDrawer mDrawer; ///< the last: its unfinished frames use the effects above
 };
 
 } // namespace shutter::game

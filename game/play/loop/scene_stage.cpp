@@ -26,7 +26,7 @@ double findDistance(const scene::World& world, ecs::Entity camera, double second
 
 class SceneStage : public Stage {
   public:
-    SceneStage(const RenderOptions& options, Shot shot)
+    SceneStage(const ShotOptions& options, Shot shot)
         : mTitle(options.scene.filename().string()), mLook{options.background, options.ambient},
           mWorld(std::move(shot.world)), mSceneCameras(mWorld.cameras),
           mViewer(
@@ -124,7 +124,7 @@ class SceneStage : public Stage {
 
 } // namespace
 
-core::Result<std::unique_ptr<Stage>> loadSceneStage(const RenderOptions& options) {
+core::Result<std::unique_ptr<Stage>> loadSceneStage(const ShotOptions& options) {
     auto shot = loadShot(options);
     if (!shot)
         return shot.error();

@@ -7,7 +7,7 @@
 #include "engine/app/step_clock.h"
 #include "engine/core/result.h"
 #include "game/demos/demo.h"
-#include "game/options/render_options.h"
+#include "game/shot/shot_options.h"
 
 #include <memory>
 #include <string>
@@ -57,6 +57,6 @@ class Stage {
 
 /// A scene file to look at: its cameras, one that goes round it, and one that flies.
 /// \param options scene, camera, flythrough, clips, loop, background, ambient and size count
-[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadSceneStage(const RenderOptions& options);
+[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadSceneStage(const ShotOptions& options);
 
 } // namespace shutter::game

@@ -3,7 +3,9 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/shutter.h"
+#include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_rows.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <algorithm>
 
@@ -31,11 +33,9 @@ Status validateNames(const PlaySettings& settings) {
 Status validateRowsOfAll(const PlaySettings& settings) {
     const Status checks[] = {
         validateRows(listPlayRows(), settings, ""),
-        validateRows(listBudgetRows(), settings.budget, "budget."),
+        validateRows(motion_blur::listBudgetRows(), settings.budget, "budget."),
         validateRows(motion_blur::listSettingRows(), settings.blur, "blur."),
-        validateRows(listShutterRows(), settings.shutter, "shutter."),
-        validateRows(listResponseRows(), settings.shutter.response, "shutter.response."),
-        validateRows(listCutRows(), settings.shutter.cuts, "shutter.cuts."),
+        scene::validate(settings.shutter, "shutter."),
     };
     for (const Status& check : checks)
         if (!check)
@@ -71,11 +71,7 @@ makeBlurSettings(const PlaySettings& settings, const MethodInfo& method) {
 core::Status validate(const PlaySettings& settings) {
     if (Status names = validateNames(settings); !names)
         return names;
-    if (Status rows = validateRowsOfAll(settings); !rows)
-        return rows;
-    if (Status valid = scene::validateResponse(settings.shutter.response); !valid)
-        return makeError("shutter.response: {}", valid.error().message);
-    return {};
+    return validateRowsOfAll(settings);
 }
 
 } // namespace shutter::game

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Settings as JSON. settings.schema.json describes the same.
-#include "engine/io/json_file.h"
+#include "engine/io/json_rows.h"
 #include "engine/scene/shutter.h"
+#include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <string_view>
 #include <vector>
@@ -17,53 +19,9 @@ using scene::ShutterResponse;
 
 constexpr int64_t kVersion = 1;
 
-template <class Owner> using Rows = std::span<const core::SettingRow<Owner>>;
-
-template <class Owner>
-void readNumber(io::JsonNode node, const core::SettingRow<Owner>& row, Owner& owner) {
-    const core::NumberRange& range = row.range;
-    if (range.isUnlimited && node.isString()) {
-        (void)node.readWord(std::span(&core::kUnlimited, 1));
-        setNumber(row, owner, std::numeric_limits<double>::infinity());
-        return;
-    }
-    const double number =
-        range.step != 0.0 ? double(node.readInteger(int64_t(range.lowest), int64_t(range.highest)))
-                          : node.readNumber({range.lowest, range.highest});
-    if (!setNumber(row, owner, number))
-        node.fail("must be {}, not {}", describeRange(range, row.unit), number);
-}
-
-template <class Owner>
-void readRow(const io::JsonNode& node, const core::SettingRow<Owner>& row, Owner& owner) {
-    if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
-        owner.** yes = node.readBoolean();
-    else if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field))
-        words->set(owner, node.readWord(words->words));
-    else
-        readNumber(node, row, owner);
-}
-
-/// The object with the rows' fields, which are read, and those named `more`, which are not.
-template <class Owner>
-io::JsonObject readRows(
-    const io::JsonNode& node,
-    Rows<Owner> rows,
-    Owner& owner,
-    std::vector<std::string_view> more = {}
-) {
-    std::vector<std::string_view> names = std::move(more);
-    for (const core::SettingRow<Owner>& row : rows)
-        names.push_back(row.name);
-    const io::JsonObject object = node.readObject(std::span<const std::string_view>(names));
-    for (const core::SettingRow<Owner>& row : rows)
-        if (const auto value = object.find(row.name))
-            readRow(*value, row, owner);
-    return object;
-}
-
 void readResponse(const io::JsonNode& node, ShutterResponse& response) {
-    const io::JsonObject object = readRows(node, listResponseRows(), response, {"samples"});
+    const io::JsonObject object =
+        io::readRows(node, scene::listResponseRows(), response, {"samples"});
     if (const auto samples = object.find("samples")) {
         response.samples.clear();
         for (const io::JsonNode& sample : samples->readArray(0, shader::kMaxResponseKnots))
@@ -74,11 +32,12 @@ void readResponse(const io::JsonNode& node, ShutterResponse& response) {
 }
 
 void readShutter(const io::JsonNode& node, scene::CameraShutter& shutter) {
-    const io::JsonObject object = readRows(node, listShutterRows(), shutter, {"response", "cuts"});
+    const io::JsonObject object =
+        io::readRows(node, scene::listShutterRows(), shutter, {"response", "cuts"});
     if (const auto response = object.find("response"))
         readResponse(*response, shutter.response);
     if (const auto cuts = object.find("cuts"))
-        readRows(*cuts, listCutRows(), shutter.cuts);
+        io::readRows(*cuts, scene::listCutRows(), shutter.cuts);
 }
 
 void readMethod(const io::JsonObject& object, std::string_view field, std::string& method) {
@@ -93,7 +52,7 @@ void readMethod(const io::JsonObject& object, std::string_view field, std::strin
 
 PlaySettings readSettings(const io::JsonNode& root) {
     PlaySettings settings;
-    const io::JsonObject object = readRows(
+    const io::JsonObject object = io::readRows(
         root,
         listPlayRows(),
         settings,
@@ -105,15 +64,16 @@ PlaySettings readSettings(const io::JsonNode& root) {
     if (const auto view = object.find("view"))
         settings.view = view->readString(kMaxViewBytes);
     if (const auto budget = object.find("budget"))
-        readRows(*budget, listBudgetRows(), settings.budget);
+        io::readRows(*budget, motion_blur::listBudgetRows(), settings.budget);
     if (const auto blur = object.find("blur"))
-        readRows(*blur, motion_blur::listSettingRows(), settings.blur);
+        io::readRows(*blur, motion_blur::listSettingRows(), settings.blur);
     if (const auto shutter = object.find("shutter"))
         readShutter(*shutter, settings.shutter);
     return settings;
 }
 
-template <class Owner> void writeRows(io::JsonWriter& json, Rows<Owner> rows, const Owner& owner) {
+template <class Owner>
+void writeRows(io::JsonWriter& json, core::SettingRows<Owner> rows, const Owner& owner) {
     for (const core::SettingRow<Owner>& row : rows) {
         json.key(row.name);
         if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
@@ -136,16 +96,16 @@ io::JsonWriter describe(const PlaySettings& settings) {
     json.key("view").value(settings.view);
     writeRows(json, listPlayRows(), settings);
     json.key("budget").beginObject();
-    writeRows(json, listBudgetRows(), settings.budget);
+    writeRows(json, motion_blur::listBudgetRows(), settings.budget);
     json.endObject().key("blur").beginObject();
     writeRows(json, motion_blur::listSettingRows(), settings.blur);
     json.endObject().key("shutter").beginObject();
-    writeRows(json, listShutterRows(), shutter);
+    writeRows(json, scene::listShutterRows(), shutter);
     json.key("response").beginObject();
-    writeRows(json, listResponseRows(), shutter.response);
+    writeRows(json, scene::listResponseRows(), shutter.response);
     json.key("samples").numbers(shutter.response.samples);
     json.endObject().key("cuts").beginObject();
-    writeRows(json, listCutRows(), shutter.cuts);
+    writeRows(json, scene::listCutRows(), shutter.cuts);
     json.endObject().endObject().endObject();
     return json;
 }

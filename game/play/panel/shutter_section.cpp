@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/shutter.h"
+#include "engine/scene/shutter_rows.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/play_rows.h"
 #include "game/play/panel/setting_widgets.h"
@@ -138,7 +139,7 @@ void drawResponse(ShutterResponse& response) {
     const ShutterResponse before = response;
     static const ShutterResponse kDefaults;
     if (beginRows("response")) {
-        for (const auto& row : listResponseRows()) {
+        for (const auto& row : scene::listResponseRows()) {
             const bool isRead =
                 std::holds_alternative<core::WordField<ShutterResponse>>(row.field) ||
                 response.shape == ResponseShape::Trapezoid;
@@ -180,7 +181,7 @@ void drawShutterSection(const PanelFacts& facts, PlaySettings& settings) {
         ImGui::TextDisabled("Closed: the exposure is 0, the picture sharp.");
     static const scene::CameraShutter kDefaults = makePlayShutter();
     if (beginRows("shutter")) {
-        for (const auto& row : listShutterRows()) {
+        for (const auto& row : scene::listShutterRows()) {
             ImGui::BeginDisabled(!isRead(row.name, settings.shutter.mode));
             drawRow(row, settings.shutter, kDefaults);
             ImGui::EndDisabled();
@@ -191,7 +192,7 @@ void drawShutterSection(const PanelFacts& facts, PlaySettings& settings) {
     drawResponse(settings.shutter.response);
     ImGui::TextUnformatted("Cut detection");
     ImGui::PushID("cuts");
-    drawRows("cuts", listCutRows(), settings.shutter.cuts);
+    drawRows("cuts", scene::listCutRows(), settings.shutter.cuts);
     ImGui::PopID();
 }
 

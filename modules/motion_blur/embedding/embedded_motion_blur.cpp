@@ -124,6 +124,10 @@ core::Status EmbeddedMotionBlur::checkMethod(
             "motion blur: the method {} reads no raster image; it is not for hosts that have one",
             method.name
         );
+    if (method.rays != RayNeed::None && !mHasRays)
+        return makeError(
+            "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
+        );
     if (method.readsSurface)
         for (const auto& [name, image] :
              {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
@@ -131,10 +135,6 @@ core::Status EmbeddedMotionBlur::checkMethod(
                 return given;
     if (method.rays == RayNeed::None)
         return {};
-    if (!mHasRays)
-        return makeError(
-            "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
-        );
     if (inputs.rays.frameConstants == 0)
         return makeError(
             "motion blur: rays.frameConstants is 0, which the method {} needs", method.name

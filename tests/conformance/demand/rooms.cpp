@@ -13,10 +13,9 @@ const std::array<Room, 2>& listRooms() {
 }
 
 core::Result<std::unique_ptr<Stage>> loadRoom(const DemandOptions& options, const Room& room) {
-    game::RenderArguments arguments;
+    game::ShotArguments arguments;
     arguments.camera = "main";
-    arguments.phase = "end";
-    arguments.exposureSeconds = generator::kExposureSeconds;
+    arguments.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
     return loadStage(options, room.name, room.build, std::move(arguments));
 }
 

@@ -150,9 +150,9 @@ core::Result<Findings> measureStill(gpu::Device& device, const DemandOptions& op
         return core::makeError("{} traces no rays", device.info().name);
     Findings findings;
     for (const StillScene& scene : kScenes) {
-        game::RenderArguments arguments;
+        game::ShotArguments arguments;
         arguments.camera = "main";
-        arguments.exposureSeconds = scene.exposureSeconds;
+        arguments.shutter.shutter.exposureSeconds = scene.exposureSeconds;
         auto stage = loadStage(options, scene.name, scene.build, std::move(arguments));
         if (!stage)
             return stage.error();

@@ -2,8 +2,8 @@
 #include "tests/conformance/demand/subject.h"
 
 #include "assets/generator/scaling_scenes.h"
+#include "game/options/method_arguments.h"
 
-#include <array>
 #include <ctime>
 
 namespace shutter::demand {
@@ -16,18 +16,9 @@ double countProcessMilliseconds() {
     return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-core::Result<game::RenderOptions> makeOptions(
-    const Stage& stage,
-    std::string_view method,
-    uint32_t width,
-    uint32_t height,
-    std::vector<std::string> settings = {}
-) {
-    game::RenderArguments arguments = stage.arguments;
-    arguments.method = method;
-    arguments.settings = std::move(settings);
-    arguments.size = fmt::format("{}x{}", width, height);
-    arguments.out = "picture.png"; // a display-encoded picture; nothing is written there
+core::Result<game::ShotOptions> makeShot(const Stage& stage, uint32_t width, uint32_t height) {
+    game::ShotArguments arguments = stage.arguments;
+    arguments.size = {width, height};
     return game::interpret(arguments);
 }
 
@@ -37,7 +28,7 @@ core::Result<std::unique_ptr<Stage>> loadStage(
     const DemandOptions& options,
     const std::string& name,
     const std::function<generator::GltfWriter()>& build,
-    game::RenderArguments arguments
+    game::ShotArguments arguments
 ) {
     const std::filesystem::path file = options.folder / (name + ".glb");
     if (const std::string error = build().write(file); !error.empty())
@@ -45,7 +36,7 @@ core::Result<std::unique_ptr<Stage>> loadStage(
     auto stage = std::make_unique<Stage>();
     stage->arguments = std::move(arguments);
     stage->arguments.scene = file.string();
-    auto loading = makeOptions(*stage, "sharp", options.width, options.height);
+    auto loading = makeShot(*stage, options.width, options.height);
     if (!loading)
         return loading.error();
     auto shot = game::loadShot(loading.value());
@@ -60,11 +51,11 @@ core::Result<std::unique_ptr<Stage>> loadScalingStage(
     const std::string& name,
     const std::function<generator::GltfWriter()>& build
 ) {
-    game::RenderArguments arguments;
+    game::ShotArguments arguments;
     arguments.camera = generator::kScalingCamera;
     arguments.time = generator::kScalingSeconds;
-    arguments.exposureSeconds = generator::kScalingExposureSeconds;
-    arguments.phase = generator::kScalingPhase;
+    arguments.shutter =
+        game::makeShutterArguments(generator::kScalingExposureSeconds, generator::kScalingPhase);
     return loadStage(options, name, build, std::move(arguments));
 }
 
@@ -86,21 +77,27 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
     uint32_t height,
     std::vector<std::string> settings
 ) {
-    auto options = makeOptions(stage, method, width, height, std::move(settings));
+    auto shot = makeShot(stage, width, height);
+    if (!shot)
+        return shot.error();
+    auto options = game::interpret(game::MethodArguments{
+        .method = std::string(method), .settings = std::move(settings)});
     if (!options)
         return options.error();
-    std::unique_ptr<Subject> subject(new Subject(device, stage, std::move(options).value()));
-    auto made =
-        game::MethodRenderer::create(device, subject->mRenderer, stage.shot, subject->mOptions);
-    if (!made)
-        return made.error();
-    subject->mMethod = std::move(made).value();
-    return subject;
+    if (core::Status able = game::PictureDrawer::check(device, options.value(), width, height);
+        !able)
+        return able.error();
+    return std::unique_ptr<Subject>(
+        new Subject(device, stage, std::move(shot).value(), std::move(options).value())
+    );
 }
 
-Subject::Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options)
-    : mStage(stage), mOptions(std::move(options)), mRenderer(device, stage.shot.world.assets),
-      mSeconds(mOptions.frameTimes.front()) {}
+Subject::Subject(
+    gpu::Device& device, const Stage& stage, game::ShotOptions shot, game::MethodOptions method
+)
+    : mStage(stage), mShot(std::move(shot)), mMethod(std::move(method)),
+      mRenderer(device, stage.shot.world.assets), mTonemap(device, mShot.tonemap),
+      mDrawer(device, mRenderer), mSeconds(mShot.frameTimes.front()) {}
 
 core::Result<std::unique_ptr<Subject>> Subject::createWithEffect(
     gpu::Device& device,
@@ -109,28 +106,23 @@ core::Result<std::unique_ptr<Subject>> Subject::createWithEffect(
     uint32_t width,
     uint32_t height
 ) {
-    auto options = makeOptions(stage, "sharp", width, height);
-    if (!options)
-        return options.error();
-    std::unique_ptr<Subject> subject(new Subject(device, stage, std::move(options).value()));
-    subject->mEffect = std::move(effect);
-    subject->mTonemap = std::make_unique<tonemap::Tonemap>(device, subject->mOptions.tonemap);
+    auto subject = create(device, stage, "sharp", width, height);
+    if (subject)
+        subject.value()->mEffect = std::move(effect);
     return subject;
 }
 
-core::Result<render::FrameResult> Subject::drawEffect() {
-    render::FrameRequest request;
-    request.view = game::makeView(mStage.shot, mOptions, mSeconds);
-    request.wantColor = false;
-    request.wantDisplay = true;
-    const std::array<render::PostEffect*, 2> effects{mEffect.get(), mTonemap.get()};
-    return mRenderer.renderFrame(mStage.shot.world, request, effects);
-}
-
 core::Result<render::FrameResult> Subject::draw() {
-    auto drawn = mEffect ? drawEffect() : mMethod->renderPicture(mSeconds, [] {});
+    game::PictureRequest picture = game::makePicture(mStage.shot, mShot, mMethod, mSeconds);
+    picture.frame.wantColor = false;
+    picture.frame.wantDisplay = true;
+    picture.frame.wantDump = mWantsDump;
+    picture.frame.intermediates = mIntermediates;
+    if (mEffect)
+        picture.ending.push_back(mEffect.get());
+    picture.ending.push_back(&mTonemap);
     mSeconds += mStepSeconds;
-    return drawn;
+    return mDrawer.draw(mStage.shot.world, picture);
 }
 
 core::Result<std::vector<Frames>> takeTurns(const Subjects& subjects, uint32_t rounds) {

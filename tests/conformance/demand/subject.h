@@ -5,8 +5,8 @@
 
 #include "assets/generator/gltf_writer.h"
 #include "engine/render/renderer.h"
-#include "game/options/render_options.h"
-#include "game/shot/method_renderer.h"
+#include "game/options/shot_arguments.h"
+#include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 #include "tests/conformance/demand/claim.h"
 #include "tests/conformance/stability/scene_draft.h"
@@ -22,7 +22,7 @@ namespace shutter::demand {
 
 /// A scene and its shot.
 struct Stage {
-    game::RenderArguments arguments; ///< method, size and --out are the subjects'
+    game::ShotArguments arguments; ///< the size is the subjects'
     game::Shot shot;
 };
 
@@ -32,7 +32,7 @@ struct Stage {
     const DemandOptions& options,
     const std::string& name,
     const std::function<generator::GltfWriter()>& build,
-    game::RenderArguments arguments
+    game::ShotArguments arguments
 );
 
 /// The same of a scene of assets/generator/scaling_scenes.h, with its own camera, time and shutter.
@@ -73,27 +73,30 @@ class Subject {
     /// The next picture: tone mapped, read back, with the intermediates asked for.
     [[nodiscard]] core::Result<render::FrameResult> draw();
 
-    [[nodiscard]] const game::MethodInfo& method() const { return *mOptions.method; }
+    [[nodiscard]] const game::MethodInfo& method() const { return *mMethod.method; }
 
     /// Names as `--aov` takes them, of the pictures from now on.
-    void setIntermediates(std::set<std::string> names) { mOptions.aovs = std::move(names); }
+    void setIntermediates(std::set<std::string> names) { mIntermediates = std::move(names); }
 
-    void setDump(bool wanted) { mOptions.dumpGraph = wanted; }
+    void setDump(bool wanted) { mWantsDump = wanted; }
 
     /// By how much a picture's time is later than that of the one before; 0 at first.
     void setStep(double seconds) { mStepSeconds = seconds; }
 
   private:
-    Subject(gpu::Device& device, const Stage& stage, game::RenderOptions options);
-
-    core::Result<render::FrameResult> drawEffect();
+    Subject(
+        gpu::Device& device, const Stage& stage, game::ShotOptions shot, game::MethodOptions method
+    );
 
     const Stage& mStage;
-    game::RenderOptions mOptions; ///< the method's renderer keeps a reference
+    game::ShotOptions mShot;
+    game::MethodOptions mMethod;
+    std::set<std::string> mIntermediates;
+    bool mWantsDump = false;
     render::Renderer mRenderer;
-    std::unique_ptr<game::MethodRenderer> mMethod; ///< or an effect
-    std::unique_ptr<render::PostEffect> mEffect;
-    std::unique_ptr<tonemap::Tonemap> mTonemap; ///< after the effect
+    std::unique_ptr<render::PostEffect> mEffect; ///< in the place of a method's; null: none
+    tonemap::Tonemap mTonemap;
+    game::PictureDrawer mDrawer;
     double mSeconds = 0.0;
     double mStepSeconds = 0.0;
 };

@@ -2,7 +2,7 @@
 #include "tests/conformance/demand/toggle_law.h"
 
 #include "engine/core/check.h"
-#include "game/shot/method_renderer.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/pictures.h"
 #include "tests/conformance/stability/scene_draft.h"
 
@@ -53,7 +53,8 @@ struct Moment {
 };
 
 /// Movers before each other, one with holes, light, a camera that turns.
-void buildScene(stability::SceneDraft& draft) {
+game::Shot buildScene() {
+    stability::SceneDraft draft;
     draft.add(stability::makeSheet(6, 5), draft.addLitWaves(), {.position = {0, 0, -5}});
     draft.add(
         generator::sphere(0.5f, 16, 8),
@@ -68,61 +69,46 @@ void buildScene(stability::SceneDraft& draft) {
     );
     draft.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
     draft.place(draft.shot.camera, {.angularVelocity = {0.02, 0.05, 0}});
+    return std::move(draft.shot);
 }
 
 /// One renderer, and every method's effects as they are needed.
 class Rig {
   public:
-    Rig(gpu::Device& device, const ToggleOptions& options) : mDevice(device), mOptions(options) {
-        buildScene(mDraft);
-        mRenderer.emplace(device, mDraft.shot.world.assets);
+    Rig(gpu::Device& device, const ToggleOptions& options)
+        : mScene(buildScene()), mRenderer(device, mScene.world.assets), mTonemap(device, {}),
+          mDrawer(device, mRenderer) {
+        mShot.width = options.width;
+        mShot.height = options.height;
+        mShot.background = math::vec3(0.1f, 0.2f, 0.3f);
+        mShot.ambient = math::vec3(0.3f);
     }
 
     core::Result<render::FrameResult> draw(const Moment& moment) {
         const Switches& switches = moment.switches;
-        mDraft.shot.world.registry.add(
-            mDraft.shot.camera,
+        mScene.world.registry.add(
+            mScene.camera,
             scene::CameraShutter{
                 switches.exposed ? kExposureSeconds : 0.0, scene::ShutterPhase::Centre}
         );
-        Kept& kept = mKept[switches.method];
-        game::RenderOptions& options = kept.options;
-        options.displayOut = switches.toneMapped;
-        options.aovs.clear();
+        game::PictureRequest picture =
+            game::makePicture(mScene, mShot, game::makeMethod(*switches.method), moment.seconds);
+        picture.frame.wantColor = !switches.toneMapped;
+        picture.frame.wantDisplay = switches.toneMapped;
         if (switches.intermediates) {
-            options.aovs = {"motion", "normal", "mesh_id"};
-            options.aovs.insert(switches.method->aovs.begin(), switches.method->aovs.end());
+            picture.frame.intermediates = game::listIntermediates(*switches.method);
+            picture.frame.intermediates.erase("depth"); // it is in "motion"
         }
-        if (!kept.renderer) {
-            options.method = switches.method;
-            options.samples = switches.method->defaultSamples;
-            options.width = mOptions.width;
-            options.height = mOptions.height;
-            options.background = math::vec3(0.1f, 0.2f, 0.3f);
-            options.ambient = math::vec3(0.3f);
-            if (switches.method->blur)
-                options.motionBlur.method = switches.method->blur;
-            options.motionBlur.sampleCount = std::max(options.samples, 1u);
-            auto made =
-                game::MethodRenderer::create(mDevice, *mRenderer, mDraft.shot, kept.options);
-            if (!made)
-                return made.error();
-            kept.renderer = std::move(made).value();
-        }
-        return kept.renderer->renderPicture(moment.seconds, [] {});
+        picture.ending = {&mTonemap};
+        return mDrawer.draw(mScene.world, picture);
     }
 
   private:
-    struct Kept {
-        game::RenderOptions options; ///< the renderer keeps a reference
-        std::unique_ptr<game::MethodRenderer> renderer;
-    };
-
-    gpu::Device& mDevice;
-    const ToggleOptions& mOptions;
-    stability::SceneDraft mDraft;
-    std::optional<render::Renderer> mRenderer;
-    std::map<const game::MethodInfo*, Kept> mKept;
+    game::Shot mScene;
+    game::ShotOptions mShot;
+    render::Renderer mRenderer;
+    tonemap::Tonemap mTonemap;
+    game::PictureDrawer mDrawer;
 };
 
 /// The truths take many times as long and are no effect that a game would switch.

@@ -23,22 +23,6 @@ bool isTruth(const game::MethodInfo& method) {
            method.family == game::MethodFamily::Truth;
 }
 
-void applyView(game::RenderOptions& options, const View& view, bool intermediates) {
-    const game::MethodInfo& method = *options.method;
-    if (isTruth(method))
-        options.samples = view.samples > 0 ? view.samples : kTruthSamples;
-    options.width = view.width;
-    options.height = view.height;
-    options.background = view.background;
-    options.ambient = view.ambient;
-    options.frameSeconds = view.frameSeconds;
-    options.aovs.clear();
-    if (intermediates) {
-        options.aovs = {"motion", "normal", "mesh_id"};
-        options.aovs.insert(method.aovs.begin(), method.aovs.end());
-    }
-}
-
 /// What the method's filter read: the sharp picture and what rays revealed, or the noisy one.
 Range findInputs(const Image& sharp, const FrameResult& frame) {
     Range range;
@@ -60,33 +44,31 @@ Drawer::Drawer(
     gpu::Device& device, SceneDraft& draft, const motion_blur::MotionBlurSettings& settings
 )
     : mDevice(device), mShot(draft.shot), mSettings(settings),
-      mRenderer(device, draft.shot.world.assets) {}
+      mRenderer(device, draft.shot.world.assets), mDrawer(device, mRenderer) {}
 
 core::Result<FrameResult>
 Drawer::draw(std::string_view name, const View& view, bool intermediates) {
-    const auto method = game::findMethod(name);
-    if (!method)
-        return method.error();
+    const auto found = game::findMethod(name);
+    if (!found)
+        return found.error();
     scene::CameraShutter shutter{view.exposureSeconds, view.phase};
     shutter.mode = view.mode;
     mShot.world.registry.add(mShot.camera, shutter);
-    Kept& kept = mKept[method.value()];
-    kept.options.method = method.value();
-    if (!kept.renderer) {
-        kept.options.samples = method.value()->defaultSamples;
-        kept.options.motionBlur = mSettings;
-        if (method.value()->blur)
-            kept.options.motionBlur.method = method.value()->blur;
-        kept.options.motionBlur.sampleCount = std::max(kept.options.samples, 1u);
+    game::MethodOptions method = game::makeMethod(*found.value(), mSettings);
+    if (isTruth(*found.value()))
+        method.samples = view.samples > 0 ? view.samples : kTruthSamples;
+    game::ShotOptions shot;
+    shot.width = view.width;
+    shot.height = view.height;
+    shot.background = view.background;
+    shot.ambient = view.ambient;
+    shot.frameSeconds = view.frameSeconds;
+    game::PictureRequest picture = game::makePicture(mShot, shot, method, view.seconds);
+    if (intermediates) {
+        picture.frame.intermediates = game::listIntermediates(*found.value());
+        picture.frame.intermediates.erase("depth"); // it is in "motion"
     }
-    applyView(kept.options, view, intermediates);
-    if (!kept.renderer) {
-        auto made = game::MethodRenderer::create(mDevice, mRenderer, mShot, kept.options);
-        if (!made)
-            return made.error();
-        kept.renderer = std::move(made).value();
-    }
-    return kept.renderer->renderPicture(view.seconds, [] {});
+    return mDrawer.draw(mShot.world, picture);
 }
 
 void Census::add(const Image& picture) {

@@ -4,14 +4,11 @@
 
 #include "engine/image/image.h"
 #include "engine/render/renderer.h"
-#include "game/shot/method_renderer.h"
-#include "game/shot/methods.h"
+#include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/measured.h"
 #include "tests/conformance/stability/scene_draft.h"
 
 #include <limits>
-#include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,17 +42,11 @@ class Drawer {
     [[nodiscard]] gpu::Device& device() { return mDevice; }
 
   private:
-    /// A method's pipelines, made when it is drawn first.
-    struct Kept {
-        game::RenderOptions options; ///< the renderer keeps a reference
-        std::unique_ptr<game::MethodRenderer> renderer;
-    };
-
     gpu::Device& mDevice;
     game::Shot& mShot;
     motion_blur::MotionBlurSettings mSettings;
     render::Renderer mRenderer;
-    std::map<const game::MethodInfo*, Kept> mKept;
+    game::PictureDrawer mDrawer;
 };
 
 /// Values and those among them that are NaN or infinite.

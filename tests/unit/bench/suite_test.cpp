@@ -22,8 +22,6 @@ TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
             EXPECT_TRUE(names.insert(shot.name).second) << shot.name;
             EXPECT_EQ(shot.name.find_first_of("/ "), std::string::npos) << shot.name;
             shot.shot.scene = "x.glb";
-            shot.shot.out = "x.png";
-            shot.shot.size = shot.size.empty() ? "640x360" : shot.size;
             const auto options = game::interpret(shot.shot);
             EXPECT_TRUE(options.ok()) << shot.name << ": " << options.error().message;
         }

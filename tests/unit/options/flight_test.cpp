@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
+#include "game/options/render_arguments.h"
 #include "game/shot/flight.h"
 #include "game/shot/shot.h"
+#include "tests/unit/options/command_words.h"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,7 +29,6 @@ class Flight : public testing::Test {
             {"time": 0.6, "position": [0, 0, 2], "lookAt": [0, 0, 0],
              "shutter": {"shutterAngle": 90, "phase": "start"}}]})");
         mArguments.scene = "scene.glb";
-        mArguments.out = "f_%d.png";
         mArguments.flythrough = mFile.string();
     }
 
@@ -34,7 +36,7 @@ class Flight : public testing::Test {
 
     void write(const std::string& text) const { ASSERT_TRUE(io::writeFileText(mFile, text).ok()); }
 
-    [[nodiscard]] RenderOptions load() const {
+    [[nodiscard]] ShotOptions load() const {
         auto options = interpret(mArguments);
         EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
         const core::Status loaded = loadFlythrough(mArguments, options.value());
@@ -43,11 +45,11 @@ class Flight : public testing::Test {
     }
 
     std::filesystem::path mFile;
-    RenderArguments mArguments;
+    ShotArguments mArguments;
 };
 
 TEST_F(Flight, AllFramesWithinItAreDrawnAtTheFilesRate) {
-    const RenderOptions options = load();
+    const ShotOptions options = load();
     EXPECT_EQ(options.frameTimes, (std::vector<double>{3 / 10.0, 4 / 10.0, 5 / 10.0, 6 / 10.0}));
     EXPECT_EQ(options.firstFrame, 3);
     EXPECT_EQ(options.frameSeconds, 0.1);
@@ -57,16 +59,14 @@ TEST_F(Flight, AllFramesWithinItAreDrawnAtTheFilesRate) {
 
 TEST_F(Flight, WhatIsTypedWins) {
     mArguments.fps = 4.0;
-    mArguments.isFpsTyped = true;
     EXPECT_EQ(load().frameTimes, (std::vector<double>{0.25, 0.5}));
     EXPECT_EQ(load().frameSeconds, 0.25);
     mArguments.frames = "7:8";
     EXPECT_EQ(load().frameTimes, (std::vector<double>{1.75, 2.0}));
-    mArguments.isFpsTyped = false;
-    mArguments.fps = 24.0;
+    mArguments.fps.reset();
     EXPECT_EQ(load().frameTimes, (std::vector<double>{0.7, 0.8}));
     EXPECT_TRUE(load().isFlythroughShutter);
-    mArguments.exposureSeconds = 0.5;
+    mArguments.shutter.typed.insert("--exposure");
     EXPECT_FALSE(load().isFlythroughShutter);
 }
 
@@ -88,7 +88,7 @@ TEST_F(Flight, TooLongAFlightIsRefused) {
 }
 
 TEST_F(Flight, EachFrameHasTheShutterOfItsTime) {
-    RenderOptions options = load();
+    ShotOptions options = load();
     Shot shot;
     shot.camera = io::addFlythroughCamera(shot.world, *options.flythrough);
     shot.world.registry.add(shot.camera, options.shutter);
@@ -121,7 +121,7 @@ TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     const ecs::Entity crane = addCamera({1}, ecs::kNullEntity);
     world.cameras.pop_back(); // a parent that is moved, and no camera of the scene's list
     const ecs::Entity rider = addCamera({2}, crane);
-    RenderOptions options;
+    ShotOptions options;
     options.flythroughClip = "pan";
     const auto chosen = chooseClipCamera(world, options);
     ASSERT_TRUE(chosen.ok()) << chosen.error().message;
@@ -138,38 +138,79 @@ TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     EXPECT_NE(missing.error().message.find("clip:tilt"), std::string::npos);
 }
 
-TEST(PictureOptions, TellWhatAPictureDependsOnAndNothingElse) {
-    const auto describe = [](const std::vector<std::string>& more) {
-        CLI::App app;
+TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
+    const auto describe = [](Words words) {
+        words.insert(words.begin(), {"scene.glb", "--out", "f_%d.png"});
         RenderArguments arguments;
-        defineRenderOptions(app, arguments);
-        std::vector<std::string> words = {"scene.glb", "--out", "f.png"};
-        words.insert(words.end(), more.begin(), more.end());
-        std::reverse(words.begin(), words.end()); // as CLI11 takes them
-        app.parse(words);
-        return describePictureOptions(app);
+        const core::Status typed =
+            parseWords(words, [&](CLI::App& command) { defineRenderOptions(command, arguments); });
+        EXPECT_TRUE(typed.ok()) << (typed.ok() ? "" : typed.error().message);
+        const auto options = interpret(arguments);
+        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
+        return options ? options.value().fingerprint : std::string();
     };
     const std::string plain = describe({});
-    EXPECT_EQ(plain, "");
-    for (const std::vector<std::string>& of :
-         {std::vector<std::string>{"--samples", "3"},
-          {"--unlit"},
-          {"--set", "tileSize=8"},
-          {"--size", "8x8"},
-          {"--aov", "motion"},
-          {"--exposure", "1"},
-          {"--loop"},
-          {"--camera", "x"},
-          {"--rays", "none"}})
-        EXPECT_NE(describe(of), plain) << of[0];
-    for (const std::vector<std::string>& of :
-         {std::vector<std::string>{"--frames", "0:3"},
-          {"--stats", "s.json"},
-          {"--explain"},
-          {"--restart"},
-          {"--device", "llvmpipe"},
-          {"--repeat", "3"}})
-        EXPECT_EQ(describe(of), plain) << of[0];
+    const std::map<std::string, Words> matters = {
+        {"--ambient", {"--ambient", "1,1,1"}},
+        {"--aov", {"--aov", "motion"}},
+        {"--background", {"--background", "1,1,1"}},
+        {"--budget", {"--budget", "8"}},
+        {"--camera", {"--camera", "x"}},
+        {"--camera-rotation-blur", {"--camera-rotation-blur", "0.5"}},
+        {"--camera-translation-blur", {"--camera-translation-blur", "0.5"}},
+        {"--clip", {"--clip", "x"}},
+        {"--cut-angle", {"--cut-angle", "7"}},
+        {"--cut-detection", {"--cut-detection", "off"}},
+        {"--cut-distance", {"--cut-distance", "7"}},
+        {"--error", {"--method", "truth", "--error", "0.1"}},
+        {"--ev", {"--ev", "1"}},
+        {"--exposure", {"--exposure", "1"}},
+        {"--fps", {"--fps", "25"}},
+        {"--loop", {"--loop"}},
+        {"--max-blur", {"--max-blur", "4"}},
+        {"--method", {"--method", "gather"}},
+        {"--object-blur", {"--object-blur", "0.5"}},
+        {"--phase", {"--phase", "start"}},
+        {"--pixel", {"--method", "truth", "--pixel", "box"}},
+        {"--rays", {"--rays", "none"}},
+        {"--reference-fps", {"--shutter-mode", "capped", "--reference-fps", "30"}},
+        {"--response", {"--response", "triangle"}},
+        {"--samples", {"--samples", "3"}},
+        {"--seed", {"--seed", "3"}},
+        {"--set", {"--set", "tileSizePx=8"}},
+        {"--shutter-angle", {"--shutter-angle", "90"}},
+        {"--shutter-mode", {"--shutter-mode", "angle"}},
+        {"--size", {"--size", "8x8"}},
+        {"--time", {"--time", "1"}},
+        {"--tonemap", {"--tonemap", "none"}},
+        {"--unlit", {"--unlit"}}};
+    const std::map<std::string, Words> doesNot = {
+        {"--device", {"--device", "llvmpipe"}},
+        {"--dump-graph", {"--dump-graph"}},
+        {"--explain", {"--explain"}},
+        {"--ffmpeg", {}},                             // needs a film
+        {"--flythrough", {"--flythrough", "f.json"}}, // told by content
+        {"--frames", {"--frames", "0:3"}},
+        {"--keep-frames", {}}, // needs a film
+        {"--out", {}},
+        {"--repeat", {"--repeat", "3"}},
+        {"--restart", {"--restart"}},
+        {"--stats", {"--stats", "s.json"}},
+        {"--validate", {"--validate"}}};
+    std::set<std::string> fingerprints = {plain};
+    for (const auto& [option, words] : matters)
+        EXPECT_TRUE(fingerprints.insert(describe(words)).second) << option;
+    for (const auto& [option, words] : doesNot)
+        EXPECT_EQ(describe(words), plain) << option;
+    // A new option must be put in one of the lists.
+    CLI::App app;
+    RenderArguments arguments;
+    defineRenderOptions(app, arguments);
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string name = option->get_name();
+        if (name.starts_with("--") && name != "--help")
+            EXPECT_TRUE(matters.contains(name) || doesNot.contains(name)) << name;
+    }
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "game/options/render_options.h"
+#include "game/options/render_arguments.h"
+#include "tests/unit/options/command_words.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <string>
 #include <unistd.h>
@@ -20,8 +21,6 @@ namespace fs = std::filesystem;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-using Change = std::function<void(RenderArguments&)>;
-
 class RenderOptionsTest : public testing::Test {
   protected:
     RenderOptionsTest()
@@ -31,28 +30,27 @@ class RenderOptionsTest : public testing::Test {
 
     ~RenderOptionsTest() override { fs::remove_all(mFolder); }
 
-    RenderArguments makeArguments(const Change& change) const {
+    core::Result<RenderOptions> parse(Words words) const {
+        words.insert(words.begin(), "scene.glb");
+        const auto isOut = [](const std::string& word) { return word.starts_with("--out"); };
+        if (std::none_of(words.begin(), words.end(), isOut))
+            words.push_back("--out=" + (mFolder / "out.exr").string());
         RenderArguments arguments;
-        arguments.scene = "scene.glb";
-        arguments.out = (mFolder / "out.exr").string();
-        change(arguments);
-        return arguments;
+        const core::Status typed =
+            parseWords(words, [&](CLI::App& command) { defineRenderOptions(command, arguments); });
+        if (!typed)
+            return typed.error();
+        return interpret(arguments);
     }
 
-    RenderOptions accept(const Change& change) const {
-        auto options = interpret(makeArguments(change));
-        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
+    RenderOptions accept(const Words& words) const {
+        auto options = parse(words);
+        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.method.error().message);
         return options.ok() ? options.value() : RenderOptions{};
     }
 
-    /// The sentence names `option`, is one line and ends without a full stop.
-    void refuse(const std::string& option, const Change& change) const {
-        const auto options = interpret(makeArguments(change));
-        ASSERT_FALSE(options.ok()) << option;
-        const std::string& message = options.error().message;
-        EXPECT_NE(message.find(option), std::string::npos) << message;
-        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-        EXPECT_NE(message.back(), '.') << message;
+    void refuse(const std::string& option, const Words& words) const {
+        expectRefused(parse(words), option);
     }
 
     fs::path mFolder;
@@ -61,24 +59,24 @@ class RenderOptionsTest : public testing::Test {
 } // namespace
 
 TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
-    const RenderOptions options = accept([](auto&) {});
-    EXPECT_EQ(options.width, 1280u);
-    EXPECT_EQ(options.height, 720u);
-    EXPECT_EQ(options.frameTimes, std::vector<double>{0.0});
-    EXPECT_FALSE(options.isSequence);
-    EXPECT_DOUBLE_EQ(options.shutter.exposureSeconds, 1.0 / 60.0);
-    EXPECT_EQ(options.shutter.phase, scene::ShutterPhase::End);
-    EXPECT_STREQ(options.method->name, "hybrid");
-    EXPECT_EQ(options.samples, 15u);
-    EXPECT_EQ(options.pixel, accumulate::PixelModel::Centre);
-    EXPECT_EQ(options.background, math::vec3(0.18f));
-    EXPECT_EQ(options.ambient, math::vec3(0.25f));
-    EXPECT_EQ(options.tonemap.op, tonemap::Operator::Neutral);
-    EXPECT_TRUE(options.aovs.empty());
+    const RenderOptions options = accept(Words{});
+    EXPECT_EQ(options.shot.width, 1280u);
+    EXPECT_EQ(options.shot.height, 720u);
+    EXPECT_EQ(options.shot.frameTimes, std::vector<double>{0.0});
+    EXPECT_FALSE(options.shot.isSequence);
+    EXPECT_DOUBLE_EQ(options.shot.shutter.exposureSeconds, 1.0 / 60.0);
+    EXPECT_EQ(options.shot.shutter.phase, scene::ShutterPhase::End);
+    EXPECT_STREQ(options.method.method->name, "hybrid");
+    EXPECT_EQ(options.method.samples, 15u);
+    EXPECT_EQ(options.shot.pixel, accumulate::PixelModel::Centre);
+    EXPECT_EQ(options.shot.background, math::vec3(0.18f));
+    EXPECT_EQ(options.shot.ambient, math::vec3(0.25f));
+    EXPECT_EQ(options.shot.tonemap.op, tonemap::Operator::Neutral);
+    EXPECT_TRUE(options.output.aovs.empty());
 }
 
 TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
-    EXPECT_EQ(accept([](auto& a) { a.size = "1x16384"; }).height, 16384u);
+    EXPECT_EQ(accept(Words{"--size=1x16384"}).shot.height, 16384u);
     for (const char* size :
          {"",
           "0x0",
@@ -95,102 +93,81 @@ TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
           " 64x36",
           "64X36",
           "999999999999x1"})
-        refuse("--size", [&](auto& a) { a.size = size; });
+        refuse("--size", Words{"--size=" + text(size)});
 }
 
 TEST_F(RenderOptionsTest, ATimeIsAFiniteNumberOfSeconds) {
-    EXPECT_EQ(accept([](auto& a) { a.time = -2.5; }).frameTimes, std::vector<double>{-2.5});
+    EXPECT_EQ(accept(Words{"--time=-2.5"}).shot.frameTimes, std::vector<double>{-2.5});
     for (const double time : {kNan, kInfinity, -kInfinity, 1e300})
-        refuse("--time", [&](auto& a) { a.time = time; });
+        refuse("--time", Words{"--time=" + text(time)});
 }
 
 TEST_F(RenderOptionsTest, FramesAreTimesOfTheirNumbers) {
-    const RenderOptions options = accept([&](auto& a) {
-        a.frames = "-1:2";
-        a.fps = 10.0;
-        a.out = (mFolder / "f_%04d.png").string();
-    });
-    EXPECT_EQ(options.frameTimes, (std::vector<double>{-0.1, 0.0, 0.1, 0.2}));
-    EXPECT_EQ(options.firstFrame, -1);
-    EXPECT_TRUE(options.isSequence);
+    const RenderOptions options = accept(Words{
+        "--frames=-1:2", "--fps=10.0", "--out=" + text((mFolder / "f_%04d.png").string())});
+    EXPECT_EQ(options.shot.frameTimes, (std::vector<double>{-0.1, 0.0, 0.1, 0.2}));
+    EXPECT_EQ(options.shot.firstFrame, -1);
+    EXPECT_TRUE(options.shot.isSequence);
 }
 
 TEST_F(RenderOptionsTest, BadFramesAreRefused) {
     for (const char* frames : {"5:1", "1", ":", "1:", "a:b", "0:1000000", "1:2:3", "0.5:2"})
-        refuse("--frames", [&](auto& a) {
-            a.frames = frames;
-            a.out = (mFolder / "f_%04d.png").string();
-        });
+        refuse(
+            "--frames",
+            Words{"--frames=" + text(frames), "--out=" + text((mFolder / "f_%04d.png").string())}
+        );
     for (const double fps : {0.0, -24.0, kNan, kInfinity})
-        refuse("--fps", [&](auto& a) { a.fps = fps; });
+        refuse("--fps", Words{"--fps=" + text(fps)});
     // Times that overflow.
-    refuse("--frames", [&](auto& a) {
-        a.frames = "1:2";
-        a.fps = 1e-310;
-    });
+    refuse("--frames", Words{"--frames=1:2", "--fps=1e-310"});
 }
 
 TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
-    refuse("--out", [](auto& a) { a.frames = "0:1"; });
-    accept([](auto& a) { a.frames = "3:3"; });
-    accept([&](auto& a) {
-        a.frames = "0:1";
-        a.out = (mFolder / "f%d.png").string();
-    });
+    refuse("--out", Words{"--frames=0:1"});
+    accept(Words{"--frames=3:3"});
+    accept(Words{"--frames=0:1", "--out=" + text((mFolder / "f%d.png").string())});
 }
 
 TEST_F(RenderOptionsTest, AShutterAngleIsAShareOfAFrame) {
     const auto exposure = [&](const Change& change) {
         const RenderOptions options = accept(change);
-        return scene::computeExposureSeconds(options.shutter, options.frameSeconds);
+        return scene::computeExposureSeconds(options.shot.shutter, options.shot.frameSeconds);
     };
-    EXPECT_DOUBLE_EQ(exposure([](auto& a) { a.shutterAngle = 180.0; }), 1.0 / 48.0);
-    EXPECT_DOUBLE_EQ(
-        exposure([](auto& a) {
-            a.shutterAngle = 360.0;
-            a.fps = 50.0;
-        }),
-        0.02
-    );
-    EXPECT_EQ(exposure([](auto& a) { a.exposureSeconds = 0.0; }), 0.0);
-    EXPECT_EQ(exposure([](auto& a) { a.exposureSeconds = 0.25; }), 0.25);
+    EXPECT_DOUBLE_EQ(exposure(Words{"--shutter-angle=180.0"}), 1.0 / 48.0);
+    EXPECT_DOUBLE_EQ(exposure(Words{"--shutter-angle=360.0", "--fps=50.0"}), 0.02);
+    EXPECT_EQ(exposure(Words{"--exposure=0.0"}), 0.0);
+    EXPECT_EQ(exposure(Words{"--exposure=0.25"}), 0.25);
 }
 
 TEST_F(RenderOptionsTest, BadExposuresAreRefused) {
     for (const double value : {-0.1, kNan, kInfinity, 1e300}) {
-        refuse("--exposure", [&](auto& a) { a.exposureSeconds = value; });
-        refuse("--shutter-angle", [&](auto& a) { a.shutterAngle = value; });
+        refuse("--exposure", Words{"--exposure=" + text(value)});
+        refuse("--shutter-angle", Words{"--shutter-angle=" + text(value)});
     }
-    refuse("--shutter-angle", [](auto& a) {
-        a.exposureSeconds = 0.1;
-        a.shutterAngle = 180.0;
-    });
+    refuse("--shutter-angle", Words{"--exposure=0.1", "--shutter-angle=180.0"});
 }
 
 TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
     using scene::ShutterPhase;
     const auto phase = [&](const char* name) {
-        return accept([&](auto& a) { a.phase = name; }).shutter.phase;
+        return accept(Words{"--phase=" + text(name)}).shot.shutter.phase;
     };
     EXPECT_EQ(phase("start"), ShutterPhase::Start);
     EXPECT_EQ(phase("centre"), ShutterPhase::Centre);
     EXPECT_EQ(phase("end"), ShutterPhase::End);
     for (const char* name : {"", "center", "END", "middle"})
-        refuse("--phase", [&](auto& a) { a.phase = name; });
+        refuse("--phase", Words{"--phase=" + text(name)});
 }
 
 TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     for (const char* name : {"", "Hybrid", "nosuch"})
-        refuse("--method", [&](auto& a) { a.method = name; });
-    refuse("gather, hybrid, denoised, accumulate, truth", [](auto& a) { a.method = "nosuch"; });
+        refuse("--method", Words{"--method=" + text(name)});
+    refuse("gather, hybrid, denoised, accumulate, truth", Words{"--method=nosuch"});
 }
 
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     const auto samples = [&](const char* method, uint32_t count) {
-        return accept([&](auto& a) {
-            a.method = method;
-            a.samples = count;
-        });
+        return accept(Words{"--method=" + text(method), "--samples=" + text(count)});
     };
     EXPECT_EQ(samples("gather", 0).motionBlur.sampleCount, 15u);
     EXPECT_EQ(samples("gather", 256).motionBlur.sampleCount, 256u);
@@ -199,44 +176,27 @@ TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     EXPECT_EQ(samples("truth", 0).samples, 256u);
     EXPECT_EQ(samples("sharp", 0).samples, 0u);
     for (const char* method : {"gather", "hybrid"})
-        refuse("--samples", [&](auto& a) {
-            a.method = method;
-            a.samples = 257;
-        });
-    refuse("--samples", [](auto& a) {
-        a.method = "accumulate";
-        a.samples = 65537;
-    });
+        refuse("--samples", Words{"--method=" + text(method), "--samples=257"});
+    refuse("--samples", Words{"--method=accumulate", "--samples=65537"});
 }
 
 TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
     EXPECT_EQ(
-        accept([](auto& a) {
-            a.method = "accumulate";
-            a.pixel = "box";
-        }).pixel,
-        accumulate::PixelModel::Box
+        accept(Words{"--method=accumulate", "--pixel=box"}).shot.pixel, accumulate::PixelModel::Box
     );
     EXPECT_EQ(
-        accept([](auto& a) {
-            a.method = "truth";
-            a.pixel = "box";
-        }).pixel,
-        accumulate::PixelModel::Box
+        accept(Words{"--method=truth", "--pixel=box"}).shot.pixel, accumulate::PixelModel::Box
     );
-    refuse("--pixel", [](auto& a) { a.pixel = "box"; });
-    refuse("--pixel", [](auto& a) { a.pixel = "gauss"; });
+    refuse("--pixel", Words{"--pixel=box"});
+    refuse("--pixel", Words{"--pixel=gauss"});
 }
 
 TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
     const auto truth = [](double error) {
-        return [error](auto& a) {
-            a.method = "truth";
-            a.error = error;
-        };
+        return Words{"--method=truth", "--error=" + text(error)};
     };
-    EXPECT_EQ(accept(truth(0.01)).error, 0.01);
-    EXPECT_FALSE(accept([](auto& a) { a.method = "truth"; }).error.has_value());
+    EXPECT_EQ(accept(truth(0.01)).method.error, 0.01);
+    EXPECT_FALSE(accept(Words{"--method=truth"}).method.error.has_value());
     for (const double bad :
          {0.0,
           -1.0,
@@ -244,27 +204,23 @@ TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
           std::numeric_limits<double>::infinity()})
         refuse("--error", truth(bad));
     for (const char* method : {"sharp", "hybrid", "accumulate"})
-        refuse("--error", [&](auto& a) {
-            a.method = method;
-            a.error = 0.01;
-        });
+        refuse("--error", Words{"--method=" + text(method), "--error=0.01"});
 }
 
 TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
-    const motion_blur::MotionBlurSettings settings = accept([](auto& a) {
-                                                         a.settings = {
-                                                             "tileSizePx=20",
-                                                             "neighbourhoodTiles=5",
-                                                             "recursionLimit=9",
-                                                             "softDepthExtent=0.5",
-                                                             "edgeThreshold=0.25",
-                                                             "luminanceThreshold=0.125",
-                                                             "foregroundMagnification=12",
-                                                             "backgroundMagnification=6",
-                                                             "jitter=0",
-                                                             "objectTest=luminance",
-                                                             "revealTraversal=stepping"};
-                                                     }).motionBlur;
+    const motion_blur::MotionBlurSettings settings = accept(Words{
+                                                                "--set=tileSizePx=20",
+                                                                "--set=neighbourhoodTiles=5",
+                                                                "--set=recursionLimit=9",
+                                                                "--set=softDepthExtent=0.5",
+                                                                "--set=edgeThreshold=0.25",
+                                                                "--set=luminanceThreshold=0.125",
+                                                                "--set=foregroundMagnification=12",
+                                                                "--set=backgroundMagnification=6",
+                                                                "--set=jitter=0",
+                                                                "--set=objectTest=luminance",
+                                                                "--set=revealTraversal=stepping"})
+                                                         .method.motionBlur;
     EXPECT_EQ(settings.tileSizePx, 20u);
     EXPECT_EQ(settings.neighbourhoodTiles, 5u);
     EXPECT_EQ(settings.recursionLimit, 9u);
@@ -277,22 +233,18 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
     EXPECT_EQ(settings.objectTest, motion_blur::ObjectTest::Luminance);
     EXPECT_EQ(settings.revealTraversal, motion_blur::RevealTraversal::Stepping);
     EXPECT_EQ(
-        accept([](auto& a) { a.settings = {"revealTraversal=single"}; }).motionBlur.revealTraversal,
+        accept(Words{"--set=revealTraversal=single"}).method.motionBlur.revealTraversal,
         motion_blur::RevealTraversal::Single
     );
     EXPECT_EQ(
-        accept([](auto& a) { a.settings = {"objectTest=mesh_id"}; }).motionBlur.objectTest,
+        accept(Words{"--set=objectTest=mesh_id"}).method.motionBlur.objectTest,
         motion_blur::ObjectTest::MeshId
     );
 }
 
 TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
     const auto with = [&](const char* method, std::vector<std::string> settings) {
-        return accept([&](auto& a) {
-                   a.method = method;
-                   a.settings = std::move(settings);
-               }
-        ).motionBlur;
+        return accept(Words{"--method=" + text(method), SETTINGS}).method.motionBlur;
     };
     const auto guertin = with("guertin2014", {"centreBias=20", "speedThresholdPx=3"});
     EXPECT_EQ(guertin.method, &motion_blur::getMethod("guertin2014"));
@@ -312,21 +264,12 @@ TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
         const bool blurs = method.family == MethodFamily::MotionBlur;
         const char* foreign =
             method.name == std::string("own_velocity") ? "tileSizePx=20" : "occluderTest=none";
-        refuse(method.name, [&](auto& a) {
-            a.method = method.name;
-            a.settings = {foreign};
-        });
+        refuse(method.name, Words{"--method=" + text(method.name), "--set=" + text(foreign)});
         const bool jitters = blurs && method.blur != &motion_blur::getMethod("denoised");
         if (jitters)
-            accept([&](auto& a) {
-                a.method = method.name;
-                a.settings = {"jitter=0.5"};
-            });
+            accept(Words{"--method=" + text(method.name), "--set=jitter=0.5"});
         else
-            refuse("--set 'jitter'", [&](auto& a) {
-                a.method = method.name;
-                a.settings = {"jitter=0.5"};
-            });
+            refuse("--set 'jitter'", Words{"--method=" + text(method.name), "--set=jitter=0.5"});
     }
 }
 
@@ -349,16 +292,12 @@ TEST_F(RenderOptionsTest, BadSettingsAreRefused) {
           "neighbourhoodTiles=4",
           "objectTest=nosuch",
           "revealTraversal=nosuch"})
-        refuse("--set", [&](auto& a) { a.settings = {setting}; });
+        refuse("--set", Words{"--set=" + text(setting)});
 }
 
 TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     const auto aovs = [&](const char* method, const char* names) {
-        return accept([&](auto& a) {
-                   a.method = method;
-                   a.aov = names;
-               }
-        ).aovs;
+        return accept(Words{"--method=" + text(method), "--aov=" + text(names)}).output.aovs;
     };
     EXPECT_EQ(aovs("sharp", "depth,motion"), (std::set<std::string>{"depth", "motion"}));
     EXPECT_EQ(aovs("sharp", "all").size(), 4u);
@@ -367,64 +306,59 @@ TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     EXPECT_EQ(aovs("own_velocity", "all").size(), 4u);
     EXPECT_EQ(aovs("guertin2014", "variance,tiles").size(), 2u);
     for (const char* names : {"nosuch", "motion,", ",", "motion,nosuch", "Motion", "motion depth"})
-        refuse("--aov", [&](auto& a) { a.aov = names; });
-    refuse("--aov", [](auto& a) {
-        a.method = "gather";
-        a.aov = "mask";
-    });
+        refuse("--aov", Words{"--aov=" + text(names)});
+    refuse("--aov", Words{"--method=gather", "--aov=mask"});
 }
 
 TEST_F(RenderOptionsTest, TheExtensionDecidesWhetherAPictureIsForDisplays) {
     const auto isDisplay = [&](const char* name) {
-        return accept([&](auto& a) { a.out = (mFolder / name).string(); }).displayOut;
+        return accept(Words{"--out=" + text((mFolder / name).string())}).output.displayOut;
     };
     EXPECT_FALSE(isDisplay("a.exr"));
     EXPECT_TRUE(isDisplay("a.png"));
     EXPECT_TRUE(isDisplay("a.JPG"));
     for (const char* name : {"a.bmp", "a", "png"})
-        refuse("--out", [&](auto& a) { a.out = (mFolder / name).string(); });
+        refuse("--out", Words{"--out=" + text((mFolder / name).string())});
 }
 
 TEST_F(RenderOptionsTest, OutputsNeedAFolderThatIsThere) {
     fs::create_directory(mFolder / "folder.png");
     for (const char* name : {"a.png/b.png", "nosuch/a.png", "folder.png"}) {
         const core::Status checked =
-            checkOutputs(accept([&](auto& a) { a.out = (mFolder / name).string(); }));
+            checkOutputs(accept(Words{"--out=" + text((mFolder / name).string())}));
         ASSERT_FALSE(checked.ok()) << name;
         EXPECT_NE(checked.error().message.find("--out"), std::string::npos);
     }
     for (const auto& stats : {mFolder / "nosuch" / "s.json", mFolder}) {
-        const core::Status checked =
-            checkOutputs(accept([&](auto& a) { a.stats = stats.string(); }));
+        const core::Status checked = checkOutputs(accept(Words{"--stats=" + text(stats.string())}));
         ASSERT_FALSE(checked.ok()) << stats;
         EXPECT_NE(checked.error().message.find("--stats"), std::string::npos);
     }
-    EXPECT_TRUE(checkOutputs(accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); })));
+    EXPECT_TRUE(checkOutputs(accept(Words{"--stats=" + text((mFolder / "s.json").string())})));
 }
 
 TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
-    accept([&](auto& a) { a.stats = (mFolder / "s.json").string(); });
+    accept(Words{"--stats=" + text((mFolder / "s.json").string())});
     EXPECT_TRUE(fs::is_empty(mFolder));
 }
 
 TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
-    EXPECT_EQ(accept([](auto& a) { a.tonemap = "none"; }).tonemap.op, tonemap::Operator::None);
-    EXPECT_EQ(accept([](auto& a) { a.unlit = true; }).tonemap.op, tonemap::Operator::None);
-    EXPECT_EQ(accept([](auto& a) { a.exposureValue = -32.0; }).tonemap.exposureValue, -32.0);
-    refuse("--tonemap", [](auto& a) { a.tonemap = "aces"; });
+    EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept(Words{"--unlit"}).shot.tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept(Words{"--ev=-32.0"}).shot.tonemap.exposureValue, -32.0);
+    refuse("--tonemap", Words{"--tonemap=aces"});
     for (const double value : {32.5, -33.0, kNan, kInfinity})
-        refuse("--ev", [&](auto& a) { a.exposureValue = value; });
+        refuse("--ev", Words{"--ev=" + text(value)});
 }
 
 TEST_F(RenderOptionsTest, ColoursAreThreeNumbersThatAPictureCanHold) {
     EXPECT_EQ(
-        accept([](auto& a) { a.background = "0,0.5,65000"; }).background,
-        math::vec3(0.0f, 0.5f, 65000.0f)
+        accept(Words{"--background=0,0.5,65000"}).shot.background, math::vec3(0.0f, 0.5f, 65000.0f)
     );
     for (const char* color :
          {"", "1", "1,2", "1,2,3,4", "1,,3", "a,b,c", "-1,0,0", "nan,0,0", "1e30,0,0", "1,2,3 "}) {
-        refuse("--background", [&](auto& a) { a.background = color; });
-        refuse("--ambient", [&](auto& a) { a.ambient = color; });
+        refuse("--background", Words{"--background=" + text(color)});
+        refuse("--ambient", Words{"--ambient=" + text(color)});
     }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/shutter.h"
+#include "engine/scene/shutter_rows.h"
 #include "game/options/shutter_options.h"
+#include "tests/unit/options/command_words.h"
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <limits>
 #include <set>
 #include <string>
@@ -18,36 +18,34 @@ namespace {
 using scene::CameraShutter;
 using scene::ResponseShape;
 using scene::ShutterMode;
-using Change = std::function<void(ShutterArguments&)>;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFrame = 1.0 / 25.0;
 
-CameraShutter accept(const Change& change) {
+core::Result<CameraShutter> parse(const Words& words) {
     ShutterArguments arguments;
-    change(arguments);
-    const auto shutter = interpretShutter(arguments, kFrame);
+    const core::Status typed =
+        parseWords(words, [&](CLI::App& command) { defineShutterOptions(command, arguments); });
+    if (!typed)
+        return typed.error();
+    return interpretShutter(arguments);
+}
+
+CameraShutter accept(const Words& words) {
+    const auto shutter = parse(words);
     EXPECT_TRUE(shutter.ok()) << (shutter.ok() ? "" : shutter.error().message);
     return shutter.ok() ? shutter.value() : CameraShutter{};
 }
 
-/// The sentence names `option`, is one line and ends without a full stop.
-void refuse(const std::string& option, const Change& change) {
-    ShutterArguments arguments;
-    change(arguments);
-    const auto shutter = interpretShutter(arguments, kFrame);
-    ASSERT_FALSE(shutter.ok()) << option;
-    const std::string& message = shutter.error().message;
-    EXPECT_NE(message.find(option), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_NE(message.back(), '.') << message;
+void refuse(const std::string& option, const Words& words) {
+    expectRefused(parse(words), option);
 }
 
 } // namespace
 
 TEST(ShutterOptions, TheDefaultIsASixtiethOfASecondAndChangesNothingElse) {
-    const CameraShutter shutter = accept([](auto&) {});
+    const CameraShutter shutter = accept(Words{});
     const CameraShutter plain;
     EXPECT_EQ(shutter.mode, ShutterMode::Physical);
     EXPECT_EQ(shutter.exposureSeconds, 1.0 / 60.0);
@@ -61,42 +59,30 @@ TEST(ShutterOptions, TheDefaultIsASixtiethOfASecondAndChangesNothingElse) {
 }
 
 TEST(ShutterOptions, TheModeFollowsWhatIsGivenOrSaysItself) {
-    EXPECT_EQ(accept([](auto& a) { a.shutterAngle = 90.0; }).mode, ShutterMode::Angle);
-    EXPECT_EQ(accept([](auto& a) { a.exposureSeconds = 0.1; }).mode, ShutterMode::Physical);
-    const CameraShutter capped = accept([](auto& a) {
-        a.shutterMode = "capped";
-        a.referenceFps = 50.0;
-        a.shutterAngle = 90.0;
-    });
+    EXPECT_EQ(accept(Words{"--shutter-angle=90.0"}).mode, ShutterMode::Angle);
+    EXPECT_EQ(accept(Words{"--exposure=0.1"}).mode, ShutterMode::Physical);
+    const CameraShutter capped =
+        accept(Words{"--shutter-mode=capped", "--reference-fps=50.0", "--shutter-angle=90.0"});
     EXPECT_EQ(capped.mode, ShutterMode::Capped);
     EXPECT_DOUBLE_EQ(scene::computeExposureSeconds(capped, kFrame), 1.0 / 200.0);
-    const CameraShutter angle = accept([](auto& a) { a.shutterMode = "angle"; });
+    const CameraShutter angle = accept(Words{"--shutter-mode=angle"});
     EXPECT_DOUBLE_EQ(scene::computeExposureSeconds(angle, kFrame), 1.0 / 50.0);
 }
 
 TEST(ShutterOptions, ModesThatDoNotFitAreRefused) {
     for (const char* mode : {"Physical", "box", "angle ", "180"})
-        refuse("--shutter-mode", [&](auto& a) { a.shutterMode = mode; });
-    refuse("--shutter-mode", [](auto& a) {
-        a.shutterMode = "physical";
-        a.shutterAngle = 180.0;
-    });
+        refuse("--shutter-mode", Words{"--shutter-mode=" + text(mode)});
+    refuse("--shutter-mode", Words{"--shutter-mode=physical", "--shutter-angle=180.0"});
     for (const char* mode : {"angle", "capped"})
-        refuse("--shutter-mode", [&](auto& a) {
-            a.shutterMode = mode;
-            a.exposureSeconds = 0.1;
-        });
-    refuse("--reference-fps", [](auto& a) { a.referenceFps = 24.0; });
+        refuse("--shutter-mode", Words{"--shutter-mode=" + text(mode), "--exposure=0.1"});
+    refuse("--reference-fps", Words{"--reference-fps=24.0"});
     for (const double bad : {0.0, -1.0, kNan, kInfinity})
-        refuse("--reference-fps", [&](auto& a) {
-            a.shutterMode = "capped";
-            a.referenceFps = bad;
-        });
+        refuse("--reference-fps", Words{"--shutter-mode=capped", "--reference-fps=" + text(bad)});
 }
 
 TEST(ShutterOptions, ResponsesHaveTheirNamesAndNumbers) {
     const auto response = [](const char* text) {
-        return accept([&](auto& a) { a.response = text; }).response;
+        return accept(Words{"--response=" + text(text)}).response;
     };
     EXPECT_EQ(response("box").shape, ResponseShape::Box);
     EXPECT_EQ(response("triangle").shape, ResponseShape::Triangle);
@@ -131,50 +117,38 @@ TEST(ShutterOptions, BadResponsesAreRefused) {
           "samples:1,inf",
           "samples:1,,1",
           "samples:1,1,"})
-        refuse("--response", [&](auto& a) { a.response = text; });
+        refuse("--response", Words{"--response=" + text(text)});
     std::string many = "samples:1";
     for (int i = 0; i < 64; ++i)
         many += ",1";
-    refuse("--response", [&](auto& a) { a.response = many; });
+    refuse("--response", Words{"--response=" + text(many)});
 }
 
 TEST(ShutterOptions, CutDetectionHasItsThresholds) {
-    const CameraShutter shutter = accept([](auto& a) {
-        a.cutAngle = 30.0;
-        a.cutDistance = 2.0;
-    });
+    const CameraShutter shutter = accept(Words{"--cut-angle=30.0", "--cut-distance=2.0"});
     EXPECT_EQ(shutter.cuts.degrees, 30.0);
     EXPECT_EQ(shutter.cuts.metres, 2.0);
-    EXPECT_FALSE(accept([](auto& a) { a.cutDetection = "off"; }).cuts.enabled);
+    EXPECT_FALSE(accept(Words{"--cut-detection=off"}).cuts.enabled);
     for (const char* word : {"", "yes", "ON"})
-        refuse("--cut-detection", [&](auto& a) { a.cutDetection = word; });
+        refuse("--cut-detection", Words{"--cut-detection=" + text(word)});
     for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
-        refuse("--cut-angle", [&](auto& a) { a.cutAngle = bad; });
-        refuse("--cut-distance", [&](auto& a) { a.cutDistance = bad; });
+        refuse("--cut-angle", Words{"--cut-angle=" + text(bad)});
+        refuse("--cut-distance", Words{"--cut-distance=" + text(bad)});
     }
-    refuse("--cut-angle", [](auto& a) {
-        a.cutDetection = "off";
-        a.cutAngle = 5.0;
-    });
-    refuse("--cut-distance", [](auto& a) {
-        a.cutDetection = "off";
-        a.cutDistance = 5.0;
-    });
+    refuse("--cut-angle", Words{"--cut-detection=off", "--cut-angle=5.0"});
+    refuse("--cut-distance", Words{"--cut-detection=off", "--cut-distance=5.0"});
 }
 
 TEST(ShutterOptions, BlurScalesLieBetweenNothingAndDouble) {
-    const CameraShutter shutter = accept([](auto& a) {
-        a.cameraRotationBlur = 0.0;
-        a.cameraTranslationBlur = 2.0;
-        a.objectBlur = 0.5;
-    });
+    const CameraShutter shutter = accept(Words{
+        "--camera-rotation-blur=0.0", "--camera-translation-blur=2.0", "--object-blur=0.5"});
     EXPECT_EQ(shutter.cameraRotationScale, 0.0);
     EXPECT_EQ(shutter.cameraTranslationScale, 2.0);
     EXPECT_EQ(shutter.objectScale, 0.5);
     for (const double bad : {-0.1, 2.1, kNan, kInfinity}) {
-        refuse("--camera-rotation-blur", [&](auto& a) { a.cameraRotationBlur = bad; });
-        refuse("--camera-translation-blur", [&](auto& a) { a.cameraTranslationBlur = bad; });
-        refuse("--object-blur", [&](auto& a) { a.objectBlur = bad; });
+        refuse("--camera-rotation-blur", Words{"--camera-rotation-blur=" + text(bad)});
+        refuse("--camera-translation-blur", Words{"--camera-translation-blur=" + text(bad)});
+        refuse("--object-blur", Words{"--object-blur=" + text(bad)});
     }
 }
 
@@ -197,15 +171,8 @@ TEST(ShutterOptions, EachOptionIsReadAndTellsPicturesApart) {
         {"--camera-translation-blur", "0.5"},
         {"--object-blur", "0.5"}};
     std::set<std::string> descriptions;
-    for (const auto& line : lines) {
-        CLI::App app;
-        ShutterArguments arguments;
-        defineShutterOptions(app, arguments);
-        app.parse(std::vector<std::string>(line.rbegin(), line.rend())
-        ); // it takes them from behind
-        EXPECT_TRUE(interpretShutter(arguments, kFrame).ok());
-        descriptions.insert(describeShutter(arguments));
-    }
+    for (const auto& line : lines)
+        descriptions.insert(scene::describe(accept(line)));
     EXPECT_EQ(descriptions.size(), lines.size());
 }
 

@@ -15,7 +15,7 @@ TEST(StatisticsFile, AFileThatCannotBeFinishedLeavesTheOldOneAndNothingElse) {
     const test::TempFolder folder;
     const std::filesystem::path path = folder.path() / "stats.json";
     RenderOptions options;
-    options.method = findMethod("sharp").value();
+    options.method.method = findMethod("sharp").value();
     ASSERT_TRUE(writeStatistics(path, options, {}, {{0.0, {}}}).ok());
     const auto size = std::filesystem::file_size(path);
     // No file may grow beyond 100 bytes.

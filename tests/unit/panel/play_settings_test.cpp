@@ -53,9 +53,9 @@ template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
     each(game::listPlayRows(), settings, "");
     each(game::listBudgetRows(), settings.budget, "budget.");
     each(motion_blur::listSettingRows(), settings.blur, "blur.");
-    each(game::listShutterRows(), settings.shutter, "shutter.");
-    each(game::listResponseRows(), settings.shutter.response, "shutter.response.");
-    each(game::listCutRows(), settings.shutter.cuts, "shutter.cuts.");
+    each(scene::listShutterRows(), settings.shutter, "shutter.");
+    each(scene::listResponseRows(), settings.shutter.response, "shutter.response.");
+    each(scene::listCutRows(), settings.shutter.cuts, "shutter.cuts.");
 }
 
 /// Past the range, as any kind of number.

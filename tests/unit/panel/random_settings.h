@@ -24,14 +24,14 @@ class RandomSettings {
         fill(game::listPlayRows(), settings);
         fill(game::listBudgetRows(), settings.budget);
         fill(motion_blur::listSettingRows(), settings.blur);
-        fill(game::listShutterRows(), settings.shutter);
+        fill(scene::listShutterRows(), settings.shutter);
         scene::ShutterResponse& response = settings.shutter.response;
-        fill(game::listResponseRows(), response);
+        fill(scene::listResponseRows(), response);
         response.closeShare = std::min(response.closeShare, 1.0 - response.openShare);
         for (size_t count = 2 + index(63); count > 0; --count)
             response.samples.push_back(share());
         response.samples.back() = 0.5;
-        fill(game::listCutRows(), settings.shutter.cuts);
+        fill(scene::listCutRows(), settings.shutter.cuts);
         return settings;
     }
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "game/options/method_arguments.h"
+
+#include "engine/core/setting_row.h"
+#include "game/options/option_rows.h"
+#include "modules/motion_blur/setting_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace shutter::game {
+
+namespace {
+
+using core::makeError;
+using core::Status;
+
+constexpr uint32_t kMaxSamples = 65536;
+
+using A = MethodArguments;
+
+constexpr std::array kRows = {
+    makeRow<&A::method>("--method", "see `shutter info --methods`; default hybrid"),
+    makeRow<&A::samples>(
+        "--samples", "taps (filters), instants (accumulate) or rays per pixel (truth, denoised)"
+    ),
+    makeRow<&A::error>("--error", "truth: stop at this standard error (linear RMS)"),
+    makeRow<&A::settings>("--set", "NAME=VALUE of the method's settings (repeatable)"),
+};
+
+Status interpretSamples(const MethodArguments& arguments, MethodOptions& options) {
+    if (arguments.samples > kMaxSamples)
+        return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
+    options.samples = arguments.samples > 0 ? arguments.samples : options.method->defaultSamples;
+    if (!options.method->blur)
+        return {};
+    options.motionBlur.method = options.method->blur;
+    options.motionBlur.sampleCount = options.samples;
+    if (Status valid = motion_blur::validate(options.motionBlur); !valid)
+        return makeError("--samples: {}", valid.error().message);
+    return {};
+}
+
+Status interpretError(const MethodArguments& arguments, MethodOptions& options) {
+    if (arguments.error && options.method->family != MethodFamily::Truth)
+        return makeError("--error needs a method that estimates its error: truth");
+    // Written so that NaN fails.
+    if (arguments.error && !(*arguments.error > 0.0 && std::isfinite(*arguments.error)))
+        return makeError("--error {} must be above 0", *arguments.error);
+    options.error = arguments.error;
+    return {};
+}
+
+} // namespace
+
+void defineMethodOptions(CLI::App& command, MethodArguments& arguments) {
+    defineRows(command, OptionRows<A>(kRows), arguments);
+    defineSettingOptions(command, motion_blur::listBudgetRows(), arguments.budget, arguments.typed);
+}
+
+core::Result<MethodOptions> interpret(const MethodArguments& arguments) {
+    auto method = findMethod(arguments.method);
+    if (!method)
+        return method.error();
+    MethodOptions options;
+    options.method = method.value();
+    for (const auto step : {interpretSamples, interpretError})
+        if (Status done = step(arguments, options); !done)
+            return done.error();
+    for (const std::string& setting : arguments.settings)
+        if (Status applied = applySetting(setting, *options.method, options.motionBlur); !applied)
+            return applied.error();
+    if (arguments.typed.contains("--budget") && !options.method->blur)
+        return makeError("--budget: method {} has nothing to give up", options.method->name);
+    options.budget = arguments.budget;
+    if (Status valid = motion_blur::validate(options.budget); !valid)
+        return makeError("--budget: {}", valid.error().message);
+    return options;
+}
+
+Status applySetting(
+    const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
+) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos)
+        return makeError("--set '{}' is not NAME=VALUE", text);
+    const std::string name = text.substr(0, equals);
+    const std::string value = text.substr(equals + 1);
+    if (!method.blur)
+        return makeError("--set '{}': method {} has no settings", name, method.name);
+    const std::vector<std::string_view>& known = method.blur->settings;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        return makeError(
+            "--set '{}': method {} has no such setting, it has {}",
+            name,
+            method.name,
+            fmt::join(known, ", ")
+        );
+    const auto& row = core::getRow(motion_blur::listSettingRows(), name);
+    if (Status parsed = core::parseValue(row, value, settings); !parsed)
+        return makeError("--set {}: {}", name, parsed.error().message);
+    return {};
+}
+
+std::string describe(const MethodArguments& arguments) {
+    return describeRows(OptionRows<A>(kRows), arguments) +
+           core::describeValues(motion_blur::listBudgetRows(), arguments.budget);
+}
+
+} // namespace shutter::game

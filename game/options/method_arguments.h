@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Options of a method as typed.
+#pragma once
+
+#include "engine/core/result.h"
+#include "game/shot/shot_options.h"
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace shutter::game {
+
+struct MethodArguments {
+    std::string method = "hybrid";
+    uint32_t samples = 0; ///< 0: the method's own number
+    std::optional<double> error;
+    std::vector<std::string> settings; ///< NAME=VALUE
+    motion_blur::BlurBudget budget{};
+    std::set<std::string> typed; ///< "--budget" if it was given
+};
+
+void defineMethodOptions(CLI::App& command, MethodArguments& arguments);
+
+/// Error: names the option that was used wrongly.
+[[nodiscard]] core::Result<MethodOptions> interpret(const MethodArguments& arguments);
+
+/// Sets one setting from NAME=VALUE. Names are MotionBlurSettings' fields
+/// (motion_blur/setting_rows.h), and only those that the method reads. Error: names what was typed
+/// wrongly, or the range that the value is not in.
+[[nodiscard]] core::Status applySetting(
+    const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings
+);
+
+/// All values that pictures depend on, in one line.
+[[nodiscard]] std::string describe(const MethodArguments& arguments);
+
+} // namespace shutter::game

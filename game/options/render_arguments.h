@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// `shutter render`'s options as a person types them, and what they mean.
+#pragma once
+
+#include "engine/core/result.h"
+#include "game/options/method_arguments.h"
+#include "game/options/shot_arguments.h"
+#include "game/output/render_options.h"
+
+#include <cstdint>
+#include <string>
+
+namespace shutter::game {
+
+struct OutputArguments {
+    std::string out;
+    std::string ffmpeg;
+    bool keepFrames = false;
+    bool restart = false;
+    std::string aov; ///< names, comma-separated, or "all"
+    std::string stats;
+    bool dumpGraph = false;
+    bool explain = false;
+    uint32_t repeat = 1;
+};
+
+struct RenderArguments {
+    ShotArguments shot;
+    MethodArguments method;
+    OutputArguments output;
+    gpu::DeviceOptions device;
+};
+
+void defineDeviceOptions(CLI::App& command, gpu::DeviceOptions& options);
+/// All of `shutter render`.
+void defineRenderOptions(CLI::App& command, RenderArguments& arguments);
+
+/// Checks everything that needs no file; loadFlythrough() goes on. Error: names the option that was
+/// used wrongly.
+[[nodiscard]] core::Result<RenderOptions> interpret(const RenderArguments& arguments);
+
+/// Error: --pixel box with a method that takes one sample per pixel.
+[[nodiscard]] core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method);
+
+} // namespace shutter::game

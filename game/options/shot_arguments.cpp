@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "game/options/shot_arguments.h"
+
+#include "engine/io/content_hash.h"
+#include "engine/scene/shutter_rows.h"
+#include "game/shot/flight.h"
+
+#include <array>
+#include <cmath>
+#include <regex>
+
+namespace shutter::game {
+
+namespace {
+
+using core::makeError;
+using core::Status;
+
+constexpr std::string_view kPixelWords[] = {"centre", "box"};
+
+using A = ShotArguments;
+using Row = OptionRow<A>;
+
+constexpr std::array kViewRows = {
+    makeRow<&A::camera>("--camera", "name or index; default: the first, or one made to fit"),
+    makeRow<&A::time>("--time", "seconds; default 0"),
+    makeRow<&A::fps>("--fps", "frames per second; default 24, or the flythrough's"),
+    makeRow<&A::clips>("--clip", "clip to play (repeatable), or none; default: all"),
+    makeRow<&A::loop>("--loop", "clips start again at their ends; default: hold"),
+};
+
+constexpr std::array kLookRows = {
+    makeWordRow<&A::pixel, kPixelWords>("--pixel", "centre (default) or box"),
+    makeRow<&A::seed>("--seed", "seeds the times (truth) and the places of --pixel box"),
+    makeRow<&A::unlit>("--unlit", "base colour only"),
+    makeRow<&A::background>("--background", "R,G,B linear; default 0.18,0.18,0.18"),
+    makeRow<&A::ambient>("--ambient", "uniform light, R,G,B; default 0.25,0.25,0.25"),
+};
+
+constexpr std::array kTonemapRows = {
+    makeRow<&A::exposureValue>("--ev", "stops of exposure before tone mapping; default 0"),
+    makeWordRow<&A::tonemap, kTonemapWords>("--tonemap", "neutral (default) or none"),
+};
+
+constexpr std::array kFrameRows = {
+    makeRow<&A::size>("--size", "WxH; default 1280x720"),
+    makeRow<&A::frames>(
+        "--frames", "A:B; a frame's time is its number divided by --fps", Matters::ToNoPicture
+    ),
+    makeRow<&A::flythrough>(
+        "--flythrough",
+        "FILE.json of camera keys, or clip:NAME of the scene's; all of its frames by default",
+        Matters::ToNoPicture
+    ),
+};
+
+Status parseTimes(const ShotArguments& arguments, ShotOptions& options) {
+    // Written so that NaN fails.
+    if (!(std::abs(arguments.time) <= kMaxSeconds))
+        return makeError(
+            "--time {} must lie in [-{}, {}]", arguments.time, kMaxSeconds, kMaxSeconds
+        );
+    options.fps = arguments.fps.value_or(options.fps);
+    if (!(options.fps > 0.0) || !std::isfinite(options.fps))
+        return makeError("--fps {} must be above 0", options.fps);
+    options.frameSeconds = 1.0 / options.fps;
+    if (arguments.frames.empty() && !arguments.flythrough.empty()) {
+        options.isSequence = true; // planned when it is read
+        return {};
+    }
+    if (arguments.frames.empty()) {
+        options.frameTimes = {arguments.time};
+        return {};
+    }
+    static const std::regex kPattern("(-?[0-9]{1,7}):(-?[0-9]{1,7})");
+    std::smatch match;
+    if (!std::regex_match(arguments.frames, match, kPattern))
+        return makeError("--frames '{}' is not A:B, e.g. 0:23", arguments.frames);
+    const int first = std::stoi(match[1]);
+    const int last = std::stoi(match[2]);
+    if (last < first)
+        return makeError("--frames {}: the last comes before the first", match.str());
+    options.isSequence = true;
+    return planFrames("--frames", first, last, options);
+}
+
+Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
+    constexpr std::string_view kClip = "clip:";
+    if (arguments.flythrough.starts_with(kClip)) {
+        options.flythroughClip = arguments.flythrough.substr(kClip.size());
+        return {};
+    }
+    if (!arguments.flythrough.empty() && !arguments.camera.empty())
+        return makeError("--camera and --flythrough FILE exclude each other: the file is the camera"
+        );
+    const ShutterArguments& shutter = arguments.shutter;
+    options.isFlythroughShutter = !shutter.isTyped("--exposure") &&
+                                  !shutter.isTyped("--shutter-angle") &&
+                                  !shutter.isTyped("--shutter-mode");
+    return {};
+}
+
+} // namespace
+
+void defineShotOptions(CLI::App& command, ShotArguments& arguments) {
+    defineRows(command, OptionRows<A>(kViewRows), arguments);
+    defineShutterOptions(command, arguments.shutter);
+    defineRows(command, OptionRows<A>(kLookRows), arguments);
+    defineTonemapOptions(command, arguments);
+}
+
+std::vector<CLI::Option*> defineTonemapOptions(CLI::App& command, ShotArguments& arguments) {
+    std::vector<CLI::Option*> options;
+    for (const Row& row : kTonemapRows)
+        options.push_back(row.define(command, row, arguments));
+    return options;
+}
+
+void defineFrameOptions(CLI::App& command, ShotArguments& arguments) {
+    defineRows(command, OptionRows<A>(kFrameRows), arguments);
+    for (const char* option : {"--frames", "--flythrough"})
+        command.get_option(option)->excludes(command.get_option("--time"));
+}
+
+core::Result<tonemap::TonemapSettings> interpretTonemap(const ShotArguments& arguments) {
+    if (!(std::abs(arguments.exposureValue) <= 32.0)) // NaN too
+        return makeError("--ev must lie in [-32, 32]");
+    return tonemap::TonemapSettings{
+        .op = arguments.tonemap, .exposureValue = arguments.exposureValue};
+}
+
+core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
+    ShotOptions options;
+    options.scene = arguments.scene;
+    options.camera = arguments.camera;
+    options.clips = arguments.clips;
+    options.loop = arguments.loop;
+    options.pixel = arguments.pixel;
+    options.seed = arguments.seed;
+    options.unlit = arguments.unlit;
+    options.width = arguments.size.width;
+    options.height = arguments.size.height;
+    options.background = arguments.background;
+    options.ambient = arguments.ambient;
+    for (const auto step : {parseTimes, parseFlythrough})
+        if (Status parsed = step(arguments, options); !parsed)
+            return parsed.error();
+    auto shutter = interpretShutter(arguments.shutter);
+    if (!shutter)
+        return shutter.error();
+    options.shutter = std::move(shutter).value();
+    auto tonemap = interpretTonemap(arguments);
+    if (!tonemap)
+        return tonemap.error();
+    options.tonemap = tonemap.value();
+    // Unlit pictures show the materials' own colours.
+    if (arguments.unlit)
+        options.tonemap.op = tonemap::Operator::None;
+    return options;
+}
+
+Status loadFlythrough(const ShotArguments& arguments, ShotOptions& options) {
+    if (arguments.flythrough.empty() || !options.flythroughClip.empty())
+        return {};
+    auto read = io::readFlythrough(arguments.flythrough);
+    if (!read)
+        return makeError("--flythrough: {}", read.error().message);
+    auto hash = io::computeFileHash(arguments.flythrough);
+    if (!hash)
+        return makeError("--flythrough: {}", hash.error().message);
+    options.flythroughHash = hash.value();
+    options.flythrough = std::move(read).value();
+    const io::Flythrough& flight = *options.flythrough;
+    if (!arguments.fps) {
+        options.fps = flight.fps;
+        options.frameSeconds = 1.0 / options.fps;
+    }
+    if (!arguments.frames.empty()) {
+        const int first = options.firstFrame;
+        return planFrames(
+            "--frames", first, first + double(options.frameTimes.size()) - 1.0, options
+        );
+    }
+    return planWholeFlight(flight.keys.front().seconds, flight.keys.back().seconds, options);
+}
+
+std::string describe(const ShotArguments& arguments) {
+    std::string text;
+    for (const OptionRows<A> rows :
+         {OptionRows<A>(kViewRows),
+          OptionRows<A>(kLookRows),
+          OptionRows<A>(kTonemapRows),
+          OptionRows<A>(kFrameRows)})
+        text += describeRows(rows, arguments);
+    return text + scene::describe(arguments.shutter.shutter) +
+           (arguments.shutter.isTyped("--shutter-angle") ? " by angle" : "");
+}
+
+} // namespace shutter::game

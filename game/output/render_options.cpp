@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "game/output/render_options.h"
+
+#include "engine/io/image_file.h"
+
+#include <regex>
+#include <system_error>
+#include <unistd.h>
+
+namespace shutter::game {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using core::makeError;
+using core::Status;
+
+Status checkStatsWritable(const OutputOptions& options) {
+    if (options.stats.empty())
+        return {};
+    std::error_code ignored;
+    const auto folder = options.stats.has_parent_path() ? options.stats.parent_path() : ".";
+    if (fs::is_directory(options.stats, ignored))
+        return makeError("--stats: cannot write '{}': it is a folder", options.stats.string());
+    if (!fs::is_directory(folder, ignored))
+        return makeError(
+            "--stats: cannot write '{}': the folder '{}' does not exist",
+            options.stats.string(),
+            folder.string()
+        );
+    // A file is renamed into place, so its folder has to allow it; a pipe or a device is written
+    // to.
+    const bool isOther =
+        fs::exists(options.stats, ignored) && !fs::is_regular_file(options.stats, ignored);
+    if (::access(isOther ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
+        return makeError("--stats: cannot write '{}': permission denied", options.stats.string());
+    return {};
+}
+
+} // namespace
+
+core::Status checkOutputs(const RenderOptions& options) {
+    // A film's frames have a folder of their own, which is not there yet.
+    if (!options.output.film.empty())
+        return checkStatsWritable(options.output);
+    const fs::path first = frameFile(options.output.out, options.shot.firstFrame);
+    if (Status writable = io::checkWritable(first); !writable)
+        return makeError("--out: {}", writable.error().message);
+    return checkStatsWritable(options.output);
+}
+
+fs::path frameFile(const fs::path& pattern, int frameNumber) {
+    static const std::regex kNumber("%0?([0-9]?)d");
+    const std::string text = pattern.string();
+    std::smatch match;
+    if (!std::regex_search(text, match, kNumber))
+        return pattern;
+    const int width = match[1].length() > 0 ? std::stoi(match[1]) : 0;
+    return match.prefix().str() + fmt::format("{:0{}}", frameNumber, width) + match.suffix().str();
+}
+
+} // namespace shutter::game

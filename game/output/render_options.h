@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Everything that `shutter render` does: checked, in engine terms.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "game/shot/shot_options.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace shutter::game {
+
+/// What is written and printed.
+struct OutputOptions {
+    std::filesystem::path out;    ///< picture or %d pattern; for a film, the pattern of its frames
+    std::filesystem::path film;   ///< .mp4 to make of the frames; empty: none
+    std::filesystem::path ffmpeg; ///< empty: the one on PATH
+    bool keepFrames = false;      ///< keep a film's frames when it is made
+    bool restart = false;         ///< draw frames again that are complete on disk
+    bool displayOut = false;      ///< .png or .jpg: tone-mapped; otherwise linear
+    std::set<std::string> aovs;   ///< intermediates to write
+    std::filesystem::path stats;  ///< empty: none
+    bool dumpGraph = false;
+    bool explain = false; ///< print why each effect and pass ran or was skipped
+    uint32_t repeat = 1;  ///< pictures that are timed
+};
+
+struct RenderOptions {
+    ShotOptions shot;
+    MethodOptions method;
+    OutputOptions output;
+    gpu::DeviceOptions device;
+    /// The options that pictures depend on, in one line. Files are told by content, so the scene
+    /// and the flythrough are not among them.
+    std::string fingerprint;
+};
+
+/// Checks before hours of rendering whether out and stats can be written. Error: names the option.
+[[nodiscard]] core::Status checkOutputs(const RenderOptions& options);
+
+/// The file of one frame: %04d (any width) in the pattern is replaced by the frame's number.
+[[nodiscard]] std::filesystem::path
+frameFile(const std::filesystem::path& pattern, int frameNumber);
+
+} // namespace shutter::game

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+#include "game/shot/picture_drawer.h"
+
+#include "engine/core/check.h"
+#include "engine/core/log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace shutter::game {
+
+namespace {
+
+core::Status
+checkSize(const gpu::Device& device, const MethodInfo& method, uint32_t width, uint32_t height) {
+    const uint32_t longest = device.limits().maxImageDimension2D;
+    if (width > longest || height > longest)
+        return core::makeError(
+            "--size {}x{}: {} draws at most {} pixels a side",
+            width,
+            height,
+            device.info().name,
+            longest
+        );
+    const uint64_t bytesPerPixel = method.blur ? method.blur->listBytesPerPixel : 0;
+    const uint64_t listBytes = uint64_t(width) * height * bytesPerPixel + 16;
+    if (listBytes > device.limits().maxStorageBufferRange)
+        return core::makeError(
+            "--size {}x{}: method {} needs a buffer of {} MiB, {} has at most {}",
+            width,
+            height,
+            method.name,
+            listBytes >> 20,
+            device.info().name,
+            device.limits().maxStorageBufferRange >> 20
+        );
+    return {};
+}
+
+core::Status checkRays(const gpu::Device& device, const MethodInfo& method) {
+    if (canRun(method, device))
+        return {};
+    if (device.hasRays())
+        return core::makeError(
+            "--method {} nests ray queries (VK_KHR_ray_query), which {} lacks or --rays hides; "
+            "hybrid and accumulate do without",
+            method.name,
+            device.info().name
+        );
+    return core::makeError(
+        "--method {} needs ray tracing (VK_KHR_ray_query or, for hybrid, "
+        "VK_KHR_ray_tracing_pipeline), which {} lacks or --rays hides; gather does without",
+        method.name,
+        device.info().name
+    );
+}
+
+/// With fewer rays a mover that few of them met yet looks like none.
+constexpr uint32_t kLeastRaysToStop = 16;
+
+} // namespace
+
+MethodOptions
+makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& settings) {
+    MethodOptions options;
+    options.method = &method;
+    options.samples = method.defaultSamples;
+    options.motionBlur = settings;
+    if (!method.blur)
+        return options;
+    options.motionBlur.method = method.blur;
+    options.motionBlur.sampleCount = options.samples;
+    return options;
+}
+
+std::set<std::string> listIntermediates(const MethodInfo& method) {
+    std::set<std::string> names = {"motion", "depth", "normal", "mesh_id"};
+    names.insert(method.aovs.begin(), method.aovs.end());
+    return names;
+}
+
+PictureRequest makePicture(
+    const Shot& shot, const ShotOptions& options, const MethodOptions& method, double seconds
+) {
+    PictureRequest picture;
+    picture.frame.view = makeView(shot, options, seconds);
+    picture.method = method;
+    picture.pixel = options.pixel;
+    picture.seed = options.seed;
+    return picture;
+}
+
+PictureDrawer::PictureDrawer(gpu::Device& device, render::Renderer& renderer)
+    : mDevice(device), mRenderer(renderer) {}
+
+PictureDrawer::~PictureDrawer() {
+    try {
+        finishUntil(0);
+    } catch (const gpu::DeviceError& error) { // the device was lost before
+        core::logWarning("{}", error.what());
+    }
+}
+
+core::Status PictureDrawer::check(
+    const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height
+) {
+    if (core::Status traced = checkRays(device, *method.method); !traced)
+        return traced;
+    return checkSize(device, *method.method, width, height);
+}
+
+uint32_t PictureDrawer::countSteps(const MethodOptions& method) {
+    const MethodFamily family = method.method->family;
+    const bool isMany = family == MethodFamily::Accumulate || family == MethodFamily::Truth;
+    return isMany ? method.samples : 1;
+}
+
+core::Result<PictureRequest>
+PictureDrawer::prepare(const scene::World& world, const PictureRequest& request) {
+    SHUTTER_CHECK(request.slot < kSlots, "slot {} of {}", request.slot, kSlots);
+    const extract::ViewRequest& view = request.frame.view;
+    if (core::Status able = check(mDevice, request.method, view.width, view.height); !able)
+        return able.error();
+    if (countSteps(request.method) == 0)
+        return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
+    PictureRequest prepared = request;
+    if (!std::isfinite(view.exposure.shutter.maxBlurPercent))
+        return prepared;
+    finishUntil(0); // measuring draws frames of its own
+    auto cap = mRenderer.measureMotionCap(world, view);
+    if (!cap)
+        return cap.error();
+    prepared.frame.view.exposure.cap = std::move(cap).value();
+    return prepared;
+}
+
+std::vector<uint32_t>
+PictureDrawer::planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const {
+    const uint32_t total = countSteps(request.method);
+    if (request.method.method->family != MethodFamily::Truth)
+        return std::vector<uint32_t>(total, 1);
+    if (request.raysPerFrame == 0) {
+        const extract::ViewRequest& view = request.frame.view;
+        return truth::planBatches(uint64_t(view.width) * view.height, total, stops);
+    }
+    std::vector<uint32_t> counts(total / request.raysPerFrame, request.raysPerFrame);
+    if (const uint32_t rest = total % request.raysPerFrame; rest > 0)
+        counts.push_back(rest);
+    return counts;
+}
+
+render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, const Part& part) {
+    Slot& slot = mSlots[request.slot];
+    switch (request.method.method->family) {
+    case MethodFamily::Sharp:
+        return nullptr;
+    case MethodFamily::MotionBlur:
+        if (!slot.motionBlur)
+            slot.motionBlur = std::make_unique<motion_blur::MotionBlurPlugin>(
+                mDevice, mRenderer.scene(), request.method.motionBlur, request.method.budget
+            );
+        slot.motionBlur->configure(request.method.motionBlur, request.method.budget);
+        return slot.motionBlur.get();
+    case MethodFamily::Accumulate:
+        if (!slot.accumulate)
+            slot.accumulate = std::make_unique<accumulate::Accumulate>(mDevice);
+        slot.accumulate->setInstant(part.done, part.total);
+        return slot.accumulate.get();
+    case MethodFamily::Truth: {
+        const truth::TruthSettings settings{request.pixel, request.seed};
+        finishUntil(0); // what a batch counted is read before the next one
+        if (!slot.truth || slot.truthSettings != settings)
+            slot.truth = std::make_unique<truth::Truth>(mDevice, mRenderer.scene(), settings);
+        slot.truthSettings = settings;
+        slot.truth->setBatch(part.done, part.count);
+        return slot.truth.get();
+    }
+    }
+    SHUTTER_CHECK(false, "{} is of no family", request.method.method->name);
+    return nullptr;
+}
+
+core::Status PictureDrawer::submitFrame(
+    const scene::World& world,
+    const render::FrameRequest& frame,
+    const std::vector<render::PostEffect*>& effects,
+    const Label& label
+) {
+    finishUntil(mRenderer.framesInFlight() - 1);
+    if (core::Status submitted = mRenderer.submitFrame(world, frame, effects); !submitted)
+        return submitted;
+    mLabels.push_back(label);
+    return {};
+}
+
+core::Status PictureDrawer::submitPart(
+    const scene::World& world, const PictureRequest& request, const Part& part
+) {
+    const MethodFamily family = request.method.method->family;
+    const bool isLast = part.done + part.count == part.total;
+    const bool isAverage = family == MethodFamily::Accumulate;
+    const bool hasMore = isAverage && !request.frame.intermediates.empty();
+    render::FrameRequest frame = request.frame;
+    if (isAverage)
+        frame.view = accumulate::makeInstant(
+            request.frame.view, part.done, part.total, request.pixel, request.seed
+        );
+    if (family == MethodFamily::Truth)
+        frame.view.lodBias += truth::computeLodBias(request.pixel, part.total);
+    if (!part.isShown)
+        frame.wantColor = frame.wantDisplay = frame.showsDisplay = false;
+    if (!isLast) {
+        frame.semaphores = {};
+        frame.shownIntermediates.clear();
+        frame.wantDump = false;
+    }
+    // An instant's intermediates are not the picture's: submitIntermediates().
+    if (!isLast || isAverage)
+        frame.intermediates.clear();
+    std::vector<render::PostEffect*> effects;
+    if (render::PostEffect* own = prepareEffect(request, part))
+        effects.push_back(own);
+    if (part.isShown)
+        effects.insert(effects.end(), request.ending.begin(), request.ending.end());
+    return submitFrame(
+        world, frame, effects, {request.slot, part.done == 0, part.isShown, isLast && !hasMore}
+    );
+}
+
+core::Status
+PictureDrawer::submitIntermediates(const scene::World& world, const PictureRequest& request) {
+    if (request.method.method->family != MethodFamily::Accumulate ||
+        request.frame.intermediates.empty())
+        return {};
+    render::FrameRequest raster = request.frame;
+    raster.wantColor = raster.wantDisplay = raster.showsDisplay = raster.wantDump = false;
+    raster.semaphores = {};
+    raster.shownIntermediates.clear();
+    return submitFrame(world, raster, {}, {request.slot, false, false, true, true});
+}
+
+core::Status PictureDrawer::submit(const scene::World& world, const PictureRequest& wanted) {
+    const auto prepared = prepare(world, wanted);
+    if (!prepared)
+        return prepared.error();
+    const PictureRequest& request = prepared.value();
+    Part part{.total = countSteps(request.method)};
+    for (const uint32_t count : planParts(request, {})) {
+        part.count = count;
+        part.isShown = part.done + count == part.total;
+        if (core::Status submitted = submitPart(world, request, part); !submitted)
+            return submitted;
+        part.done += count;
+    }
+    return submitIntermediates(world, request);
+}
+
+core::Result<render::FrameResult> PictureDrawer::draw(
+    const scene::World& world,
+    const PictureRequest& wanted,
+    const std::function<void()>& onStep,
+    const Checkpoints& checkpoints
+) {
+    SHUTTER_CHECK(mLabels.empty() && mFinished.empty(), "a picture was submitted and not taken");
+    const auto prepared = prepare(world, wanted);
+    if (!prepared)
+        return prepared.error();
+    const PictureRequest& request = prepared.value();
+    const auto step = [&] {
+        if (onStep)
+            onStep();
+    };
+    if (request.method.method->family == MethodFamily::Truth)
+        return drawTruth(world, request, step, checkpoints);
+    Part part{.total = countSteps(request.method)};
+    for (; part.done < part.total; ++part.done) {
+        part.isShown = part.done + 1 == part.total;
+        if (core::Status submitted = submitPart(world, request, part); !submitted)
+            return submitted.error();
+        finishUntil(0);
+        step();
+    }
+    if (core::Status submitted = submitIntermediates(world, request); !submitted)
+        return submitted.error();
+    return takeOnly();
+}
+
+core::Result<render::FrameResult> PictureDrawer::drawTruth(
+    const scene::World& world,
+    const PictureRequest& request,
+    const std::function<void()>& onStep,
+    const Checkpoints& checkpoints
+) {
+    const auto isStop = [&](uint32_t count) {
+        const auto& stops = checkpoints.rays;
+        return std::find(stops.begin(), stops.end(), count) != stops.end();
+    };
+    Part part{.total = request.method.samples};
+    for (const uint32_t count : planParts(request, checkpoints.rays)) {
+        part.count = count;
+        const uint32_t done = part.done + count;
+        part.isShown = isStop(done) || done == part.total;
+        if (core::Status submitted = submitPart(world, request, part); !submitted)
+            return submitted.error();
+        finishUntil(0);
+        part.done = done;
+        for (uint32_t i = 0; i < count; ++i)
+            onStep();
+        if (isStop(done))
+            checkpoints.onPicture(
+                done, done == part.total ? mFinished.front().result : mSlots[request.slot].result
+            );
+        if (done == part.total)
+            return takeOnly();
+        if (isGoodEnough(request, done))
+            break;
+    }
+    for (uint32_t i = part.done; i < part.total; ++i)
+        onStep();
+    // The mean so far once more, now to be shown.
+    const Part shown{.done = part.done, .count = 0, .total = part.done};
+    PictureRequest ended = request;
+    ended.frame.view.lodBias += truth::computeLodBias(request.pixel, part.total) -
+                                truth::computeLodBias(request.pixel, part.done);
+    if (core::Status submitted = submitPart(world, ended, shown); !submitted)
+        return submitted.error();
+    return takeOnly();
+}
+
+bool PictureDrawer::isGoodEnough(const PictureRequest& request, uint32_t rays) const {
+    const std::optional<double> error = mSlots[request.slot].truth->standardError();
+    return request.method.error && error && rays >= kLeastRaysToStop &&
+           *error <= *request.method.error;
+}
+
+void PictureDrawer::finishOldest() {
+    const Label label = mLabels.front();
+    mLabels.pop_front();
+    render::FrameResult drawn = mRenderer.finishFrame();
+    render::FrameResult& result = mSlots[label.slot].result;
+    if (label.isFirst)
+        result = {};
+    if (label.isIntermediates) {
+        result.intermediates = std::move(drawn.intermediates);
+    } else {
+        render::FrameStatistics total = std::move(result.statistics);
+        if (label.isFirst)
+            total = std::move(drawn.statistics);
+        else
+            render::addStatistics(total, drawn.statistics);
+        if (label.isShown)
+            result = std::move(drawn);
+        result.statistics = std::move(total);
+    }
+    if (label.isLast)
+        mFinished.push_back({label.slot, std::move(result)});
+}
+
+void PictureDrawer::finishUntil(size_t most) {
+    while (mLabels.size() > most)
+        finishOldest();
+}
+
+std::optional<FinishedPicture> PictureDrawer::takeFinished() {
+    if (mFinished.empty())
+        return std::nullopt;
+    FinishedPicture finished = std::move(mFinished.front());
+    mFinished.pop_front();
+    return finished;
+}
+
+render::FrameResult PictureDrawer::takeOnly() {
+    finishUntil(0);
+    std::optional<FinishedPicture> finished = takeFinished();
+    SHUTTER_CHECK(finished && mFinished.empty(), "one picture was drawn");
+    return std::move(finished->result);
+}
+
+} // namespace shutter::game

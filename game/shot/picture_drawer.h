@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// One picture by any method, however many frames it takes: raster with a filter is one frame, an
+// average of instants or of batches of rays is many.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/render/renderer.h"
+#include "game/shot/shot.h"
+#include "game/shot/shot_options.h"
+#include "modules/accumulate/accumulate.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "modules/truth/truth.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace shutter::game {
+
+struct PictureRequest {
+    /// The exposure's cap is measured by the drawer.
+    render::FrameRequest frame;
+    MethodOptions method;
+    extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
+    uint32_t seed = 0;                                       ///< accumulate, truth
+    uint32_t raysPerFrame = 0; ///< truth: most rays per pixel of one frame; 0: as the device bears
+    /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
+    /// finished.
+    std::vector<render::PostEffect*> ending;
+    /// Below PictureDrawer::kSlots. Pictures that are drawn side by side, each again and again, use
+    /// different slots, so that neither disturbs what the other's effects keep between frames.
+    uint32_t slot = 0;
+};
+
+/// A method with its own number of samples. \param settings of MethodFamily::MotionBlur; its method
+/// and sample count are set here
+[[nodiscard]] MethodOptions
+makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& settings = {});
+
+/// What `--aov all` reads back of the method's pictures.
+[[nodiscard]] std::set<std::string> listIntermediates(const MethodInfo& method);
+
+/// The shot's picture at `seconds` by a method, without anything after the method's own effect.
+[[nodiscard]] PictureRequest makePicture(
+    const Shot& shot, const ShotOptions& options, const MethodOptions& method, double seconds
+);
+
+/// Pictures on the way of a progressive method.
+struct Checkpoints {
+    std::vector<uint32_t> rays; ///< per pixel, above 0, in any order; those above the samples never
+                                ///< come
+    /// The picture so far, what was asked for of it (no intermediates), with the times summed so
+    /// far. Called for the last picture too if its rays are among `rays`.
+    std::function<void(uint32_t rays, const render::FrameResult& picture)> onPicture;
+};
+
+struct FinishedPicture {
+    uint32_t slot = 0;
+    render::FrameResult result; ///< times and counters are summed over the picture's frames
+};
+
+/// Draws pictures with the effects that their methods are made of, which are made when first used.
+class PictureDrawer {
+  public:
+    static constexpr uint32_t kSlots = 2;
+
+    /// \param renderer outlives this; several drawers may share it, one after the other
+    PictureDrawer(gpu::Device& device, render::Renderer& renderer);
+    ~PictureDrawer();
+    PictureDrawer(const PictureDrawer&) = delete;
+    PictureDrawer& operator=(const PictureDrawer&) = delete;
+
+    /// Error: the device cannot run the method or draw the size. Names --method or --size.
+    [[nodiscard]] static core::Status
+    check(const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height);
+
+    /// How often draw() calls onStep: frames of accumulate, rays per pixel of truth, else 1.
+    [[nodiscard]] static uint32_t countSteps(const MethodOptions& method);
+
+    /// Draws a picture and waits for it; none may be unfinished (CHECKed).
+    /// \param checkpoints truth only; other methods draw none
+    [[nodiscard]] core::Result<render::FrameResult> draw(
+        const scene::World& world,
+        const PictureRequest& request,
+        const std::function<void()>& onStep = {},
+        const Checkpoints& checkpoints = {}
+    );
+
+    /// Submits all frames of a picture. Waits for older frames if the renderer has no room.
+    [[nodiscard]] core::Status submit(const scene::World& world, const PictureRequest& request);
+
+    /// Waits until at most `most` frames are unfinished.
+    void finishUntil(size_t most);
+
+    /// The oldest picture that is finished and was not taken.
+    [[nodiscard]] std::optional<FinishedPicture> takeFinished();
+
+  private:
+    /// Effects, made when first used, and what has been collected of the slot's picture.
+    struct Slot {
+        std::unique_ptr<motion_blur::MotionBlurPlugin> motionBlur;
+        std::unique_ptr<accumulate::Accumulate> accumulate;
+        std::unique_ptr<truth::Truth> truth;
+        truth::TruthSettings truthSettings;
+        render::FrameResult result;
+    };
+
+    /// One frame of a picture.
+    struct Part {
+        uint32_t done = 0;   ///< samples before it
+        uint32_t count = 1;  ///< its samples
+        uint32_t total = 1;  ///< of the picture
+        bool isShown = true; ///< its colour and display are the picture's so far
+    };
+
+    /// A submitted frame: what to do with it when it is finished.
+    struct Label {
+        uint32_t slot = 0;
+        bool isFirst = true;
+        bool isShown = true;
+        bool isLast = true;
+        bool isIntermediates = false; ///< drawn for the picture's intermediates alone
+    };
+
+    [[nodiscard]] core::Result<PictureRequest>
+    prepare(const scene::World& world, const PictureRequest& request);
+    [[nodiscard]] std::vector<uint32_t>
+    planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const;
+    [[nodiscard]] core::Status
+    submitPart(const scene::World& world, const PictureRequest& request, const Part& part);
+    [[nodiscard]] core::Status
+    submitIntermediates(const scene::World& world, const PictureRequest& request);
+    [[nodiscard]] core::Status submitFrame(
+        const scene::World& world,
+        const render::FrameRequest& frame,
+        const std::vector<render::PostEffect*>& effects,
+        const Label& label
+    );
+    [[nodiscard]] render::PostEffect*
+    prepareEffect(const PictureRequest& request, const Part& part);
+    [[nodiscard]] core::Result<render::FrameResult> drawTruth(
+        const scene::World& world,
+        const PictureRequest& request,
+        const std::function<void()>& onStep,
+        const Checkpoints& checkpoints
+    );
+    [[nodiscard]] bool isGoodEnough(const PictureRequest& request, uint32_t rays) const;
+    [[nodiscard]] render::FrameResult takeOnly();
+    void finishOldest();
+
+    gpu::Device& mDevice;
+    render::Renderer& mRenderer;
+    std::array<Slot, kSlots> mSlots;
+    std::deque<Label> mLabels; ///< of the renderer's unfinished frames
+    std::deque<FinishedPicture> mFinished;
+};
+
+} // namespace shutter::game

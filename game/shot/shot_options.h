@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What is drawn, and by which method: checked, in engine terms. game/options makes these from the
+// command line.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/io/flythrough.h"
+#include "engine/math/math.h"
+#include "engine/scene/components.h"
+#include "engine/scene/shutter.h"
+#include "game/shot/methods.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
+#include "modules/tonemap/tonemap.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shutter::game {
+
+/// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
+inline constexpr double kMaxSeconds = 1.0e9;
+
+/// A scene, its camera, frames, light and look.
+struct ShotOptions {
+    std::filesystem::path scene;
+    std::string camera;             ///< name or index; empty: the first
+    std::vector<std::string> clips; ///< names, or "none"; empty: all
+    bool loop = false;
+    std::vector<double> frameTimes; ///< seconds
+    int firstFrame = 0;             ///< number of the first file of a sequence
+    bool isSequence = false;        ///< of numbered frames, even if there is only one
+    double fps = 24.0;              ///< frames per second
+    double frameSeconds = scene::kStillFrameSeconds; ///< duration of a frame, 1 / fps
+    std::optional<io::Flythrough> flythrough;        ///< of --flythrough FILE
+    std::string flythroughHash;                      ///< of its file
+    bool isFlythroughShutter = false; ///< the flythrough's shutters count: none was asked for
+    std::string flythroughClip;       ///< of --flythrough clip:NAME
+    scene::CameraShutter shutter{};
+    uint32_t width = 0;  ///< pixels
+    uint32_t height = 0; ///< pixels
+    bool unlit = false;
+    math::vec3 background{0.0f}; ///< linear
+    math::vec3 ambient{0.0f};    ///< linear
+    tonemap::TonemapSettings tonemap{};
+    extract::PixelModel pixel = extract::PixelModel::Centre;
+    uint32_t seed = 0; ///< of random times and places in the pixel
+};
+
+/// A method and how much work it does.
+struct MethodOptions {
+    const MethodInfo* method = nullptr;
+    uint32_t samples = 0;        ///< in the method's sample unit
+    std::optional<double> error; ///< truth: stop at this standard error, linear, above 0
+    motion_blur::MotionBlurSettings motionBlur{};
+    motion_blur::BlurBudget budget{}; ///< of motionBlur
+};
+
+} // namespace shutter::game
