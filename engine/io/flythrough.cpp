@@ -60,9 +60,9 @@ FlythroughShutter readShutter(const JsonNode& node) {
     const auto exposure = object.find("exposure");
     const auto angle = object.find("shutterAngle");
     const auto read = [](const JsonNode& field, std::string_view row) {
-        scene::CameraShutter read;
-        readRow(field, core::getRow(scene::listShutterRows(), row), read);
-        return read;
+        scene::CameraShutter told;
+        readRow(field, core::getRow(scene::listShutterRows(), row), told);
+        return told;
     };
     if (exposure)
         shutter.exposureSeconds = read(*exposure, "exposureSeconds").exposureSeconds;

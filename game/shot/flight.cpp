@@ -108,7 +108,7 @@ core::Result<ecs::Entity> chooseClipCamera(scene::World& world, const ShotOption
     return *found;
 }
 
-Status planClipFrames(const scene::World& world, ShotOptions& options) {
+core::Status planClipFrames(const scene::World& world, ShotOptions& options) {
     if (options.flythroughClip.empty() || !options.frameTimes.empty())
         return {};
     const auto clip = findClip(world, options.flythroughClip);

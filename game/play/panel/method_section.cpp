@@ -3,6 +3,7 @@
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/play_rows.h"
 #include "game/play/panel/setting_widgets.h"
+#include "modules/motion_blur/setting_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +203,7 @@ void drawSettingSection(PlaySettings& settings) {
     else
         draw("read", true);
     if (!read.empty())
-        drawRows("budget", listBudgetRows(), settings.budget);
+        drawRows("budget", motion_blur::listBudgetRows(), settings.budget);
     if (read.size() == motion_blur::listSettingRows().size() ||
         !ImGui::TreeNode("Of other methods"))
         return;

@@ -16,7 +16,7 @@ namespace shutter::game {
 
 using Words = std::vector<std::string>;
 
-template <class T> [[nodiscard]] std::string text(const T& value) {
+template <class T> [[nodiscard]] std::string wordOf(const T& value) {
     return fmt::format("{}", value);
 }
 

@@ -208,8 +208,9 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
     defineRenderOptions(app, arguments);
     for (const CLI::Option* option : app.get_options()) {
         const std::string name = option->get_name();
-        if (name.starts_with("--") && name != "--help")
+        if (name.starts_with("--") && name != "--help") {
             EXPECT_TRUE(matters.contains(name) || doesNot.contains(name)) << name;
+        }
     }
 }
 

@@ -45,7 +45,7 @@ class RenderOptionsTest : public testing::Test {
 
     RenderOptions accept(const Words& words) const {
         auto options = parse(words);
-        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.method.error().message);
+        EXPECT_TRUE(options.ok()) << (options.ok() ? "" : options.error().message);
         return options.ok() ? options.value() : RenderOptions{};
     }
 
@@ -68,7 +68,7 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_EQ(options.shot.shutter.phase, scene::ShutterPhase::End);
     EXPECT_STREQ(options.method.method->name, "hybrid");
     EXPECT_EQ(options.method.samples, 15u);
-    EXPECT_EQ(options.shot.pixel, accumulate::PixelModel::Centre);
+    EXPECT_EQ(options.shot.pixel, extract::PixelModel::Centre);
     EXPECT_EQ(options.shot.background, math::vec3(0.18f));
     EXPECT_EQ(options.shot.ambient, math::vec3(0.25f));
     EXPECT_EQ(options.shot.tonemap.op, tonemap::Operator::Neutral);
@@ -93,18 +93,18 @@ TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
           " 64x36",
           "64X36",
           "999999999999x1"})
-        refuse("--size", Words{"--size=" + text(size)});
+        refuse("--size", Words{"--size=" + wordOf(size)});
 }
 
 TEST_F(RenderOptionsTest, ATimeIsAFiniteNumberOfSeconds) {
     EXPECT_EQ(accept(Words{"--time=-2.5"}).shot.frameTimes, std::vector<double>{-2.5});
     for (const double time : {kNan, kInfinity, -kInfinity, 1e300})
-        refuse("--time", Words{"--time=" + text(time)});
+        refuse("--time", Words{"--time=" + wordOf(time)});
 }
 
 TEST_F(RenderOptionsTest, FramesAreTimesOfTheirNumbers) {
-    const RenderOptions options = accept(Words{
-        "--frames=-1:2", "--fps=10.0", "--out=" + text((mFolder / "f_%04d.png").string())});
+    const RenderOptions options =
+        accept(Words{"--frames=-1:2", "--fps=10.0", "--out=" + (mFolder / "f_%04d.png").string()});
     EXPECT_EQ(options.shot.frameTimes, (std::vector<double>{-0.1, 0.0, 0.1, 0.2}));
     EXPECT_EQ(options.shot.firstFrame, -1);
     EXPECT_TRUE(options.shot.isSequence);
@@ -114,10 +114,10 @@ TEST_F(RenderOptionsTest, BadFramesAreRefused) {
     for (const char* frames : {"5:1", "1", ":", "1:", "a:b", "0:1000000", "1:2:3", "0.5:2"})
         refuse(
             "--frames",
-            Words{"--frames=" + text(frames), "--out=" + text((mFolder / "f_%04d.png").string())}
+            Words{"--frames=" + wordOf(frames), "--out=" + (mFolder / "f_%04d.png").string()}
         );
     for (const double fps : {0.0, -24.0, kNan, kInfinity})
-        refuse("--fps", Words{"--fps=" + text(fps)});
+        refuse("--fps", Words{"--fps=" + wordOf(fps)});
     // Times that overflow.
     refuse("--frames", Words{"--frames=1:2", "--fps=1e-310"});
 }
@@ -125,12 +125,12 @@ TEST_F(RenderOptionsTest, BadFramesAreRefused) {
 TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
     refuse("--out", Words{"--frames=0:1"});
     accept(Words{"--frames=3:3"});
-    accept(Words{"--frames=0:1", "--out=" + text((mFolder / "f%d.png").string())});
+    accept(Words{"--frames=0:1", "--out=" + (mFolder / "f%d.png").string()});
 }
 
 TEST_F(RenderOptionsTest, AShutterAngleIsAShareOfAFrame) {
-    const auto exposure = [&](const Change& change) {
-        const RenderOptions options = accept(change);
+    const auto exposure = [&](const Words& words) {
+        const RenderOptions options = accept(words);
         return scene::computeExposureSeconds(options.shot.shutter, options.shot.frameSeconds);
     };
     EXPECT_DOUBLE_EQ(exposure(Words{"--shutter-angle=180.0"}), 1.0 / 48.0);
@@ -141,8 +141,8 @@ TEST_F(RenderOptionsTest, AShutterAngleIsAShareOfAFrame) {
 
 TEST_F(RenderOptionsTest, BadExposuresAreRefused) {
     for (const double value : {-0.1, kNan, kInfinity, 1e300}) {
-        refuse("--exposure", Words{"--exposure=" + text(value)});
-        refuse("--shutter-angle", Words{"--shutter-angle=" + text(value)});
+        refuse("--exposure", Words{"--exposure=" + wordOf(value)});
+        refuse("--shutter-angle", Words{"--shutter-angle=" + wordOf(value)});
     }
     refuse("--shutter-angle", Words{"--exposure=0.1", "--shutter-angle=180.0"});
 }
@@ -150,50 +150,48 @@ TEST_F(RenderOptionsTest, BadExposuresAreRefused) {
 TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
     using scene::ShutterPhase;
     const auto phase = [&](const char* name) {
-        return accept(Words{"--phase=" + text(name)}).shot.shutter.phase;
+        return accept(Words{"--phase=" + wordOf(name)}).shot.shutter.phase;
     };
     EXPECT_EQ(phase("start"), ShutterPhase::Start);
     EXPECT_EQ(phase("centre"), ShutterPhase::Centre);
     EXPECT_EQ(phase("end"), ShutterPhase::End);
     for (const char* name : {"", "center", "END", "middle"})
-        refuse("--phase", Words{"--phase=" + text(name)});
+        refuse("--phase", Words{"--phase=" + wordOf(name)});
 }
 
 TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     for (const char* name : {"", "Hybrid", "nosuch"})
-        refuse("--method", Words{"--method=" + text(name)});
+        refuse("--method", Words{"--method=" + wordOf(name)});
     refuse("gather, hybrid, denoised, accumulate, truth", Words{"--method=nosuch"});
 }
 
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     const auto samples = [&](const char* method, uint32_t count) {
-        return accept(Words{"--method=" + text(method), "--samples=" + text(count)});
+        return accept(Words{"--method=" + wordOf(method), "--samples=" + wordOf(count)});
     };
-    EXPECT_EQ(samples("gather", 0).motionBlur.sampleCount, 15u);
-    EXPECT_EQ(samples("gather", 256).motionBlur.sampleCount, 256u);
-    EXPECT_EQ(samples("accumulate", 0).samples, 256u);
-    EXPECT_EQ(samples("accumulate", 65536).samples, 65536u);
-    EXPECT_EQ(samples("truth", 0).samples, 256u);
-    EXPECT_EQ(samples("sharp", 0).samples, 0u);
+    EXPECT_EQ(samples("gather", 0).method.motionBlur.sampleCount, 15u);
+    EXPECT_EQ(samples("gather", 256).method.motionBlur.sampleCount, 256u);
+    EXPECT_EQ(samples("accumulate", 0).method.samples, 256u);
+    EXPECT_EQ(samples("accumulate", 65536).method.samples, 65536u);
+    EXPECT_EQ(samples("truth", 0).method.samples, 256u);
+    EXPECT_EQ(samples("sharp", 0).method.samples, 0u);
     for (const char* method : {"gather", "hybrid"})
-        refuse("--samples", Words{"--method=" + text(method), "--samples=257"});
+        refuse("--samples", Words{"--method=" + wordOf(method), "--samples=257"});
     refuse("--samples", Words{"--method=accumulate", "--samples=65537"});
 }
 
 TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
     EXPECT_EQ(
-        accept(Words{"--method=accumulate", "--pixel=box"}).shot.pixel, accumulate::PixelModel::Box
+        accept(Words{"--method=accumulate", "--pixel=box"}).shot.pixel, extract::PixelModel::Box
     );
-    EXPECT_EQ(
-        accept(Words{"--method=truth", "--pixel=box"}).shot.pixel, accumulate::PixelModel::Box
-    );
+    EXPECT_EQ(accept(Words{"--method=truth", "--pixel=box"}).shot.pixel, extract::PixelModel::Box);
     refuse("--pixel", Words{"--pixel=box"});
     refuse("--pixel", Words{"--pixel=gauss"});
 }
 
 TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
     const auto truth = [](double error) {
-        return Words{"--method=truth", "--error=" + text(error)};
+        return Words{"--method=truth", "--error=" + wordOf(error)};
     };
     EXPECT_EQ(accept(truth(0.01)).method.error, 0.01);
     EXPECT_FALSE(accept(Words{"--method=truth"}).method.error.has_value());
@@ -204,7 +202,7 @@ TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
           std::numeric_limits<double>::infinity()})
         refuse("--error", truth(bad));
     for (const char* method : {"sharp", "hybrid", "accumulate"})
-        refuse("--error", Words{"--method=" + text(method), "--error=0.01"});
+        refuse("--error", Words{"--method=" + wordOf(method), "--error=0.01"});
 }
 
 TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
@@ -243,8 +241,11 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
 }
 
 TEST_F(RenderOptionsTest, TheRivalsSettingsCanBeSet) {
-    const auto with = [&](const char* method, std::vector<std::string> settings) {
-        return accept(Words{"--method=" + text(method), SETTINGS}).method.motionBlur;
+    const auto with = [&](const char* method, const std::vector<std::string>& settings) {
+        Words words{"--method=" + wordOf(method)};
+        for (const std::string& setting : settings)
+            words.push_back("--set=" + setting);
+        return accept(words).method.motionBlur;
     };
     const auto guertin = with("guertin2014", {"centreBias=20", "speedThresholdPx=3"});
     EXPECT_EQ(guertin.method, &motion_blur::getMethod("guertin2014"));
@@ -264,12 +265,12 @@ TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
         const bool blurs = method.family == MethodFamily::MotionBlur;
         const char* foreign =
             method.name == std::string("own_velocity") ? "tileSizePx=20" : "occluderTest=none";
-        refuse(method.name, Words{"--method=" + text(method.name), "--set=" + text(foreign)});
+        refuse(method.name, Words{"--method=" + wordOf(method.name), "--set=" + wordOf(foreign)});
         const bool jitters = blurs && method.blur != &motion_blur::getMethod("denoised");
         if (jitters)
-            accept(Words{"--method=" + text(method.name), "--set=jitter=0.5"});
+            accept(Words{"--method=" + wordOf(method.name), "--set=jitter=0.5"});
         else
-            refuse("--set 'jitter'", Words{"--method=" + text(method.name), "--set=jitter=0.5"});
+            refuse("--set 'jitter'", Words{"--method=" + wordOf(method.name), "--set=jitter=0.5"});
     }
 }
 
@@ -292,12 +293,12 @@ TEST_F(RenderOptionsTest, BadSettingsAreRefused) {
           "neighbourhoodTiles=4",
           "objectTest=nosuch",
           "revealTraversal=nosuch"})
-        refuse("--set", Words{"--set=" + text(setting)});
+        refuse("--set", Words{"--set=" + wordOf(setting)});
 }
 
 TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     const auto aovs = [&](const char* method, const char* names) {
-        return accept(Words{"--method=" + text(method), "--aov=" + text(names)}).output.aovs;
+        return accept(Words{"--method=" + wordOf(method), "--aov=" + wordOf(names)}).output.aovs;
     };
     EXPECT_EQ(aovs("sharp", "depth,motion"), (std::set<std::string>{"depth", "motion"}));
     EXPECT_EQ(aovs("sharp", "all").size(), 4u);
@@ -306,39 +307,40 @@ TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     EXPECT_EQ(aovs("own_velocity", "all").size(), 4u);
     EXPECT_EQ(aovs("guertin2014", "variance,tiles").size(), 2u);
     for (const char* names : {"nosuch", "motion,", ",", "motion,nosuch", "Motion", "motion depth"})
-        refuse("--aov", Words{"--aov=" + text(names)});
+        refuse("--aov", Words{"--aov=" + wordOf(names)});
     refuse("--aov", Words{"--method=gather", "--aov=mask"});
 }
 
 TEST_F(RenderOptionsTest, TheExtensionDecidesWhetherAPictureIsForDisplays) {
     const auto isDisplay = [&](const char* name) {
-        return accept(Words{"--out=" + text((mFolder / name).string())}).output.displayOut;
+        return accept(Words{"--out=" + (mFolder / name).string()}).output.displayOut;
     };
     EXPECT_FALSE(isDisplay("a.exr"));
     EXPECT_TRUE(isDisplay("a.png"));
     EXPECT_TRUE(isDisplay("a.JPG"));
     for (const char* name : {"a.bmp", "a", "png"})
-        refuse("--out", Words{"--out=" + text((mFolder / name).string())});
+        refuse("--out", Words{"--out=" + (mFolder / name).string()});
 }
 
 TEST_F(RenderOptionsTest, OutputsNeedAFolderThatIsThere) {
     fs::create_directory(mFolder / "folder.png");
     for (const char* name : {"a.png/b.png", "nosuch/a.png", "folder.png"}) {
         const core::Status checked =
-            checkOutputs(accept(Words{"--out=" + text((mFolder / name).string())}));
+            checkOutputs(accept(Words{"--out=" + (mFolder / name).string()}));
         ASSERT_FALSE(checked.ok()) << name;
         EXPECT_NE(checked.error().message.find("--out"), std::string::npos);
     }
     for (const auto& stats : {mFolder / "nosuch" / "s.json", mFolder}) {
-        const core::Status checked = checkOutputs(accept(Words{"--stats=" + text(stats.string())}));
+        const core::Status checked =
+            checkOutputs(accept(Words{"--stats=" + wordOf(stats.string())}));
         ASSERT_FALSE(checked.ok()) << stats;
         EXPECT_NE(checked.error().message.find("--stats"), std::string::npos);
     }
-    EXPECT_TRUE(checkOutputs(accept(Words{"--stats=" + text((mFolder / "s.json").string())})));
+    EXPECT_TRUE(checkOutputs(accept(Words{"--stats=" + (mFolder / "s.json").string()})));
 }
 
 TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
-    accept(Words{"--stats=" + text((mFolder / "s.json").string())});
+    accept(Words{"--stats=" + (mFolder / "s.json").string()});
     EXPECT_TRUE(fs::is_empty(mFolder));
 }
 
@@ -348,7 +350,7 @@ TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
     EXPECT_EQ(accept(Words{"--ev=-32.0"}).shot.tonemap.exposureValue, -32.0);
     refuse("--tonemap", Words{"--tonemap=aces"});
     for (const double value : {32.5, -33.0, kNan, kInfinity})
-        refuse("--ev", Words{"--ev=" + text(value)});
+        refuse("--ev", Words{"--ev=" + wordOf(value)});
 }
 
 TEST_F(RenderOptionsTest, ColoursAreThreeNumbersThatAPictureCanHold) {
@@ -357,8 +359,8 @@ TEST_F(RenderOptionsTest, ColoursAreThreeNumbersThatAPictureCanHold) {
     );
     for (const char* color :
          {"", "1", "1,2", "1,2,3,4", "1,,3", "a,b,c", "-1,0,0", "nan,0,0", "1e30,0,0", "1,2,3 "}) {
-        refuse("--background", Words{"--background=" + text(color)});
-        refuse("--ambient", Words{"--ambient=" + text(color)});
+        refuse("--background", Words{"--background=" + wordOf(color)});
+        refuse("--ambient", Words{"--ambient=" + wordOf(color)});
     }
 }
 

@@ -71,18 +71,18 @@ TEST(ShutterOptions, TheModeFollowsWhatIsGivenOrSaysItself) {
 
 TEST(ShutterOptions, ModesThatDoNotFitAreRefused) {
     for (const char* mode : {"Physical", "box", "angle ", "180"})
-        refuse("--shutter-mode", Words{"--shutter-mode=" + text(mode)});
+        refuse("--shutter-mode", Words{"--shutter-mode=" + wordOf(mode)});
     refuse("--shutter-mode", Words{"--shutter-mode=physical", "--shutter-angle=180.0"});
     for (const char* mode : {"angle", "capped"})
-        refuse("--shutter-mode", Words{"--shutter-mode=" + text(mode), "--exposure=0.1"});
+        refuse("--shutter-mode", Words{"--shutter-mode=" + wordOf(mode), "--exposure=0.1"});
     refuse("--reference-fps", Words{"--reference-fps=24.0"});
     for (const double bad : {0.0, -1.0, kNan, kInfinity})
-        refuse("--reference-fps", Words{"--shutter-mode=capped", "--reference-fps=" + text(bad)});
+        refuse("--reference-fps", Words{"--shutter-mode=capped", "--reference-fps=" + wordOf(bad)});
 }
 
 TEST(ShutterOptions, ResponsesHaveTheirNamesAndNumbers) {
     const auto response = [](const char* text) {
-        return accept(Words{"--response=" + text(text)}).response;
+        return accept(Words{"--response=" + wordOf(text)}).response;
     };
     EXPECT_EQ(response("box").shape, ResponseShape::Box);
     EXPECT_EQ(response("triangle").shape, ResponseShape::Triangle);
@@ -117,11 +117,11 @@ TEST(ShutterOptions, BadResponsesAreRefused) {
           "samples:1,inf",
           "samples:1,,1",
           "samples:1,1,"})
-        refuse("--response", Words{"--response=" + text(text)});
+        refuse("--response", Words{"--response=" + wordOf(text)});
     std::string many = "samples:1";
     for (int i = 0; i < 64; ++i)
         many += ",1";
-    refuse("--response", Words{"--response=" + text(many)});
+    refuse("--response", Words{"--response=" + wordOf(many)});
 }
 
 TEST(ShutterOptions, CutDetectionHasItsThresholds) {
@@ -130,10 +130,10 @@ TEST(ShutterOptions, CutDetectionHasItsThresholds) {
     EXPECT_EQ(shutter.cuts.metres, 2.0);
     EXPECT_FALSE(accept(Words{"--cut-detection=off"}).cuts.enabled);
     for (const char* word : {"", "yes", "ON"})
-        refuse("--cut-detection", Words{"--cut-detection=" + text(word)});
+        refuse("--cut-detection", Words{"--cut-detection=" + wordOf(word)});
     for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
-        refuse("--cut-angle", Words{"--cut-angle=" + text(bad)});
-        refuse("--cut-distance", Words{"--cut-distance=" + text(bad)});
+        refuse("--cut-angle", Words{"--cut-angle=" + wordOf(bad)});
+        refuse("--cut-distance", Words{"--cut-distance=" + wordOf(bad)});
     }
     refuse("--cut-angle", Words{"--cut-detection=off", "--cut-angle=5.0"});
     refuse("--cut-distance", Words{"--cut-detection=off", "--cut-distance=5.0"});
@@ -146,9 +146,9 @@ TEST(ShutterOptions, BlurScalesLieBetweenNothingAndDouble) {
     EXPECT_EQ(shutter.cameraTranslationScale, 2.0);
     EXPECT_EQ(shutter.objectScale, 0.5);
     for (const double bad : {-0.1, 2.1, kNan, kInfinity}) {
-        refuse("--camera-rotation-blur", Words{"--camera-rotation-blur=" + text(bad)});
-        refuse("--camera-translation-blur", Words{"--camera-translation-blur=" + text(bad)});
-        refuse("--object-blur", Words{"--object-blur=" + text(bad)});
+        refuse("--camera-rotation-blur", Words{"--camera-rotation-blur=" + wordOf(bad)});
+        refuse("--camera-translation-blur", Words{"--camera-translation-blur=" + wordOf(bad)});
+        refuse("--object-blur", Words{"--object-blur=" + wordOf(bad)});
     }
 }
 
