@@ -50,7 +50,7 @@ std::optional<uint32_t> findClip(const scene::World& world, const std::string& n
 Status loadFlythrough(const RenderArguments& arguments, RenderOptions& options) {
     if (arguments.flythrough.empty() || !options.flythroughClip.empty())
         return {};
-    auto read = io::readFlythrough(arguments.flythrough);
+    auto read = flythrough::readFlythrough(arguments.flythrough);
     if (!read)
         return makeError("--flythrough: {}", read.error().message);
     auto hash = io::computeFileHash(arguments.flythrough);
@@ -58,7 +58,7 @@ Status loadFlythrough(const RenderArguments& arguments, RenderOptions& options) 
         return makeError("--flythrough: {}", hash.error().message);
     options.flythroughHash = hash.value();
     options.flythrough = std::move(read).value();
-    const io::Flythrough& flight = *options.flythrough;
+    const flythrough::Flythrough& flight = *options.flythrough;
     if (!arguments.isFpsTyped) {
         options.fps = flight.fps;
         options.frameSeconds = 1.0 / options.fps;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/flythrough/flythrough.h"
 #include "engine/gpu/device_select.h"
-#include "engine/io/flythrough.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
@@ -70,11 +70,12 @@ struct RenderArguments : ShutterArguments {
 struct RenderOptions {
     std::filesystem::path scene;
     std::string camera;
-    std::vector<double> frameTimes;           ///< seconds
-    int firstFrame = 0;                       ///< number of the first file of a sequence
-    bool isSequence = false;                  ///< --frames or --flythrough was given
-    std::optional<io::Flythrough> flythrough; ///< of --flythrough FILE: who flies (flight.h)
-    std::string flythroughHash;               ///< of its file
+    std::vector<double> frameTimes; ///< seconds
+    int firstFrame = 0;             ///< number of the first file of a sequence
+    bool isSequence = false;        ///< --frames or --flythrough was given
+    std::optional<flythrough::Flythrough>
+        flythrough;                   ///< of --flythrough FILE: who flies (flight.h)
+    std::string flythroughHash;       ///< of its file
     bool isFlythroughShutter = false; ///< its keys' shutters count: no exposure was asked for
     std::string flythroughClip;       ///< of --flythrough clip:NAME
     std::vector<std::string> clips;

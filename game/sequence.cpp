@@ -3,8 +3,8 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/gltf/gltf_content.h"
 #include "engine/io/content_hash.h"
-#include "engine/io/gltf_content.h"
 #include "engine/io/image_file.h"
 #include "game/film.h"
 #include "game/flight.h"
@@ -96,7 +96,7 @@ core::Result<render::FrameResult> renderRepeated(
 /// from the first on, so their names depend on that.
 core::Result<std::string>
 computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) {
-    auto scene = io::computeSceneHash(options.scene);
+    auto scene = gltf::computeSceneHash(options.scene);
     if (!scene)
         return scene.error();
     auto program = io::computeFileHash("/proc/self/exe");

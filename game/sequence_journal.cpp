@@ -3,7 +3,7 @@
 
 #include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 #include "game/render_options.h"
 
 #include <nlohmann/json.hpp>
@@ -35,10 +35,10 @@ std::string formatHeader(const std::string& fingerprint) {
 
 /// Empty where the line is none.
 std::string readHeader(std::string_view line) {
-    auto document = io::JsonDocument::parse(line, "journal");
+    auto document = json::JsonDocument::parse(line, "journal");
     if (!document)
         return {};
-    const io::JsonObject header = document.value().root().readObject({"journal", "fingerprint"});
+    const json::JsonObject header = document.value().root().readObject({"journal", "fingerprint"});
     const std::string name = header.require("journal").readString();
     std::string fingerprint = header.require("fingerprint").readString();
     return document.value().finish() && name == kJournalName ? fingerprint : std::string();
@@ -113,16 +113,16 @@ bool SequenceJournal::readLines(std::string_view text, const std::string& finger
     mBefore = Before::SamePictures;
     bool isWhole = text.ends_with('\n');
     for (size_t i = 1; i < lines.size(); ++i) {
-        auto document = io::JsonDocument::parse(lines[i], "journal");
+        auto document = json::JsonDocument::parse(lines[i], "journal");
         if (!document) {
             isWhole = false;
             continue;
         }
-        const io::JsonObject line = document.value().root().readObject({"frame", "files"});
+        const json::JsonObject line = document.value().root().readObject({"frame", "files"});
         const auto frame = int(line.require("frame").readInteger(INT32_MIN, INT32_MAX));
         std::vector<File> files;
-        for (const io::JsonNode& node : line.require("files").readArray(1)) {
-            const io::JsonObject file = node.readObject({"name", "hash"});
+        for (const json::JsonNode& node : line.require("files").readArray(1)) {
+            const json::JsonObject file = node.readObject({"name", "hash"});
             files.push_back({file.require("name").readString(), file.require("hash").readString()});
         }
         if (document.value().finish())

@@ -99,7 +99,7 @@ core::Status writeStatistics(
 ) {
     scene::CameraShutter shutter = options.shutter;
     if (options.flythrough && options.isFlythroughShutter)
-        io::applyShutter(*options.flythrough, options.frameTimes.front(), shutter);
+        flythrough::applyShutter(*options.flythrough, options.frameTimes.front(), shutter);
     nlohmann::json root = {
         {"scene", options.scene.string()},
         {"method", options.method->name},

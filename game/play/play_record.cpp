@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/play_record.h"
 
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 #include "game/quartiles.h"
 
 namespace shutter::game {
@@ -11,7 +11,7 @@ namespace {
 constexpr double kRecentMilliseconds = 1000.0;
 
 /// `"name": {"median", "q1", "q3"}`, where there are values.
-void writeQuartiles(io::JsonWriter& json, const char* name, const std::vector<double>& values) {
+void writeQuartiles(json::JsonWriter& json, const char* name, const std::vector<double>& values) {
     if (values.empty())
         return;
     const Quartiles quartiles = computeQuartiles(values);
@@ -45,7 +45,7 @@ double PlayRecord::meanMilliseconds() const {
 }
 
 core::Status PlayRecord::write(const std::filesystem::path& path, const SessionFacts& facts) const {
-    io::JsonWriter json;
+    json::JsonWriter json;
     json.beginObject();
     json.key("title").value(facts.title);
     json.key("device").value(facts.device);
@@ -62,7 +62,7 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     }
     json.key("validationMessages").integer(facts.validationMessages);
     json.endObject();
-    return io::writeJsonFile(path, json);
+    return json::writeJsonFile(path, json);
 }
 
 } // namespace shutter::game

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Settings as JSON. settings.schema.json describes the same.
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 #include "engine/scene/shutter.h"
 #include "game/play/play_rows.h"
 #include "game/play/play_settings.h"
@@ -20,7 +20,7 @@ constexpr int64_t kVersion = 1;
 template <class Owner> using Rows = std::span<const core::SettingRow<Owner>>;
 
 template <class Owner>
-void readNumber(io::JsonNode node, const core::SettingRow<Owner>& row, Owner& owner) {
+void readNumber(json::JsonNode node, const core::SettingRow<Owner>& row, Owner& owner) {
     const core::NumberRange& range = row.range;
     if (range.isUnlimited && node.isString()) {
         (void)node.readWord(std::span(&core::kUnlimited, 1));
@@ -35,7 +35,7 @@ void readNumber(io::JsonNode node, const core::SettingRow<Owner>& row, Owner& ow
 }
 
 template <class Owner>
-void readRow(const io::JsonNode& node, const core::SettingRow<Owner>& row, Owner& owner) {
+void readRow(const json::JsonNode& node, const core::SettingRow<Owner>& row, Owner& owner) {
     if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
         owner.** yes = node.readBoolean();
     else if (const auto* words = std::get_if<core::WordField<Owner>>(&row.field))
@@ -46,8 +46,8 @@ void readRow(const io::JsonNode& node, const core::SettingRow<Owner>& row, Owner
 
 /// The object with the rows' fields, which are read, and those named `more`, which are not.
 template <class Owner>
-io::JsonObject readRows(
-    const io::JsonNode& node,
+json::JsonObject readRows(
+    const json::JsonNode& node,
     Rows<Owner> rows,
     Owner& owner,
     std::vector<std::string_view> more = {}
@@ -55,33 +55,34 @@ io::JsonObject readRows(
     std::vector<std::string_view> names = std::move(more);
     for (const core::SettingRow<Owner>& row : rows)
         names.push_back(row.name);
-    const io::JsonObject object = node.readObject(std::span<const std::string_view>(names));
+    const json::JsonObject object = node.readObject(std::span<const std::string_view>(names));
     for (const core::SettingRow<Owner>& row : rows)
         if (const auto value = object.find(row.name))
             readRow(*value, row, owner);
     return object;
 }
 
-void readResponse(const io::JsonNode& node, ShutterResponse& response) {
-    const io::JsonObject object = readRows(node, listResponseRows(), response, {"samples"});
+void readResponse(const json::JsonNode& node, ShutterResponse& response) {
+    const json::JsonObject object = readRows(node, listResponseRows(), response, {"samples"});
     if (const auto samples = object.find("samples")) {
         response.samples.clear();
-        for (const io::JsonNode& sample : samples->readArray(0, shader::kMaxResponseKnots))
+        for (const json::JsonNode& sample : samples->readArray(0, shader::kMaxResponseKnots))
             response.samples.push_back(sample.readNumber({.min = 0.0}));
     }
     if (Status valid = scene::validateResponse(response); !valid)
         node.fail(valid.error().message);
 }
 
-void readShutter(const io::JsonNode& node, scene::CameraShutter& shutter) {
-    const io::JsonObject object = readRows(node, listShutterRows(), shutter, {"response", "cuts"});
+void readShutter(const json::JsonNode& node, scene::CameraShutter& shutter) {
+    const json::JsonObject object =
+        readRows(node, listShutterRows(), shutter, {"response", "cuts"});
     if (const auto response = object.find("response"))
         readResponse(*response, shutter.response);
     if (const auto cuts = object.find("cuts"))
         readRows(*cuts, listCutRows(), shutter.cuts);
 }
 
-void readMethod(const io::JsonObject& object, std::string_view field, std::string& method) {
+void readMethod(const json::JsonObject& object, std::string_view field, std::string& method) {
     const auto node = object.find(field);
     if (!node)
         return;
@@ -91,9 +92,9 @@ void readMethod(const io::JsonObject& object, std::string_view field, std::strin
     method = names[node->readWord(names)];
 }
 
-PlaySettings readSettings(const io::JsonNode& root) {
+PlaySettings readSettings(const json::JsonNode& root) {
     PlaySettings settings;
-    const io::JsonObject object = readRows(
+    const json::JsonObject object = readRows(
         root,
         listPlayRows(),
         settings,
@@ -113,7 +114,8 @@ PlaySettings readSettings(const io::JsonNode& root) {
     return settings;
 }
 
-template <class Owner> void writeRows(io::JsonWriter& json, Rows<Owner> rows, const Owner& owner) {
+template <class Owner>
+void writeRows(json::JsonWriter& json, Rows<Owner> rows, const Owner& owner) {
     for (const core::SettingRow<Owner>& row : rows) {
         json.key(row.name);
         if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
@@ -127,9 +129,9 @@ template <class Owner> void writeRows(io::JsonWriter& json, Rows<Owner> rows, co
     }
 }
 
-io::JsonWriter describe(const PlaySettings& settings) {
+json::JsonWriter describe(const PlaySettings& settings) {
     const scene::CameraShutter& shutter = settings.shutter;
-    io::JsonWriter json;
+    json::JsonWriter json;
     json.beginObject().key("version").integer(kVersion);
     json.key("method").value(settings.method);
     json.key("leftMethod").value(settings.leftMethod);
@@ -153,13 +155,13 @@ io::JsonWriter describe(const PlaySettings& settings) {
 } // namespace
 
 core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path) {
-    return io::readJsonFile(path, readSettings);
+    return json::readJsonFile(path, readSettings);
 }
 
 core::Status savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings) {
     if (Status valid = validate(settings); !valid)
         return core::makeError("{} is not written: {}", path.string(), valid.error().message);
-    return io::writeJsonFile(path, describe(settings));
+    return json::writeJsonFile(path, describe(settings));
 }
 
 } // namespace shutter::game

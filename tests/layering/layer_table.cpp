@@ -27,6 +27,9 @@ const Names kUpToRender = {
     "graph",
     "scene",
     "io",
+    "json",
+    "gltf",
+    "flythrough",
     "extract",
     "gpu_scene",
     "rays",
@@ -40,7 +43,10 @@ const std::vector<Row> kEngineRows = {
     {"image", {"core", "math"}},
     {"graph", {"core", "math", "gpu"}},
     {"scene", {"core", "math", "ecs"}},
-    {"io", {"core", "math", "ecs", "image", "scene"}},
+    {"io", {"core", "math", "image", "scene"}},
+    {"json", {"core", "io"}},
+    {"gltf", {"core", "math", "ecs", "scene", "io"}},
+    {"flythrough", {"core", "math", "ecs", "scene", "json"}},
     {"extract", {"core", "math", "ecs", "image", "scene"}},
     {"gpu_scene", {"core", "math", "gpu", "graph", "scene", "extract"}},
     {"rays", {"core", "math", "ecs", "gpu", "graph", "scene", "extract", "gpu_scene"}},
@@ -65,7 +71,7 @@ struct LibraryRow {
 };
 
 const std::vector<LibraryRow> kLibraryRows = {
-    {"tiny_gltf.h", {"io"}},
+    {"tiny_gltf.h", {"gltf"}},
     {"OpenImageIO/", {"io"}},
     {"GLFW/", {"app"}},
     {"imgui", {"app", "game"}},

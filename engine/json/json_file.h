@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Our own JSON files, read strictly: every mistake is one sentence with file, line and field, e.g.
+// "film.json:12: keys[3].time: must be a number, not a string". Duplicate keys, fields that nobody
+// knows, anything after the value, numbers beyond double and NUL bytes are refused; a byte order
+// mark is skipped.
+#pragma once
+
+#include "engine/core/result.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace shutter::json {
+
+/// What a file may hold before it is refused.
+struct JsonLimits {
+    uint64_t maxBytes = uint64_t{64} << 20;
+    uint32_t maxDepth = 32;         ///< objects and arrays within one another
+    uint32_t maxValues = 2'000'000; ///< all together; 100000 keys of a flythrough fit
+};
+
+/// What a number may be.
+struct JsonRange {
+    double min = std::numeric_limits<double>::lowest();
+    double max = std::numeric_limits<double>::max();
+    bool isAboveMin = false; ///< `min` itself is refused
+    bool isBelowMax = false; ///< `max` itself is refused
+};
+
+struct JsonTree;
+class JsonObject;
+
+/// One value of a document. The first reading that fails is the document's error; it and those
+/// after it give a default (0, empty), so that a reader needs no test after each field.
+class JsonNode {
+  public:
+    [[nodiscard]] double readNumber(const JsonRange& range = {}) const;
+    /// Whole numbers only; 3.0 is one.
+    [[nodiscard]] int64_t
+    readInteger(int64_t min = -kMaxExactInteger, int64_t max = kMaxExactInteger) const;
+    [[nodiscard]] bool readBoolean() const;
+    /// UTF-8. \param maxBytes longest
+    [[nodiscard]] std::string readString(size_t maxBytes = 4096) const;
+    [[nodiscard]] std::vector<JsonNode>
+    readArray(size_t minCount = 0, size_t maxCount = SIZE_MAX) const;
+
+    /// An object of these fields and no others.
+    [[nodiscard]] JsonObject readObject(std::initializer_list<std::string_view> fields) const;
+    [[nodiscard]] JsonObject readObject(std::span<const std::string_view> fields) const;
+
+    /// Index of the word that the string is.
+    [[nodiscard]] size_t readWord(std::span<const std::string_view> words) const;
+
+    /// An array of `Count` numbers.
+    template <size_t Count>
+    [[nodiscard]] std::array<double, Count> readNumbers(const JsonRange& range = {}) const {
+        std::array<double, Count> numbers{};
+        const std::vector<JsonNode> elements = readArray(Count, Count);
+        for (size_t i = 0; i < elements.size(); ++i)
+            numbers[i] = elements[i].readNumber(range);
+        return numbers;
+    }
+
+    /// A string that is one of the words.
+    template <class Value, size_t Count>
+    [[nodiscard]] Value
+    readChoice(const std::array<std::pair<std::string_view, Value>, Count>& choices) const {
+        std::array<std::string_view, Count> words;
+        for (size_t i = 0; i < Count; ++i)
+            words[i] = choices[i].first;
+        return choices[readWord(words)].second;
+    }
+
+    [[nodiscard]] bool isNumber() const;
+    [[nodiscard]] bool isString() const;
+    [[nodiscard]] bool isObject() const;
+    [[nodiscard]] bool isArray() const;
+
+    /// Makes it the document's error that this value is wrong, unless there is one already.
+    /// \param what e.g. "must come after the key before, at 2 s"
+    void fail(std::string_view what) const;
+
+    template <class... Args>
+    void fail(fmt::format_string<Args...> format, Args&&... args) const
+        requires(sizeof...(Args) > 0) {
+        fail(std::string_view(fmt::format(format, std::forward<Args>(args)...)));
+    }
+
+    /// Beyond it not every whole number is a double.
+    static constexpr int64_t kMaxExactInteger = int64_t{1} << 53;
+
+  private:
+    friend class JsonDocument;
+    friend class JsonObject;
+
+    JsonNode(JsonTree& tree, uint32_t index) : mTree(&tree), mIndex(index) {}
+
+    void failKind(std::string_view wanted) const;
+
+    JsonTree* mTree;
+    uint32_t mIndex; ///< kAbsent: stands for what is not there; reads as defaults
+};
+
+class JsonObject {
+  public:
+    /// The field, which must be there. \param field one of those that readObject() was given
+    [[nodiscard]] JsonNode require(std::string_view field) const;
+    /// The field, if it is there.
+    [[nodiscard]] std::optional<JsonNode> find(std::string_view field) const;
+
+  private:
+    friend class JsonNode;
+
+    JsonObject(JsonNode node, std::vector<std::string_view> fields)
+        : mNode(node), mFields(std::move(fields)) {}
+
+    JsonNode mNode;
+    std::vector<std::string_view> mFields;
+};
+
+/// A parsed file. Must outlive its nodes.
+class JsonDocument {
+  public:
+    /// Error: it cannot be read, is not JSON, or is beyond the limits.
+    [[nodiscard]] static core::Result<JsonDocument>
+    load(const std::filesystem::path& path, const JsonLimits& limits = {});
+
+    /// \param name what errors call the text
+    [[nodiscard]] static core::Result<JsonDocument>
+    parse(std::string_view text, std::string name, const JsonLimits& limits = {});
+
+    JsonDocument(JsonDocument&&) noexcept;
+    JsonDocument& operator=(JsonDocument&&) noexcept;
+    ~JsonDocument();
+
+    [[nodiscard]] JsonNode root() const;
+
+    /// The first reading that failed. Ask when all is read, before anything is believed.
+    [[nodiscard]] core::Status finish() const;
+
+  private:
+    explicit JsonDocument(std::unique_ptr<JsonTree> tree);
+
+    std::unique_ptr<JsonTree> mTree;
+};
+
+/// What `read(root)` makes of a file, or why the file is wrong.
+/// \param read takes a JsonNode and returns a value that does not refer to the document
+template <class Read>
+[[nodiscard]] auto readJsonFile(const std::filesystem::path& path, Read read)
+    -> core::Result<decltype(read(std::declval<JsonNode>()))> {
+    auto document = JsonDocument::load(path);
+    if (!document)
+        return document.error();
+    auto value = read(document.value().root());
+    if (core::Status finished = document.value().finish(); !finished)
+        return finished.error();
+    return value;
+}
+
+/// Writes JSON, one field or element a line, arrays of numbers on one line. Numbers are as short as
+/// reads back the same. Misuse (a field outside of an object, a number that is not finite) is a
+/// CHECK failure.
+class JsonWriter {
+  public:
+    JsonWriter& beginObject();
+    JsonWriter& endObject();
+    JsonWriter& beginArray();
+    JsonWriter& endArray();
+    /// The name of the value to come.
+    JsonWriter& key(std::string_view name);
+    JsonWriter& value(double number);
+    JsonWriter& value(bool truth);
+    JsonWriter& value(std::string_view text);
+
+    JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+
+    JsonWriter& integer(int64_t number);
+    JsonWriter& numbers(std::span<const double> values);
+
+    /// The whole text, with a line break at its end; all that was begun must have ended.
+    [[nodiscard]] std::string text() const;
+
+  private:
+    struct Level {
+        bool isObject = false;
+        bool isEmpty = true;
+    };
+
+    void startValue();
+    void breakLine();
+    JsonWriter& write(std::string_view text);
+    JsonWriter& end(bool isObject, char bracket);
+
+    std::string mText;
+    std::vector<Level> mLevels;
+    bool mHasKey = false;
+};
+
+/// Renamed into place: an interrupted write leaves no half of a file. Error: names the file.
+[[nodiscard]] core::Status
+writeJsonFile(const std::filesystem::path& path, const JsonWriter& content);
+
+} // namespace shutter::json
