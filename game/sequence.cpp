@@ -3,7 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
-#include "engine/gltf/gltf_content.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/io/content_hash.h"
 #include "engine/io/image_file.h"
 #include "game/film.h"

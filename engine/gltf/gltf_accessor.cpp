@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_accessor.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,10 +10,10 @@ namespace shutter::gltf {
 
 namespace {
 
-/// An accessor without a buffer view costs the file nothing, so its size needs a limit of its own.
+/// Limit of the elements of an accessor without a buffer view, whose size no buffer bounds.
 constexpr size_t kMaxZeroElements = size_t(1) << 24;
 
-/// Rows of elements inside a buffer view, checked to lie inside it.
+/// Elements inside a buffer view, checked to lie inside it.
 struct Elements {
     const uint8_t* data = nullptr;
     size_t stride = 0;
@@ -21,14 +21,14 @@ struct Elements {
 
 size_t componentBytes(int componentType) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kInt8:
+    case kUint8:
         return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kInt16:
+    case kUint16:
         return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case kUint32:
+    case kFloat32:
         return 4;
     default:
         return 0;
@@ -54,8 +54,8 @@ Elements locate(
     if (stride < size) {
         failGltf("{}: byteStride {} is below the element size of {} bytes", path, stride, size);
     }
-    // All terms are below 2^53 by the schema and stride is at most 252, so only the product with
-    // count could wrap; the division avoids it.
+    // By the schema all terms are below 2^53 and the stride is at most 252, so only the product
+    // with count could wrap; the division avoids it.
     const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
                       (count - 1) <= (view.byteLength - offset - size) / stride;
     if (!fits) {
@@ -97,9 +97,7 @@ SparseElements locateSparse(const GltfContext& context, size_t index) {
     const auto& sparse = accessor.sparse;
     const int indexType = sparse.indices.componentType;
     const std::string path = fmt::format("accessors[{}].sparse", index);
-    if (indexType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
-        indexType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
-        indexType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    if (indexType != kUint8 && indexType != kUint16 && indexType != kUint32) {
         failGltf("{}.indices.componentType {} is no unsigned integer", path, indexType);
     }
     if (sparse.count < 1 || size_t(sparse.count) > accessor.count) {
@@ -138,16 +136,16 @@ template <class T> T load(const uint8_t* bytes) {
 
 uint32_t loadUnsigned(const uint8_t* bytes, int componentType) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUint8:
         return *bytes;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUint16:
         return load<uint16_t>(bytes);
     default:
         return load<uint32_t>(bytes);
     }
 }
 
-/// glTF 2.0, 3.11: signed values divide by the largest and clamp, so that -128 is -1 as well.
+/// Divides by the largest value and clamps, so that -128 is -1 too (glTF 2.0, 3.11).
 template <class T> float scaleNormalized(T value) {
     constexpr auto kMax = float(std::numeric_limits<T>::max());
     return std::max(float(value) / kMax, -1.0f);
@@ -162,15 +160,15 @@ template <class T> float convert(const uint8_t* bytes, bool normalized) {
 
 float loadFloat(const uint8_t* bytes, int componentType, bool normalized) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case kInt8:
         return convert<int8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case kUint8:
         return convert<uint8_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case kInt16:
         return convert<int16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case kUint16:
         return convert<uint16_t>(bytes, normalized);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case kUint32:
         return convert<uint32_t>(bytes, normalized);
     default:
         return convert<float>(bytes, normalized);
@@ -192,19 +190,19 @@ void checkUse(size_t index, const tinygltf::Accessor& accessor, const AccessorUs
             accessor.componentType
         );
     }
-    const bool isInteger = accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool isInteger = accessor.componentType != kFloat32;
     if (use.integersMustBeNormalized && isInteger && !accessor.normalized) {
         failGltf("{}: accessors[{}] holds integers that are not normalized", use.use, index);
     }
 }
 
-/// Reads the dense part, then puts the sparse values over it.
+/// Reads the dense part, then overwrites elements with the sparse values.
 template <class T, class LoadComponent>
 std::vector<T> readElements(GltfContext& context, size_t index, LoadComponent&& loadComponent) {
     const tinygltf::Accessor& accessor = context.model.accessors[index];
     const size_t components = componentCount(accessor);
     const size_t bytes = componentBytes(accessor.componentType);
-    // checkAccessors bounds count by the buffer's size, but not where there is no buffer view.
+    // checkAccessors bounds count by the buffer's size only where there is a buffer view.
     if (accessor.bufferView < 0 && accessor.count > kMaxZeroElements) {
         failGltf(
             "accessors[{}].count is {}, above the limit of {} without a bufferView",
@@ -228,7 +226,7 @@ std::vector<T> readElements(GltfContext& context, size_t index, LoadComponent&& 
     if (!accessor.sparse.isSparse)
         return values;
     const SparseElements sparse = locateSparse(context, index);
-    uint64_t nextAllowed = 0; // the indices have to increase
+    uint64_t nextAllowed = 0; // indices must increase
     for (size_t i = 0; i < size_t(accessor.sparse.count); ++i) {
         const uint32_t element = loadUnsigned(
             sparse.indices.data + i * sparse.indices.stride, accessor.sparse.indices.componentType

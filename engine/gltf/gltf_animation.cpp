@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_animation.h"
-
-#include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_attribute.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +9,6 @@
 namespace shutter::gltf {
 
 namespace {
-
-constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
 
 scene::Interpolation readInterpolation(const std::string& name, const std::string& path) {
     if (name == "LINEAR")
@@ -35,8 +31,9 @@ std::optional<scene::AnimationPath> readPath(const std::string& name) {
 }
 
 std::vector<float> readTimes(GltfContext& context, int accessor, const std::string& path) {
-    std::vector<float> times =
-        readFloats(context, size_t(accessor), {path + ".input", {TINYGLTF_TYPE_SCALAR}, {kFloat}});
+    std::vector<float> times = readFloats(
+        context, size_t(accessor), {path + ".input", {TINYGLTF_TYPE_SCALAR}, {kFloat32}}
+    );
     for (size_t i = 0; i < times.size(); ++i) {
         if (!std::isfinite(times[i])) {
             failGltf("{}.input: key {} is at {} s", path, i, times[i]);
@@ -48,35 +45,25 @@ std::vector<float> readTimes(GltfContext& context, int accessor, const std::stri
     return times;
 }
 
-/// The output of a sampler, every number finite.
+/// The output of a sampler, checked to be finite.
 std::vector<float>
 readNumbers(GltfContext& context, int accessor, int type, const std::string& path) {
     const std::string use = path + ".output";
-    // Integers are for rotations and weights alone in glTF 2.0 (3.11), but a decoder that knows
-    // one knows all.
+    // glTF 2.0 (3.11) allows integers only for rotations and weights; accepting them for all paths
+    // costs nothing.
     std::vector<float> numbers = readFloats(
-        context,
-        size_t(accessor),
-        {use,
-         {type},
-         {kFloat,
-          TINYGLTF_COMPONENT_TYPE_BYTE,
-          TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-          TINYGLTF_COMPONENT_TYPE_SHORT,
-          TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
-         true}
+        context, size_t(accessor), {use, {type}, {kFloat32, kInt8, kUint8, kInt16, kUint16}, true}
     );
     const size_t components = componentCount(context.model.accessors[size_t(accessor)]);
-    constexpr float kMaxMagnitude = 1e30f;
     for (size_t i = 0; i < numbers.size(); ++i) {
-        if (!(std::abs(numbers[i]) <= kMaxMagnitude)) {
+        if (!(std::abs(numbers[i]) <= float(kMaxMagnitude))) {
             failGltf("{} holds {} in key value {}", use, numbers[i], i / components);
         }
     }
     return numbers;
 }
 
-/// Rotations come as x, y, z, w; the fourth component of the others stays 0.
+/// Rotations are x, y, z, w; translations and scales leave the fourth component at 0.
 std::vector<math::vec4>
 readValues(GltfContext& context, int accessor, bool isRotation, const std::string& path) {
     const int type = isRotation ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
@@ -89,8 +76,8 @@ readValues(GltfContext& context, int accessor, bool isRotation, const std::strin
     return values;
 }
 
-/// Of keys at the same time, which glTF does not allow but exporters write, the last one stays: it
-/// is the one that the time after them starts from. Returns whether there were any.
+/// Keeps only the last of several keys at the same time, because interpolation starts from it. glTF
+/// does not allow such keys, but exporters write them. Returns true when any key was removed.
 /// \param channel AnimationChannel or WeightChannel
 template <class Channel> bool removeEqualTimes(Channel& channel) {
     const size_t step = channel.values.size() / channel.times.size();
@@ -114,7 +101,7 @@ template <class Channel> bool removeEqualTimes(Channel& channel) {
     return isChanged;
 }
 
-/// Quantised quaternions are a little off unit length; a zero one turns to nowhere.
+/// Restores the unit length that quantization loses. Throws GltfError for a zero quaternion.
 void normalizeRotations(scene::AnimationChannel& channel, const std::string& path) {
     const bool isCubic = channel.interpolation == scene::Interpolation::CubicSpline;
     const size_t step = isCubic ? 3 : 1;
@@ -160,7 +147,7 @@ class ClipReader {
             return;
         }
         if (source.target_node < 0)
-            return; // glTF 2.0, 3.11: to be ignored
+            return; // to be ignored, says glTF 2.0, 3.11
         if (isWeights)
             readWeights(source);
         else
@@ -210,7 +197,7 @@ class ClipReader {
         return fmt::format("{}.samplers[{}]", mPath, source.sampler);
     }
 
-    /// \param valueCount of a key, without tangents
+    /// \param valueCount values per key, without tangents
     template <class Channel>
     void finishKeys(Channel& channel, size_t valueCount, const std::string& path) {
         const bool isCubic = channel.interpolation == scene::Interpolation::CubicSpline;
@@ -237,7 +224,8 @@ class ClipReader {
     scene::AnimationClip mClip;
 };
 
-/// A channel drives its entity unless that one lies outside the scene or has no TRS to drive.
+/// Connects channels to the entities that they drive; entities outside the scene are skipped, and
+/// so are, with a warning, those without translation, rotation and scale.
 void addAnimated(
     GltfContext& context,
     scene::World& world,
@@ -262,7 +250,8 @@ void addAnimated(
     }
 }
 
-/// The entity of a node outside the scene, also of a joint there, draws nothing to morph.
+/// Connects weight channels to the entities that they morph. Nodes outside the scene, joints
+/// included, draw nothing.
 void addMorphed(scene::World& world, uint32_t clip, const std::vector<ecs::Entity>& entities) {
     const std::vector<scene::WeightChannel>& channels = world.assets.clips[clip].weightChannels;
     for (size_t c = 0; c < channels.size(); ++c) {

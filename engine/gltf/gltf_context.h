@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Private to engine/gltf: what every part of the glTF loader needs to see.
+// Private to engine/gltf: what the readers of the parts see, above all the model. The one place
+// that includes tinygltf, so that every source file sees it configured alike. tinygltf turns
+// checked JSON into structs; it is built without file access and without image decoding, and never
+// sees a buffer or an image.
 #pragma once
 
-#include "engine/gltf/gltf_error.h"
-#include "engine/gltf/gltf_model.h"
-#include "engine/gltf/gltf_resources.h"
+#include "engine/gltf/gltf_document.h"
+
+#define TINYGLTF_NO_FS
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+#define TINYGLTF_NO_INCLUDE_JSON
+#include <tiny_gltf.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::gltf {
 
-/// Sentences for LoadedScene::warnings, each kept once; past a hundred only that there are more.
+/// The model of a document that checkGltfSchema accepted, without its `buffers` and `images` (see
+/// GltfResources for these). Throws GltfError.
+[[nodiscard]] tinygltf::Model parseGltfModel(nlohmann::json root);
+
+/// Collects the sentences of LoadedScene::warnings, each once. After a hundred it adds only that
+/// there are more.
 class GltfWarnings {
   public:
     void add(std::string sentence) {
@@ -33,12 +49,14 @@ class GltfWarnings {
     std::vector<std::string> mSentences;
 };
 
+/// What every reader of a part needs.
 struct GltfContext {
     const tinygltf::Model& model;
     const GltfResources& resources;
     GltfWarnings& warnings;
-    /// A small file may name one buffer ten thousand times or claim accessors of zeros; this bounds
-    /// what it can make us hold. Bytes left for decoded vertices, and for decoded pictures.
+    /// Bytes left for decoded vertices, skins and instances, and for decoded images. A small file
+    /// may name one buffer ten thousand times, or claim accessors that are all zeros; these budgets
+    /// bound the memory that it can make the loader allocate.
     uint64_t vertexBytesLeft = uint64_t(4) << 30;
     uint64_t imageBytesLeft = uint64_t(4) << 30;
 

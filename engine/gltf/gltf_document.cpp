@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_document.h"
 
-#include "engine/gltf/gltf_error.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -84,7 +82,7 @@ GltfChunks splitGlb(std::span<const uint8_t> bytes) {
     return chunks;
 }
 
-/// Objects and arrays open at once, outside of strings.
+/// The largest number of nested objects and arrays, ignoring brackets inside strings.
 int measureNesting(std::string_view text) {
     int depth = 0;
     int deepest = 0;
@@ -153,7 +151,7 @@ GltfChunks splitGltf(std::span<const uint8_t> bytes) {
 }
 
 nlohmann::json parseGltfJson(std::string_view text) {
-    // Some exporters pad the chunk with NUL in place of spaces.
+    // Some exporters pad the chunk with NUL bytes instead of spaces.
     while (!text.empty() && text.back() == '\0')
         text.remove_suffix(1);
     if (measureNesting(text) > kMaxNesting) {
@@ -188,7 +186,7 @@ void checkAssetAndExtensions(const nlohmann::json& root) {
     }
     if (asset->contains("minVersion")) {
         const auto minVersion = readVersion(*asset, "minVersion");
-        // A file of nothing but `asset` asks for nothing that a later version may have brought.
+        // A file that holds only `asset` cannot use any feature of a later version.
         if (minVersion > std::pair(2, 0) && root.size() > 1) {
             failGltf(
                 "asset.minVersion is {}.{}, only glTF 2.0 is supported",

@@ -8,14 +8,18 @@ namespace shutter::gltf {
 
 namespace {
 
+using math::dvec2;
 using math::dvec3;
+using math::vec2;
 using math::vec3;
+using math::vec4;
 
 bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Length twice the area. In double, so that neither 1e-30 nor 1e30 m over- or underflows.
+/// Normal whose length is twice the area. In double precision, so that triangles of 1e-30 m and of
+/// 1e30 m neither underflow nor overflow.
 dvec3 crossOfTriangle(const std::vector<vec3>& positions, const uint32_t* triangle) {
     const dvec3 a(positions[triangle[0]]);
     const dvec3 b(positions[triangle[1]]);
@@ -23,7 +27,8 @@ dvec3 crossOfTriangle(const std::vector<vec3>& positions, const uint32_t* triang
     return glm::cross(b - a, c - a);
 }
 
-/// glm::normalize squares in the vector's own precision; dividing first keeps tiny and huge ones.
+/// Divides by the largest component first, because glm::normalize squares in the vector's own
+/// precision and would lose tiny and huge vectors.
 vec3 normalizeOr(const dvec3& v, const vec3& fallback) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(largest > 0.0) || !std::isfinite(v.x + v.y + v.z))
@@ -44,6 +49,53 @@ std::vector<T> gather(const std::vector<T>& values, std::span<const uint32_t> so
     return gathered;
 }
 
+struct Frame {
+    dvec3 tangent{0.0};   ///< towards growing u, length in units of area
+    dvec3 bitangent{0.0}; ///< towards shrinking v: +Y of a glTF normal map is up in the picture
+};
+
+/// Solves edge = du * tangent - dv * bitangent for both edges of the triangle. Only the sign of the
+/// determinant is used, so the solution is weighted by the area in uv; it is rescaled to the
+/// triangle's area in space, so that a stretched texture does not outvote its neighbours.
+Frame computeTriangleFrame(
+    const scene::Primitive& primitive, const std::vector<vec2>& uv, const uint32_t* triangle
+) {
+    const dvec3 origin(primitive.positions[triangle[0]]);
+    const dvec3 edge1 = dvec3(primitive.positions[triangle[1]]) - origin;
+    const dvec3 edge2 = dvec3(primitive.positions[triangle[2]]) - origin;
+    const dvec2 delta1 = dvec2(uv[triangle[1]]) - dvec2(uv[triangle[0]]);
+    const dvec2 delta2 = dvec2(uv[triangle[2]]) - dvec2(uv[triangle[0]]);
+    const double determinant = delta1.x * delta2.y - delta2.x * delta1.y;
+    if (determinant == 0.0 || !std::isfinite(determinant))
+        return {};
+    const double sign = determinant > 0.0 ? 1.0 : -1.0;
+    const dvec3 tangent = (edge1 * delta2.y - edge2 * delta1.y) * sign;
+    const dvec3 bitangent = (edge1 * delta2.x - edge2 * delta1.x) * sign;
+    const double area = glm::length(glm::cross(edge1, edge2));
+    const double tangentLength = glm::length(tangent);
+    const double bitangentLength = glm::length(bitangent);
+    if (!(tangentLength > 0.0) || !(bitangentLength > 0.0))
+        return {};
+    return {tangent * (area / tangentLength), bitangent * (area / bitangentLength)};
+}
+
+/// Any unit vector orthogonal to `normal`, for vertices whose texture coordinates give none.
+dvec3 anyOrthogonal(const dvec3& normal) {
+    const dvec3 axis = std::abs(normal.x) < 0.7 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
+    return glm::normalize(glm::cross(normal, axis));
+}
+
+vec4 makeTangent(const vec3& unitNormal, const Frame& sum) {
+    const dvec3 normal(unitNormal);
+    dvec3 tangent = sum.tangent - normal * glm::dot(normal, sum.tangent);
+    const double length = glm::length(tangent);
+    // Relative to the sum: a tangent along the normal leaves only a rounding error.
+    const bool usable = length > 1e-6 * glm::length(sum.tangent) && std::isfinite(length);
+    tangent = usable ? tangent / length : anyOrthogonal(normal);
+    const double handedness = glm::dot(glm::cross(normal, tangent), sum.bitangent);
+    return vec4(vec3(tangent), usable && handedness < 0.0 ? -1.0f : 1.0f);
+}
+
 } // namespace
 
 std::vector<uint32_t> triangulate(std::span<const uint32_t> indices, TriangleMode mode) {
@@ -62,7 +114,7 @@ std::vector<uint32_t> triangulate(std::span<const uint32_t> indices, TriangleMod
     triangles.reserve(count * 3);
     for (size_t i = 0; i + 2 < count; ++i) {
         if (mode == TriangleMode::Strip) {
-            // Every second triangle of a strip is turned round, so that all face the same way.
+            // Every second triangle of a strip is reversed, so that all face the same way.
             add(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
         } else {
             add(indices[i + 1], indices[i + 2], indices[0]);
@@ -110,7 +162,7 @@ size_t removeNonFiniteTriangles(scene::Primitive& primitive) {
             kept.insert(kept.end(), {indices[i], indices[i + 1], indices[i + 2]});
     }
     const size_t removed = (indices.size() - kept.size()) / 3;
-    // Vertices that are not finite must go even where no triangle uses them.
+    // Vertices that are not finite must be removed even where no triangle uses them.
     std::vector<uint32_t> newIndex(primitive.positions.size(), scene::kNone);
     std::vector<uint32_t> sources;
     for (uint32_t& index : kept) {
@@ -160,6 +212,37 @@ size_t repairNormals(scene::Primitive& primitive) {
             primitive.normals[i] = normalizeOr(sums[i], kUp);
     }
     return badCount;
+}
+
+void makeTangents(scene::Primitive& primitive, const std::vector<vec2>& uv) {
+    std::vector<Frame> sums(primitive.positions.size());
+    for (size_t i = 0; i < primitive.indices.size(); i += 3) {
+        const uint32_t* triangle = &primitive.indices[i];
+        const Frame frame = computeTriangleFrame(primitive, uv, triangle);
+        for (size_t k = 0; k < 3; ++k) {
+            sums[triangle[k]].tangent += frame.tangent;
+            sums[triangle[k]].bitangent += frame.bitangent;
+        }
+    }
+    primitive.tangents.resize(primitive.positions.size());
+    for (size_t i = 0; i < primitive.tangents.size(); ++i) {
+        primitive.tangents[i] = makeTangent(primitive.normals[i], sums[i]);
+    }
+}
+
+bool areTangentsValid(const std::vector<vec4>& tangents) {
+    for (const vec4& tangent : tangents) {
+        const float squared = glm::dot(vec3(tangent), vec3(tangent));
+        if (!std::isfinite(squared) || !(squared > 1e-12f) || std::isnan(tangent.w))
+            return false;
+    }
+    return true;
+}
+
+void normalizeTangents(std::vector<vec4>& tangents) {
+    for (vec4& tangent : tangents) {
+        tangent = vec4(glm::normalize(vec3(tangent)), tangent.w < 0.0f ? -1.0f : 1.0f);
+    }
 }
 
 } // namespace shutter::gltf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Private to engine/gltf: what glTF leaves to the reader of a primitive, as functions of plain
-// arrays.
+// Private to engine/gltf: geometry that glTF leaves to its reader (triangles of strips and fans,
+// normals, tangents), as functions of plain arrays.
 #pragma once
 
 #include "engine/scene/assets.h"
@@ -13,9 +13,9 @@ namespace shutter::gltf {
 
 enum class TriangleMode { List, Strip, Fan };
 
-/// Three indices a triangle, wound as glTF 2.0 (3.7.2.1) defines for strips and fans. Triangles
-/// with an index twice (how strips are joined) have no surface and are left out. Indices of a list
-/// that make no whole triangle are ignored.
+/// Three indices per triangle, with the winding that glTF 2.0 (3.7.2.1) defines for strips and
+/// fans. Leaves out triangles that repeat an index (strips are joined by them), which have no area,
+/// and trailing indices of a list that make no whole triangle.
 [[nodiscard]] std::vector<uint32_t>
 triangulate(std::span<const uint32_t> indices, TriangleMode mode);
 
@@ -23,28 +23,28 @@ triangulate(std::span<const uint32_t> indices, TriangleMode mode);
 [[nodiscard]] scene::Primitive
 gatherVertices(const scene::Primitive& primitive, std::span<const uint32_t> sources);
 
-/// Removes triangles with a vertex that is not finite and all vertices that no triangle uses.
+/// Removes triangles with a vertex that is not finite, and all vertices that no triangle uses.
 /// Returns the number of triangles removed.
 size_t removeNonFiniteTriangles(scene::Primitive& primitive);
 
-/// Gives every triangle vertices of its own and its face normal (glTF 2.0, 3.7.2.1: flat normals
-/// where none are given). A triangle without area gets +Y.
+/// Gives every triangle its own vertices with its face normal, as glTF 2.0 (3.7.2.1) requires where
+/// a file gives no normals. A triangle without area gets +Y.
 void makeFlatNormals(scene::Primitive& primitive);
 
-/// Makes every normal unit length. One that is zero or not finite becomes the mean of its
-/// triangles' face normals, weighted by area. Returns how many there were.
+/// Normalizes every normal. One that is zero or not finite becomes the area-weighted mean of the
+/// face normals around it. Returns the number of normals replaced.
 size_t repairNormals(scene::Primitive& primitive);
 
-/// Tangents from the texture coordinates `uv`: each triangle's direction of growing u, summed at
-/// its vertices weighted by area, made orthogonal to the normal; w is the sign of the summed
-/// bitangent. This is not MikkTSpace: vertices are not split, so a map baked for MikkTSpace shades
-/// slightly differently across mirrored seams. Needs normals.
+/// Computes tangents from the texture coordinates `uv`: sums each triangle's direction of
+/// increasing u at its vertices, weighted by area, and makes the sum orthogonal to the normal; w is
+/// the sign of the summed bitangent. This is not MikkTSpace: vertices are not split, so a map baked
+/// for MikkTSpace shades slightly differently across mirrored seams. Requires normals.
 void makeTangents(scene::Primitive& primitive, const std::vector<math::vec2>& uv);
 
-/// True when tangents read from a file can be used: finite, not zero.
+/// True when every tangent is finite and not zero.
 [[nodiscard]] bool areTangentsValid(const std::vector<math::vec4>& tangents);
 
-/// Unit length, w = +1 or -1. Needs areTangentsValid.
+/// Makes tangents unit length and w +1 or -1. Requires areTangentsValid.
 void normalizeTangents(std::vector<math::vec4>& tangents);
 
 } // namespace shutter::gltf

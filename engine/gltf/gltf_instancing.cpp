@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_instancing.h"
-
-#include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_value.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 #include "engine/math/transform.h"
 
 #include <cmath>
@@ -15,11 +13,7 @@ namespace {
 using math::dquat;
 using math::dvec3;
 
-constexpr int kByte = TINYGLTF_COMPONENT_TYPE_BYTE;
-constexpr int kShort = TINYGLTF_COMPONENT_TYPE_SHORT;
-constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
-
-/// What an entity takes in the registry, rounded up: its components and their places.
+/// Bytes of an instance in the registry, rounded up: its components and their index entries.
 constexpr uint64_t kInstanceBytes = sizeof(scene::LocalTransform) + sizeof(scene::Parent) +
                                     sizeof(scene::MeshInstance) + 8 * sizeof(ecs::Entity);
 
@@ -28,7 +22,7 @@ class InstanceReader {
     InstanceReader(GltfContext& context, const tinygltf::Value& extension, std::string path)
         : mContext(context), mPath(std::move(path)) {
         mPath += ".attributes";
-        // tinygltf does not tell an empty object from none.
+        // tinygltf does not distinguish an empty object from a missing one.
         mAttributes = extension.Has("attributes") ? &extension.Get("attributes") : nullptr;
         if (!mAttributes || !mAttributes->IsObject() || mAttributes->Keys().empty())
             failGltf("{} is missing or empty", mPath);
@@ -39,10 +33,10 @@ class InstanceReader {
         mContext.spendVertexBytes(count * kInstanceBytes);
         std::vector<math::Transform> transforms(count);
         const std::vector<float> translations =
-            readAttribute("TRANSLATION", TINYGLTF_TYPE_VEC3, {kFloat});
+            readAttribute("TRANSLATION", TINYGLTF_TYPE_VEC3, {kFloat32});
         const std::vector<float> rotations =
-            readAttribute("ROTATION", TINYGLTF_TYPE_VEC4, {kFloat, kByte, kShort});
-        const std::vector<float> scales = readAttribute("SCALE", TINYGLTF_TYPE_VEC3, {kFloat});
+            readAttribute("ROTATION", TINYGLTF_TYPE_VEC4, {kFloat32, kInt8, kInt16});
+        const std::vector<float> scales = readAttribute("SCALE", TINYGLTF_TYPE_VEC3, {kFloat32});
         for (size_t i = 0; i < count; ++i) {
             if (!translations.empty())
                 transforms[i].translation = toVec3(&translations[i * 3]);
@@ -55,7 +49,8 @@ class InstanceReader {
     }
 
   private:
-    /// Of all attributes, also of those that are not read: they have to agree.
+    /// The number of instances, on which all attributes must agree, including those that are
+    /// ignored.
     size_t countInstances() const {
         std::optional<size_t> count;
         for (const std::string& name : mAttributes->Keys()) {
@@ -83,9 +78,8 @@ class InstanceReader {
         const std::string path = fmt::format("{}.{}", mPath, name);
         std::vector<float> values =
             readFloats(mContext, *accessor, {path, {type}, std::move(componentTypes), true});
-        constexpr float kMaxMagnitude = 1e30f;
         for (const float value : values) {
-            if (!(std::abs(value) <= kMaxMagnitude))
+            if (!(std::abs(value) <= float(kMaxMagnitude)))
                 failGltf("{} holds {}", path, value);
         }
         return values;
@@ -124,7 +118,7 @@ void expand(
                              sizeof(scene::MorphWeights);
         context.spendVertexBytes(transforms.size() * bytes);
     }
-    // Before the others come, so that the instances stay in the order of the file.
+    // Removed before the instances are added, which keeps those in the order of the file.
     registry.remove<scene::MeshInstance>(node);
     registry.remove<scene::MorphWeights>(node);
     for (const math::Transform& transform : transforms) {

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_loader.h"
 
-#include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_animation.h"
-#include "engine/gltf/gltf_document.h"
-#include "engine/gltf/gltf_instancing.h"
-#include "engine/gltf/gltf_material.h"
-#include "engine/gltf/gltf_mesh.h"
-#include "engine/gltf/gltf_node.h"
-#include "engine/gltf/gltf_schema.h"
-#include "engine/gltf/gltf_skin.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
+#include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
+#include "engine/io/uri.h"
 
+#include <cstdint>
+#include <limits>
 #include <new>
+#include <string_view>
 #include <utility>
 
 namespace shutter::gltf {
 
 namespace {
 
-/// A GLB cannot be longer; nor can a .gltf with embedded data be sensible above.
+/// The length field of a GLB allows no more, and no sensible .gltf with embedded data has more.
 constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
 
 void warnIgnoredExtensions(GltfContext& context) {
@@ -56,6 +54,31 @@ LoadedScene buildScene(const std::filesystem::path& folder, std::span<const uint
     return loaded;
 }
 
+/// Appends the URIs of files that the given array of `root` names.
+void collectUris(const nlohmann::json& root, const char* array, std::vector<std::string>& uris) {
+    const auto entries = root.find(array);
+    if (entries == root.end() || !entries->is_array())
+        return;
+    for (const nlohmann::json& entry : *entries) {
+        if (!entry.is_object())
+            continue;
+        const auto uri = entry.find("uri");
+        if (uri == entry.end() || !uri->is_string())
+            continue;
+        std::string text = uri->get<std::string>();
+        if (!io::isDataUri(text)) // embedded data is part of the scene's own hash
+            uris.push_back(std::move(text));
+    }
+}
+
+std::string hashUri(const std::filesystem::path& folder, const std::string& uri) {
+    const auto file = io::resolveUri(folder, uri);
+    if (!file)
+        return "missing";
+    const auto hash = io::computeFileHash(file.value());
+    return hash ? hash.value() : "missing";
+}
+
 } // namespace
 
 core::Result<LoadedScene> loadGltf(const std::filesystem::path& path) try {
@@ -72,8 +95,28 @@ core::Result<LoadedScene> loadGltf(const std::filesystem::path& path) try {
 
 } catch (const std::exception& e) {
 
-    // What tinygltf, the JSON parser or the file system may throw beyond what was foreseen.
+    // Unforeseen exceptions of tinygltf, the JSON parser or the file system.
     return core::makeError("cannot load '{}': {}", path.string(), e.what());
+}
+
+core::Result<std::string> computeSceneHash(const std::filesystem::path& path) {
+    const auto bytes = io::readFileBytes(path, std::numeric_limits<uint64_t>::max());
+    if (!bytes)
+        return bytes.error();
+    const std::vector<uint8_t>& whole = bytes.value();
+    std::string hashes =
+        io::computeContentHash({reinterpret_cast<const char*>(whole.data()), whole.size()});
+    std::vector<std::string> uris;
+    try {
+        const nlohmann::json root = parseGltfJson(splitGltf(whole).json);
+        collectUris(root, "buffers", uris);
+        collectUris(root, "images", uris);
+    } catch (const GltfError& error) {
+        return core::makeError("cannot load '{}': {}", path.string(), error.what());
+    }
+    for (const std::string& uri : uris)
+        hashes += ' ' + hashUri(path.parent_path(), uri);
+    return io::computeContentHash(hashes);
 }
 
 } // namespace shutter::gltf

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_mesh.h"
-
-#include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_attribute.h"
 #include "engine/gltf/gltf_geometry.h"
-#include "engine/gltf/gltf_morph.h"
-#include "engine/gltf/gltf_skin.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +12,7 @@ namespace shutter::gltf {
 
 namespace {
 
-constexpr int kByte = TINYGLTF_COMPONENT_TYPE_BYTE;
-constexpr int kUnsignedByte = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-constexpr int kShort = TINYGLTF_COMPONENT_TYPE_SHORT;
-constexpr int kUnsignedShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-constexpr int kUnsignedInt = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
-
-/// Triangles of a primitive mode, or nothing for points and lines.
+/// The triangle mode of a primitive, or nothing for points and lines.
 std::optional<TriangleMode> readMode(int mode, const std::string& path) {
     switch (mode) {
     case TINYGLTF_MODE_POINTS:
@@ -52,7 +41,7 @@ class PrimitiveReader {
     )
         : mContext(context), mAssets(assets), mSource(source), mPath(std::move(path)) {}
 
-    /// Nothing where there is nothing to draw.
+    /// The primitive, or nothing where there is nothing to draw.
     std::optional<scene::Primitive> read() {
         const std::optional<TriangleMode> mode = readMode(mSource.mode, mPath);
         if (!mode) {
@@ -81,7 +70,8 @@ class PrimitiveReader {
         return fmt::format("{} {}", mPath, name);
     }
 
-    /// The accessor's index, its count checked against POSITION's; nothing where it is not given.
+    /// Index of the attribute's accessor, whose count is checked against that of POSITION; nothing
+    /// for a missing attribute.
     std::optional<size_t> findAttribute(const std::string& name) {
         const auto it = mSource.attributes.find(name);
         if (it == mSource.attributes.end())
@@ -129,10 +119,9 @@ class PrimitiveReader {
         if (!index)
             return {};
         const std::string path = attributePath(name);
-        AccessorUse use{path, {TINYGLTF_TYPE_VEC2}, {kFloat, kUnsignedByte, kUnsignedShort}, true};
+        AccessorUse use{path, {TINYGLTF_TYPE_VEC2}, {kFloat32, kUint8, kUint16}, true};
         if (isQuantized(mContext)) {
-            use = {
-                path, {TINYGLTF_TYPE_VEC2}, {kFloat, kByte, kUnsignedByte, kShort, kUnsignedShort}};
+            use = {path, {TINYGLTF_TYPE_VEC2}, {kFloat32, kInt8, kUint8, kInt16, kUint16}};
         }
         std::vector<math::vec2> uv = toVectors<math::vec2>(readFloats(mContext, *index, use));
         bool isRepaired = false;
@@ -155,10 +144,7 @@ class PrimitiveReader {
         const std::vector<float> values = readFloats(
             mContext,
             *index,
-            {path,
-             {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4},
-             {kFloat, kUnsignedByte, kUnsignedShort},
-             true}
+            {path, {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, {kFloat32, kUint8, kUint16}, true}
         );
         const size_t components = componentCount(mContext.model.accessors[*index]);
         std::vector<math::vec4> colors(values.size() / components, math::vec4(1.0f));
@@ -183,7 +169,7 @@ class PrimitiveReader {
             indices = readUnsigned(
                 mContext,
                 size_t(mSource.indices),
-                {path, {TINYGLTF_TYPE_SCALAR}, {kUnsignedByte, kUnsignedShort, kUnsignedInt}}
+                {path, {TINYGLTF_TYPE_SCALAR}, {kUint8, kUint16, kUint32}}
             );
             const auto largest = std::max_element(indices.begin(), indices.end());
             if (*largest >= vertexCount) {
@@ -252,13 +238,13 @@ class PrimitiveReader {
         }
         mPrimitive.tangents.clear();
         for (scene::MorphTarget& target : mPrimitive.morphTargets)
-            target.tangents.clear(); // they were meant for others
+            target.tangents.clear(); // these deltas belong to the tangents of the file
         if (!isNeeded)
             return;
         const std::vector<math::vec2>& uv =
             shading->normal.uvSet == 0 ? mPrimitive.uv0 : mPrimitive.uv1;
         if (uv.empty())
-            return; // warnMissingUv tells
+            return; // warnMissingUv warns
         mContext.spendVertexBytes(mPrimitive.positions.size() * sizeof(math::vec4));
         makeTangents(mPrimitive, uv);
     }

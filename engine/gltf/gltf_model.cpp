@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// tinygltf's writer, unused here, needs <fstream> also where TINYGLTF_NO_FS keeps it from including
-// it.
+// tinygltf's writer, unused here, needs <fstream>, which tinygltf does not include under
+// TINYGLTF_NO_FS.
 #include <fstream>
 
 #define TINYGLTF_IMPLEMENTATION
-#include "engine/gltf/gltf_error.h"
-#include "engine/gltf/gltf_model.h"
+#include "engine/gltf/gltf_context.h"
 
 #include <limits>
 #include <string>
@@ -15,8 +14,9 @@ namespace shutter::gltf {
 
 namespace {
 
-/// glTF allows accessors without a buffer view (all zeros), tinygltf refuses them as indices. Gives
-/// each of them view 0, adding one where there is none, and returns which they were.
+/// Gives buffer view 0 to every accessor without a view, adding a view where the file has none, and
+/// returns the indices of those accessors. glTF allows them (all zeros), tinygltf refuses them as
+/// indices.
 std::vector<size_t> giveEveryAccessorAView(nlohmann::json& root) {
     std::vector<size_t> withoutView;
     const auto accessors = root.find("accessors");

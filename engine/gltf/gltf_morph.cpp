@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_morph.h"
-
-#include "engine/gltf/gltf_attribute.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <cmath>
 
@@ -11,7 +10,8 @@ namespace {
 
 using math::vec3;
 
-/// Damaged deltas leave the vertex where it is.
+/// Sets deltas that are not finite to 0, which leaves the vertex in place. Returns true when there
+/// were any.
 bool repairDeltas(std::vector<vec3>& deltas) {
     bool isRepaired = false;
     for (vec3& delta : deltas) {
@@ -124,7 +124,6 @@ std::vector<float> readMorphWeights(
             fallback.size()
         );
     }
-    constexpr double kMaxMagnitude = 1e30;
     std::vector<float> weights;
     for (const double weight : given) {
         if (!(std::abs(weight) <= kMaxMagnitude))

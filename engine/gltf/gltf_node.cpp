@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_node.h"
-
-#include "engine/gltf/gltf_camera_light.h"
-#include "engine/gltf/gltf_morph.h"
-#include "engine/gltf/gltf_motion_blur.h"
-#include "engine/gltf/gltf_value.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,9 +15,6 @@ using math::dquat;
 using math::dvec3;
 
 constexpr int kNoParent = -1;
-
-/// Beyond, single precision overflows in products.
-constexpr double kMaxMagnitude = 1e30;
 
 double checkMagnitude(double value, const std::string& path) {
     if (!(std::abs(value) <= kMaxMagnitude))
@@ -63,7 +56,7 @@ dmat4 readMatrix(const std::vector<double>& values, const std::string& path) {
     return matrix;
 }
 
-/// The rotation nearest to a sheared matrix in the sense of Gram and Schmidt: keeps the x axis.
+/// The rotation of a sheared matrix by Gram-Schmidt orthogonalization, which keeps the x axis.
 dquat orthonormalRotation(const dmat4& matrix) {
     const dvec3 x(matrix[0]);
     const dvec3 y(matrix[1]);
@@ -75,7 +68,7 @@ dquat orthonormalRotation(const dmat4& matrix) {
     return glm::normalize(glm::quat_cast(dmat3(unitX, glm::cross(unitZ, unitX), unitZ)));
 }
 
-/// Parent of every node. Throws for two parents and for cycles.
+/// The parent of every node. Throws GltfError for a node with two parents and for cycles.
 std::vector<int> findParents(const tinygltf::Model& model) {
     std::vector<int> parents(model.nodes.size(), kNoParent);
     for (size_t n = 0; n < model.nodes.size(); ++n) {
@@ -87,8 +80,8 @@ std::vector<int> findParents(const tinygltf::Model& model) {
             parent = int(n);
         }
     }
-    // With one parent each, following parents either ends or goes round. Nodes known to end are
-    // marked, so that a chain of 20000 is walked once.
+    // As every node has at most one parent, a walk upwards ends at a root or runs in a cycle. Nodes
+    // known to end at a root are marked, so that a chain of 20000 nodes is walked only once.
     std::vector<uint8_t> isRooted(model.nodes.size(), 0);
     std::vector<size_t> chain;
     for (size_t n = 0; n < model.nodes.size(); ++n) {
@@ -108,7 +101,7 @@ std::vector<int> findParents(const tinygltf::Model& model) {
 
 enum class NodeUse : uint8_t {
     None,
-    Joint, ///< outside of the scene, but a joint of a mesh in it, or above one
+    Joint, ///< outside the scene, but a joint of a mesh in it, or the ancestor of such a joint
     Scene,
 };
 
@@ -148,7 +141,7 @@ std::vector<NodeUse> findSceneNodes(GltfContext& context, const std::vector<int>
     return uses;
 }
 
-/// Marks what moves the joints of the scene's meshes without being in the scene itself.
+/// Marks nodes outside the scene that move joints of the scene's meshes.
 void addJointNodes(
     const tinygltf::Model& model, const std::vector<int>& parents, std::vector<NodeUse>& uses
 ) {
@@ -211,7 +204,7 @@ class NodeLoader {
         }
     }
 
-    /// KHR_physics_rigid_bodies gives velocities in node space; ours are in the parent's.
+    /// Converts the velocities of KHR_physics_rigid_bodies from node space to the parent's space.
     void addMotion() {
         const auto* extension = findExtension(mNode.extensions, "KHR_physics_rigid_bodies");
         if (!extension || !extension->Has("motion"))
@@ -254,7 +247,7 @@ class NodeLoader {
         mRegistry.add<scene::Light>(mEntity, readLight(mContext, *light));
     }
 
-    /// A camera whose node has no name is found by its own.
+    /// The node's name or, for a camera on a node without one, the camera's.
     void addName() {
         std::string name = mNode.name;
         if (name.empty() && mNode.camera >= 0) {
@@ -280,7 +273,7 @@ std::optional<math::Transform> decomposeMatrix(const dmat4& matrix) {
     transform.translation = dvec3(matrix[3]);
     dmat3 axes(matrix);
     transform.scale = dvec3(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
-    // A flattened axis has lost its direction, and with it the rotation.
+    // The direction of a flattened axis, and so the rotation, is lost.
     const double largest = std::max({transform.scale.x, transform.scale.y, transform.scale.z});
     const double smallest = std::min({transform.scale.x, transform.scale.y, transform.scale.z});
     if (!(smallest > 1e-12 * largest))

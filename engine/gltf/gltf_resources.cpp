@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_resources.h"
-
-#include "engine/gltf/gltf_error.h"
+#include "engine/gltf/gltf_document.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
 
@@ -12,7 +10,7 @@ namespace shutter::gltf {
 
 namespace {
 
-/// No encoded picture below our size limit comes near this.
+/// Far above the encoded size of any image within the size limit.
 constexpr uint64_t kMaxImageBytes = uint64_t(1) << 30;
 
 /// Reads `uri`; `label` names the field in the message.

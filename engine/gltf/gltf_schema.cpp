@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_schema.h"
-
-#include "engine/gltf/gltf_error.h"
+#include "engine/gltf/gltf_document.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,15 +17,15 @@ using nlohmann::json;
 
 enum class Kind {
     Index,      ///< into the root array named by `target`
-    IndexArray, ///< array of such
-    IndexMap,   ///< object whose values are such
+    IndexArray, ///< array of such indices
+    IndexMap,   ///< object whose values are such indices
     IndexMaps,  ///< array of such objects
     Whole,      ///< 0 .. 2^53
     Int,        ///< 0 .. 2^31 - 1
     Number,     ///< finite (JSON has no other)
-    Numbers,    ///< array of `length` of them; any number where length is 0
+    Numbers,    ///< array of `length` numbers; of any length where `length` is 0
     String,
-    Choice, ///< string, one of those in `target`, which are separated by '|'
+    Choice, ///< string, one of the words in `target`, which '|' separates
     Boolean,
     Object,     ///< checked against `members`
     Array,      ///< of objects checked against `members`
@@ -335,7 +333,7 @@ class Checker {
         }
     }
 
-    /// Leaves an unsigned integer in `value`.
+    /// Rewrites `value` to an unsigned integer.
     static void checkWhole(json& value, uint64_t max, const std::string& path) {
         expect(value.is_number(), path, "a number");
         if (!value.is_number_unsigned()) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_skin.h"
-
-#include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_attribute.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +11,10 @@ namespace shutter::gltf {
 
 namespace {
 
-constexpr uint32_t kSetSize = 4; ///< influences of one JOINTS_n and WEIGHTS_n
+constexpr uint32_t kSetSize = 4; ///< influences per vertex of one JOINTS_n and WEIGHTS_n
 constexpr int kSetCount = 2;     ///< sets that are read
-constexpr int kUnsignedByte = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-constexpr int kUnsignedShort = TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-constexpr int kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
 
-/// One JOINTS_n with its WEIGHTS_n, four a vertex.
+/// One JOINTS_n with its WEIGHTS_n, four per vertex.
 struct InfluenceSet {
     std::vector<uint32_t> joints;
     std::vector<float> weights;
@@ -77,14 +72,12 @@ class InfluenceReader {
         const std::string jointsPath = mPath + " " + joints;
         const std::string weightsPath = mPath + " " + weights;
         set.joints = readUnsigned(
-            mContext,
-            findAttribute(joints),
-            {jointsPath, {TINYGLTF_TYPE_VEC4}, {kUnsignedByte, kUnsignedShort}}
+            mContext, findAttribute(joints), {jointsPath, {TINYGLTF_TYPE_VEC4}, {kUint8, kUint16}}
         );
         set.weights = readFloats(
             mContext,
             findAttribute(weights),
-            {weightsPath, {TINYGLTF_TYPE_VEC4}, {kFloat, kUnsignedByte, kUnsignedShort}, true}
+            {weightsPath, {TINYGLTF_TYPE_VEC4}, {kFloat32, kUint8, kUint16}, true}
         );
         repairWeights(set.weights, weightsPath);
         mSets.push_back(std::move(set));
@@ -102,7 +95,7 @@ class InfluenceReader {
             mContext.warnings.add(path + " holds values that are below 0 or not finite: set to 0");
     }
 
-    /// From set after set to vertex after vertex.
+    /// Reorders the influences from one set after the other to one vertex after the other.
     void interleave() {
         const size_t vertexCount = mPrimitive.positions.size();
         mPrimitive.influenceCount = kSetSize * uint32_t(mSets.size());
@@ -125,7 +118,7 @@ class InfluenceReader {
         size_t unbound = 0;
         for (size_t begin = 0; begin < mPrimitive.weights.size(); begin += count) {
             const std::span<float> weights(&mPrimitive.weights[begin], count);
-            double sum = 0.0; // eight of the largest floats do not overflow it
+            double sum = 0.0; // holds eight of the largest floats without overflow
             for (const float weight : weights)
                 sum += double(weight);
             if (!(sum > 0.0)) {
@@ -153,11 +146,10 @@ class InfluenceReader {
 };
 
 math::dmat4 readBindMatrix(std::span<const float> values, const std::string& path) {
-    constexpr float kMaxMagnitude = 1e30f;
-    constexpr double kRowTolerance = 1e-3; // exporters invert in single precision
+    constexpr double kRowTolerance = 1e-3; // exporters compute inverses in single precision
     math::dmat4 matrix(1.0);
     for (size_t i = 0; i < 16; ++i) {
-        if (!(std::abs(values[i]) <= kMaxMagnitude))
+        if (!(std::abs(values[i]) <= float(kMaxMagnitude)))
             failGltf("{} holds {}", path, values[i]);
         matrix[glm::length_t(i / 4)][glm::length_t(i % 4)] = double(values[i]);
     }
@@ -185,7 +177,7 @@ scene::Skin readSkin(GltfContext& context, size_t index) {
     }
     const std::string at = path + ".inverseBindMatrices";
     const std::vector<float> values = readFloats(
-        context, size_t(source.inverseBindMatrices), {at, {TINYGLTF_TYPE_MAT4}, {kFloat}}
+        context, size_t(source.inverseBindMatrices), {at, {TINYGLTF_TYPE_MAT4}, {kFloat32}}
     );
     if (values.size() / 16 < jointCount)
         failGltf("{} has {} elements for {} joints", at, values.size() / 16, jointCount);
@@ -206,7 +198,7 @@ void bindToFirstJoint(GltfContext& context, scene::Primitive& primitive) {
         primitive.weights[i] = 1.0f;
 }
 
-/// Returns the largest joint number that a vertex of the mesh names.
+/// Binds primitives without joints to the first one. Returns the largest joint index in the mesh.
 uint32_t bindMesh(GltfContext& context, scene::Mesh& mesh, int index) {
     uint32_t largest = 0;
     for (scene::Primitive& primitive : mesh.primitives) {
@@ -242,7 +234,7 @@ void loadSkins(GltfContext& context, scene::Assets& assets) {
 
 void bindMeshes(GltfContext& context, scene::Assets& assets) {
     const std::vector<tinygltf::Node>& nodes = context.model.nodes;
-    // Many nodes may share one mesh; its vertices are looked at once.
+    // Many nodes may share one mesh, whose vertices are inspected only once.
     std::map<int, uint32_t> largestOfMesh;
     for (size_t n = 0; n < nodes.size(); ++n) {
         const tinygltf::Node& node = nodes[n];
@@ -271,7 +263,7 @@ void addSkins(GltfContext& context, scene::World& world, const std::vector<ecs::
         return model.nodes[node].skin >= 0 && entities[node] != ecs::kNullEntity &&
                world.registry.has<scene::MeshInstance>(entities[node]);
     };
-    // All is counted before any is made: many nodes may share one large skin.
+    // Charged to the budget before any is allocated: many nodes may share one large skin.
     for (size_t n = 0; n < model.nodes.size(); ++n) {
         if (isSkinned(n)) {
             const size_t jointCount = model.skins[size_t(model.nodes[n].skin)].joints.size();

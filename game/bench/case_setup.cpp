@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_setup.h"
 
-#include "engine/gltf/gltf_content.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/io/content_hash.h"
 
 #include <fmt/ranges.h>

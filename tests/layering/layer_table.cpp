@@ -59,6 +59,18 @@ const std::vector<Row> kEngineRows = {
 /// and drawn agrees with the same shaders.
 const Names kSceneRooms = {"extract", "gpu_scene", "rays", "render"};
 
+/// The headers of a folder of engine/ that other folders may include, where some are private to it.
+struct PublicHeaders {
+    std::string_view folder;
+    Names headers;
+};
+
+const std::vector<PublicHeaders> kPublicHeaders = {
+    {"io", {"content_hash.h", "file_bytes.h", "image_file.h", "process.h", "uri.h", "video.h"}},
+    {"json", {"json_file.h"}},
+    {"gltf", {"gltf_loader.h"}},
+};
+
 /// A module that other engines may take without our scene: what lies outside its plugin/ sees this.
 const Names kModulesWithEffect = {"motion_blur"};
 const Names kEffectSees = {"core", "math", "gpu", "graph"};
@@ -230,6 +242,18 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
     }
 }
 
+bool isPrivateTo(const Part& to, std::string_view path) {
+    if (to.kind != Kind::Engine)
+        return false;
+    const auto row =
+        std::find_if(kPublicHeaders.begin(), kPublicHeaders.end(), [&](const PublicHeaders& r) {
+            return r.folder == to.name;
+        });
+    if (row == kPublicHeaders.end())
+        return false;
+    return !row->headers.contains(path.substr(path.rfind('/') + 1));
+}
+
 /// The file an include means, from the repository root; empty for one that is not of this tree.
 std::string resolve(const Include& include, const FileExists& exists) {
     namespace fs = std::filesystem;
@@ -292,6 +316,8 @@ std::optional<std::string> findReason(const Include& include, const FileExists& 
         return std::nullopt;
     }
     const Part to = findPart(path);
+    if (!(from == to) && isPrivateTo(to, path))
+        return "the header is private to " + describe(to);
     if (maySee(from, to, path))
         return std::nullopt;
     return describe(from) + " may not see " + describe(to);

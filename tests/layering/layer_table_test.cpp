@@ -116,6 +116,24 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
     });
 }
 
+TEST(LayerTable, PrivateHeadersAreSeenByTheirOwnFolderOnly) {
+    expectAllowed({
+        {"engine/gltf/gltf_mesh.cpp", "\"engine/gltf/gltf_parts.h\""},
+        {"engine/json/json_file.cpp", "\"engine/json/json_tree.h\""},
+        {"engine/io/image_file.cpp", "\"engine/io/oiio_codec.h\""},
+        {"game/shot.cpp", "\"engine/gltf/gltf_loader.h\""},
+    });
+    expectRefused({
+        {"game/shot.cpp", "\"engine/gltf/gltf_parts.h\""},
+        {"game/shot.cpp", "\"engine/json/json_tree.h\""},
+        {"engine/gltf/gltf_material.cpp", "\"engine/io/oiio_codec.h\""},
+    });
+    EXPECT_EQ(
+        judge({"game/shot.cpp", "\"engine/gltf/gltf_new.h\""}),
+        "game/shot.cpp:1 includes engine/gltf/gltf_new.h: the header is private to gltf"
+    );
+}
+
 TEST(LayerTable, AWayRoundIsSeenThrough) {
     expectRefused({
         {"engine/gpu/device.h", "\"../scene/world.h\""},
@@ -147,18 +165,18 @@ TEST(LayerTable, ModulesSeeRenderAndBelowButNeverEachOther) {
 }
 
 TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
-    for (const std::string folder :
-         {"ecs",
-          "scene",
-          "extract",
-          "gpu_scene",
-          "rays",
-          "render",
-          "io",
-          "gltf",
-          "flythrough",
-          "image"}) {
-        const std::string directive = "\"engine/" + folder + "/a.h\"";
+    for (const std::string header :
+         {"ecs/a.h",
+          "scene/a.h",
+          "extract/a.h",
+          "gpu_scene/a.h",
+          "rays/a.h",
+          "render/a.h",
+          "io/image_file.h",
+          "gltf/gltf_loader.h",
+          "flythrough/a.h",
+          "image/a.h"}) {
+        const std::string directive = "\"engine/" + header + "\"";
         expectRefused({
             {"modules/motion_blur/motion_blur.h", directive},
             {"modules/motion_blur/passes/gather.cpp", directive},

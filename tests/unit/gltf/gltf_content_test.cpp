@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_content.h"
 #include "tests/unit/gltf/gltf_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The hierarchy, cameras, lights and velocities.
-#include "engine/gltf/gltf_node.h"
+#include "engine/gltf/gltf_parts.h"
 #include "tests/unit/gltf/gltf_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_value.h"
+#include "engine/gltf/gltf_values.h"
 
-#include "engine/gltf/gltf_error.h"
+#include <algorithm>
+#include <cmath>
 
 namespace shutter::gltf {
 
 namespace {
-
-/// Float range is what all later stages keep these values in.
-constexpr double kMaxMagnitude = 1e30;
 
 double asNumber(const tinygltf::Value& value, const std::string& path) {
     if (!value.IsNumber())
@@ -37,6 +35,28 @@ findVector(const tinygltf::Value& object, const std::string& key, const std::str
 }
 
 } // namespace
+
+bool isQuantized(const GltfContext& context) {
+    const std::vector<std::string>& used = context.model.extensionsUsed;
+    return std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
+}
+
+std::vector<float> readVectors(
+    GltfContext& context,
+    size_t accessor,
+    const std::string& attribute,
+    int type,
+    const std::string& path
+) {
+    if (!isQuantized(context))
+        return readFloats(context, accessor, {path, {type}, {kFloat32}});
+    if (attribute == "POSITION") {
+        return readFloats(
+            context, accessor, {path, {type}, {kFloat32, kInt8, kUint8, kInt16, kUint16}}
+        );
+    }
+    return readFloats(context, accessor, {path, {type}, {kFloat32, kInt8, kInt16}, true});
+}
 
 const tinygltf::Value*
 findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name) {

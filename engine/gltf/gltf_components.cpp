@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gltf/gltf_camera_light.h"
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace shutter::gltf {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-/// Outside of this a float projection has no digits left.
+/// Beyond this distance a single-precision projection matrix has no precision left.
 constexpr double kMaxDistance = 1e30;
 
 void expectRange(double value, double low, double high, const std::string& path) {
@@ -19,7 +19,7 @@ void expectRange(double value, double low, double high, const std::string& path)
 }
 
 scene::Camera readPerspective(const tinygltf::PerspectiveCamera& source, const std::string& path) {
-    expectRange(source.yfov, 0.0, kPi, path + ".perspective.yfov");
+    expectRange(source.yfov, 0.0, std::numbers::pi, path + ".perspective.yfov");
     expectRange(source.znear, 0.0, kMaxDistance, path + ".perspective.znear");
     scene::Camera camera;
     camera.kind = scene::CameraKind::Perspective;
@@ -56,10 +56,9 @@ scene::LightKind readLightKind(const std::string& type, const std::string& path)
 }
 
 void readCone(const tinygltf::SpotLight& spot, const std::string& path, scene::Light& light) {
-    // The extension wants 0 <= inner < outer <= pi / 2; pi / 2 as written in files may be rounded
-    // up.
+    // KHR_lights_punctual requires 0 <= inner < outer <= pi / 2; files may round pi / 2 up.
     const bool isValid = spot.innerConeAngle >= 0.0 && spot.innerConeAngle < spot.outerConeAngle &&
-                         spot.outerConeAngle <= kPi / 2.0 + 1e-6;
+                         spot.outerConeAngle <= std::numbers::pi / 2.0 + 1e-6;
     if (!isValid) {
         failGltf(
             "{}.spot has the cone angles {} and {}, but 0 <= inner < outer <= pi/2 is needed",
@@ -109,13 +108,32 @@ scene::Light readLight(const GltfContext& context, size_t index) {
     light.intensity = float(source.intensity);
     if (source.range < 0.0)
         failGltf("{}.range is {}, below 0", path, source.range);
-    // tinygltf says 0 for "not given", which means without end.
+    // tinygltf stores 0 for a missing range, which means unlimited.
     const bool hasRange = source.range > 0.0 && light.kind != scene::LightKind::Directional;
     if (hasRange)
         light.range = float(source.range);
     if (light.kind == scene::LightKind::Spot)
         readCone(source.spot, path, light);
     return light;
+}
+
+std::optional<scene::MotionBlur>
+readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
+    if (!node.extras.IsObject() || !node.extras.Has("motionBlur"))
+        return std::nullopt;
+    const tinygltf::Value& object = node.extras.Get("motionBlur");
+    const std::string at = path + ".extras.motionBlur";
+    if (!object.IsObject())
+        failGltf("{} is not an object", at);
+    for (const std::string& key : object.Keys())
+        if (key != "scale" && key != "exclude")
+            context.warnings.add(fmt::format("{} has a member '{}': not used", at, key));
+    scene::MotionBlur blur;
+    blur.scale = findNumber(object, "scale", at).value_or(blur.scale);
+    if (!(blur.scale >= 0.0 && blur.scale <= 2.0))
+        failGltf("{}.scale is {}, it must lie in [0, 2]", at, blur.scale);
+    blur.exclude = findBool(object, "exclude", at).value_or(blur.exclude);
+    return blur;
 }
 
 } // namespace shutter::gltf
