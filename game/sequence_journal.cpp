@@ -30,7 +30,10 @@ fs::path folderOf(const fs::path& file) {
 }
 
 std::string formatHeader(const std::string& fingerprint) {
-    return nlohmann::json{{"journal", kJournalName}, {"fingerprint", fingerprint}}.dump() + "\n";
+    nlohmann::ordered_json header;
+    header["fingerprint"] = fingerprint;
+    header["journal"] = kJournalName;
+    return json::formatJsonLine(header);
 }
 
 /// Empty where the line is none.
@@ -141,14 +144,16 @@ core::Status SequenceJournal::rewrite(const std::string& fingerprint) const {
 }
 
 std::string SequenceJournal::formatLine(int frame, const std::vector<File>& files) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const File& file : files)
-        list.push_back({{"name", file.name}, {"hash", file.hash}});
-    // A name that is no UTF-8 is replaced, is then not found, and its frame is drawn again.
-    return nlohmann::json{{"frame", frame}, {"files", list}}.dump(
-               -1, ' ', false, nlohmann::json::error_handler_t::replace
-           ) +
-           "\n";
+    nlohmann::ordered_json line;
+    nlohmann::ordered_json& list = line["files"] = nlohmann::ordered_json::array();
+    for (const File& file : files) {
+        nlohmann::ordered_json& entry = list.emplace_back();
+        entry["hash"] = file.hash;
+        entry["name"] = file.name;
+    }
+    line["frame"] = frame;
+    // A name that is not UTF-8 is replaced, so it is not found later and its frame is drawn again.
+    return json::formatJsonLine(line);
 }
 
 bool SequenceJournal::isComplete(int frame) const {

@@ -4,6 +4,8 @@
 #include "engine/core/check.h"
 #include "engine/json/json_file.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +17,8 @@
 namespace shutter::flythrough {
 
 namespace {
+
+using nlohmann::ordered_json;
 
 constexpr size_t kMaxKeys = 100'000;
 constexpr json::JsonRange kTimes{.min = -1.0e6, .max = 1.0e6};
@@ -144,53 +148,52 @@ Flythrough readRoot(const json::JsonNode& root) {
     return flythrough;
 }
 
-void writeVector(json::JsonWriter& writer, std::string_view key, const math::dvec3& v) {
-    writer.key(key).numbers(std::array{v.x, v.y, v.z});
+ordered_json describeVector(const math::dvec3& v) {
+    return {v.x, v.y, v.z};
 }
 
-void writeShutter(json::JsonWriter& writer, const FlythroughShutter& shutter) {
-    writer.key("shutter").beginObject();
+ordered_json describeShutter(const FlythroughShutter& shutter) {
+    ordered_json described = ordered_json::object();
     if (shutter.exposureSeconds)
-        writer.key("exposure").value(*shutter.exposureSeconds);
+        described["exposure"] = *shutter.exposureSeconds;
     if (shutter.angleDegrees)
-        writer.key("shutterAngle").value(*shutter.angleDegrees);
+        described["shutterAngle"] = *shutter.angleDegrees;
     if (shutter.phase)
-        writer.key("phase").value(findName(kPhases, *shutter.phase));
-    writer.endObject();
+        described["phase"] = findName(kPhases, *shutter.phase);
+    return described;
 }
 
-void writeKey(json::JsonWriter& writer, const FlythroughKey& key) {
-    writer.beginObject().key("time").value(key.seconds);
-    writeVector(writer, "position", key.position);
+ordered_json describeKey(const FlythroughKey& key) {
+    ordered_json described;
+    described["time"] = key.seconds;
+    described["position"] = describeVector(key.position);
     if (key.lookAt)
-        writeVector(writer, "lookAt", *key.lookAt);
+        described["lookAt"] = describeVector(*key.lookAt);
     if (key.rotation)
-        writer.key("rotation")
-            .numbers(std::array{key.rotation->x, key.rotation->y, key.rotation->z, key.rotation->w}
-            );
+        described["rotation"] = {
+            key.rotation->x, key.rotation->y, key.rotation->z, key.rotation->w};
     if (key.fieldOfView)
-        writer.key("fieldOfView").value(*key.fieldOfView);
+        described["fieldOfView"] = *key.fieldOfView;
     if (key.shutter)
-        writeShutter(writer, *key.shutter);
+        described["shutter"] = describeShutter(*key.shutter);
     if (key.cut)
-        writer.key("cut").value(true);
-    writer.endObject();
+        described["cut"] = true;
+    return described;
 }
 
-json::JsonWriter writeRoot(const Flythrough& flythrough) {
-    json::JsonWriter writer;
-    writer.beginObject().key("version").integer(1);
+ordered_json describe(const Flythrough& flythrough) {
+    ordered_json described;
+    described["version"] = 1;
     if (!flythrough.name.empty())
-        writer.key("name").value(flythrough.name);
-    writer.key("fps").value(flythrough.fps);
-    writer.key("interpolation").value(findName(kInterpolations, flythrough.interpolation));
-    writer.key("ease").value(findName(kEases, flythrough.ease));
-    writeVector(writer, "up", flythrough.up);
-    writer.key("keys").beginArray();
+        described["name"] = flythrough.name;
+    described["fps"] = flythrough.fps;
+    described["interpolation"] = findName(kInterpolations, flythrough.interpolation);
+    described["ease"] = findName(kEases, flythrough.ease);
+    described["up"] = describeVector(flythrough.up);
+    ordered_json& keys = described["keys"] = ordered_json::array();
     for (const FlythroughKey& key : flythrough.keys)
-        writeKey(writer, key);
-    writer.endArray().endObject();
-    return writer;
+        keys.push_back(describeKey(key));
+    return described;
 }
 
 bool isFinite(const math::dvec3& v) {
@@ -235,14 +238,14 @@ core::Status validateFlythrough(const Flythrough& flythrough) {
         if (!isFinite(flythrough.keys[i]))
             return core::makeError("flythrough: keys[{}] holds what is not finite", i);
     // One set of rules: those of the reader.
-    const auto read = parseFlythrough(writeRoot(flythrough).text(), "flythrough");
+    const auto read = parseFlythrough(json::formatJson(describe(flythrough)), "flythrough");
     return read ? core::Status() : core::Status(read.error());
 }
 
 core::Status writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough) {
     if (core::Status valid = validateFlythrough(flythrough); !valid)
         return core::makeError("cannot write '{}': {}", path.string(), valid.error().message);
-    return json::writeJsonFile(path, writeRoot(flythrough));
+    return json::writeJsonFile(path, describe(flythrough));
 }
 
 scene::PathMotion makePath(const Flythrough& flythrough) {

@@ -4,6 +4,8 @@
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_tree.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +38,24 @@ std::string describeRange(const JsonRange& range) {
 bool isWithin(double number, const JsonRange& range) {
     return (range.isAboveMin ? number > range.min : number >= range.min) &&
            (range.isBelowMax ? number < range.max : number <= range.max);
+}
+
+/// nlohmann would write null instead.
+void checkFinite(const nlohmann::ordered_json& content) {
+    if (content.is_number_float()) {
+        const auto number = content.get<double>();
+        SHUTTER_CHECK(std::isfinite(number), "JSON has no {}", number);
+    }
+    if (content.is_structured())
+        for (const nlohmann::ordered_json& element : content)
+            checkFinite(element);
+}
+
+/// \param indent spaces per level; -1: everything on one line
+std::string format(const nlohmann::ordered_json& content, int indent) {
+    checkFinite(content);
+    return content.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+           "\n";
 }
 
 } // namespace
@@ -246,6 +266,19 @@ core::Status JsonDocument::finish() const {
     if (mTree->error.empty())
         return {};
     return core::Error{mTree->error};
+}
+
+std::string formatJson(const nlohmann::ordered_json& content) {
+    return format(content, 2);
+}
+
+std::string formatJsonLine(const nlohmann::ordered_json& content) {
+    return format(content, -1);
+}
+
+core::Status
+writeJsonFile(const std::filesystem::path& path, const nlohmann::ordered_json& content) {
+    return io::writeFileText(path, formatJson(content));
 }
 
 } // namespace shutter::json

@@ -7,6 +7,8 @@
 
 #include "engine/core/result.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -169,47 +171,18 @@ template <class Read>
     return value;
 }
 
-/// Writes JSON, one field or element a line, arrays of numbers on one line. Numbers are as short as
-/// reads back the same. Misuse (a field outside of an object, a number that is not finite) is a
-/// CHECK failure.
-class JsonWriter {
-  public:
-    JsonWriter& beginObject();
-    JsonWriter& endObject();
-    JsonWriter& beginArray();
-    JsonWriter& endArray();
-    /// The name of the value to come.
-    JsonWriter& key(std::string_view name);
-    JsonWriter& value(double number);
-    JsonWriter& value(bool truth);
-    JsonWriter& value(std::string_view text);
+/// The text of a JSON file: one field or element per line, two spaces per level, a line break at
+/// the end. Fields keep their order, and every double reads back to the last bit. Bytes that are
+/// not UTF-8 become U+FFFD. A number that is not finite, which JSON cannot hold, is a CHECK
+/// failure.
+[[nodiscard]] std::string formatJson(const nlohmann::ordered_json& content);
 
-    JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+/// The same content on one line that ends in a line break, for journals.
+[[nodiscard]] std::string formatJsonLine(const nlohmann::ordered_json& content);
 
-    JsonWriter& integer(int64_t number);
-    JsonWriter& numbers(std::span<const double> values);
-
-    /// The whole text, with a line break at its end; all that was begun must have ended.
-    [[nodiscard]] std::string text() const;
-
-  private:
-    struct Level {
-        bool isObject = false;
-        bool isEmpty = true;
-    };
-
-    void startValue();
-    void breakLine();
-    JsonWriter& write(std::string_view text);
-    JsonWriter& end(bool isObject, char bracket);
-
-    std::string mText;
-    std::vector<Level> mLevels;
-    bool mHasKey = false;
-};
-
-/// Renamed into place: an interrupted write leaves no half of a file. Error: names the file.
+/// Writes formatJson(content) to a temporary file and renames it, so that an interrupted write
+/// never leaves half a file. Error: names the file.
 [[nodiscard]] core::Status
-writeJsonFile(const std::filesystem::path& path, const JsonWriter& content);
+writeJsonFile(const std::filesystem::path& path, const nlohmann::ordered_json& content);
 
 } // namespace shutter::json

@@ -5,6 +5,10 @@
 #include "game/play/play_rows.h"
 #include "game/play/play_settings.h"
 
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,6 +17,7 @@ namespace shutter::game {
 namespace {
 
 using core::Status;
+using nlohmann::ordered_json;
 using scene::ShutterResponse;
 
 constexpr int64_t kVersion = 1;
@@ -114,42 +119,40 @@ PlaySettings readSettings(const json::JsonNode& root) {
     return settings;
 }
 
-template <class Owner>
-void writeRows(json::JsonWriter& json, Rows<Owner> rows, const Owner& owner) {
+/// Adds a field for every row. Infinity, which JSON cannot hold, is a word.
+template <class Owner> void addRows(ordered_json& object, Rows<Owner> rows, const Owner& owner) {
     for (const core::SettingRow<Owner>& row : rows) {
-        json.key(row.name);
+        ordered_json& field = object[std::string(row.name)];
         if (const auto* yes = std::get_if<bool Owner::*>(&row.field))
-            json.value(owner.**yes);
+            field = owner.**yes;
         else if (std::holds_alternative<core::WordField<Owner>>(row.field))
-            json.value(describeValue(row, owner));
+            field = describeValue(row, owner);
         else if (const double number = getNumber(row, owner); std::isinf(number))
-            json.value(core::kUnlimited);
+            field = core::kUnlimited;
+        else if (row.range.step != 0.0)
+            field = int64_t(number); // 16, not 16.0
         else
-            json.value(number);
+            field = number;
     }
 }
 
-json::JsonWriter describe(const PlaySettings& settings) {
+ordered_json describe(const PlaySettings& settings) {
     const scene::CameraShutter& shutter = settings.shutter;
-    json::JsonWriter json;
-    json.beginObject().key("version").integer(kVersion);
-    json.key("method").value(settings.method);
-    json.key("leftMethod").value(settings.leftMethod);
-    json.key("view").value(settings.view);
-    writeRows(json, listPlayRows(), settings);
-    json.key("budget").beginObject();
-    writeRows(json, listBudgetRows(), settings.budget);
-    json.endObject().key("blur").beginObject();
-    writeRows(json, motion_blur::listSettingRows(), settings.blur);
-    json.endObject().key("shutter").beginObject();
-    writeRows(json, listShutterRows(), shutter);
-    json.key("response").beginObject();
-    writeRows(json, listResponseRows(), shutter.response);
-    json.key("samples").numbers(shutter.response.samples);
-    json.endObject().key("cuts").beginObject();
-    writeRows(json, listCutRows(), shutter.cuts);
-    json.endObject().endObject().endObject();
-    return json;
+    ordered_json described;
+    described["version"] = kVersion;
+    described["method"] = settings.method;
+    described["leftMethod"] = settings.leftMethod;
+    described["view"] = settings.view;
+    addRows(described, listPlayRows(), settings);
+    addRows(described["budget"], listBudgetRows(), settings.budget);
+    addRows(described["blur"], motion_blur::listSettingRows(), settings.blur);
+    ordered_json& shutterObject = described["shutter"];
+    addRows(shutterObject, listShutterRows(), shutter);
+    ordered_json& response = shutterObject["response"];
+    addRows(response, listResponseRows(), shutter.response);
+    response["samples"] = shutter.response.samples;
+    addRows(shutterObject["cuts"], listCutRows(), shutter.cuts);
+    return described;
 }
 
 } // namespace

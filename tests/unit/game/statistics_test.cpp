@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "game/statistics.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <sys/resource.h>
 
@@ -80,6 +86,29 @@ TEST(Statistics, MemoryIsUsedAgainSoItsSumIsItsMaximum) {
     addStatistics(total, makeFrame(5.0));
     addStatistics(total, makeFrame(2.0));
     EXPECT_EQ(total.transientBytes, 500u);
+}
+
+TEST(Statistics, AFigureThatIsNotFiniteIsNullAndOthersKeepEveryBit) {
+    const test::TempFolder folder;
+    const std::filesystem::path path = folder.path() / "stats.json";
+    RenderOptions options;
+    options.method = findMethod("sharp").value();
+    options.scene = "a\xFF.gltf";
+    render::FrameStatistics frame = makeFrame(1.0 / 3.0);
+    frame.measures = {
+        {"error", std::numeric_limits<double>::infinity()}, {"ms", std::nextafter(0.1, 1.0)}};
+    ASSERT_TRUE(writeStatistics(path, options, {}, {{0.0, frame}}).ok());
+    std::ifstream stream(path);
+    const auto root = nlohmann::ordered_json::parse(stream);
+    EXPECT_EQ(root.at("scene"), "a\uFFFD.gltf");
+    const auto& picture = root.at("pictures").at(0);
+    EXPECT_TRUE(picture.at("measures").at("error").is_null());
+    EXPECT_EQ(picture.at("measures").at("ms").get<double>(), std::nextafter(0.1, 1.0));
+    EXPECT_EQ(picture.at("passes").at(0).at("gpu_ms").get<double>(), 1.0 / 3.0);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : picture.items())
+        names.push_back(name);
+    EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
 }
 
 TEST(Statistics, AFileThatCannotBeFinishedLeavesTheOldOneAndNothingElse) {

@@ -3,10 +3,13 @@
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -208,14 +211,17 @@ TEST(JsonFile, WhatIsWrittenReadsBackTheSame) {
     const std::array<double, 3> place{
         -0.0, std::numeric_limits<double>::denorm_min(), 1.0 + 1.0e-15};
     const std::string name = "\"\\\n\u00e4\x01";
-    JsonWriter writer;
-    writer.beginObject().key("name").value(name).key("fps").value(fps);
-    writer.key("count").integer(-3).key("loop").value(true).key("ease").value("inOut");
-    writer.key("keys").beginArray();
+    nlohmann::ordered_json content;
+    content["name"] = name;
+    content["fps"] = fps;
+    content["count"] = -3;
+    content["loop"] = true;
+    content["ease"] = "inOut";
+    content["keys"] = nlohmann::ordered_json::array();
     for (const double time : {0.0, 1e-300})
-        writer.beginObject().key("time").value(time).endObject();
-    writer.endArray().key("place").numbers(place).endObject();
-    ASSERT_TRUE(writeJsonFile(path, writer).ok());
+        content["keys"].push_back({{"time", time}});
+    content["place"] = place;
+    ASSERT_TRUE(writeJsonFile(path, content).ok());
     const auto film = readJsonFile(path, readFilm);
     ASSERT_TRUE(film.ok()) << film.error().message;
     EXPECT_EQ(film.value().name, name);
@@ -226,28 +232,60 @@ TEST(JsonFile, WhatIsWrittenReadsBackTheSame) {
     EXPECT_TRUE(std::signbit(film.value().place[0]));
 }
 
-TEST(JsonFile, IsWrittenOneFieldALine) {
-    JsonWriter writer;
-    writer.beginObject().key("a").beginArray().value(1.0).value("x").endArray();
-    writer.key("b").beginObject().endObject().key("c").numbers(std::vector{1.0, 2.5}).endObject();
+TEST(JsonFile, EveryFiniteDoubleAndFloatReadsBackToTheLastBit) {
+    std::mt19937_64 random(1);
+    std::vector<double> written{
+        std::numeric_limits<double>::max(),
+        std::numeric_limits<double>::min(),
+        std::numeric_limits<double>::lowest(),
+        std::numeric_limits<double>::denorm_min(),
+        double(std::numeric_limits<float>::max()),
+        double(0.1f),
+        9007199254740993.0,
+        0.1,
+        5e-324};
+    while (written.size() < 20000) {
+        const uint64_t bits = random();
+        const auto number = std::bit_cast<double>(bits);
+        const auto single = std::bit_cast<float>(uint32_t(bits));
+        if (std::isfinite(number))
+            written.push_back(number);
+        if (std::isfinite(single))
+            written.push_back(double(single));
+    }
+    const auto document = JsonDocument::parse(formatJson(written), "numbers");
+    ASSERT_TRUE(document.ok()) << document.error().message;
+    const std::vector<JsonNode> read = document.value().root().readArray();
+    ASSERT_EQ(read.size(), written.size());
+    for (size_t i = 0; i < read.size(); ++i)
+        ASSERT_EQ(
+            std::bit_cast<uint64_t>(read[i].readNumber()), std::bit_cast<uint64_t>(written[i])
+        ) << written[i];
+}
+
+TEST(JsonFile, IsWrittenOneFieldPerLineInTheirOrder) {
+    nlohmann::ordered_json content;
+    content["b"] = {1.0, "x"};
+    content["a"] = nlohmann::ordered_json::object();
+    content["c"] = -0.0;
     EXPECT_EQ(
-        writer.text(),
-        "{\n  \"a\": [\n    1,\n    \"x\"\n  ],\n  \"b\": {},\n  \"c\": [1, 2.5]\n}\n"
+        formatJson(content),
+        "{\n  \"b\": [\n    1.0,\n    \"x\"\n  ],\n  \"a\": {},\n  \"c\": -0.0\n}\n"
     );
+    EXPECT_EQ(formatJsonLine(content), "{\"b\":[1.0,\"x\"],\"a\":{},\"c\":-0.0}\n");
 }
 
 TEST(JsonFile, BytesThatAreNoUtf8AreReplacedInWhatIsWritten) {
-    JsonWriter writer;
-    writer.value("a\xFF");
-    EXPECT_EQ(writer.text(), "\"a\uFFFD\"\n");
+    EXPECT_EQ(formatJson("a\xFF"), "\"a\uFFFD\"\n");
 }
 
-TEST(JsonFileDeathTest, MisuseOfTheWriterEndsTheProgram) {
-    EXPECT_DEATH(JsonWriter().value(std::nan("")), "JSON has no nan");
-    EXPECT_DEATH(JsonWriter().key("a"), "no place for the key a");
-    EXPECT_DEATH(JsonWriter().beginObject().value(1.0), "a value and its key");
-    EXPECT_DEATH((void)JsonWriter().beginObject().text(), "not complete");
-    EXPECT_DEATH(JsonWriter().beginObject().endArray(), "nothing to end");
+TEST(JsonFileDeathTest, ANumberThatIsNotFiniteEndsTheProgram) {
+    nlohmann::ordered_json content;
+    content["keys"] = {{{"time", 0.0}}, {{"time", std::nan("")}}};
+    EXPECT_DEATH((void)formatJson(content), "JSON has no nan");
+    EXPECT_DEATH(
+        (void)formatJsonLine(-std::numeric_limits<double>::infinity()), "JSON has no -inf"
+    );
 }
 
 TEST(JsonFile, AMissingFileIsNamed) {
