@@ -27,7 +27,7 @@ constexpr json::JsonRange kFieldsOfView{.min = 0.01, .max = 179.0};
 constexpr json::JsonRange kExposures{.min = 0.0, .max = 1.0e6};
 constexpr json::JsonRange kAngles{.min = 0.0, .max = 36000.0};
 constexpr json::JsonRange kRates{.min = 0.0, .max = 1000.0, .isAboveMin = true};
-/// How far from 1 the length of a written rotation may be: it was rounded.
+/// Tolerance of a rotation's length, whose components a file may have rounded.
 constexpr double kUnitTolerance = 1.0e-3;
 
 constexpr std::array<std::pair<std::string_view, scene::PathInterpolation>, 2> kInterpolations{
@@ -81,7 +81,7 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
     return shutter;
 }
 
-/// \param first of the keys; null while it is read itself
+/// \param first the first key; null while that key itself is read
 FlythroughKey
 readKey(const json::JsonNode& node, const FlythroughKey* first, const FlythroughKey* before) {
     FlythroughKey key;
@@ -122,7 +122,7 @@ Flythrough readRoot(const json::JsonNode& root) {
         root.readObject({"$schema", "version", "name", "fps", "interpolation", "ease", "up", "keys"}
         );
     if (const auto schema = object.find("$schema"))
-        (void)schema->readString(); // for editors
+        (void)schema->readString(); // used by editors only
     (void)object.require("version").readInteger(1, 1);
     if (const auto name = object.find("name"))
         flythrough.name = name->readString(256);
@@ -200,7 +200,7 @@ bool isFinite(const math::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Whether JSON can hold its numbers; the rest is the reader's to say.
+/// True when JSON can hold the key's numbers; the reader checks everything else.
 bool isFinite(const FlythroughKey& key) {
     const auto isNone = [](const auto& value) { return !value || std::isfinite(*value); };
     return std::isfinite(key.seconds) && isFinite(key.position) &&
@@ -237,7 +237,7 @@ core::Status validateFlythrough(const Flythrough& flythrough) {
     for (size_t i = 0; i < flythrough.keys.size(); ++i)
         if (!isFinite(flythrough.keys[i]))
             return core::makeError("flythrough: keys[{}] holds what is not finite", i);
-    // One set of rules: those of the reader.
+    // The reader has the only set of rules.
     const auto read = parseFlythrough(json::formatJson(describe(flythrough)), "flythrough");
     return read ? core::Status() : core::Status(read.error());
 }

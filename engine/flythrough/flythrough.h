@@ -18,58 +18,59 @@
 
 namespace shutter::flythrough {
 
-/// Of a camera from a key on, until a key that has another.
+/// Changes to the camera's shutter from a key on, until a key that has others.
 struct FlythroughShutter {
-    std::optional<double> exposureSeconds; ///< [0, 1e6]; this or the next, not both
-    std::optional<double> angleDegrees;    ///< of a frame's duration as 360, [0, 36000]
+    std::optional<double> exposureSeconds; ///< [0, 1e6]; excludes angleDegrees
+    std::optional<double> angleDegrees;    ///< 360 is the frame's duration; [0, 36000]
     std::optional<scene::ShutterPhase> phase;
 };
 
 struct FlythroughKey {
-    double seconds = 0.0;                ///< of the scene, [-1e6, 1e6]
+    double seconds = 0.0;                ///< scene time, [-1e6, 1e6]
     math::dvec3 position{0.0};           ///< metres, world space, each in [-1e9, 1e9]
-    std::optional<math::dvec3> lookAt;   ///< place to look at, likewise; all keys have one, or
-    std::optional<math::dquat> rotation; ///< all have a rotation, unit, of a view along -Z
-    std::optional<double> fieldOfView;   ///< vertical, degrees, [0.01, 179]; all keys or none
+    std::optional<math::dvec3> lookAt;   ///< point to look at, same units; all keys have one, or
+    std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
+    std::optional<double> fieldOfView;   ///< vertical, degrees, [0.01, 179]; in all keys or none
     std::optional<FlythroughShutter> shutter;
     bool cut = false; ///< the camera jumps here; until then it stays at the key before
 };
 
 struct Flythrough {
     std::string name;  ///< may be empty
-    double fps = 24.0; ///< frames a second, (0, 1000]
+    double fps = 24.0; ///< frames per second, (0, 1000]
     scene::PathInterpolation interpolation = scene::PathInterpolation::CatmullRom;
     scene::PathEase ease = scene::PathEase::None;
-    math::dvec3 up{0.0, 1.0, 0.0};   ///< what is above where keys look at a place
-    std::vector<FlythroughKey> keys; ///< 1 to 100000, at rising times
+    math::dvec3 up{0.0, 1.0, 0.0};   ///< up direction where keys look at a point
+    std::vector<FlythroughKey> keys; ///< 1 to 100000, at increasing times
 };
 
-/// Error: names the file, the line and the field, or what no single field is to blame for.
+/// Error: names the file, the line and the field that is wrong.
 [[nodiscard]] core::Result<Flythrough> readFlythrough(const std::filesystem::path& path);
 
 /// \param name what errors call the text
 [[nodiscard]] core::Result<Flythrough> parseFlythrough(std::string_view text, std::string name);
 
-/// What readFlythrough reads back the same, bit by bit. Error: it is not valid, or the file cannot
-/// be written; then there is no file, or the one from before.
+/// Writes a file that readFlythrough reads back bit by bit. Error: the flythrough is not valid or
+/// the file cannot be written; an earlier file of that name is then kept.
 [[nodiscard]] core::Status
 writeFlythrough(const std::filesystem::path& path, const Flythrough& flythrough);
 
 /// One sentence that names the key and what is wrong with it.
 [[nodiscard]] core::Status validateFlythrough(const Flythrough& flythrough);
 
-/// The flythrough must be valid for all below.
+// All functions below require a valid flythrough.
+
 [[nodiscard]] scene::PathMotion makePath(const Flythrough& flythrough);
-/// Nothing where its keys tell no field of view.
+/// Nothing where the keys give no field of view.
 [[nodiscard]] std::optional<scene::LensMotion> makeLens(const Flythrough& flythrough);
 
-/// `shutter` as it is at `seconds`: the last key at or before that tells one counts, and the first
-/// that does before it. What that key's shutter does not tell stays as it is: earlier keys' no
-/// longer count.
+/// Applies to `shutter` the changes in effect at `seconds`: those of the last key at or before that
+/// time which has any; before the first such key, those of the first. Fields that this key leaves
+/// out keep their value in `shutter`; earlier keys have no effect.
 void applyShutter(const Flythrough& flythrough, double seconds, scene::CameraShutter& shutter);
 
-/// A new camera that flies. Its lens is that of the world's first camera, or Camera's own default
-/// where there is none, unless the keys tell a field of view.
+/// Adds a camera that follows the keys. Its lens is that of the world's first camera, or Camera's
+/// default in a world without cameras, unless the keys give a field of view.
 [[nodiscard]] ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythrough);
 
 } // namespace shutter::flythrough

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Our own JSON files, read strictly: every mistake is one sentence with file, line and field, e.g.
-// "film.json:12: keys[3].time: must be a number, not a string". Duplicate keys, fields that nobody
-// knows, anything after the value, numbers beyond double and NUL bytes are refused; a byte order
-// mark is skipped.
+// Reads our own JSON files strictly: every mistake is one sentence with file, line and field, e.g.
+// "film.json:12: keys[3].time: must be a number, not a string". Refuses duplicate keys, unknown
+// fields, anything after the value, numbers beyond double and NUL bytes; skips a byte order mark.
 #pragma once
 
 #include "engine/core/result.h"
@@ -25,14 +24,14 @@
 
 namespace shutter::json {
 
-/// What a file may hold before it is refused.
+/// Limits beyond which a file is refused.
 struct JsonLimits {
     uint64_t maxBytes = uint64_t{64} << 20;
-    uint32_t maxDepth = 32;         ///< objects and arrays within one another
-    uint32_t maxValues = 2'000'000; ///< all together; 100000 keys of a flythrough fit
+    uint32_t maxDepth = 32;         ///< nested objects and arrays
+    uint32_t maxValues = 2'000'000; ///< in the whole file; 100000 keys of a flythrough fit
 };
 
-/// What a number may be.
+/// The range of a number.
 struct JsonRange {
     double min = std::numeric_limits<double>::lowest();
     double max = std::numeric_limits<double>::max();
@@ -43,8 +42,9 @@ struct JsonRange {
 struct JsonTree;
 class JsonObject;
 
-/// One value of a document. The first reading that fails is the document's error; it and those
-/// after it give a default (0, empty), so that a reader needs no test after each field.
+/// One value of a document. The first read that fails becomes the document's error. That read, and
+/// any later one that fails, returns a default (0 or empty), so callers need no check after each
+/// field.
 class JsonNode {
   public:
     [[nodiscard]] double readNumber(const JsonRange& range = {}) const;
@@ -52,16 +52,16 @@ class JsonNode {
     [[nodiscard]] int64_t
     readInteger(int64_t min = -kMaxExactInteger, int64_t max = kMaxExactInteger) const;
     [[nodiscard]] bool readBoolean() const;
-    /// UTF-8. \param maxBytes longest
+    /// A UTF-8 string. \param maxBytes largest length
     [[nodiscard]] std::string readString(size_t maxBytes = 4096) const;
     [[nodiscard]] std::vector<JsonNode>
     readArray(size_t minCount = 0, size_t maxCount = SIZE_MAX) const;
 
-    /// An object of these fields and no others.
+    /// An object that may have these fields and no others.
     [[nodiscard]] JsonObject readObject(std::initializer_list<std::string_view> fields) const;
     [[nodiscard]] JsonObject readObject(std::span<const std::string_view> fields) const;
 
-    /// Index of the word that the string is.
+    /// Reads a string that must be one of the words; returns the word's index.
     [[nodiscard]] size_t readWord(std::span<const std::string_view> words) const;
 
     /// An array of `Count` numbers.
@@ -74,7 +74,7 @@ class JsonNode {
         return numbers;
     }
 
-    /// A string that is one of the words.
+    /// Reads a string that must be one of the words; returns the value paired with it.
     template <class Value, size_t Count>
     [[nodiscard]] Value
     readChoice(const std::array<std::pair<std::string_view, Value>, Count>& choices) const {
@@ -89,7 +89,7 @@ class JsonNode {
     [[nodiscard]] bool isObject() const;
     [[nodiscard]] bool isArray() const;
 
-    /// Makes it the document's error that this value is wrong, unless there is one already.
+    /// Reports this value as wrong, unless the document has an error already.
     /// \param what e.g. "must come after the key before, at 2 s"
     void fail(std::string_view what) const;
 
@@ -99,7 +99,7 @@ class JsonNode {
         fail(std::string_view(fmt::format(format, std::forward<Args>(args)...)));
     }
 
-    /// Beyond it not every whole number is a double.
+    /// The largest magnitude up to which every whole number is a double.
     static constexpr int64_t kMaxExactInteger = int64_t{1} << 53;
 
   private:
@@ -111,12 +111,12 @@ class JsonNode {
     void failKind(std::string_view wanted) const;
 
     JsonTree* mTree;
-    uint32_t mIndex; ///< kAbsent: stands for what is not there; reads as defaults
+    uint32_t mIndex; ///< kAbsent for a missing value, which reads as a default
 };
 
 class JsonObject {
   public:
-    /// The field, which must be there. \param field one of those that readObject() was given
+    /// The field; a missing one is the document's error. \param field one given to readObject()
     [[nodiscard]] JsonNode require(std::string_view field) const;
     /// The field, if it is there.
     [[nodiscard]] std::optional<JsonNode> find(std::string_view field) const;
@@ -148,7 +148,7 @@ class JsonDocument {
 
     [[nodiscard]] JsonNode root() const;
 
-    /// The first reading that failed. Ask when all is read, before anything is believed.
+    /// The first read that failed. Call it after all reads and before using any value.
     [[nodiscard]] core::Status finish() const;
 
   private:
@@ -157,7 +157,7 @@ class JsonDocument {
     std::unique_ptr<JsonTree> mTree;
 };
 
-/// What `read(root)` makes of a file, or why the file is wrong.
+/// Parses a file and returns `read(root)`, or what is wrong with the file.
 /// \param read takes a JsonNode and returns a value that does not refer to the document
 template <class Read>
 [[nodiscard]] auto readJsonFile(const std::filesystem::path& path, Read read)

@@ -16,12 +16,12 @@ using nlohmann::json;
 
 constexpr size_t kMaxQuotedBytes = 64;
 
-/// How far the parser has read: it hands out no positions itself.
+/// How far the parser has read, which nlohmann does not report itself.
 struct Progress {
     const char* at = nullptr;
 };
 
-/// Goes through the text and tells how far it got.
+/// Iterates over the text and records its position.
 class CountingIterator {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -54,7 +54,7 @@ class CountingIterator {
     Progress* mProgress;
 };
 
-/// Lines up to a place that only moves on.
+/// Counts lines up to a position that only moves forward.
 class LineCounter {
   public:
     explicit LineCounter(const char* begin) : mAt(begin) {}
@@ -72,8 +72,8 @@ class LineCounter {
     uint32_t mLine = 1;
 };
 
-/// The parser's own sentence, without its class's number, place and last characters, which may be
-/// a megabyte of a string.
+/// The parser's message without the exception's number, the position, and the characters last read,
+/// which may be a megabyte of a string.
 std::string shortenSyntaxError(std::string_view what) {
     if (const size_t number = what.find("] "); number != std::string_view::npos)
         what.remove_prefix(number + 2);
@@ -148,8 +148,8 @@ class TreeBuilder : public nlohmann::json_sax<json> {
         std::unordered_set<std::string> keys;
     };
 
-    /// Of the token that was just read. A number is known to end by the character after it, which
-    /// may be a line break; no token ends in one.
+    /// The line of the token that was just read. The parser has read one character past a number,
+    /// possibly a line break; no token ends in one.
     uint32_t findLine() {
         return mLines.countTo(mProgress.at > mBegin ? mProgress.at - 1 : mBegin);
     }
@@ -208,7 +208,7 @@ std::string quoteJsonText(std::string_view text) {
         return std::string(text);
     size_t end = kMaxQuotedBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
-        --end; // not within a character
+        --end; // never cuts a character
     return std::string(text.substr(0, end)) + "...";
 }
 
@@ -232,7 +232,7 @@ parseJsonTree(std::string_view text, std::string name, const JsonLimits& limits)
     tree->name = std::move(name);
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
         return core::makeError("{}: the file is empty", tree->name);
-    // The parser takes it for the end and would not see what follows.
+    // The parser would take it for the end and ignore what follows.
     if (const size_t nul = text.find('\0'); nul != std::string_view::npos)
         return core::makeError(
             "{}:{}: a NUL byte is not JSON",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Private to engine/json: what a JSON file says, with the line of each value.
+// Private to engine/json: the values of a JSON file, each with its line.
 #pragma once
 
 #include "engine/core/result.h"
@@ -15,32 +15,32 @@ namespace shutter::json {
 
 enum class JsonKind : uint8_t { Null, Boolean, Number, String, Array, Object };
 
-/// Of an object's field, of an array's element, or of the whole.
+/// The value of an object's field, of an array's element, or of the whole file.
 struct JsonValue {
     JsonKind kind = JsonKind::Null;
     bool truth = false;
     uint32_t line = 1; ///< where the value begins
     uint32_t parent = 0;
-    uint32_t place = 0; ///< among the parent's
+    uint32_t place = 0; ///< index among the parent's children
     double number = 0.0;
-    std::string key;  ///< of an object's field
-    std::string text; ///< of a string
+    std::string key;  ///< the field's name, if the parent is an object
+    std::string text; ///< the value of a string
     std::vector<uint32_t> children;
 };
 
-/// Values in the order of the file; the first is the whole.
+/// Values in the order of the file; the first is the root.
 struct JsonTree {
     static constexpr uint32_t kAbsent = UINT32_MAX;
 
-    std::string name; ///< of the file, for errors
+    std::string name; ///< the file's name, for errors
     std::vector<JsonValue> values;
-    std::string error; ///< the first; empty: none
+    std::string error; ///< the first error, or empty
 
-    /// "keys[3].time"; empty for the whole.
+    /// "keys[3].time"; empty for the root.
     [[nodiscard]] std::string describePath(uint32_t index) const;
 };
 
-/// Text from a file, as short as a line of the terminal bears.
+/// Shortens text from a file so that it fits into a message.
 [[nodiscard]] std::string quoteJsonText(std::string_view text);
 
 [[nodiscard]] core::Result<std::unique_ptr<JsonTree>>
