@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -12,9 +11,6 @@ namespace {
 
 TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
     const TempFolder folder;
-    const auto write = [&](const char* name, const std::string& text) {
-        std::ofstream(folder.path() / name, std::ios::binary) << text;
-    };
     const std::string scene = R"({"asset": {"version": "2.0"},
         "buffers": [{"uri": "a.bin", "byteLength": 1},
                     {"uri": "data:application/octet-stream;base64,AA==", "byteLength": 1}, 3],
@@ -25,25 +21,25 @@ TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
         EXPECT_TRUE(computed.ok());
         return computed.value();
     };
-    write("s.gltf", scene);
-    write("a.bin", "1");
-    write("a b.png", "2");
+    folder.write("s.gltf", scene);
+    folder.write("a.bin", "1");
+    folder.write("a b.png", "2");
     seen.insert(hash());
     EXPECT_TRUE(seen.contains(hash())) << "the same files have the same hash";
-    write("a.bin", "2");
+    folder.write("a.bin", "2");
     seen.insert(hash());
-    write("a b.png", "1");
+    folder.write("a b.png", "1");
     seen.insert(hash());
-    write("missing.png", "");
+    folder.write("missing.png", "");
     seen.insert(hash());
-    write("s.gltf", scene + " ");
+    folder.write("s.gltf", scene + " ");
     seen.insert(hash());
     EXPECT_EQ(seen.size(), 5u);
 }
 
 TEST(SceneHash, WhatIsNoSceneIsNamed) {
     const TempFolder folder;
-    std::ofstream(folder.path() / "s.gltf") << "nothing";
+    folder.write("s.gltf", "nothing");
     for (const char* name : {"s.gltf", "missing.gltf"}) {
         const auto hash = computeSceneHash(folder.path() / name);
         ASSERT_FALSE(hash.ok());

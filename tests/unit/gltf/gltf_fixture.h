@@ -114,6 +114,11 @@ inline void expectRefused(const core::Result<LoadedScene>& result, std::string_v
     EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
 }
 
+/// The first primitive of mesh 0.
+inline const scene::Primitive& primitiveOf(const LoadedScene& scene) {
+    return scene.world.assets.meshes.at(0).primitives.at(0);
+}
+
 inline bool hasWarning(const LoadedScene& scene, std::string_view part) {
     for (const std::string& warning : scene.warnings) {
         if (warning.find(part) != std::string::npos)

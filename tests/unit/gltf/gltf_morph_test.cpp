@@ -36,10 +36,6 @@ std::string weightedMesh(const std::string& weights, const std::string& nodeWeig
            weights + R"(}],"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" + nodeWeights + "}]";
 }
 
-const scene::Primitive& primitiveOf(const LoadedScene& scene) {
-    return scene.world.assets.meshes.at(0).primitives.at(0);
-}
-
 const scene::MorphWeights& weightsOf(const LoadedScene& scene) {
     for (const auto& [entity, morph] : scene.world.registry.view<const scene::MorphWeights>())
         return morph;

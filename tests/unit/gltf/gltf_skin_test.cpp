@@ -49,10 +49,6 @@ GltfFile makeSkinned() {
     return makeSkinned(kJoints, kUnsignedByte, kWeights, kFloat);
 }
 
-const scene::Primitive& primitiveOf(const LoadedScene& scene) {
-    return scene.world.assets.meshes.at(0).primitives.at(0);
-}
-
 ecs::Entity findSkinned(const scene::World& world) {
     for (const auto& [entity, skinned] : world.registry.view<const scene::Skinned>())
         return entity;

@@ -7,7 +7,6 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <string>
@@ -194,8 +193,7 @@ TEST(JsonFile, TooManyValuesAndBytesAreRefused) {
     EXPECT_EQ(many.error().message, "a:2: the file holds more than 4 values");
 
     const TempFolder folder;
-    const auto path = folder.path() / "a.json";
-    std::ofstream(path) << "[1, 2]";
+    const auto path = folder.write("a.json", "[1, 2]");
     limits.maxBytes = 6;
     EXPECT_TRUE(JsonDocument::load(path, limits).ok());
     limits.maxBytes = 5;
