@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/app/input_script.h"
 
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 
 #include <array>
 #include <utility>
@@ -24,7 +24,7 @@ constexpr std::array<std::pair<std::string_view, WindowAction>, 5> kWindowAction
      {"windowed", WindowAction::Windowed},
      {"quit", WindowAction::Quit}}};
 
-Key readKey(const io::JsonNode& node) {
+Key readKey(const json::JsonNode& node) {
     const std::string name = node.readString(32);
     const auto key = findKey(name);
     if (!key)
@@ -32,18 +32,18 @@ Key readKey(const io::JsonNode& node) {
     return key.value_or(Key::A);
 }
 
-PressAction readAction(const io::JsonObject& event) {
+PressAction readAction(const json::JsonObject& event) {
     const auto action = event.find("action");
     return action ? action->readChoice(kPressActions) : PressAction::Tap;
 }
 
-StickEvent readStick(const io::JsonNode& node, bool right) {
+StickEvent readStick(const json::JsonNode& node, bool right) {
     const auto value = node.readNumbers<2>({-1.0, 1.0});
     return {right, {value[0], value[1]}};
 }
 
-ScriptEvent readEvent(const io::JsonNode& node) {
-    const io::JsonObject object = node.readObject(
+ScriptEvent readEvent(const json::JsonNode& node) {
+    const json::JsonObject object = node.readObject(
         {"time",
          "key",
          "button",
@@ -65,27 +65,29 @@ ScriptEvent readEvent(const io::JsonNode& node) {
             event.what = read(*value);
         }
     };
-    take("key", [&](const io::JsonNode& n) { return KeyEvent{readKey(n), readAction(object)}; });
-    take("button", [&](const io::JsonNode& n) {
+    take("key", [&](const json::JsonNode& n) { return KeyEvent{readKey(n), readAction(object)}; });
+    take("button", [&](const json::JsonNode& n) {
         return ButtonEvent{n.readChoice(kButtons), readAction(object)};
     });
-    take("pointer", [](const io::JsonNode& n) {
+    take("pointer", [](const json::JsonNode& n) {
         const auto share = n.readNumbers<2>({0.0, 1.0});
         return PointerEvent{{share[0], share[1]}};
     });
-    take("wheel", [](const io::JsonNode& n) { return WheelEvent{n.readNumber({-100.0, 100.0})}; });
-    take("leftStick", [](const io::JsonNode& n) { return readStick(n, false); });
-    take("rightStick", [](const io::JsonNode& n) { return readStick(n, true); });
-    take("resize", [](const io::JsonNode& n) {
-        const std::vector<io::JsonNode> sides = n.readArray(2, 2);
+    take("wheel", [](const json::JsonNode& n) {
+        return WheelEvent{n.readNumber({-100.0, 100.0})};
+    });
+    take("leftStick", [](const json::JsonNode& n) { return readStick(n, false); });
+    take("rightStick", [](const json::JsonNode& n) { return readStick(n, true); });
+    take("resize", [](const json::JsonNode& n) {
+        const std::vector<json::JsonNode> sides = n.readArray(2, 2);
         ResizeEvent resize;
         for (size_t i = 0; i < sides.size() && i < 2; ++i)
             resize.size[static_cast<int>(i)] =
                 static_cast<uint32_t>(sides[i].readInteger(1, 16384));
         return resize;
     });
-    take("window", [](const io::JsonNode& n) { return n.readChoice(kWindowActions); });
-    take("screenshot", [](const io::JsonNode& n) { return ScreenshotEvent{n.readString()}; });
+    take("window", [](const json::JsonNode& n) { return n.readChoice(kWindowActions); });
+    take("screenshot", [](const json::JsonNode& n) { return ScreenshotEvent{n.readString()}; });
     if (kinds != 1)
         node.fail(
             "must tell one of key, button, pointer, wheel, leftStick, rightStick, resize, window, "
@@ -97,14 +99,14 @@ ScriptEvent readEvent(const io::JsonNode& node) {
     return event;
 }
 
-InputScript readScript(const io::JsonNode& root) {
-    const io::JsonObject object = root.readObject({"version", "frameSeconds", "events"});
+InputScript readScript(const json::JsonNode& root) {
+    const json::JsonObject object = root.readObject({"version", "frameSeconds", "events"});
     (void)object.require("version").readInteger(1, 1);
     InputScript script;
     if (const auto seconds = object.find("frameSeconds"))
         script.frameSeconds = seconds->readNumber({0.0, 1.0, true});
     double last = 0.0;
-    for (const io::JsonNode& node : object.require("events").readArray(1, kMaxEvents)) {
+    for (const json::JsonNode& node : object.require("events").readArray(1, kMaxEvents)) {
         script.events.push_back(readEvent(node));
         if (script.events.back().seconds < last)
             node.fail("must not come before the event before it, at {} s", last);
@@ -116,7 +118,7 @@ InputScript readScript(const io::JsonNode& root) {
 } // namespace
 
 core::Result<InputScript> readInputScript(const std::filesystem::path& path) {
-    return io::readJsonFile(path, readScript);
+    return json::readJsonFile(path, readScript);
 }
 
 std::span<const ScriptEvent>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_setup.h"
 
+#include "engine/gltf/gltf_loader.h"
 #include "engine/io/content_hash.h"
-#include "engine/io/gltf_content.h"
 
 namespace shutter::bench {
 
@@ -26,7 +26,7 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto scene = writeScene(shot, folder);
     if (!scene)
         return scene.error();
-    auto sceneHash = io::computeSceneHash(scene.value());
+    auto sceneHash = gltf::computeSceneHash(scene.value());
     if (!sceneHash)
         return sceneHash.error();
     auto program = io::computeFileHash("/proc/self/exe");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_loader.h"
 #include "engine/gpu/device_select.h"
-#include "engine/io/gltf_loader.h"
 #include "engine/scene/framing.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
@@ -48,7 +48,7 @@ core::Status printDevices() {
 }
 
 core::Status printScene(const std::string& path) {
-    auto loaded = io::loadGltf(path);
+    auto loaded = gltf::loadGltf(path);
     if (!loaded)
         return loaded.error();
     const scene::World& world = loaded.value().world;

@@ -2,7 +2,7 @@
 #include "game/demos/stage.h"
 
 #include "engine/core/log.h"
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/scene/history.h"
 #include "engine/scene/recorded_motion.h"
 
@@ -13,7 +13,7 @@
 namespace shutter::game {
 
 core::Result<scene::World> loadDemoScene(const std::filesystem::path& file) {
-    auto loaded = io::loadGltf(file);
+    auto loaded = gltf::loadGltf(file);
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)

@@ -162,7 +162,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
 Status loadFlythrough(const ShotArguments& arguments, ShotOptions& options) {
     if (arguments.flythrough.empty() || !options.flythroughClip.empty())
         return {};
-    auto read = io::readFlythrough(arguments.flythrough);
+    auto read = flythrough::readFlythrough(arguments.flythrough);
     if (!read)
         return makeError("--flythrough: {}", read.error().message);
     auto hash = io::computeFileHash(arguments.flythrough);
@@ -170,7 +170,7 @@ Status loadFlythrough(const ShotArguments& arguments, ShotOptions& options) {
         return makeError("--flythrough: {}", hash.error().message);
     options.flythroughHash = hash.value();
     options.flythrough = std::move(read).value();
-    const io::Flythrough& flight = *options.flythrough;
+    const flythrough::Flythrough& flight = *options.flythrough;
     if (!arguments.fps) {
         options.fps = flight.fps;
         options.frameSeconds = 1.0 / options.fps;

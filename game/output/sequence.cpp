@@ -3,8 +3,8 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/io/content_hash.h"
-#include "engine/io/gltf_content.h"
 #include "engine/io/image_file.h"
 #include "game/output/film.h"
 #include "game/output/intermediates.h"
@@ -76,7 +76,7 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
 /// named from the first on, so their names depend on that.
 core::Result<std::string>
 computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) {
-    auto scene = io::computeSceneHash(options.shot.scene);
+    auto scene = gltf::computeSceneHash(options.shot.scene);
     if (!scene)
         return scene.error();
     auto program = io::computeFileHash("/proc/self/exe");

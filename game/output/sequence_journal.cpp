@@ -3,7 +3,7 @@
 
 #include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 #include "game/output/render_options.h"
 
 #include <nlohmann/json.hpp>
@@ -30,15 +30,18 @@ fs::path folderOf(const fs::path& file) {
 }
 
 std::string formatHeader(const std::string& fingerprint) {
-    return nlohmann::json{{"journal", kJournalName}, {"fingerprint", fingerprint}}.dump() + "\n";
+    nlohmann::ordered_json header;
+    header["fingerprint"] = fingerprint;
+    header["journal"] = kJournalName;
+    return json::formatJsonLine(header);
 }
 
 /// Empty where the line is none.
 std::string readHeader(std::string_view line) {
-    auto document = io::JsonDocument::parse(line, "journal");
+    auto document = json::JsonDocument::parse(line, "journal");
     if (!document)
         return {};
-    const io::JsonObject header = document.value().root().readObject({"journal", "fingerprint"});
+    const json::JsonObject header = document.value().root().readObject({"journal", "fingerprint"});
     const std::string name = header.require("journal").readString();
     std::string fingerprint = header.require("fingerprint").readString();
     return document.value().finish() && name == kJournalName ? fingerprint : std::string();
@@ -113,16 +116,16 @@ bool SequenceJournal::readLines(std::string_view text, const std::string& finger
     mBefore = Before::SamePictures;
     bool isWhole = text.ends_with('\n');
     for (size_t i = 1; i < lines.size(); ++i) {
-        auto document = io::JsonDocument::parse(lines[i], "journal");
+        auto document = json::JsonDocument::parse(lines[i], "journal");
         if (!document) {
             isWhole = false;
             continue;
         }
-        const io::JsonObject line = document.value().root().readObject({"frame", "files"});
+        const json::JsonObject line = document.value().root().readObject({"frame", "files"});
         const auto frame = int(line.require("frame").readInteger(INT32_MIN, INT32_MAX));
         std::vector<File> files;
-        for (const io::JsonNode& node : line.require("files").readArray(1)) {
-            const io::JsonObject file = node.readObject({"name", "hash"});
+        for (const json::JsonNode& node : line.require("files").readArray(1)) {
+            const json::JsonObject file = node.readObject({"name", "hash"});
             files.push_back({file.require("name").readString(), file.require("hash").readString()});
         }
         if (document.value().finish())
@@ -141,14 +144,16 @@ core::Status SequenceJournal::rewrite(const std::string& fingerprint) const {
 }
 
 std::string SequenceJournal::formatLine(int frame, const std::vector<File>& files) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const File& file : files)
-        list.push_back({{"name", file.name}, {"hash", file.hash}});
-    // A name that is no UTF-8 is replaced, is then not found, and its frame is drawn again.
-    return nlohmann::json{{"frame", frame}, {"files", list}}.dump(
-               -1, ' ', false, nlohmann::json::error_handler_t::replace
-           ) +
-           "\n";
+    nlohmann::ordered_json line;
+    nlohmann::ordered_json& list = line["files"] = nlohmann::ordered_json::array();
+    for (const File& file : files) {
+        nlohmann::ordered_json& entry = list.emplace_back();
+        entry["hash"] = file.hash;
+        entry["name"] = file.name;
+    }
+    line["frame"] = frame;
+    // A name that is not UTF-8 is replaced, so it is not found later and its frame is drawn again.
+    return json::formatJsonLine(line);
 }
 
 bool SequenceJournal::isComplete(int frame) const {

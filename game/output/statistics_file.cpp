@@ -1,48 +1,62 @@
 // SPDX-License-Identifier: MIT
 #include "game/output/statistics_file.h"
 
-#include "engine/io/file_bytes.h"
+#include "engine/json/json_file.h"
 #include "engine/scene/shutter.h"
 
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <map>
+#include <string>
 
 namespace shutter::game {
 
 namespace {
 
-nlohmann::json describePicture(const PictureStatistics& picture) {
+using nlohmann::ordered_json;
+
+/// Null for a figure that is not finite, which JSON cannot hold.
+ordered_json describeNumber(double number) {
+    return std::isfinite(number) ? ordered_json(number) : ordered_json();
+}
+
+ordered_json describePass(const render::PassTime& pass) {
+    ordered_json described;
+    described["cpu_ms"] = describeNumber(pass.cpuMilliseconds);
+    described["gpu_ms"] = describeNumber(pass.gpuMilliseconds);
+    described["name"] = pass.name;
+    described["owner"] = render::describe(pass.owner);
+    return described;
+}
+
+/// Fields in alphabetical order.
+ordered_json describePicture(const PictureStatistics& picture) {
     const render::FrameStatistics& frame = picture.frame;
-    nlohmann::json passes = nlohmann::json::array();
     double gpu = 0.0;
+    ordered_json passes = ordered_json::array();
     for (const render::PassTime& pass : frame.passes) {
-        passes.push_back(
-            {{"name", pass.name},
-             {"owner", render::describe(pass.owner)},
-             {"gpu_ms", pass.gpuMilliseconds},
-             {"cpu_ms", pass.cpuMilliseconds}}
-        );
+        passes.push_back(describePass(pass));
         gpu += pass.gpuMilliseconds;
     }
-    nlohmann::json counters = nlohmann::json::object();
-    for (const auto& [name, value] : frame.counters)
-        counters[name] = value;
-    nlohmann::json measures = nlohmann::json::object();
-    for (const auto& [name, value] : frame.measures)
-        measures[name] = value;
-    nlohmann::json decisions = nlohmann::json::object();
+    std::map<std::string, std::string> decisions;
     for (const render::Explanation& line : frame.explanations)
         if (line.kind == render::ExplainedKind::Effect)
             decisions[line.subject] = core::describe(line.decision);
-    return {
-        {"time_s", picture.seconds},
-        {"gpu_ms", gpu},
-        {"cpu_ms", frame.cpuMilliseconds},
-        {"wall_ms", frame.wallMilliseconds},
-        {"transient_bytes", frame.transientBytes},
-        {"passes", passes},
-        {"counters", counters},
-        {"measures", measures},
-        {"decisions", decisions}};
+    ordered_json measures = ordered_json::object();
+    for (const auto& [name, value] : frame.measures)
+        measures[name] = describeNumber(value);
+    ordered_json described;
+    described["counters"] = frame.counters;
+    described["cpu_ms"] = describeNumber(frame.cpuMilliseconds);
+    described["decisions"] = decisions;
+    described["gpu_ms"] = describeNumber(gpu);
+    described["measures"] = measures;
+    described["passes"] = passes;
+    described["time_s"] = describeNumber(picture.seconds);
+    described["transient_bytes"] = frame.transientBytes;
+    described["wall_ms"] = describeNumber(frame.wallMilliseconds);
+    return described;
 }
 
 } // namespace
@@ -55,23 +69,24 @@ core::Status writeStatistics(
 ) {
     scene::CameraShutter shutter = options.shot.shutter;
     if (options.shot.flythrough && options.shot.isFlythroughShutter)
-        io::applyShutter(*options.shot.flythrough, options.shot.frameTimes.front(), shutter);
-    nlohmann::json root = {
-        {"scene", options.shot.scene.string()},
-        {"method", options.method.method->name},
-        {"samples", options.method.samples},
-        {"width", options.shot.width},
-        {"height", options.shot.height},
-        {"exposure_s", scene::computeExposureSeconds(shutter, options.shot.frameSeconds)},
-        {"device", device.name},
-        {"driver", device.driver},
-        {"repeat", options.output.repeat},
-        {"pictures", nlohmann::json::array()}};
+        flythrough::applyShutter(
+            *options.shot.flythrough, options.shot.frameTimes.front(), shutter
+        );
+    ordered_json root;
+    root["device"] = device.name;
+    root["driver"] = device.driver;
+    root["exposure_s"] =
+        describeNumber(scene::computeExposureSeconds(shutter, options.shot.frameSeconds));
+    root["height"] = options.shot.height;
+    root["method"] = options.method.method->name;
+    ordered_json& described = root["pictures"] = ordered_json::array();
     for (const PictureStatistics& picture : pictures)
-        root["pictures"].push_back(describePicture(picture));
-    // A scene's name need not be UTF-8; what is not is replaced.
-    const std::string text = root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (core::Status written = io::writeFileText(path, text + "\n"); !written)
+        described.push_back(describePicture(picture));
+    root["repeat"] = options.output.repeat;
+    root["samples"] = options.method.samples;
+    root["scene"] = options.shot.scene.string();
+    root["width"] = options.shot.width;
+    if (core::Status written = json::writeJsonFile(path, root); !written)
         return core::makeError("--stats: {}", written.error().message);
     return {};
 }

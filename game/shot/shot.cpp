@@ -2,7 +2,7 @@
 #include "game/shot/shot.h"
 
 #include "engine/core/log.h"
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/scene/framing.h"
 #include "game/shot/flight.h"
 
@@ -53,7 +53,7 @@ core::Status selectClips(scene::World& world, const ShotOptions& options) {
 
 core::Result<ecs::Entity> chooseCamera(scene::World& world, const ShotOptions& options) {
     if (options.flythrough)
-        return io::addFlythroughCamera(world, *options.flythrough);
+        return flythrough::addFlythroughCamera(world, *options.flythrough);
     if (!options.flythroughClip.empty())
         return chooseClipCamera(world, options);
     return findCamera(world, options);
@@ -109,7 +109,7 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& opt
 }
 
 core::Result<Shot> loadShot(const ShotOptions& options) {
-    auto loaded = io::loadGltf(options.scene);
+    auto loaded = gltf::loadGltf(options.scene);
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)
@@ -132,7 +132,7 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.camera = shot.camera;
     auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
     if (options.flythrough && options.isFlythroughShutter)
-        io::applyShutter(*options.flythrough, seconds, shutter);
+        flythrough::applyShutter(*options.flythrough, seconds, shutter);
     view.exposure = scene::computeExposure(shutter, seconds, options.frameSeconds);
     view.width = options.width;
     view.height = options.height;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
-#include "engine/io/flythrough.h"
+#include "engine/flythrough/flythrough.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
@@ -34,9 +34,9 @@ struct ShotOptions {
     int firstFrame = 0;             ///< number of the first file of a sequence
     bool isSequence = false;        ///< of numbered frames, even if there is only one
     double fps = 24.0;              ///< frames per second
-    double frameSeconds = scene::kStillFrameSeconds; ///< duration of a frame, 1 / fps
-    std::optional<io::Flythrough> flythrough;        ///< of --flythrough FILE
-    std::string flythroughHash;                      ///< of its file
+    double frameSeconds = scene::kStillFrameSeconds;  ///< duration of a frame, 1 / fps
+    std::optional<flythrough::Flythrough> flythrough; ///< of --flythrough FILE
+    std::string flythroughHash;                       ///< of its file
     bool isFlythroughShutter = false; ///< the flythrough's shutters count: none was asked for
     std::string flythroughClip;       ///< of --flythrough clip:NAME
     scene::CameraShutter shutter{};

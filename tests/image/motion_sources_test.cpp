@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Everything that can move a surface, on real models: motion vectors against positions rasterised
 // twice, and blur against brute force as near as on a rigid mover of the same speed.
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/framing.h"
@@ -109,7 +109,7 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         const auto path = test::sharedFolder() / "scenes/gltf-samples" / GetParam().file;
         if (!std::filesystem::exists(path))
             GTEST_SKIP() << "the scenes are not beside the project (" << path.filename() << ")";
-        auto loaded = io::loadGltf(path);
+        auto loaded = gltf::loadGltf(path);
         ASSERT_TRUE(loaded) << loaded.error().message;
         mScene.world = std::move(loaded.value().world);
         mScene.camera =

@@ -27,6 +27,9 @@ const Names kUpToRender = {
     "graph",
     "scene",
     "io",
+    "json",
+    "gltf",
+    "flythrough",
     "extract",
     "gpu_scene",
     "rays",
@@ -40,7 +43,10 @@ const std::vector<Row> kEngineRows = {
     {"image", {"core", "math"}},
     {"graph", {"core", "math", "gpu"}},
     {"scene", {"core", "math", "ecs"}},
-    {"io", {"core", "math", "ecs", "image", "scene"}},
+    {"io", {"core", "math", "image", "scene"}},
+    {"json", {"core", "io"}},
+    {"gltf", {"core", "math", "ecs", "scene", "io"}},
+    {"flythrough", {"core", "math", "ecs", "scene", "json"}},
     {"extract", {"core", "math", "ecs", "image", "scene"}},
     {"gpu_scene", {"core", "math", "gpu", "graph", "scene", "extract"}},
     {"rays", {"core", "math", "ecs", "gpu", "graph", "scene", "extract", "gpu_scene"}},
@@ -52,6 +58,18 @@ const std::vector<Row> kEngineRows = {
 /// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
 /// and drawn agrees with the same shaders.
 const Names kSceneRooms = {"extract", "gpu_scene", "rays", "render"};
+
+/// The headers of a folder of engine/ that other folders may include, where some are private to it.
+struct PublicHeaders {
+    std::string_view folder;
+    Names headers;
+};
+
+const std::vector<PublicHeaders> kPublicHeaders = {
+    {"io", {"content_hash.h", "file_bytes.h", "image_file.h", "process.h", "uri.h", "video.h"}},
+    {"json", {"json_file.h", "json_rows.h"}},
+    {"gltf", {"gltf_loader.h"}},
+};
 
 /// A module that other engines may take without our scene: what lies outside its plugin/ sees this.
 const Names kModulesWithEffect = {"motion_blur"};
@@ -65,7 +83,7 @@ struct LibraryRow {
 };
 
 const std::vector<LibraryRow> kLibraryRows = {
-    {"tiny_gltf.h", {"io"}},
+    {"tiny_gltf.h", {"gltf"}},
     {"OpenImageIO/", {"io"}},
     {"GLFW/", {"app"}},
     {"imgui", {"app", "game"}},
@@ -224,6 +242,18 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
     }
 }
 
+bool isPrivateTo(const Part& to, std::string_view path) {
+    if (to.kind != Kind::Engine)
+        return false;
+    const auto row =
+        std::find_if(kPublicHeaders.begin(), kPublicHeaders.end(), [&](const PublicHeaders& r) {
+            return r.folder == to.name;
+        });
+    if (row == kPublicHeaders.end())
+        return false;
+    return !row->headers.contains(path.substr(path.rfind('/') + 1));
+}
+
 /// The file an include means, from the repository root; empty for one that is not of this tree.
 std::string resolve(const Include& include, const FileExists& exists) {
     namespace fs = std::filesystem;
@@ -286,6 +316,8 @@ std::optional<std::string> findReason(const Include& include, const FileExists& 
         return std::nullopt;
     }
     const Part to = findPart(path);
+    if (!(from == to) && isPrivateTo(to, path))
+        return "the header is private to " + describe(to);
     if (maySee(from, to, path))
         return std::nullopt;
     return describe(from) + " may not see " + describe(to);

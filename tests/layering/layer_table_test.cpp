@@ -66,8 +66,12 @@ TEST(LayerTable, EngineFoldersSeeThoseBelowThem) {
         {"engine/ecs/registry.h", "\"engine/math/math.h\""},
         {"engine/graph/graph.h", "\"engine/gpu/device.h\""},
         {"engine/scene/world.h", "\"engine/ecs/registry.h\""},
-        {"engine/io/gltf_loader.h", "\"engine/scene/world.h\""},
+        {"engine/gltf/gltf_loader.h", "\"engine/scene/world.h\""},
         {"engine/io/image_file.h", "\"engine/image/image.h\""},
+        {"engine/gltf/gltf_loader.cpp", "\"engine/io/file_bytes.h\""},
+        {"engine/json/json_file.cpp", "\"engine/io/file_bytes.h\""},
+        {"engine/flythrough/flythrough.cpp", "\"engine/json/json_file.h\""},
+        {"engine/flythrough/flythrough.h", "\"engine/scene/path.h\""},
         {"engine/extract/extracted_frame.h", "\"engine/scene/world.h\""},
         {"engine/extract/extracted_frame.h", "\"shaders/render/scene_shared.h\""},
         {"engine/gpu_scene/entity_table.h", "\"engine/extract/extracted_frame.h\""},
@@ -92,8 +96,12 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
         {"engine/scene/world.h", "\"engine/gpu/device.h\""},
         {"engine/scene/world.h", "\"engine/graph/graph.h\""},
         {"engine/scene/world.h", "\"engine/image/image.h\""},
-        {"engine/io/gltf_loader.h", "\"engine/gpu/device.h\""},
-        {"engine/io/gltf_loader.h", "\"engine/graph/graph.h\""},
+        {"engine/gltf/gltf_loader.h", "\"engine/gpu/device.h\""},
+        {"engine/gltf/gltf_loader.h", "\"engine/graph/graph.h\""},
+        {"engine/gltf/gltf_loader.cpp", "\"engine/json/json_file.h\""},
+        {"engine/io/file_bytes.h", "\"engine/json/json_file.h\""},
+        {"engine/json/json_file.h", "\"engine/scene/world.h\""},
+        {"engine/scene/path.h", "\"engine/flythrough/flythrough.h\""},
         {"engine/extract/extracted_frame.h", "\"engine/gpu/device.h\""},
         {"engine/extract/extracted_frame.h", "\"engine/graph/graph.h\""},
         {"engine/extract/extracted_frame.h", "\"spirv/render/deform.comp.h\""},
@@ -106,6 +114,24 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
         {"engine/render/renderer.h", "\"tests/support/device.h\""},
         {"engine/render/renderer.h", "\"assets/generator/textures.h\""},
     });
+}
+
+TEST(LayerTable, PrivateHeadersAreSeenByTheirOwnFolderOnly) {
+    expectAllowed({
+        {"engine/gltf/gltf_mesh.cpp", "\"engine/gltf/gltf_parts.h\""},
+        {"engine/json/json_file.cpp", "\"engine/json/json_tree.h\""},
+        {"engine/io/image_file.cpp", "\"engine/io/oiio_codec.h\""},
+        {"game/shot.cpp", "\"engine/gltf/gltf_loader.h\""},
+    });
+    expectRefused({
+        {"game/shot.cpp", "\"engine/gltf/gltf_parts.h\""},
+        {"game/shot.cpp", "\"engine/json/json_tree.h\""},
+        {"engine/gltf/gltf_material.cpp", "\"engine/io/oiio_codec.h\""},
+    });
+    EXPECT_EQ(
+        judge({"game/shot.cpp", "\"engine/gltf/gltf_new.h\""}),
+        "game/shot.cpp:1 includes engine/gltf/gltf_new.h: the header is private to gltf"
+    );
 }
 
 TEST(LayerTable, AWayRoundIsSeenThrough) {
@@ -139,9 +165,18 @@ TEST(LayerTable, ModulesSeeRenderAndBelowButNeverEachOther) {
 }
 
 TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
-    for (const std::string folder :
-         {"ecs", "scene", "extract", "gpu_scene", "rays", "render", "io", "image"}) {
-        const std::string directive = "\"engine/" + folder + "/a.h\"";
+    for (const std::string header :
+         {"ecs/a.h",
+          "scene/a.h",
+          "extract/a.h",
+          "gpu_scene/a.h",
+          "rays/a.h",
+          "render/a.h",
+          "io/image_file.h",
+          "gltf/gltf_loader.h",
+          "flythrough/a.h",
+          "image/a.h"}) {
+        const std::string directive = "\"engine/" + header + "\"";
         expectRefused({
             {"modules/motion_blur/motion_blur.h", directive},
             {"modules/motion_blur/passes/gather.cpp", directive},
@@ -159,7 +194,7 @@ TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
 
 TEST(LayerTable, LibrariesStayWithTheirOwners) {
     expectAllowed({
-        {"engine/io/gltf_loader.cpp", "<tiny_gltf.h>"},
+        {"engine/gltf/gltf_loader.cpp", "<tiny_gltf.h>"},
         {"engine/io/oiio_codec.cpp", "<OpenImageIO/imageio.h>"},
         {"engine/app/window.cpp", "<GLFW/glfw3.h>"},
         {"engine/app/ui.cpp", "<imgui.h>"},
@@ -171,6 +206,7 @@ TEST(LayerTable, LibrariesStayWithTheirOwners) {
     });
     expectRefused({
         {"engine/render/renderer.cpp", "<tiny_gltf.h>"},
+        {"engine/io/image_file.cpp", "<tiny_gltf.h>"},
         {"engine/render/renderer.cpp", "\"tiny_gltf.h\""},
         {"engine/image/metrics.cpp", "<OpenImageIO/imageio.h>"},
         {"engine/gpu/device.cpp", "<GLFW/glfw3.h>"},
@@ -178,7 +214,7 @@ TEST(LayerTable, LibrariesStayWithTheirOwners) {
         {"engine/render/renderer.cpp", "<imgui.h>"},
         {"modules/tonemap/tonemap.cpp", "<imgui_internal.h>"},
         {"engine/scene/world.h", "<vulkan/vulkan_core.h>"},
-        {"engine/io/gltf_loader.cpp", "<vulkan/vulkan.h>"},
+        {"engine/gltf/gltf_loader.cpp", "<vulkan/vulkan.h>"},
         {"shaders/common/shim.h", "<vulkan/vulkan.h>"},
     });
 }

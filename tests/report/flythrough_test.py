@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Flythroughs against engine/io/flythrough.schema.json, and against the code that reads them."""
+"""Flythroughs against engine/flythrough/flythrough.schema.json, and against the code that reads them."""
 
 import copy
 import json
@@ -17,7 +17,7 @@ except ImportError:
     sys.exit(77)
 
 ROOT = pathlib.Path(__file__).parents[2]
-SCHEMA = ROOT / "engine/io/flythrough.schema.json"
+SCHEMA = ROOT / "engine/flythrough/flythrough.schema.json"
 SHIPPED = sorted((ROOT / "assets/flythroughs").glob("*.json"))
 
 EXAMPLE = {

@@ -2,7 +2,7 @@
 // The scenes that the game makes for itself go through the loader as any other file does.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scaling_scenes.h"
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/scene/motion.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ scene::World writeAndLoad(const std::string& name, const GltfWriter& writer) {
     const fs::path path = folder / (name + ".glb");
     const std::string problem = writer.write(path);
     EXPECT_EQ(problem, "");
-    auto loaded = io::loadGltf(path);
+    auto loaded = gltf::loadGltf(path);
     fs::remove(path);
     if (!loaded) {
         ADD_FAILURE() << loaded.error().message;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every input of shared/gltf-malformed through the loader; see the README there for the classes.
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/scene/deformed_bounds.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 #include <vector>
 
-namespace shutter::io {
+namespace shutter::gltf {
 
 namespace {
 
@@ -211,4 +211,4 @@ TEST(MalformedGltf, TheWholeSetStaysBelow512MiBOfMemory) {
 
 } // namespace
 
-} // namespace shutter::io
+} // namespace shutter::gltf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every correct scene of shared/scenes loads, and a few hold what their README says they hold.
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace shutter::io {
+namespace shutter::gltf {
 
 namespace {
 
@@ -152,4 +152,4 @@ INSTANTIATE_TEST_SUITE_P(
 
 } // namespace
 
-} // namespace shutter::io
+} // namespace shutter::gltf

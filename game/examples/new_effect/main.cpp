@@ -2,7 +2,7 @@
 // Draws a glTF scene with the motion blur and then an effect of its own (vignette.h, .comp).
 #include "vignette.h"
 
-#include "engine/io/gltf_loader.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/io/image_file.h"
 #include "engine/scene/framing.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
@@ -11,7 +11,7 @@
 using namespace shutter;
 
 core::Status draw(const char* scene, const char* out) {
-    auto loaded = io::loadGltf(scene);
+    auto loaded = gltf::loadGltf(scene);
     auto device = gpu::Device::create({});
     if (!loaded || !device)
         return loaded ? device.error() : loaded.error();

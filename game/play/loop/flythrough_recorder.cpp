@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kMostFiles = 1000;
 
-io::FlythroughKey makeKey(const scene::World& world, ecs::Entity camera, double seconds) {
+flythrough::FlythroughKey makeKey(const scene::World& world, ecs::Entity camera, double seconds) {
     const math::dmat4 rigid = math::removeScale(worldFromEntity(world, camera, seconds));
-    io::FlythroughKey key;
+    flythrough::FlythroughKey key;
     key.position = math::dvec3(rigid[3]);
     key.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
     const auto& lens = world.registry.get<scene::Camera>(camera);
@@ -42,7 +42,7 @@ void FlythroughRecorder::addFrame(const scene::World& world, ecs::Entity camera,
         mStartSeconds = seconds;
         mCamera = camera;
     }
-    io::FlythroughKey key = makeKey(world, camera, seconds);
+    flythrough::FlythroughKey key = makeKey(world, camera, seconds);
     key.seconds = seconds - mStartSeconds;
     if (!keys.empty() && key.seconds <= keys.back().seconds)
         return; // paused
@@ -63,7 +63,7 @@ void FlythroughRecorder::addFrame(const scene::World& world, ecs::Entity camera,
 
 core::Result<std::filesystem::path> FlythroughRecorder::finish(const std::filesystem::path& folder
 ) {
-    io::Flythrough flight = std::move(mFlight).value_or(io::Flythrough());
+    flythrough::Flythrough flight = std::move(mFlight).value_or(flythrough::Flythrough());
     mFlight.reset();
     if (mLast)
         flight.keys.push_back(*mLast);
@@ -75,7 +75,7 @@ core::Result<std::filesystem::path> FlythroughRecorder::finish(const std::filesy
         const auto file = folder / fmt::format("flythrough_{:03}.json", i);
         if (std::filesystem::exists(file, ignored))
             continue;
-        if (core::Status written = io::writeFlythrough(file, flight); !written)
+        if (core::Status written = flythrough::writeFlythrough(file, flight); !written)
             return written.error();
         return file;
     }

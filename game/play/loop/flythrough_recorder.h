@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/io/flythrough.h"
+#include "engine/flythrough/flythrough.h"
 #include "engine/scene/world.h"
 
 #include <filesystem>
@@ -30,10 +30,10 @@ class FlythroughRecorder {
     [[nodiscard]] core::Result<std::filesystem::path> finish(const std::filesystem::path& folder);
 
   private:
-    std::optional<io::Flythrough> mFlight;
-    ecs::Entity mCamera;                    ///< of the last frame
-    double mStartSeconds = 0.0;             ///< game time of the first key
-    std::optional<io::FlythroughKey> mLast; ///< of the last frame, where it is no key
+    std::optional<flythrough::Flythrough> mFlight;
+    ecs::Entity mCamera;                            ///< of the last frame
+    double mStartSeconds = 0.0;                     ///< game time of the first key
+    std::optional<flythrough::FlythroughKey> mLast; ///< of the last frame, where it is no key
 };
 
 } // namespace shutter::game

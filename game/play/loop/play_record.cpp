@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/play_record.h"
 
-#include "engine/io/json_file.h"
+#include "engine/json/json_file.h"
 #include "engine/math/statistics.h"
+
+#include <nlohmann/json.hpp>
 
 namespace shutter::game {
 
@@ -10,16 +12,17 @@ namespace {
 
 constexpr double kRecentMilliseconds = 1000.0;
 
-/// `"name": {"median", "q1", "q3"}`, where there are values.
-void writeQuartiles(io::JsonWriter& json, const char* name, const std::vector<double>& values) {
+/// Adds `"name": {"median", "q1", "q3"}` unless there are no values.
+void addQuartiles(
+    nlohmann::ordered_json& record, const char* name, const std::vector<double>& values
+) {
     if (values.empty())
         return;
     const math::Quartiles quartiles = math::computeQuartiles(values);
-    json.key(name).beginObject();
-    json.key("median").value(quartiles.median);
-    json.key("q1").value(quartiles.q1);
-    json.key("q3").value(quartiles.q3);
-    json.endObject();
+    nlohmann::ordered_json& described = record[name];
+    described["median"] = quartiles.median;
+    described["q1"] = quartiles.q1;
+    described["q3"] = quartiles.q3;
 }
 
 } // namespace
@@ -45,24 +48,22 @@ double PlayRecord::meanMilliseconds() const {
 }
 
 core::Status PlayRecord::write(const std::filesystem::path& path, const SessionFacts& facts) const {
-    io::JsonWriter json;
-    json.beginObject();
-    json.key("title").value(facts.title);
-    json.key("device").value(facts.device);
-    json.key("method").value(facts.method);
-    json.key("width").integer(facts.size.x);
-    json.key("height").integer(facts.size.y);
-    json.key("frames").integer(mPictureCount);
-    json.key("startSeconds").value(mStartSeconds);
-    writeQuartiles(json, "frameMilliseconds", mMilliseconds);
-    writeQuartiles(json, "blurMilliseconds", mBlurMilliseconds);
+    nlohmann::ordered_json record;
+    record["title"] = facts.title;
+    record["device"] = facts.device;
+    record["method"] = facts.method;
+    record["width"] = facts.size.x;
+    record["height"] = facts.size.y;
+    record["frames"] = mPictureCount;
+    record["startSeconds"] = mStartSeconds;
+    addQuartiles(record, "frameMilliseconds", mMilliseconds);
+    addQuartiles(record, "blurMilliseconds", mBlurMilliseconds);
     if (facts.score) {
-        json.key("score").integer(*facts.score);
-        json.key("isOver").value(facts.isOver);
+        record["score"] = *facts.score;
+        record["isOver"] = facts.isOver;
     }
-    json.key("validationMessages").integer(facts.validationMessages);
-    json.endObject();
-    return io::writeJsonFile(path, json);
+    record["validationMessages"] = facts.validationMessages;
+    return json::writeJsonFile(path, record);
 }
 
 } // namespace shutter::game

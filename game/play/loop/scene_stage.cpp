@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/io/flythrough.h"
+#include "engine/flythrough/flythrough.h"
 #include "engine/scene/framing.h"
 #include "engine/scene/history.h"
 #include "engine/scene/motion.h"
@@ -80,7 +80,7 @@ class SceneStage : public Stage {
 
     void adjustShutter(double seconds, scene::CameraShutter& shutter) const override {
         if (mFlythrough && camera() == mFlythroughCamera)
-            io::applyShutter(*mFlythrough, seconds, shutter);
+            flythrough::applyShutter(*mFlythrough, seconds, shutter);
     }
 
     [[nodiscard]] std::vector<HudLine> hud() const override {
@@ -117,7 +117,7 @@ class SceneStage : public Stage {
     std::vector<ecs::Entity> mSceneCameras;
     ViewerCamera mViewer;
     double mStartSeconds;
-    std::optional<io::Flythrough> mFlythrough; ///< whose shutters count
+    std::optional<flythrough::Flythrough> mFlythrough; ///< whose shutters count
     ecs::Entity mFlythroughCamera;
     size_t mChosen = 0; ///< of mSceneCameras; as many as there are: the viewer's
 };

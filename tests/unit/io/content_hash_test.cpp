@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/content_hash.h"
-
-#include "engine/io/file_bytes.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <set>
 #include <string>
 
@@ -28,12 +26,9 @@ TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {
 }
 
 TEST(ContentHash, OfAFileIsThatOfItsBytes) {
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / "content_hash_test.bin";
+    const test::TempFolder folder;
     const std::string bytes("x\0y", 3);
-    ASSERT_TRUE(writeFileText(file, bytes).ok());
-    const auto hash = computeFileHash(file);
-    std::filesystem::remove(file);
+    const auto hash = computeFileHash(folder.write("a.bin", bytes));
     ASSERT_TRUE(hash.ok());
     EXPECT_EQ(hash.value(), computeContentHash(bytes));
 }

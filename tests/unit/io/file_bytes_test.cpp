@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
-#include "tests/unit/io/gltf_fixture.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,8 @@
 namespace shutter::io {
 
 namespace {
+
+using test::TempFolder;
 
 namespace fs = std::filesystem;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/process.h"
 #include "engine/io/video.h"
-#include "tests/unit/io/gltf_fixture.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,8 @@
 
 namespace shutter::io {
 namespace {
+
+using test::TempFolder;
 
 ProcessResult shell(const std::string& script, const std::filesystem::path& folder = ".") {
     auto run = runProcess("/bin/sh", {"-c", script}, folder);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/uri.h"
-#include "tests/unit/io/gltf_fixture.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 namespace shutter::io {
 
 namespace {
+
+using test::TempFolder;
 
 namespace fs = std::filesystem;
 

@@ -90,7 +90,7 @@ TEST_F(Flight, TooLongAFlightIsRefused) {
 TEST_F(Flight, EachFrameHasTheShutterOfItsTime) {
     ShotOptions options = load();
     Shot shot;
-    shot.camera = io::addFlythroughCamera(shot.world, *options.flythrough);
+    shot.camera = flythrough::addFlythroughCamera(shot.world, *options.flythrough);
     shot.world.registry.add(shot.camera, options.shutter);
     EXPECT_EQ(makeView(shot, options, 0.5).exposure.open, 0.5 - 0.125);
     const scene::ExposureInterval last = makeView(shot, options, 0.6).exposure;

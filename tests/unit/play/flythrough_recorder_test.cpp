@@ -42,11 +42,11 @@ TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
     const auto file = mRecorder.finish(mFolder);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_FALSE(mRecorder.isRecording());
-    const auto flight = io::readFlythrough(file.value());
+    const auto flight = flythrough::readFlythrough(file.value());
     ASSERT_TRUE(flight) << flight.error().message;
     EXPECT_EQ(flight.value().keys.size(), 11u);
     scene::World other;
-    const ecs::Entity flies = io::addFlythroughCamera(other, flight.value());
+    const ecs::Entity flies = flythrough::addFlythroughCamera(other, flight.value());
     for (double t = 0.0; t <= 1.0; t += 0.05) {
         const math::dmat4 own = worldFromEntity(mWorld, mCameras[0], 5.0 + t);
         const math::dmat4 replayed = worldFromEntity(other, flies, t);
@@ -60,7 +60,7 @@ TEST_F(Recorder, AnotherCameraIsACut) {
     mRecorder.addFrame(mWorld, mCameras[0], 0.0);
     mRecorder.addFrame(mWorld, mCameras[0], 0.05);
     mRecorder.addFrame(mWorld, mCameras[1], 0.07);
-    const auto flight = io::readFlythrough(mRecorder.finish(mFolder).value()).value();
+    const auto flight = flythrough::readFlythrough(mRecorder.finish(mFolder).value()).value();
     ASSERT_EQ(flight.keys.size(), 3u);
     EXPECT_NEAR(flight.keys[1].seconds, 0.05, 1e-12);
     EXPECT_FALSE(flight.keys[1].cut);
@@ -76,7 +76,7 @@ TEST_F(Recorder, APauseAddsNothingAndNoTimeIsNoFlight) {
         mRecorder.addFrame(mWorld, mCameras[0], 1.0);
     const auto first = mRecorder.finish(mFolder);
     ASSERT_TRUE(first) << first.error().message;
-    EXPECT_EQ(io::readFlythrough(first.value()).value().keys.size(), 1u);
+    EXPECT_EQ(flythrough::readFlythrough(first.value()).value().keys.size(), 1u);
     mRecorder.start();
     mRecorder.addFrame(mWorld, mCameras[0], 1.0);
     EXPECT_NE(mRecorder.finish(mFolder).value(), first.value()); // nothing is written over

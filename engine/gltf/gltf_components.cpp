@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace shutter::gltf {
+
+namespace {
+
+/// Beyond this distance a single-precision projection matrix has no precision left.
+constexpr double kMaxDistance = 1e30;
+
+void expectRange(double value, double low, double high, const std::string& path) {
+    if (!(value > low && value < high)) {
+        failGltf("{} is {}, not between {} and {}", path, value, low, high);
+    }
+}
+
+scene::Camera readPerspective(const tinygltf::PerspectiveCamera& source, const std::string& path) {
+    expectRange(source.yfov, 0.0, std::numbers::pi, path + ".perspective.yfov");
+    expectRange(source.znear, 0.0, kMaxDistance, path + ".perspective.znear");
+    scene::Camera camera;
+    camera.kind = scene::CameraKind::Perspective;
+    camera.yFov = source.yfov;
+    camera.near = source.znear;
+    return camera;
+}
+
+scene::Camera
+readOrthographic(const tinygltf::OrthographicCamera& source, const std::string& path) {
+    const std::string at = path + ".orthographic";
+    expectRange(source.xmag, 0.0, kMaxDistance, at + ".xmag");
+    expectRange(source.ymag, 0.0, kMaxDistance, at + ".ymag");
+    if (!(source.znear >= 0.0))
+        failGltf("{}.znear is {}, below 0", at, source.znear);
+    expectRange(source.zfar, source.znear, kMaxDistance, at + ".zfar");
+    scene::Camera camera;
+    camera.kind = scene::CameraKind::Orthographic;
+    camera.xMag = source.xmag;
+    camera.yMag = source.ymag;
+    camera.near = source.znear;
+    camera.far = source.zfar;
+    return camera;
+}
+
+scene::LightKind readLightKind(const std::string& type, const std::string& path) {
+    if (type == "directional")
+        return scene::LightKind::Directional;
+    if (type == "point")
+        return scene::LightKind::Point;
+    if (type == "spot")
+        return scene::LightKind::Spot;
+    failGltf("{}.type '{}' is unknown", path, type);
+}
+
+void readCone(const tinygltf::SpotLight& spot, const std::string& path, scene::Light& light) {
+    // KHR_lights_punctual requires 0 <= inner < outer <= pi / 2; files may round pi / 2 up.
+    const bool isValid = spot.innerConeAngle >= 0.0 && spot.innerConeAngle < spot.outerConeAngle &&
+                         spot.outerConeAngle <= std::numbers::pi / 2.0 + 1e-6;
+    if (!isValid) {
+        failGltf(
+            "{}.spot has the cone angles {} and {}, but 0 <= inner < outer <= pi/2 is needed",
+            path,
+            spot.innerConeAngle,
+            spot.outerConeAngle
+        );
+    }
+    light.innerConeAngle = float(spot.innerConeAngle);
+    light.outerConeAngle = float(spot.outerConeAngle);
+}
+
+} // namespace
+
+scene::Camera readCamera(const GltfContext& context, size_t index) {
+    const tinygltf::Camera& source = context.model.cameras[index];
+    const std::string path = fmt::format("cameras[{}]", index);
+    scene::Camera camera;
+    if (source.type == "perspective")
+        camera = readPerspective(source.perspective, path);
+    else if (source.type == "orthographic")
+        camera = readOrthographic(source.orthographic, path);
+    else
+        failGltf("{}.type '{}' is unknown", path, source.type);
+    camera.name = source.name;
+    return camera;
+}
+
+scene::Light readLight(const GltfContext& context, size_t index) {
+    const tinygltf::Light& source = context.model.lights[index];
+    const std::string path = fmt::format("KHR_lights_punctual.lights[{}]", index);
+    scene::Light light;
+    light.kind = readLightKind(source.type, path);
+    if (!source.color.empty() && source.color.size() != 3) {
+        failGltf("{}.color has {} numbers, not 3", path, source.color.size());
+    }
+    constexpr double kMaxIntensity = 1e30;
+    for (size_t i = 0; i < source.color.size(); ++i) {
+        if (!(source.color[i] >= 0.0 && source.color[i] <= kMaxIntensity)) {
+            failGltf("{}.color holds {}, not between 0 and 1e30", path, source.color[i]);
+        }
+        light.color[glm::length_t(i)] = float(source.color[i]);
+    }
+    if (!(source.intensity >= 0.0 && source.intensity <= kMaxIntensity)) {
+        failGltf("{}.intensity is {}, not between 0 and 1e30", path, source.intensity);
+    }
+    light.intensity = float(source.intensity);
+    if (source.range < 0.0)
+        failGltf("{}.range is {}, below 0", path, source.range);
+    // tinygltf stores 0 for a missing range, which means unlimited.
+    const bool hasRange = source.range > 0.0 && light.kind != scene::LightKind::Directional;
+    if (hasRange)
+        light.range = float(source.range);
+    if (light.kind == scene::LightKind::Spot)
+        readCone(source.spot, path, light);
+    return light;
+}
+
+std::optional<scene::MotionBlur>
+readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
+    if (!node.extras.IsObject() || !node.extras.Has("motionBlur"))
+        return std::nullopt;
+    const tinygltf::Value& object = node.extras.Get("motionBlur");
+    const std::string at = path + ".extras.motionBlur";
+    if (!object.IsObject())
+        failGltf("{} is not an object", at);
+    for (const std::string& key : object.Keys())
+        if (key != "scale" && key != "exclude")
+            context.warnings.add(fmt::format("{} has a member '{}': not used", at, key));
+    scene::MotionBlur blur;
+    blur.scale = findNumber(object, "scale", at).value_or(blur.scale);
+    if (!(blur.scale >= 0.0 && blur.scale <= 2.0))
+        failGltf("{}.scale is {}, it must lie in [0, 2]", at, blur.scale);
+    blur.exclude = findBool(object, "exclude", at).value_or(blur.exclude);
+    return blur;
+}
+
+} // namespace shutter::gltf

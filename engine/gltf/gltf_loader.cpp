@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "engine/gltf/gltf_loader.h"
+
+#include "engine/gltf/gltf_parts.h"
+#include "engine/gltf/gltf_values.h"
+#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
+#include "engine/io/uri.h"
+
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <string_view>
+#include <utility>
+
+namespace shutter::gltf {
+
+namespace {
+
+/// The length field of a GLB allows no more, and no sensible .gltf with embedded data has more.
+constexpr uint64_t kMaxFileBytes = uint64_t(4) << 30;
+
+void warnIgnoredExtensions(GltfContext& context) {
+    for (const std::string& name : context.model.extensionsUsed) {
+        if (!isSupportedExtension(name)) {
+            context.warnings.add(fmt::format("the extension {} is ignored", name));
+        }
+    }
+}
+
+/// Throws GltfError and whatever the libraries throw.
+LoadedScene buildScene(const std::filesystem::path& folder, std::span<const uint8_t> bytes) {
+    const GltfChunks chunks = splitGltf(bytes);
+    nlohmann::json root = parseGltfJson(chunks.json);
+    checkAssetAndExtensions(root);
+    checkGltfSchema(root);
+    const GltfResources resources(root, folder, chunks.bin, chunks.hasBin);
+    const tinygltf::Model model = parseGltfModel(std::move(root));
+
+    LoadedScene loaded;
+    GltfWarnings warnings;
+    GltfContext context{model, resources, warnings};
+    checkAccessors(context);
+    warnIgnoredExtensions(context);
+    loadMaterials(context, loaded.world.assets);
+    loadMeshes(context, loaded.world.assets);
+    loadSkins(context, loaded.world.assets);
+    bindMeshes(context, loaded.world.assets);
+    const std::vector<ecs::Entity> entities = loadNodes(context, loaded.world);
+    addSkins(context, loaded.world, entities);
+    loadAnimations(context, loaded.world, entities);
+    expandInstances(context, loaded.world, entities);
+    loaded.warnings = warnings.take();
+    return loaded;
+}
+
+/// Appends the URIs of files that the given array of `root` names.
+void collectUris(const nlohmann::json& root, const char* array, std::vector<std::string>& uris) {
+    const auto entries = root.find(array);
+    if (entries == root.end() || !entries->is_array())
+        return;
+    for (const nlohmann::json& entry : *entries) {
+        if (!entry.is_object())
+            continue;
+        const auto uri = entry.find("uri");
+        if (uri == entry.end() || !uri->is_string())
+            continue;
+        std::string text = uri->get<std::string>();
+        if (!io::isDataUri(text)) // embedded data is part of the scene's own hash
+            uris.push_back(std::move(text));
+    }
+}
+
+std::string hashUri(const std::filesystem::path& folder, const std::string& uri) {
+    const auto file = io::resolveUri(folder, uri);
+    if (!file)
+        return "missing";
+    const auto hash = io::computeFileHash(file.value());
+    return hash ? hash.value() : "missing";
+}
+
+} // namespace
+
+core::Result<LoadedScene> loadGltf(const std::filesystem::path& path) try {
+    core::Result<std::vector<uint8_t>> bytes = io::readFileBytes(path, kMaxFileBytes);
+    if (!bytes)
+        return bytes.error();
+    try {
+        return buildScene(path.parent_path(), bytes.value());
+    } catch (const GltfError& e) {
+        return core::makeError("cannot load '{}': {}", path.string(), e.what());
+    } catch (const std::bad_alloc&) {
+        return core::makeError("cannot load '{}': out of memory", path.string());
+    }
+
+} catch (const std::exception& e) {
+
+    // Unforeseen exceptions of tinygltf, the JSON parser or the file system.
+    return core::makeError("cannot load '{}': {}", path.string(), e.what());
+}
+
+core::Result<std::string> computeSceneHash(const std::filesystem::path& path) {
+    const auto bytes = io::readFileBytes(path, std::numeric_limits<uint64_t>::max());
+    if (!bytes)
+        return bytes.error();
+    const std::vector<uint8_t>& whole = bytes.value();
+    std::string hashes =
+        io::computeContentHash({reinterpret_cast<const char*>(whole.data()), whole.size()});
+    std::vector<std::string> uris;
+    try {
+        const nlohmann::json root = parseGltfJson(splitGltf(whole).json);
+        collectUris(root, "buffers", uris);
+        collectUris(root, "images", uris);
+    } catch (const GltfError& error) {
+        return core::makeError("cannot load '{}': {}", path.string(), error.what());
+    }
+    for (const std::string& uri : uris)
+        hashes += ' ' + hashUri(path.parent_path(), uri);
+    return io::computeContentHash(hashes);
+}
+
+} // namespace shutter::gltf

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "engine/flythrough/flythrough.h"
+#include "engine/scene/motion.h"
+#include "tests/support/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace shutter::flythrough {
+namespace {
+
+using test::TempFolder;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+FlythroughKey key(double seconds, const math::dvec3& position) {
+    FlythroughKey made;
+    made.seconds = seconds;
+    made.position = position;
+    made.lookAt = math::dvec3(0.0);
+    return made;
+}
+
+/// Every field in use.
+Flythrough makeFull() {
+    Flythrough flythrough;
+    flythrough.name = "Kamerafahrt \u00e4";
+    flythrough.fps = 30000.0 / 1001.0;
+    flythrough.interpolation = scene::PathInterpolation::Linear;
+    flythrough.ease = scene::PathEase::InOut;
+    flythrough.up = {0.1, 1.0, -0.0};
+    flythrough.keys = {key(-1.5, {0.1, 1.0 / 3.0, 3.0}), key(0.25, {1, 2, 3}), key(2, {3, 2, 1})};
+    for (FlythroughKey& each : flythrough.keys) {
+        each.lookAt.reset();
+        each.rotation = glm::normalize(math::dquat(0.7, 0.1, -0.3, 0.2 + each.seconds));
+        each.fieldOfView = 40.0 + each.seconds;
+    }
+    flythrough.keys[0].shutter = FlythroughShutter{1.0 / 60.0, {}, {}};
+    flythrough.keys[1].shutter = FlythroughShutter{{}, 180.0, scene::ShutterPhase::Centre};
+    flythrough.keys[2].shutter = FlythroughShutter{{}, {}, scene::ShutterPhase::Start};
+    flythrough.keys[2].cut = true;
+    return flythrough;
+}
+
+std::string errorOf(const std::string& text) {
+    const auto read = parseFlythrough(text, "f.json");
+    return read.ok() ? "no error" : read.error().message;
+}
+
+std::string readText(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Flythrough, IsReadBackToTheLastBit) {
+    const TempFolder folder;
+    const auto path = folder.path() / "f.json";
+    const Flythrough written = makeFull();
+    ASSERT_TRUE(writeFlythrough(path, written).ok());
+    const auto read = readFlythrough(path);
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    const Flythrough& again = read.value();
+    EXPECT_EQ(again.name, written.name);
+    EXPECT_EQ(again.fps, written.fps);
+    EXPECT_EQ(again.interpolation, written.interpolation);
+    EXPECT_EQ(again.ease, written.ease);
+    EXPECT_EQ(again.up, written.up);
+    ASSERT_EQ(again.keys.size(), written.keys.size());
+    for (size_t i = 0; i < written.keys.size(); ++i) {
+        EXPECT_EQ(again.keys[i].seconds, written.keys[i].seconds);
+        EXPECT_EQ(again.keys[i].position, written.keys[i].position);
+        EXPECT_EQ(again.keys[i].rotation, written.keys[i].rotation);
+        EXPECT_EQ(again.keys[i].fieldOfView, written.keys[i].fieldOfView);
+        EXPECT_EQ(again.keys[i].cut, written.keys[i].cut);
+        ASSERT_TRUE(again.keys[i].shutter.has_value());
+        EXPECT_EQ(again.keys[i].shutter->exposureSeconds, written.keys[i].shutter->exposureSeconds);
+        EXPECT_EQ(again.keys[i].shutter->angleDegrees, written.keys[i].shutter->angleDegrees);
+        EXPECT_EQ(again.keys[i].shutter->phase, written.keys[i].shutter->phase);
+    }
+    ASSERT_TRUE(writeFlythrough(folder.path() / "g.json", again).ok());
+    EXPECT_EQ(readText(path), readText(folder.path() / "g.json"));
+}
+
+TEST(Flythrough, NeedsNoMoreThanAVersionAndAKey) {
+    const auto read = parseFlythrough(
+        R"({"version": 1, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 0, 0]}]})", "f"
+    );
+    ASSERT_TRUE(read.ok()) << read.error().message;
+    EXPECT_EQ(read.value().fps, 24.0);
+    EXPECT_EQ(read.value().interpolation, scene::PathInterpolation::CatmullRom);
+    EXPECT_EQ(read.value().ease, scene::PathEase::None);
+    EXPECT_FALSE(makeLens(read.value()).has_value());
+    EXPECT_TRUE(scene::validatePath(makePath(read.value())).ok());
+}
+
+TEST(Flythrough, WhatASchemaCannotSayIsRefusedByName) {
+    const auto file = [](const std::string& keys) {
+        return "{\"version\": 1,\n\"keys\": [\n" + keys + "]}";
+    };
+    const std::string first =
+        "{\"time\": 1, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 1], \"fieldOfView\": 40},\n";
+    EXPECT_EQ(
+        errorOf(file(
+            first +
+            "{\"time\": 1, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 1], \"fieldOfView\": 40}"
+        )),
+        "f.json:4: keys[1].time: must come after the key before, at 1 s"
+    );
+    EXPECT_EQ(
+        errorOf(file(
+            first +
+            "{\"time\": 2, \"position\": [0, 0, 0], \"rotation\": [0, 0, 0, 1], \"fieldOfView\": 4}"
+        )),
+        "f.json:4: keys[1]: must have lookAt as the first key has"
+    );
+    EXPECT_EQ(
+        errorOf(file(first + "{\"time\": 2, \"position\": [0, 0, 0], \"lookAt\": [0, 0, 0]}")),
+        "f.json:4: keys[1]: must have fieldOfView, as the first key has one"
+    );
+    EXPECT_EQ(
+        errorOf(file("{\"time\": 2, \"position\": [0, 0, 0], \"rotation\": [0, 0, 0.9, 0]}")),
+        "f.json:3: keys[0].rotation: must be of length 1 (x, y, z, w), not 0.9"
+    );
+    EXPECT_EQ(
+        errorOf(file("{\"time\": 2, \"position\": [0, 0, 0]}")),
+        "f.json:3: keys[0]: must have either lookAt or rotation"
+    );
+    EXPECT_EQ(
+        errorOf("{\"version\": 1, \"up\": [0, 0, 0], \"keys\": []}"),
+        "f.json:1: up: must have a direction"
+    );
+}
+
+TEST(Flythrough, AWrongOneIsNotWritten) {
+    const TempFolder folder;
+    const auto path = folder.path() / "f.json";
+    const auto refuses = [&](auto change, const std::string& mention) {
+        Flythrough wrong = makeFull();
+        change(wrong);
+        const core::Status written = writeFlythrough(path, wrong);
+        ASSERT_FALSE(written.ok()) << mention;
+        EXPECT_NE(written.error().message.find(mention), std::string::npos)
+            << written.error().message;
+        EXPECT_FALSE(std::filesystem::exists(path));
+    };
+    refuses([](Flythrough& f) { f.keys.clear(); }, "keys: must have at least 1");
+    refuses([](Flythrough& f) { f.fps = 0.0; }, "fps: must lie in (0, 1000]");
+    refuses([](Flythrough& f) { f.fps = kNan; }, "fps and up");
+    refuses([](Flythrough& f) { f.keys[1].seconds = -1.5; }, "keys[1].time");
+    refuses([](Flythrough& f) { f.keys[1].position.y = kNan; }, "keys[1]");
+    refuses([](Flythrough& f) { f.keys[2].fieldOfView = 180.0; }, "keys[2].fieldOfView");
+    refuses([](Flythrough& f) { f.keys[2].rotation.reset(); }, "keys[2]");
+    refuses([](Flythrough& f) { f.keys[0].shutter->angleDegrees = 1.0; }, "exclude each other");
+    refuses([](Flythrough& f) { f.keys[0].shutter = FlythroughShutter{}; }, "none of exposure");
+}
+
+TEST(Flythrough, TheCameraFollowsItsKeys) {
+    scene::World world;
+    const Flythrough flythrough = makeFull();
+    const ecs::Entity camera = addFlythroughCamera(world, flythrough);
+    EXPECT_EQ(world.cameras, std::vector<ecs::Entity>{camera});
+    for (const FlythroughKey& each : flythrough.keys) {
+        const math::dmat4 pose = scene::worldFromEntity(world, camera, each.seconds);
+        EXPECT_LT(glm::length(math::dvec3(pose[3]) - each.position), 1e-12);
+        const math::dvec3 forward = *each.rotation * math::dvec3(0, 0, -1);
+        EXPECT_LT(glm::length(math::dvec3(pose[2]) + forward), 1e-12);
+        EXPECT_NEAR(
+            scene::yFovAt(world, camera, each.seconds),
+            *each.fieldOfView * std::numbers::pi / 180.0,
+            1e-12
+        );
+    }
+    // The cut is the path's and the lens's.
+    EXPECT_EQ(
+        scene::worldFromEntity(world, camera, 1.99), scene::worldFromEntity(world, camera, 0.25)
+    );
+    EXPECT_EQ(scene::yFovAt(world, camera, 1.99), scene::yFovAt(world, camera, 0.25));
+}
+
+TEST(Flythrough, WithoutAFieldOfViewTheLensIsTheFirstCameras) {
+    scene::World world;
+    Flythrough flythrough;
+    flythrough.keys = {key(0, {0, 0, 5})};
+    const auto fovOf = [&](ecs::Entity camera) { return scene::yFovAt(world, camera, 0.0); };
+    EXPECT_EQ(fovOf(addFlythroughCamera(world, flythrough)), scene::Camera{}.yFov);
+    auto& first = world.registry.get<scene::Camera>(world.cameras.front());
+    first.yFov = 0.5;
+    first.near = 0.25;
+    const ecs::Entity second = addFlythroughCamera(world, flythrough);
+    EXPECT_EQ(fovOf(second), 0.5);
+    EXPECT_EQ(world.registry.get<scene::Camera>(second).near, 0.25);
+    // A field of view makes a perspective camera of it.
+    world.registry.get<scene::Camera>(world.cameras.front()).kind = scene::CameraKind::Orthographic;
+    flythrough.keys[0].fieldOfView = 90.0;
+    const ecs::Entity third = addFlythroughCamera(world, flythrough);
+    EXPECT_NEAR(fovOf(third), std::numbers::pi / 2.0, 1e-15);
+}
+
+TEST(Flythrough, AShutterStandsFromItsKeyToTheNext) {
+    const Flythrough flythrough = makeFull();
+    const auto at = [&](double seconds) {
+        scene::CameraShutter shutter{.exposureSeconds = 9.0};
+        applyShutter(flythrough, seconds, shutter);
+        return shutter;
+    };
+    for (const double before : {-9.0, -1.5, 0.2}) {
+        EXPECT_EQ(at(before).mode, scene::ShutterMode::Physical);
+        EXPECT_EQ(at(before).exposureSeconds, 1.0 / 60.0);
+        EXPECT_EQ(at(before).phase, scene::ShutterPhase::End);
+    }
+    EXPECT_EQ(at(0.25).mode, scene::ShutterMode::Angle);
+    EXPECT_EQ(at(1.9).angleDegrees, 180.0);
+    EXPECT_EQ(at(1.9).phase, scene::ShutterPhase::Centre);
+    // The last tells a phase alone: the rest is what the caller has.
+    EXPECT_EQ(at(2.0).phase, scene::ShutterPhase::Start);
+    EXPECT_EQ(at(2.0).exposureSeconds, 9.0);
+    Flythrough silent = flythrough;
+    for (FlythroughKey& each : silent.keys)
+        each.shutter.reset();
+    scene::CameraShutter shutter{.exposureSeconds = 9.0};
+    applyShutter(silent, 0.0, shutter);
+    EXPECT_EQ(shutter.exposureSeconds, 9.0);
+}
+
+} // namespace
+} // namespace shutter::flythrough

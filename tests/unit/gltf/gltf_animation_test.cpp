@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "tests/unit/gltf/gltf_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace shutter::gltf {
+
+namespace {
+
+using math::vec4;
+
+const std::string kNodes = R"("scenes":[{"nodes":[0]}],"nodes":[{"name":"a"},{"name":"outside"}])";
+
+std::string clip(
+    const char* path,
+    const char* interpolation = "LINEAR",
+    const char* node = R"("node":0,)",
+    int sampler = 0
+) {
+    return fmt::format(
+        R"({{"name":"move","channels":[{{"sampler":{},"target":{{{}"path":"{}"}}}}],
+        "samplers":[{{"input":0,"output":1,"interpolation":"{}"}}]}})",
+        sampler,
+        node,
+        path,
+        interpolation
+    );
+}
+
+core::Result<LoadedScene>
+loadClips(const GltfFile& file, const std::string& clips, const std::string& nodes = kNodes) {
+    return file.load(nodes + R"(,"animations":[)" + clips + "]");
+}
+
+/// Accessor 0: times; accessor 1: values.
+template <class T>
+GltfFile makeKeys(
+    const std::vector<float>& times,
+    const std::vector<T>& values,
+    const char* type,
+    int componentType = kFloat
+) {
+    GltfFile file;
+    file.add(times, kFloat, "SCALAR");
+    file.add(values, componentType, type, componentType != kFloat);
+    return file;
+}
+
+const std::vector<float> kTwoTimes = {0.5f, 2.0f};
+const std::vector<float> kTwoVectors = {1, 2, 3, 4, 5, 6};
+
+TEST(GltfAnimation, ALinearTranslationDrivesItsNode) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    const LoadedScene scene = expectLoads(loadClips(file, clip("translation")));
+    ASSERT_EQ(scene.world.assets.clips.size(), 1u);
+    const scene::AnimationClip& moved = scene.world.assets.clips[0];
+    EXPECT_EQ(moved.name, "move");
+    EXPECT_EQ(moved.duration, 2.0);
+    ASSERT_EQ(moved.channels.size(), 1u);
+    const scene::AnimationChannel& channel = moved.channels[0];
+    EXPECT_EQ(channel.node, 0u);
+    EXPECT_EQ(channel.path, scene::AnimationPath::Translation);
+    EXPECT_EQ(channel.interpolation, scene::Interpolation::Linear);
+    EXPECT_EQ(channel.times, kTwoTimes);
+    EXPECT_EQ(channel.values, (std::vector<vec4>{vec4(1, 2, 3, 0), vec4(4, 5, 6, 0)}));
+    ASSERT_EQ(scene.world.playback.activeClips, std::vector<bool>{true});
+    size_t driven = 0;
+    for (const auto& [entity, animated] : scene.world.registry.view<const scene::Animated>()) {
+        ++driven;
+        ASSERT_EQ(animated.channels.size(), 1u);
+        EXPECT_EQ(animated.channels[0].clip, 0u);
+        EXPECT_EQ(animated.channels[0].channel, 0u);
+    }
+    EXPECT_EQ(driven, 1u);
+}
+
+TEST(GltfAnimation, ChannelsOfSeveralClipsComeInClipOrder) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    const LoadedScene scene =
+        expectLoads(loadClips(file, clip("scale", "STEP") + "," + clip("translation")));
+    EXPECT_EQ(scene.world.assets.clips[0].channels[0].interpolation, scene::Interpolation::Step);
+    EXPECT_EQ(scene.world.assets.clips[0].channels[0].path, scene::AnimationPath::Scale);
+    for (const auto& [entity, animated] : scene.world.registry.view<const scene::Animated>()) {
+        ASSERT_EQ(animated.channels.size(), 2u);
+        EXPECT_EQ(animated.channels[0].clip, 0u);
+        EXPECT_EQ(animated.channels[1].clip, 1u);
+    }
+    EXPECT_EQ(scene.world.playback.activeClips.size(), 2u);
+}
+
+TEST(GltfAnimation, ACubicSplineHasThreeValuesAKey) {
+    const std::vector<float> values(18, 0.5f);
+    const LoadedScene scene = expectLoads(
+        loadClips(makeKeys(kTwoTimes, values, "VEC3"), clip("translation", "CUBICSPLINE"))
+    );
+    EXPECT_EQ(scene.world.assets.clips[0].channels[0].values.size(), 6u);
+    expectRefused(
+        loadClips(makeKeys(kTwoTimes, kTwoVectors, "VEC3"), clip("translation", "CUBICSPLINE")),
+        "2 values for 2 keys, 6 are needed"
+    );
+}
+
+TEST(GltfAnimation, RotationsAreNormalizedAlsoFromIntegers) {
+    const LoadedScene floats = expectLoads(
+        loadClips(makeKeys({0.0f}, std::vector<float>{0, 0, 3, 0}, "VEC4"), clip("rotation"))
+    );
+    EXPECT_EQ(floats.world.assets.clips[0].channels[0].values[0], vec4(0, 0, 1, 0));
+    const LoadedScene shorts = expectLoads(loadClips(
+        makeKeys({0.0f}, std::vector<int16_t>{0, 0, -32768, 0}, "VEC4", kShort), clip("rotation")
+    ));
+    EXPECT_EQ(shorts.world.assets.clips[0].channels[0].values[0], vec4(0, 0, -1, 0));
+    const LoadedScene bytes = expectLoads(loadClips(
+        makeKeys({0.0f}, std::vector<int8_t>{127, 0, 0, 0}, "VEC4", kByte), clip("rotation")
+    ));
+    EXPECT_EQ(bytes.world.assets.clips[0].channels[0].values[0], vec4(1, 0, 0, 0));
+}
+
+TEST(GltfAnimation, OnlyTheValuesOfARotationSplineAreNormalized) {
+    const std::vector<float> keys = {0, 0, 0, 0, 0, 0, 0, 2, 5, 5, 5, 5};
+    const LoadedScene scene =
+        expectLoads(loadClips(makeKeys({0.0f}, keys, "VEC4"), clip("rotation", "CUBICSPLINE")));
+    const std::vector<vec4>& values = scene.world.assets.clips[0].channels[0].values;
+    EXPECT_EQ(values[0], vec4(0));
+    EXPECT_EQ(values[1], vec4(0, 0, 0, 1));
+    EXPECT_EQ(values[2], vec4(5));
+}
+
+TEST(GltfAnimation, KeysWithoutMeaningAreRefused) {
+    const float nan = std::nanf("");
+    const std::vector<float> zeroRotation = {0, 0, 0, 0};
+    expectRefused(
+        loadClips(makeKeys({0.0f}, zeroRotation, "VEC4"), clip("rotation")), "has no length"
+    );
+    const std::vector<float> nanVectors = {1, 2, nan, 4, 5, 6};
+    expectRefused(
+        loadClips(makeKeys(kTwoTimes, nanVectors, "VEC3"), clip("translation")), "holds nan"
+    );
+    for (const std::vector<float>& times : {std::vector<float>{nan, 1}, std::vector<float>{2, 1}}) {
+        expectRefused(
+            loadClips(makeKeys(times, kTwoVectors, "VEC3"), clip("translation")),
+            "animations[0].samplers[0].input"
+        );
+    }
+}
+
+TEST(GltfAnimation, KeysBeforeTimeZeroAreKept) {
+    const std::vector<float> times = {-1.0f, 1.0f};
+    const LoadedScene scene =
+        expectLoads(loadClips(makeKeys(times, kTwoVectors, "VEC3"), clip("translation")));
+    EXPECT_EQ(scene.world.assets.clips[0].channels[0].times, times);
+}
+
+TEST(GltfAnimation, OfKeysAtOneTimeTheLastIsKept) {
+    const std::vector<float> times = {0, 1, 1, 2};
+    const std::vector<float> values = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
+    const LoadedScene scene =
+        expectLoads(loadClips(makeKeys(times, values, "VEC3"), clip("translation")));
+    const scene::AnimationChannel& channel = scene.world.assets.clips[0].channels[0];
+    EXPECT_EQ(channel.times, (std::vector<float>{0, 1, 2}));
+    EXPECT_EQ(channel.values[1], vec4(2, 2, 2, 0));
+    EXPECT_EQ(channel.values.size(), 3u);
+    EXPECT_TRUE(hasWarning(scene, "equal times"));
+}
+
+TEST(GltfAnimation, ChannelsThatDriveNothingWeKnowAreIgnored) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    const LoadedScene noNode = expectLoads(loadClips(file, clip("translation", "LINEAR", "")));
+    EXPECT_TRUE(noNode.world.assets.clips[0].channels.empty());
+    const LoadedScene weights = expectLoads(loadClips(file, clip("weights")));
+    EXPECT_TRUE(weights.world.assets.clips[0].weightChannels.empty());
+    EXPECT_TRUE(hasWarning(weights, "which has no morph targets"));
+    const LoadedScene colour = expectLoads(loadClips(file, clip("colour")));
+    EXPECT_TRUE(hasWarning(colour, "'colour'"));
+}
+
+TEST(GltfAnimation, AChannelOfANodeOutsideTheSceneDrivesNoEntity) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    const LoadedScene scene =
+        expectLoads(loadClips(file, clip("translation", "LINEAR", R"("node":1,)")));
+    EXPECT_EQ(scene.world.assets.clips[0].channels.size(), 1u);
+    const auto animated = scene.world.registry.view<const scene::Animated>();
+    EXPECT_TRUE(animated.begin() == animated.end()) << "an entity is driven";
+}
+
+TEST(GltfAnimation, ANodeWithAShearingMatrixIsNotDriven) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    const LoadedScene scene = expectLoads(loadClips(
+        file,
+        clip("translation"),
+        R"("scenes":[{"nodes":[0]}],"nodes":[{"matrix":[1,0,0,0,1,1,0,0,0,0,1,0,0,0,0,1]}])"
+    ));
+    EXPECT_TRUE(hasWarning(scene, "matrix that shears"));
+}
+
+TEST(GltfAnimation, ReferencesAndTypesAreChecked) {
+    const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
+    expectRefused(
+        loadClips(file, clip("translation", "LINEAR", R"("node":0,)", 1)),
+        "channels[0].sampler is 1, but there are 1 samplers"
+    );
+    expectRefused(
+        loadClips(file, clip("translation", "LINEAR", R"("node":7,)")), "target.node is 7"
+    );
+    expectRefused(loadClips(file, clip("translation", "BEZIER")), "'BEZIER'");
+    expectRefused(loadClips(file, clip("rotation")), "output: accessors[1].type");
+    const GltfFile raw =
+        makeKeys(std::vector<float>{0}, std::vector<uint32_t>{0, 0, 0}, "VEC3", kUnsignedInt);
+    expectRefused(loadClips(raw, clip("translation")), "componentType 5125");
+}
+
+} // namespace
+
+} // namespace shutter::gltf

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// Skins: inverse bind matrices, joints and weights of vertices, joints' entities.
+#include "engine/scene/deformation.h"
+#include "engine/scene/motion.h"
+#include "tests/unit/gltf/gltf_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace shutter::gltf {
+
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+
+/// Nodes 0: drawn with skin 0; 1: a joint with the joint 2 below. All in the scene.
+const std::string kNodes = R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0,"name":"body"},
+    {"children":[2],"translation":[1,0,0]},{"translation":[0,2,0]}],)";
+const std::string kTwoJoints = R"("skins":[{"name":"rig","joints":[1,2]}])";
+
+std::string mesh(const std::string& attributes) {
+    return R"("meshes":[{"primitives":[{"attributes":{"POSITION":0)" + attributes + "}}]}],";
+}
+
+const std::string kMesh = mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2)");
+
+/// Accessor 0: a triangle; 1: joints; 2: weights, four of each a vertex.
+template <class Joint, class Weight>
+GltfFile makeSkinned(
+    const std::vector<Joint>& joints,
+    int jointType,
+    const std::vector<Weight>& weights,
+    int weightType
+) {
+    GltfFile file;
+    file.add(kTriangle, kFloat, "VEC3");
+    file.add(joints, jointType, "VEC4");
+    file.add(weights, weightType, "VEC4", weightType != kFloat);
+    return file;
+}
+
+const std::vector<uint8_t> kJoints = {0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
+const std::vector<float> kWeights = {0.75f, 0.25f, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0};
+
+GltfFile makeSkinned() {
+    return makeSkinned(kJoints, kUnsignedByte, kWeights, kFloat);
+}
+
+ecs::Entity findSkinned(const scene::World& world) {
+    for (const auto& [entity, skinned] : world.registry.view<const scene::Skinned>())
+        return entity;
+    return ecs::kNullEntity;
+}
+
+TEST(GltfSkin, ASkinnedNodeKnowsItsJointsAndItsMeshItsInfluences) {
+    const LoadedScene scene = expectLoads(makeSkinned().load(kMesh + kNodes + kTwoJoints));
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+    const scene::World& world = scene.world;
+    ASSERT_EQ(world.assets.skins.size(), 1u);
+    EXPECT_EQ(world.assets.skins[0].name, "rig");
+    EXPECT_EQ(world.assets.skins[0].jointFromBind, (std::vector<dmat4>{dmat4(1.0), dmat4(1.0)}));
+    const ecs::Entity body = findSkinned(world);
+    ASSERT_NE(body, ecs::kNullEntity);
+    EXPECT_EQ(world.registry.get<scene::Name>(body).value, "body");
+    const auto& skinned = world.registry.get<scene::Skinned>(body);
+    EXPECT_EQ(skinned.skin, 0u);
+    ASSERT_EQ(skinned.joints.size(), 2u);
+    const dmat4 lower = scene::worldFromEntity(world, skinned.joints[1], 0.0);
+    EXPECT_EQ(dvec3(lower[3]), dvec3(1, 2, 0));
+    // Flat normals give every triangle corners of its own: influences follow.
+    const scene::Primitive& primitive = primitiveOf(scene);
+    EXPECT_EQ(primitive.influenceCount, 4u);
+    EXPECT_EQ(primitive.joints, (std::vector<uint16_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}));
+    EXPECT_EQ(primitive.weights, kWeights);
+}
+
+TEST(GltfSkin, JointsAndWeightsComeInEveryTypeAndWeightsSumToOne) {
+    const std::vector<uint16_t> joints(kJoints.begin(), kJoints.end());
+    const std::vector<uint8_t> bytes = {100, 100, 54, 0, 255, 0, 0, 0, 1, 1, 1, 1};
+    const std::vector<uint16_t> shorts = {30000, 1, 1, 1, 65535, 65535, 0, 0, 1, 2, 3, 4};
+    const std::vector<float> floats = {1e-40f, 0, 0, 3e-40f, 3e38f, 3e38f, 0, 0, 1, 2, 3, 4};
+    for (const GltfFile& file :
+         {makeSkinned(joints, kUnsignedShort, bytes, kUnsignedByte),
+          makeSkinned(kJoints, kUnsignedByte, shorts, kUnsignedShort),
+          makeSkinned(kJoints, kUnsignedByte, floats, kFloat)}) {
+        const LoadedScene scene = expectLoads(file.load(kMesh + kNodes + kTwoJoints));
+        EXPECT_TRUE(scene.warnings.empty());
+        const std::vector<float>& weights = primitiveOf(scene).weights;
+        ASSERT_EQ(weights.size(), 12u);
+        for (size_t v = 0; v < 12; v += 4) {
+            double sum = 0.0;
+            for (size_t i = v; i < v + 4; ++i)
+                sum += double{weights[i]};
+            EXPECT_NEAR(sum, 1.0, 2e-7);
+        }
+    }
+}
+
+TEST(GltfSkin, TwoSetsMakeEightInfluencesOfAVertex) {
+    GltfFile file = makeSkinned();
+    file.add(std::vector<uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, kUnsignedByte, "VEC4");
+    file.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3}, kFloat, "VEC4");
+    const LoadedScene scene = expectLoads(file.load(
+        mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4)") + kNodes + kTwoJoints
+    ));
+    const scene::Primitive& primitive = primitiveOf(scene);
+    EXPECT_EQ(primitive.influenceCount, 8u);
+    ASSERT_EQ(primitive.weights.size(), 24u);
+    EXPECT_FLOAT_EQ(primitive.weights[0], 0.375f);
+    EXPECT_FLOAT_EQ(primitive.weights[1], 0.125f);
+    EXPECT_FLOAT_EQ(primitive.weights[4], 0.5f);
+    EXPECT_FLOAT_EQ(primitive.weights[23], 0.75f);
+    EXPECT_EQ(primitive.joints[4], 1u);
+    const LoadedScene more = expectLoads(file.load(
+        mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4,"JOINTS_2":3,"WEIGHTS_2":4)"
+        ) +
+        kNodes + kTwoJoints
+    ));
+    EXPECT_EQ(primitiveOf(more).influenceCount, 8u);
+    EXPECT_TRUE(hasWarning(more, "more than eight joints"));
+}
+
+TEST(GltfSkin, WeightsThatMeanNothingAreZeroAndAVertexWithoutAnyFollowsItsFirstJoint) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinity = std::numeric_limits<float>::infinity();
+    const std::vector<float> weights = {-1, 0.5f, 0, 0, nan, 0, infinity, 0, 0, 0, 0, 0};
+    const LoadedScene scene = expectLoads(
+        makeSkinned(kJoints, kUnsignedByte, weights, kFloat).load(kMesh + kNodes + kTwoJoints)
+    );
+    EXPECT_EQ(primitiveOf(scene).weights, (std::vector<float>{0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
+    EXPECT_TRUE(hasWarning(scene, "WEIGHTS_0 holds values that are below 0 or not finite"));
+    EXPECT_TRUE(hasWarning(scene, "2 vertices without weight"));
+}
+
+TEST(GltfSkin, AMeshWithoutInfluencesFollowsTheFirstJoint) {
+    for (const char* attributes : {"", R"(,"JOINTS_0":1)", R"(,"WEIGHTS_0":2)"}) {
+        const LoadedScene scene =
+            expectLoads(makeSkinned().load(mesh(attributes) + kNodes + kTwoJoints));
+        EXPECT_TRUE(hasWarning(scene, "that follows the first joint"));
+        EXPECT_EQ(hasWarning(scene, "_0 without "), *attributes != '\0');
+        const scene::Primitive& primitive = primitiveOf(scene);
+        EXPECT_EQ(primitive.influenceCount, 4u);
+        EXPECT_EQ(primitive.joints, std::vector<uint16_t>(12, 0));
+        EXPECT_EQ(primitive.weights, (std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
+    }
+}
+
+TEST(GltfSkin, AMeshMayBeDrawnWithAndWithoutASkin) {
+    const LoadedScene scene = expectLoads(makeSkinned().load(
+        kMesh + R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0},{"mesh":0}],)" +
+        R"("skins":[{"joints":[0,1]}])"
+    ));
+    EXPECT_TRUE(scene.warnings.empty());
+    size_t drawn = 0;
+    size_t skinned = 0;
+    for (const auto& [entity, instance] : scene.world.registry.view<const scene::MeshInstance>()) {
+        ++drawn;
+        skinned += scene.world.registry.has<scene::Skinned>(entity) ? 1 : 0;
+    }
+    EXPECT_EQ(drawn, 2u);
+    EXPECT_EQ(skinned, 1u);
+}
+
+TEST(GltfSkin, JointsOutsideOfTheSceneMoveTheSkinButDrawNothing) {
+    // 2 is a joint, 1 is above it, 3 is beside it.
+    const LoadedScene scene = expectLoads(makeSkinned().load(
+        kMesh + R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"skin":0},
+        {"children":[2,3],"translation":[5,0,0],"mesh":0},{"translation":[0,1,0],"mesh":0},{}],)" +
+        R"("skins":[{"joints":[2,0]}])"
+    ));
+    const scene::World& world = scene.world;
+    EXPECT_EQ(world.registry.aliveCount(), 3u);
+    const auto& skinned = world.registry.get<scene::Skinned>(findSkinned(world));
+    const dmat4 joint = scene::worldFromEntity(world, skinned.joints[0], 0.0);
+    EXPECT_EQ(dvec3(joint[3]), dvec3(5, 1, 0));
+    EXPECT_FALSE(world.registry.has<scene::MeshInstance>(skinned.joints[0]));
+}
+
+TEST(GltfSkin, InverseBindMatricesAreReadColumnByColumn) {
+    GltfFile file = makeSkinned();
+    std::vector<float> matrices(48, 0.0f);
+    for (size_t i : {0u, 5u, 10u, 15u, 16u, 21u, 26u, 31u})
+        matrices[i] = 1.0f;
+    matrices[12] = 7.0f;       // x of the first's translation
+    matrices[31] = 1.0000001f; // an exporter's rounding
+    file.add(matrices, kFloat, "MAT4");
+    const LoadedScene scene = expectLoads(
+        file.load(kMesh + kNodes + R"("skins":[{"joints":[1,2],"inverseBindMatrices":3}])")
+    );
+    const scene::Skin& skin = scene.world.assets.skins.at(0);
+    ASSERT_EQ(skin.jointFromBind.size(), 2u) << "the third belongs to no joint";
+    EXPECT_EQ(skin.jointFromBind[0], glm::translate(dmat4(1.0), dvec3(7, 0, 0)));
+    EXPECT_EQ(skin.jointFromBind[1], dmat4(1.0));
+}
+
+TEST(GltfSkin, InverseBindMatricesThatFitNoJointAreRefused) {
+    const std::string skins = R"("skins":[{"joints":[1,2],"inverseBindMatrices":3}])";
+    std::vector<float> identity(16, 0.0f);
+    for (const size_t i : {0u, 5u, 10u, 15u})
+        identity[i] = 1.0f;
+    const auto load = [&](const std::vector<float>& matrices) {
+        GltfFile file = makeSkinned();
+        file.add(matrices, kFloat, "MAT4");
+        return file.load(kMesh + kNodes + skins);
+    };
+    expectRefused(load(identity), "skins[0].inverseBindMatrices has 1 elements for 2 joints");
+    std::vector<float> two = identity;
+    two.insert(two.end(), identity.begin(), identity.end());
+    expectLoads(load(two));
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 2e30f}) {
+        std::vector<float> damaged = two;
+        damaged[20] = bad;
+        expectRefused(load(damaged), "skins[0].inverseBindMatrices[1] holds");
+    }
+    std::vector<float> projective = two;
+    projective[3] = 0.5f;
+    expectRefused(load(projective), "inverseBindMatrices[0] does not have 0 0 0 1");
+    GltfFile vectors = makeSkinned();
+    vectors.add(std::vector<float>(8), kFloat, "VEC4");
+    expectRefused(vectors.load(kMesh + kNodes + skins), "inverseBindMatrices: accessors[3].type");
+}
+
+TEST(GltfSkin, DamagedInfluencesAreRefused) {
+    const GltfFile file = makeSkinned();
+    expectRefused(
+        file.load(kMesh + kNodes + R"("skins":[{"joints":[1]}])"),
+        "names joint 1, but skins[0] has 1"
+    );
+    expectRefused(file.load(kMesh + kNodes + R"("skins":[{"joints":[]}])"), "joints is empty");
+    expectRefused(
+        file.load(mesh(R"(,"JOINTS_0":2,"WEIGHTS_0":2)") + kNodes + kTwoJoints),
+        "componentType 5126"
+    );
+    expectRefused(
+        file.load(mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":1)") + kNodes + kTwoJoints), "not normalized"
+    );
+    GltfFile shorter = makeSkinned();
+    shorter.add(std::vector<float>(8), kFloat, "VEC4");
+    expectRefused(
+        shorter.load(mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":3)") + kNodes + kTwoJoints),
+        "meshes[0].primitives[0] WEIGHTS_0 has 2 elements, POSITION has 3"
+    );
+}
+
+TEST(GltfSkin, ManyNodesOfOneHugeSkinMayNotFillTheMemory) {
+    std::string joints = "1";
+    for (int i = 1; i < 30000; ++i)
+        joints += ",1";
+    std::string roots = "0,1";
+    std::string nodes = R"({"mesh":0,"skin":0},{})";
+    for (int i = 2; i < 20000; ++i) {
+        roots += fmt::format(",{}", i);
+        nodes += R"(,{"mesh":0,"skin":0})";
+    }
+    expectRefused(
+        makeSkinned().load(
+            kMesh + fmt::format(
+                        R"("scenes":[{{"nodes":[{}]}}],"nodes":[{}],"skins":[{{"joints":[{}]}}])",
+                        roots,
+                        nodes,
+                        joints
+                    )
+        ),
+        "4 GiB"
+    );
+}
+
+} // namespace
+
+} // namespace shutter::gltf
