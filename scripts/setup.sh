@@ -9,31 +9,41 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/lib/messages.sh"
 # shellcheck source=scripts/lib/backports.sh
 source "$root/scripts/lib/backports.sh"
+# shellcheck source=scripts/lib/llvm_tools.sh
+source "$root/scripts/lib/llvm_tools.sh"
 # shellcheck source=scripts/lib/packages.sh
 source "$root/scripts/lib/packages.sh"
 
 usage() {
     cat <<'TEXT'
-usage: scripts/setup.sh [--with-tests] [--no-packages] [--no-build]
+usage: scripts/setup.sh [--with-tests] [--with-checks] [--no-packages] [--no-build]
   --with-tests    also install and build what only the tests use
+  --with-checks   also install what scripts/check_*.sh use
   --no-packages   install nothing
   --no-build      neither configure nor build
+SHUTTER_WERROR=ON in the environment makes compiler warnings errors, OFF no longer does.
 TEXT
 }
 
-# The preset is read again only when it changed: Ninja itself notices changed CMakeLists.txt.
+# Whether the build folder is configured, by today's presets, as SHUTTER_WERROR asks. Ninja itself
+# notices changed CMakeLists.txt.
+is_configured() {
+    local folder=build/release
+    [[ -e $folder/build.ninja && ! CMakePresets.json -nt $folder/build.ninja ]] || return 1
+    [[ -z ${SHUTTER_WERROR:-} ]] ||
+        grep -qx "SHUTTER_WERROR:BOOL=$SHUTTER_WERROR" "$folder/CMakeCache.txt"
+}
+
 configure() {
-    local generated=build/release/build.ninja
-    if [[ ! -e $generated || CMakePresets.json -nt $generated ]]; then
-        cmake --preset release
-    fi
+    is_configured || cmake --preset release ${SHUTTER_WERROR:+"-DSHUTTER_WERROR=$SHUTTER_WERROR"}
 }
 
 main() {
-    local packages=yes build=yes tests=
+    local packages=yes build=yes tests='' checks=''
     while (($#)); do
         case $1 in
             --with-tests) tests=with-tests ;;
+            --with-checks) checks=with-checks ;;
             --no-packages) packages=no ;;
             --no-build) build=no ;;
             -h | --help)
@@ -48,7 +58,7 @@ main() {
         shift
     done
     cd "$root"
-    [[ $packages == no ]] || ensure_packages "$tests"
+    [[ $packages == no ]] || ensure_packages "$tests" "$checks"
     if [[ $build == yes ]]; then
         configure
         if [[ -n $tests ]]; then

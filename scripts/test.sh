@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Sets up and runs the tests on Mesa's software device; arguments go to ctest, e.g. -L unit.
+# Sets up and runs the tests on Mesa's software device; arguments go to ctest, e.g. -L unit. Without
+# any, tests that skip must be those of tests/expected_skips.txt.
 # VK_DRIVER_FILES picks another device, CTEST_PARALLEL_LEVEL the number of tests at a time.
 set -euo pipefail
 
@@ -14,4 +15,18 @@ source "$root/scripts/lib/lavapipe.sh"
 "$root/scripts/setup.sh" --with-tests
 force_lavapipe
 cd "$root"
-ctest --preset release -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
+run_ctest() {
+    ctest --preset release -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
+}
+
+# A choice of tests says nothing about those that skip.
+if (($#)); then
+    run_ctest "$@"
+    exit
+fi
+results=build/release/test_results.xml
+status=0
+rm -f "$results"
+run_ctest --output-junit "$root/$results" || status=$?
+scripts/check_skips.py "$results" tests/expected_skips.txt || status=1
+exit "$status"

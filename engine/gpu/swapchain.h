@@ -43,8 +43,8 @@ class Swapchain {
     /// area now: then nothing can be acquired until it has one.
     bool resize(const SwapchainDesc& desc);
 
-    /// Nothing where the images no longer fit the window, or there are none: resize() first. Of what
-    /// was drawn on images acquired before, the GPU must be done with all but the last
+    /// Nothing where the images no longer fit the window, or there are none: resize() first. Of
+    /// what was drawn on images acquired before, the GPU must be done with all but the last
     /// kMaxFramesInFlight - 1.
     [[nodiscard]] std::optional<SwapchainImage> acquire();
 

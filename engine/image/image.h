@@ -19,12 +19,14 @@ struct Image {
     std::vector<std::string> channelNames{}; ///< empty, or one a channel ("R", "motion.x", ...)
 
     Image() = default;
+
     Image(uint32_t w, uint32_t h, uint32_t c)
         : width(w), height(h), channels(c), pixels(size_t(w) * h * c, 0.0f) {}
 
     [[nodiscard]] float& at(uint32_t x, uint32_t y, uint32_t c) {
         return pixels[(size_t(y) * width + x) * channels + c];
     }
+
     [[nodiscard]] float at(uint32_t x, uint32_t y, uint32_t c) const {
         return pixels[(size_t(y) * width + x) * channels + c];
     }

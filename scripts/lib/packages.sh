@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
 # Installs the packages that the build needs and that are missing. Sourced by scripts/setup.sh, with
-# backports.sh beside it.
+# backports.sh and llvm_tools.sh beside it.
 
 # Debian 12, Debian 13 and Ubuntu 24.04 share these names. openimageio-tools and libopencv-core-dev
 # are here because OpenImageIO's CMake files refer to /usr/bin/iconvert and /usr/include/opencv4 and
@@ -17,6 +17,8 @@ build_packages=(
 test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox)
 # Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
 debian_test_packages=(chromium chromium-driver)
+# What scripts/check_*.sh judge the tree by; Debian 13 no longer has that version.
+check_packages=("clang-format-$llvm_version" "clang-tidy-$llvm_version")
 # lavapipe traces rays from this version of Mesa on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1
@@ -131,7 +133,8 @@ go_on_with_tools_found() {
     say "the tools are there; going on"
 }
 
-# Installs what is missing of the packages above; with "with-tests", of those for the tests as well.
+# Installs what is missing of the packages above: with "with-tests" as $1, of those for the tests as
+# well; with "with-checks" as $2, of those for the checks where the distribution has them.
 # Without anything missing this reads the package database and nothing else.
 ensure_packages() {
     local wanted=("${build_packages[@]}") missing old_mesa=no
@@ -143,6 +146,9 @@ ensure_packages() {
     fi
     if [[ ${1:-} == with-tests && $ID == debian ]]; then
         wanted+=("${debian_test_packages[@]}")
+    fi
+    if [[ ${2:-} == with-checks && $ID-$VERSION_ID != debian-13 ]]; then
+        wanted+=("${check_packages[@]}")
     fi
     case "$ID-$VERSION_ID" in
         debian-12 | debian-13 | ubuntu-24.04) ;;

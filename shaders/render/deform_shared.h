@@ -24,19 +24,19 @@ struct MorphDelta {
 
 /// Push constants: the vertices of one geometry at a number of instants (the dispatch's y).
 struct DeformJob {
-    uvec2 vertices;       // address of Vertex[], undeformed
-    uvec2 influences;     // address of JointInfluences[]: influenceCount / 4 a vertex
-    uvec2 deltas;         // address of MorphDelta[]: all vertices of the first target, then the next
-    uvec2 joints;         // address of MotionKey[]: objectFromBind of all joints at the first instant,
-                          // then at the next
-    uvec2 weights;        // address of float[]: all targets' at the first instant, then at the next
-    uvec2 output_;        // address of Vertex[] or vec4[]: all vertices at the first instant, ...
+    uvec2 vertices;   // address of Vertex[], undeformed
+    uvec2 influences; // address of JointInfluences[]: influenceCount / 4 a vertex
+    uvec2 deltas;     // address of MorphDelta[]: all vertices of the first target, then the next
+    uvec2 joints;     // address of MotionKey[]: objectFromBind of all joints at the first instant,
+                      // then at the next
+    uvec2 weights;    // address of float[]: all targets' at the first instant, then at the next
+    uvec2 output_;    // address of Vertex[] or vec4[]: all vertices at the first instant, ...
     uint vertexCount;
-    uint influenceCount;  // a multiple of 4; 0: all vertices are deformed by joint 0
-    uint jointCount;      // 0: not skinned
-    uint targetCount;     // 0: not morphed
-    uint weightStride;    // weights an instant has, targetCount or more
-    uint positionsOnly;   // 1: output_ is vec4[], xyz and w 1; 0: it is Vertex[]
+    uint influenceCount; // a multiple of 4; 0: all vertices are deformed by joint 0
+    uint jointCount;     // 0: not skinned
+    uint targetCount;    // 0: not morphed
+    uint weightStride;   // weights an instant has, targetCount or more
+    uint positionsOnly;  // 1: output_ is vec4[], xyz and w 1; 0: it is Vertex[]
 };
 
 /// Push constants: boxes over what triangles sweep between two keys of their shape (the dispatch's

@@ -19,7 +19,7 @@ struct Vertex {
     vec4 normalV0;   // xyz unit; w = uv0.y
     vec4 tangent;    // xyz unit, w handedness; all 0: no tangent
     vec2 uv1;
-    uvec2 color;     // four half floats, linear RGBA
+    uvec2 color; // four half floats, linear RGBA
 };
 
 /// EntityRow::motion of an entity that stands still in the picture.
@@ -33,7 +33,7 @@ struct EntityRow {
     float handedness;          // -1 where the winding is turned round, by eyeFromObject or by a
                                // mirrored skeleton, else 1
     uint motion;               // index into the table of motions, or kNoMotion
-    uint instanceMask;              // bits of its instance that a ray leaves out to pass it and no other
+    uint instanceMask;         // bits of its instance that a ray leaves out to pass it and no other
                                // entity (instance_masks.h); 0: no mask tells it from all others
 };
 
@@ -76,9 +76,9 @@ SHUTTER_CONST uint kBlendedMask = 0x80u; // blended ones
 
 struct MaterialRow {
     vec4 baseColor;
-    vec4 emissiveCutoff;  // rgb emissive, a alpha cutoff
-    vec4 surface;         // metallic, roughness, normal scale, occlusion strength
-    uint flags;           // kMaterial...
+    vec4 emissiveCutoff; // rgb emissive, a alpha cutoff
+    vec4 surface;        // metallic, roughness, normal scale, occlusion strength
+    uint flags;          // kMaterial...
     uint padding0;
     uint padding1;
     uint padding2;
@@ -110,21 +110,21 @@ struct FrameConstants {
     mat4 eyeFromClip;
     mat4 clipFromDirectionOpen;  // where a direction of the world is seen at shutter open
     mat4 clipFromDirectionClose; // ... and at shutter close
-    vec4 forward;                // xyz unit view direction; w: the smallest clip w in front of the camera
-    vec4 background;             // linear RGB
-    vec4 ambient;                // uniform radiance from everywhere, linear RGB
-    vec2 sizePx;                 // picture's width and height
-    vec2 pixelFootprint;         // x: width of a pixel at distance 1 (perspective), y: at any (orthographic)
-    float lodBias;               // added to every texture level of detail
-    uint flags;                  // kFrame...
+    vec4 forward;        // xyz unit view direction; w: the smallest clip w in front of the camera
+    vec4 background;     // linear RGB
+    vec4 ambient;        // uniform radiance from everywhere, linear RGB
+    vec2 sizePx;         // picture's width and height
+    vec2 pixelFootprint; // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
+    float lodBias;       // added to every texture level of detail
+    uint flags;          // kFrame...
     uint lightCount;
     uint padding0;
-    uvec2 entities;              // addresses of the tables
+    uvec2 entities; // addresses of the tables
     uvec2 entityMotions;
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
-    uvec2 movingTlas;           // address of a second top level, of what moves; 0: there is none
+    uvec2 movingTlas; // address of a second top level, of what moves; 0: there is none
 };
 
 /// Push constants of the G-buffer's draws.

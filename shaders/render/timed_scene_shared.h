@@ -18,11 +18,12 @@ struct TimedRow {
     uvec2 keys;         // address of MotionKey[]: eyeFromObject
     uint keyCount;      // 1: it stands still; else uniform over s, both ends included
     uint firstGeometry; // as EntityRow's
-    uvec2 meshScene;    // address of the mesh's own top level, object space; 0 where it stands still
-    uint deformationKeyCount; // 1: the shape stands still; else uniform over s, both ends included: then
-                        // meshScene is the address of uvec2[], a top level for each two keys, and
-                        // the geometries' Vertex[] hold one key's vertices behind the other's
-    float handedness;   // -1 where a mirrored skeleton turns the winding round, else 1
+    uvec2 meshScene; // address of the mesh's own top level, object space; 0 where it stands still
+    uint deformationKeyCount; // 1: the shape stands still; else uniform over s, both ends included:
+                              // then meshScene is the address of uvec2[], a top level for each two
+                              // keys, and the geometries' Vertex[] hold one key's vertices behind
+                              // the other's
+    float handedness; // -1 where a mirrored skeleton turns the winding round, else 1
 };
 
 struct TimedConstants {
@@ -31,9 +32,9 @@ struct TimedConstants {
                       // perspective, 0 not
     uvec2 rows;       // address of TimedRow[]
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
-    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView; rigid but for x and y, which a lens that
-                      // zooms scales by how much wider it sees than at the raster instant
-    uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
+    uvec2 cameraKeys; // address of MotionKey[]: eyeFromView; rigid but for x and y, which a lens
+                      // that zooms scales by how much wider it sees than at the raster instant
+    uvec2 lights; // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;
     uint lightCount;

@@ -10,10 +10,10 @@ SHUTTER_CONST uint kTruthGroupSize = 8u; // 8 x 8 threads
 
 struct TruthParams {
     uvec2 sizePx;
-    uvec2 frame;    // address of FrameConstants
-    uvec2 moving;   // address of TimedConstants
-    uint firstRay;  // rays a pixel has before this batch; 0 clears
-    uint rayCount;  // rays a pixel of this batch
+    uvec2 frame;   // address of FrameConstants
+    uvec2 moving;  // address of TimedConstants
+    uint firstRay; // rays a pixel has before this batch; 0 clears
+    uint rayCount; // rays a pixel of this batch
     uint seed;
     uint boxFilter; // 1: anywhere in the pixel, 0: its centre
     uvec2 response; // address of the shutter's ResponseTable; 0: a box

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 namespace shutter::cli {
 
@@ -44,7 +45,7 @@ Cli::~Cli() {
 }
 
 pid_t Cli::start(const Arguments& arguments) const {
-    std::vector<std::string> words = {SHUTTER_EXECUTABLE};
+    Arguments words = mProgram;
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words)
@@ -57,7 +58,7 @@ pid_t Cli::start(const Arguments& arguments) const {
     redirect(mLogs / "err", STDERR_FILENO);
     setenv("XDG_CACHE_HOME", mLogs.c_str(), 1);
     if (chdir(mFolder.c_str()) == 0)
-        execv(argv[0], argv.data());
+        execvp(argv[0], argv.data());
     _exit(127);
 }
 
@@ -118,6 +119,18 @@ std::set<std::string> Cli::listFiles() const {
 void Cli::requireDevice() const {
     if (run({"info", "--devices"}).out.find("llvmpipe") == std::string::npos)
         GTEST_SKIP() << "lavapipe is not installed";
+}
+
+void Cli::requirePermissions() {
+    if (geteuid() != 0)
+        return;
+    // What lets root pass over permissions is a capability, not its user id.
+    const Arguments held = {"setpriv", "--bounding-set=-dac_override,-dac_read_search"};
+    const Arguments program = std::exchange(mProgram, held);
+    const bool canHold = run({"true"}).status == 0;
+    mProgram.insert(mProgram.end(), program.begin(), program.end());
+    if (!canHold)
+        GTEST_SKIP() << "root may write everywhere, and setpriv cannot take that from it";
 }
 
 } // namespace shutter::cli

@@ -51,7 +51,12 @@ class Cli : public testing::Test {
     /// Skips the test where there is no lavapipe to draw on.
     void requireDevice() const;
 
+    /// From now on the program is held to the permissions of files even if root runs it. Skips the
+    /// test where root may not give up its capabilities.
+    void requirePermissions();
+
   private:
+    Arguments mProgram = {SHUTTER_EXECUTABLE}; ///< the program, after what starts it
     fs::path mFolder;
     fs::path mLogs; ///< what the program prints, and its caches
 };

@@ -42,10 +42,8 @@ class HistoryLaw : public test::GpuTest {
                 EXPECT_EQ(test::sameBits(draw(stage, method), draw(stage, method, 0.0)), sharp)
                     << what << ", " << method;
             }
-        EXPECT_EQ(
-            test::sameBits(draw(stage, "truth"), draw(stage, "truth", 0.0)), sharp
-        ) << what
-          << ", truth";
+        EXPECT_EQ(test::sameBits(draw(stage, "truth"), draw(stage, "truth", 0.0)), sharp)
+            << what << ", truth";
     }
 };
 

@@ -115,8 +115,7 @@ TEST_F(IdentityLaw, PixelsOutOfReachOfEveryMoverKeepTheirBits) {
         const auto near = [&](uint32_t x, uint32_t) { return x < reach; };
         EXPECT_EQ(test::computeMaxDifferenceWhere(result.color, sharp.color, farAway), 0.0)
             << method;
-        EXPECT_GT(test::computeMaxDifferenceWhere(result.color, sharp.color, near), 0.1)
-            << method;
+        EXPECT_GT(test::computeMaxDifferenceWhere(result.color, sharp.color, near), 0.1) << method;
     }
 }
 

@@ -57,8 +57,7 @@ TEST_F(PhaseLaw, TheBlurLiesWhereTheAccumulatedPicturesDoesInEveryPhase) {
         for (ShutterPhase phase : {ShutterPhase::Start, ShutterPhase::Centre, ShutterPhase::End}) {
             const math::dvec2 truth =
                 test::computeCentroid(
-                    stage.render({.method = "accumulate", .phase = phase, .instants = 36})
-                        .color
+                    stage.render({.method = "accumulate", .phase = phase, .instants = 36}).color
                 ) -
                 quad;
             const double shift = expectedShift(phase) * kMotionPx;
@@ -71,8 +70,7 @@ TEST_F(PhaseLaw, TheBlurLiesWhereTheAccumulatedPicturesDoesInEveryPhase) {
                 shot.settings.backgroundMagnification = 1.0f;
                 const math::dvec2 centroid = test::computeCentroid(stage.render(shot).color) - quad;
                 const double is = glm::dot(centroid, along) * (shift < 0.0 ? -1.0 : 1.0);
-                EXPECT_GE(is, leastShare(method) * std::abs(shift) - 0.1)
-                    << method << int(phase);
+                EXPECT_GE(is, leastShare(method) * std::abs(shift) - 0.1) << method << int(phase);
                 EXPECT_LE(is, std::abs(shift) + 1.0) << method << int(phase);
                 EXPECT_NEAR(glm::dot(centroid, across), 0.0, 0.3) << method << int(phase);
             }

@@ -207,8 +207,7 @@ TEST_F(ShutterLaw, ACappedShutterDrawsAHitchAsAFrameAtTheReferenceRate) {
     scene::CameraShutter shutter;
     shutter.mode = scene::ShutterMode::Capped;
     const auto draw = [&](double frameSeconds) {
-        return stage
-            .render({.method = "gather", .shutter = shutter, .frameSeconds = frameSeconds})
+        return stage.render({.method = "gather", .shutter = shutter, .frameSeconds = frameSeconds})
             .color;
     };
     EXPECT_TRUE(test::sameBits(draw(10.0), draw(1.0 / 24.0)));

@@ -48,8 +48,7 @@ TEST_F(TruthLaw, AStillSceneIsTheSharpPicture) {
     const SceneBuilder scene = makeScene(false);
     Stage stage(device(), scene);
     const auto sharp = stage.render({.ambient = math::vec3(0.3f)});
-    const auto rays =
-        stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 4});
+    const auto rays = stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 4});
     EXPECT_EQ(rays.statistics.measures.at("standard error"), 0.0);
     // The raster image is stored in half floats: 2^-11 of a value. A silhouette that runs through a
     // pixel's centre may fall to either side.
@@ -106,9 +105,7 @@ TEST_F(TruthLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
     scene.setPixelView(8);
     scene.add(test::makeQuad(19.3, 20, scene.addColor({1, 1, 1})), {.position = {-0.05, 0, -10}});
     const auto result = test::renderOnce(
-        device(),
-        scene,
-        {.method = "truth", .height = 8, .instants = 256, .pixel = PixelModel::Box}
+        device(), scene, {.method = "truth", .height = 8, .instants = 256, .pixel = PixelModel::Box}
     );
     // An upright edge is met to one of the 128 strata of each set.
     EXPECT_NEAR(result.color.at(37, 4, 0), 0.0, 1e-6);
@@ -162,9 +159,8 @@ TEST_F(TruthLaw, TheErrorViewIsWhatTheFigureSums) {
 
 TEST_F(TruthLaw, OneRayHasNoEstimate) {
     const SceneBuilder scene = makeScene(true);
-    const auto result = test::renderOnce(
-        device(), scene, {.method = "truth", .instants = 1, .aovs = {"error"}}
-    );
+    const auto result =
+        test::renderOnce(device(), scene, {.method = "truth", .instants = 1, .aovs = {"error"}});
     EXPECT_FALSE(result.statistics.measures.contains("standard error"));
     EXPECT_FALSE(result.intermediates.contains("error"));
     EXPECT_EQ(result.statistics.counters.at("rays traced"), 96u * 64u);
@@ -188,10 +184,7 @@ TEST_F(TruthLaw, BatchesAddUpToTheSamePicture) {
         for (const uint32_t batch : {1u, 5u})
             EXPECT_TRUE(test::sameBits(
                 whole.color,
-                stage
-                    .render(
-                        {.method = "truth", .instants = 13, .batch = batch, .pixel = pixel}
-                    )
+                stage.render({.method = "truth", .instants = 13, .batch = batch, .pixel = pixel})
                     .color
             )) << batch;
     }
@@ -202,8 +195,7 @@ TEST_F(TruthLaw, OnePixelAndPartialGroupsWork) {
     Stage stage(device(), scene);
     for (const auto& [width, height] : {std::pair(1u, 1u), std::pair(9u, 1u), std::pair(3u, 17u)}) {
         const auto result =
-            stage.render({.method = "truth", .width = width, .height = height, .instants = 2}
-            );
+            stage.render({.method = "truth", .width = width, .height = height, .instants = 2});
         EXPECT_EQ(result.color.width, width);
         EXPECT_TRUE(test::allFinite(result.color));
         EXPECT_GT(findLargestColor(result.color), 0.05);
@@ -215,9 +207,8 @@ TEST_F(TruthLaw, OnePixelAndPartialGroupsWork) {
 TEST_F(TruthLaw, AnEmptySceneIsItsBackground) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
-    const auto result = test::renderOnce(
-        device(), scene, {.method = "truth", .background = {0.25f, 0.5f, 0.75f}}
-    );
+    const auto result =
+        test::renderOnce(device(), scene, {.method = "truth", .background = {0.25f, 0.5f, 0.75f}});
     for (uint32_t x = 0; x < 96; ++x)
         ASSERT_EQ(result.color.at(x, 20, 1), 0.5f);
 }
@@ -225,8 +216,7 @@ TEST_F(TruthLaw, AnEmptySceneIsItsBackground) {
 TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessAsked) {
     const SceneBuilder scene = makeScene(true);
     const auto without = test::renderOnce(device(), scene, {.method = "truth"});
-    const auto with =
-        test::renderOnce(device(), scene, {.method = "truth", .aovs = {"depth"}});
+    const auto with = test::renderOnce(device(), scene, {.method = "truth", .aovs = {"depth"}});
     const auto draws = [](const render::FrameResult& result) {
         const auto& passes = result.statistics.passes;
         return std::any_of(passes.begin(), passes.end(), [](const gpu::PassTime& pass) {

@@ -97,7 +97,8 @@ TEST_F(ZoomLaw, MotionVectorsAreRadialAtEveryDepthAndInTheSky) {
 TEST_F(ZoomLaw, ACutOfThePathAlsoCutsTheLens) {
     SceneBuilder scene = makeZoom();
     Stage stage(device(), scene);
-    const auto draw = [&](std::string_view method, double frameSeconds = scene::kStillFrameSeconds) {
+    const auto draw = [&](std::string_view method,
+                          double frameSeconds = scene::kStillFrameSeconds) {
         return stage.render({.method = method, .frameSeconds = frameSeconds}).color;
     };
     // A frame of no duration has no exposure.
@@ -129,8 +130,7 @@ TEST_F(ZoomLaw, InsideWhatIsExcludedFromBlurThePictureIsSharp) {
     const auto isElsewhere = [&](uint32_t x, uint32_t y) { return ids.at(x, y, 0) != id; };
     for (const std::string_view method : {"hybrid", "accumulate", "truth"}) {
         const auto blurred = stage.render({.method = method, .instants = 32}).color;
-        EXPECT_LT(test::computeMaxDifferenceWhere(blurred, sharp.color, isInside), 4e-3)
-            << method;
+        EXPECT_LT(test::computeMaxDifferenceWhere(blurred, sharp.color, isInside), 4e-3) << method;
         EXPECT_GT(test::computeMaxDifferenceWhere(blurred, sharp.color, isElsewhere), 0.1)
             << method;
     }

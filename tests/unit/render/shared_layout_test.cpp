@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The structs of shaders/**_shared.h are compiled twice. C++ packs their members, which are all
-// aligned to 4 bytes, and each header asserts the sizes it gets; here glslang is asked where it puts
-// every member.
+// aligned to 4 bytes, and each header asserts the sizes it gets; here glslang is asked where it
+// puts every member.
 #include "engine/math/math.h"
 
 #include <fmt/format.h>
@@ -135,7 +135,8 @@ const std::vector<Struct>& listStructs() {
     return kStructs;
 }
 
-/// Reflection lists scalars, vectors and matrices: the first of a member that is an array or struct.
+/// Reflection lists scalars, vectors and matrices: the first of a member that is an array or
+/// struct.
 std::string leafOf(const Member& member) {
     const std::string name = member.name + (member.count > 1 ? "[0]" : "");
     for (const Struct& type : listStructs())
