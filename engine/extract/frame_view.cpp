@@ -106,13 +106,17 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
 void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& request) {
     const dmat4 worldFromEye = glm::translate(dmat4(1.0), mEye[1]);
     const dmat4 clipFromEye = mMatrices.clipFromWorldJittered * worldFromEye;
-    const auto directionMatrix = [&](int i) {
-        return math::mat4(mClipFromView[i] * dmat4(math::dmat3(mViewFromWorld[i])));
+    // The translation is a difference of eyes, so that it is exact far from the world's origin.
+    const auto clipFromEyeAt = [&](int i) {
+        return math::mat4(
+            mClipFromView[i] * dmat4(math::dmat3(mViewFromWorld[i])) *
+            glm::translate(dmat4(1.0), mEye[1] - mEye[i])
+        );
     };
     mConstants.clipFromEye = math::mat4(clipFromEye);
     mConstants.eyeFromClip = math::mat4(glm::inverse(clipFromEye));
-    mConstants.clipFromDirectionOpen = directionMatrix(0);
-    mConstants.clipFromDirectionClose = directionMatrix(2);
+    mConstants.clipFromEyeOpen = clipFromEyeAt(0);
+    mConstants.clipFromEyeClose = clipFromEyeAt(2);
     const bool perspective = camera.kind == scene::CameraKind::Perspective;
     // Clip w is the distance for a perspective camera and 1 for an orthographic one.
     const double minW = perspective ? camera.near : 0.5;
@@ -130,10 +134,9 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mConstants.lodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
     // A motion that ends where it began is one too: the raster instant tells.
-    const math::mat4 direction = directionMatrix(1);
-    mMoves = mConstants.clipFromDirectionOpen != direction ||
-             mConstants.clipFromDirectionClose != direction || mEye[0] != mEye[1] ||
-             mEye[2] != mEye[1];
+    const math::mat4 unmoved = clipFromEyeAt(1);
+    mMoves = mConstants.clipFromEyeOpen != unmoved || mConstants.clipFromEyeClose != unmoved ||
+             mEye[0] != mEye[1] || mEye[2] != mEye[1];
 }
 
 bool isDrawable(const ObjectPoses& poses) {

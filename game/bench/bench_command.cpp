@@ -3,7 +3,6 @@
 #include "game/bench/bench_run.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
-#include "game/cli/commands.h"
 #include "game/options/error_output.h"
 #include "game/options/render_arguments.h"
 #include "game/options/user_folders.h"
@@ -177,42 +176,34 @@ Status measureSuite(
     return done;
 }
 
-int fail(int status, const core::Error& error) {
-    game::printError(error);
-    return status;
-}
-
 int runBench(BenchArguments& arguments) {
     if (arguments.reportOnly) {
         const Status made = remakeReportPage(arguments.out);
-        return made ? game::kExitDone : fail(game::kExitFailed, made.error());
+        return made ? game::kExitDone : game::fail(game::kExitFailed, made.error());
     }
     if (arguments.shot.scene.empty() == arguments.suite.empty())
-        return fail(game::kExitUsage, {"bench needs --suite or a SCENE, and not both"});
+        return game::fail(game::kExitUsage, {"bench needs --suite or a SCENE, and not both"});
     auto suite = chooseSuite(arguments);
     if (!suite)
-        return fail(game::kExitUsage, suite.error());
+        return game::fail(game::kExitUsage, suite.error());
     auto methods = chooseMethods(arguments);
     if (!methods)
-        return fail(game::kExitUsage, methods.error());
+        return game::fail(game::kExitUsage, methods.error());
     // Wrong options of the shot are told before anything is made.
     auto shot = game::interpret(arguments.shot);
     if (!shot)
-        return fail(game::kExitUsage, shot.error());
+        return game::fail(game::kExitUsage, shot.error());
     const Status done = measureSuite(
         arguments, std::move(suite.value()), std::move(methods.value()), std::move(shot.value())
     );
-    return done ? game::kExitDone : fail(game::kExitFailed, done.error());
+    return done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
 }
 
 } // namespace
-} // namespace shutter::bench
-
-namespace shutter::game {
 
 void addBenchCommand(CLI::App& app, int& exitStatus) {
     CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
-    auto arguments = std::make_shared<bench::BenchArguments>();
+    auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
     command->add_option("--suite", arguments->suite, "paper, hard, scaling, stability or demand");
     command->add_option("--out", arguments->out, "folder of results.json and index.html")
@@ -230,36 +221,36 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
         ->check(CLI::Range(1u, 65536u));
     command->add_flag("--restart", arguments->restart, "measure anew what an earlier run left");
     command->add_flag("--report-only", arguments->reportOnly, "make the page from results.json");
-    addParsedOption(
+    game::addParsedOption(
         *command,
         "--size",
         "WxH; default 640x360, demand 1280x720",
         [arguments](const std::string& text) -> core::Status {
-            const auto size = parseSize(text);
+            const auto size = game::parseSize(text);
             if (!size)
                 return size.error();
             arguments->size = size.value();
             return {};
         }
     );
-    defineDeviceOptions(*command, arguments->device);
+    game::defineDeviceOptions(*command, arguments->device);
     std::vector<CLI::Option*> shotOptions;
     const std::vector<CLI::Option*> before = command->get_options();
-    defineShotOptions(*command, arguments->shot);
+    game::defineShotOptions(*command, arguments->shot);
     for (CLI::Option* option : command->get_options())
         if (std::find(before.begin(), before.end(), option) == before.end())
             shotOptions.push_back(option->group("Shot (with a SCENE)"));
     command->callback([arguments, shotOptions, &exitStatus] {
         for (const CLI::Option* option : shotOptions)
             if (option->count() > 0 && arguments->shot.scene.empty()) {
-                printError({fmt::format(
+                game::printError({fmt::format(
                     "{} needs a SCENE: suites have shots of their own", option->get_name()
                 )});
-                exitStatus = kExitUsage;
+                exitStatus = game::kExitUsage;
                 return;
             }
-        exitStatus = bench::runBench(*arguments);
+        exitStatus = runBench(*arguments);
     });
 }
 
-} // namespace shutter::game
+} // namespace shutter::bench

@@ -8,6 +8,10 @@
 
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace shutter::bench {
 
 struct RunOptions {
@@ -22,5 +26,8 @@ struct RunOptions {
 /// written, that a hard case or a claim left its bounds.
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
+
+/// Adds `shutter bench`, which leaves its exit status (game/options/error_output.h).
+void addBenchCommand(CLI::App& app, int& exitStatus);
 
 } // namespace shutter::bench

@@ -9,14 +9,8 @@ class App;
 
 namespace shutter::game {
 
-inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;
-inline constexpr int kExitUsage = 2;
-
 void addRenderCommand(CLI::App& app, int& exitStatus);
 void addCompareCommand(CLI::App& app, int& exitStatus);
 void addInfoCommand(CLI::App& app, int& exitStatus);
-void addBenchCommand(CLI::App& app, int& exitStatus); ///< game/bench
-void addPlayCommand(CLI::App& app, int& exitStatus);  ///< game/play
 
 } // namespace shutter::game

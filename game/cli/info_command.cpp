@@ -4,6 +4,7 @@
 #include "engine/scene/framing.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
+#include "game/play/panel/play_settings.h"
 #include "game/shot/methods.h"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,7 @@ struct InfoArguments {
     std::string scene;
     bool devices = false;
     bool methods = false;
+    bool schema = false;
 };
 
 core::Status printDevices() {
@@ -111,13 +113,15 @@ core::Status printScene(const std::string& path) {
 }
 
 int runInfo(const InfoArguments& arguments) {
-    if (arguments.scene.empty() && !arguments.devices && !arguments.methods) {
-        fmt::print(stderr, "shutter: info needs a SCENE, --devices or --methods\n");
+    if (arguments.scene.empty() && !arguments.devices && !arguments.methods && !arguments.schema) {
+        fmt::print(stderr, "shutter: info needs a SCENE, --devices, --methods or --schema\n");
         return kExitUsage;
     }
     if (arguments.methods)
         for (const MethodInfo& method : listMethods())
             fmt::print("{}\n", method.name);
+    if (arguments.schema)
+        fmt::print("{}\n", makeSettingsSchema());
     core::Status done;
     if (arguments.devices)
         done = printDevices();
@@ -137,7 +141,8 @@ void addInfoCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<InfoArguments>();
     command->add_option("scene", arguments->scene, "glTF 2.0 scene");
     command->add_flag("--devices", arguments->devices, "list the Vulkan devices");
-    command->add_flag("--methods", arguments->methods, "list the methods, one a line");
+    command->add_flag("--methods", arguments->methods, "list the methods, one per line");
+    command->add_flag("--schema", arguments->schema, "JSON schema of the settings of `play`");
     command->callback([arguments, &exitStatus] { exitStatus = runInfo(*arguments); });
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/log.h"
 #include "engine/gpu/vulkan.h"
+#include "game/bench/bench_run.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
+#include "game/play/loop/play_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -23,7 +25,7 @@ int main(int argc, char** argv) {
     game::addRenderCommand(app, exitStatus);
     game::addCompareCommand(app, exitStatus);
     game::addInfoCommand(app, exitStatus);
-    game::addBenchCommand(app, exitStatus);
+    bench::addBenchCommand(app, exitStatus);
     game::addPlayCommand(app, exitStatus);
     try {
         app.parse(argc, argv);

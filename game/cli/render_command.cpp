@@ -17,11 +17,6 @@ namespace shutter::game {
 
 namespace {
 
-int fail(int status, const core::Error& error) {
-    printError(error);
-    return status;
-}
-
 int runRender(const RenderArguments& arguments) {
     auto options = interpret(arguments);
     if (!options)

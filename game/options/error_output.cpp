@@ -24,4 +24,9 @@ void printError(const core::Error& error) {
     fmt::print(stderr, "shutter: {}\n", toOneLine(error.message));
 }
 
+int fail(int status, const core::Error& error) {
+    printError(error);
+    return status;
+}
+
 } // namespace shutter::game

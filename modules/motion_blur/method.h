@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a method of blurring is, as data and passes. Each lives in a file of methods/, and methods.cpp
-// lists them; nothing else knows a method by name.
+// What a method of blurring is, as data and passes. Each lives in a file of methods/, and
+// methods.cpp lists them; nothing else knows a method by name.
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -65,12 +65,15 @@ struct Method {
     /// The raster image is an input; false: the method draws a picture of its own.
     bool readsRaster = true;
     bool readsSurface = false; ///< normal and entity id are inputs
-    bool countsBlocks = true;  ///< its filters go over SharedPasses' lists of blocks
-    bool usesUniformMotion = false;    ///< blocks of uniform motion have a filter of their own
-    uint32_t listBytesPerPixel = 0;    ///< of the largest storage buffer, which grows with pixels
-    std::vector<std::string_view> settings{}; ///< fields of MotionBlurSettings that it reads, except
-                                              ///< sampleCount, which each method reads
-    std::vector<std::string_view> views{};    ///< intermediates that it offers
+    /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced.
+    bool readsCamera = false;
+    bool blursObjects = true;       ///< false: only the camera's own motion is blurred
+    bool countsBlocks = true;       ///< its filters go over SharedPasses' lists of blocks
+    bool usesUniformMotion = false; ///< blocks of uniform motion have a filter of their own
+    uint32_t listBytesPerPixel = 0; ///< of the largest storage buffer, which grows with pixels
+    std::vector<std::string_view> settings{}; ///< fields of MotionBlurSettings that it reads,
+                                              ///< except sampleCount, which each method reads
+    std::vector<std::string_view> views{}; ///< intermediates that it offers
     /// Turns the settings into `params`: the method's own block, and what it changes of the rest.
     /// Null: nothing.
     void (*resolve)(const MotionBlurSettings& settings, PassParams& params) = nullptr;
@@ -79,9 +82,8 @@ struct Method {
     /// Adds the levels by which the method gives up quality (budget_ladder.h).
     void (*addBudgetLevels)(BudgetLadder& ladder, const MotionBlurSettings& wanted);
     /// \param sceneLayout of graph::RayScene::textures; null without rays
-    std::unique_ptr<MethodPasses> (*makePasses)(
-        gpu::Device& device, VkDescriptorSetLayout sceneLayout
-    );
+    std::unique_ptr<MethodPasses> (*makePasses
+    )(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
 };
 
 } // namespace shutter::motion_blur

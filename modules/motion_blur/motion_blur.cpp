@@ -43,6 +43,11 @@ MotionBlurOutputs MotionBlur::add(
         "the method {} needs timed rays, by ray queries",
         method.name
     );
+    SHUTTER_CHECK(
+        !method.readsCamera || (inputs.rays && inputs.rays->frameConstants != 0),
+        "the method {} needs frame constants",
+        method.name
+    );
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
     PassParams params = resolve(settings, size.width, size.height, inputs.rasterTime);
     params.response = inputs.response;

@@ -108,15 +108,15 @@ SHUTTER_CONST uint kFrameUnlit = 1u; // base colour only
 struct FrameConstants {
     mat4 clipFromEye;
     mat4 eyeFromClip;
-    mat4 clipFromDirectionOpen;  // where a direction of the world is seen at shutter open
-    mat4 clipFromDirectionClose; // ... and at shutter close
-    vec4 forward;        // xyz unit view direction; w: the smallest clip w in front of the camera
-    vec4 background;     // linear RGB
-    vec4 ambient;        // uniform radiance from everywhere, linear RGB
-    vec2 sizePx;         // picture's width and height
-    vec2 pixelFootprint; // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
-    float lodBias;       // added to every texture level of detail
-    uint flags;          // kFrame...
+    mat4 clipFromEyeOpen;  // where what is static at the raster instant is seen at shutter open
+    mat4 clipFromEyeClose; // ... and at shutter close; a direction of the world has w = 0
+    vec4 forward;          // xyz unit view direction; w: the smallest clip w in front of the camera
+    vec4 background;       // linear RGB
+    vec4 ambient;          // uniform radiance from everywhere, linear RGB
+    vec2 sizePx;           // picture's width and height
+    vec2 pixelFootprint;   // pixel width, x: at distance 1 (perspective), y: at any (orthographic)
+    float lodBias;         // added to every texture level of detail
+    uint flags;            // kFrame...
     uint lightCount;
     uint padding0;
     uvec2 entities; // addresses of the tables

@@ -55,6 +55,23 @@ const std::vector<Row> kEngineRows = {
     {"app", kUpToRender},
 };
 
+/// Which rooms of the program a room may see; each sees all of engine/ and modules/. The suites of
+/// checks in tests/conformance are shown by `shutter bench` and count as a room.
+const std::vector<Row> kGameRows = {
+    {"shot", {}},
+    {"output", {"shot"}},
+    {"options", {"shot", "output"}},
+    {"demos", {}},
+    {"play/panel", {"shot"}},
+    {"play/loop", {"shot", "output", "options", "demos", "play/panel"}},
+    {"bench/report", {}},
+    {"bench/suites", {"shot", "options", "tests/conformance"}},
+    {"bench", {"shot", "options", "bench/report", "bench/suites", "tests/conformance"}},
+    {"cli", {"shot", "output", "options", "play/panel", "play/loop", "bench"}},
+    {"examples", {}},
+    {"tests/conformance", {"shot", "options"}},
+};
+
 /// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
 /// and drawn agrees with the same shaders.
 const Names kSceneRooms = {"extract", "gpu_scene", "rays", "render"};
@@ -108,6 +125,19 @@ const Row* findEngineRow(std::string_view folder) {
     return row == kEngineRows.end() ? nullptr : &*row;
 }
 
+/// The room that a path below game/ or a suite of checks lies in: the longest name that fits.
+const Row* findGameRow(std::string_view path) {
+    constexpr std::string_view kGame = "game/";
+    if (path.starts_with(kGame))
+        path.remove_prefix(kGame.size());
+    const Row* best = nullptr;
+    for (const Row& row : kGameRows)
+        if (path.starts_with(row.from) && path.substr(row.from.size()).starts_with('/') &&
+            (best == nullptr || row.from.size() > best->from.size()))
+            best = &row;
+    return best;
+}
+
 /// The n-th component of a path, or nothing when that is its last one, the file name.
 std::string folderAt(std::string_view path, size_t n) {
     for (; n > 0; --n) {
@@ -130,8 +160,10 @@ Part findPart(std::string_view path) {
         const bool isEffect = kModulesWithEffect.contains(name) && !isPlugin;
         return {isEffect ? Kind::Effect : Kind::Module, name, isPlugin};
     }
-    if (top == "game")
-        return {Kind::Game, {}};
+    if (top == "game" || path.starts_with("tests/conformance/")) {
+        const Row* room = findGameRow(path);
+        return room ? Part{Kind::Game, std::string(room->from)} : Part{};
+    }
     if (top == "assets" && name == "generator")
         return {Kind::Generator, {}};
     // Shaders made into headers (compiled, in double precision) belong to the folder they come
@@ -152,7 +184,7 @@ std::string describe(const Part& part) {
     case Kind::Module:
         return "modules/" + part.name + (part.isPlugin ? "/plugin" : "");
     case Kind::Game:
-        return "game";
+        return part.name.starts_with("tests/") ? part.name : "game/" + part.name;
     case Kind::Generator:
         return "assets/generator";
     case Kind::Shaders:
@@ -186,6 +218,13 @@ bool maySeeModule(const Part& from, const Part& to) {
     if (from.kind == Kind::Effect)
         return from.name == to.name && !to.isPlugin;
     return from.kind == Kind::Module && from.name == to.name;
+}
+
+bool maySeeRoom(const Part& from, const Part& to) {
+    const auto row = std::find_if(kGameRows.begin(), kGameRows.end(), [&](const Row& r) {
+        return r.from == from.name;
+    });
+    return row != kGameRows.end() && row->sees.contains(to.name);
 }
 
 bool isShared(std::string_view path) {
@@ -235,6 +274,8 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
         return maySeeModule(from, to);
     case Kind::Shaders:
         return cppMaySeeShaders(from, to, path);
+    case Kind::Game:
+        return from.kind == Kind::Game && maySeeRoom(from, to);
     case Kind::Generator:
         return from.kind == Kind::Game; // `bench` makes its scenes at run time
     default:

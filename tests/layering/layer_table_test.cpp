@@ -110,7 +110,7 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
         {"engine/render/renderer.h", "\"engine/io/image_file.h\""},
         {"engine/render/renderer.h", "\"engine/app/window.h\""},
         {"engine/app/runner.cpp", "\"modules/motion_blur/motion_blur.h\""},
-        {"engine/app/runner.cpp", "\"game/main.h\""},
+        {"engine/app/runner.cpp", "\"game/cli/commands.h\""},
         {"engine/render/renderer.h", "\"tests/support/device.h\""},
         {"engine/render/renderer.h", "\"assets/generator/textures.h\""},
     });
@@ -121,16 +121,16 @@ TEST(LayerTable, PrivateHeadersAreSeenByTheirOwnFolderOnly) {
         {"engine/gltf/gltf_mesh.cpp", "\"engine/gltf/gltf_parts.h\""},
         {"engine/json/json_file.cpp", "\"engine/json/json_tree.h\""},
         {"engine/io/image_file.cpp", "\"engine/io/oiio_codec.h\""},
-        {"game/shot.cpp", "\"engine/gltf/gltf_loader.h\""},
+        {"game/shot/shot.cpp", "\"engine/gltf/gltf_loader.h\""},
     });
     expectRefused({
-        {"game/shot.cpp", "\"engine/gltf/gltf_parts.h\""},
-        {"game/shot.cpp", "\"engine/json/json_tree.h\""},
+        {"game/shot/shot.cpp", "\"engine/gltf/gltf_parts.h\""},
+        {"game/shot/shot.cpp", "\"engine/json/json_tree.h\""},
         {"engine/gltf/gltf_material.cpp", "\"engine/io/oiio_codec.h\""},
     });
     EXPECT_EQ(
-        judge({"game/shot.cpp", "\"engine/gltf/gltf_new.h\""}),
-        "game/shot.cpp:1 includes engine/gltf/gltf_new.h: the header is private to gltf"
+        judge({"game/shot/shot.cpp", "\"engine/gltf/gltf_new.h\""}),
+        "game/shot/shot.cpp:1 includes engine/gltf/gltf_new.h: the header is private to gltf"
     );
 }
 
@@ -152,15 +152,15 @@ TEST(LayerTable, ModulesSeeRenderAndBelowButNeverEachOther) {
         {"modules/tonemap/tonemap.cpp", "\"engine/scene/world.h\""},
         {"modules/tonemap/tonemap.cpp", "\"modules/tonemap/tonemap.h\""},
         {"modules/tonemap/tonemap.cpp", "\"passes/a.h\""},
-        {"game/main.cpp", "\"modules/tonemap/tonemap.h\""},
-        {"game/main.cpp", "\"modules/motion_blur/plugin/plugin.h\""},
-        {"game/main.cpp", "\"engine/app/window.h\""},
+        {"game/cli/main.cpp", "\"modules/tonemap/tonemap.h\""},
+        {"game/cli/main.cpp", "\"modules/motion_blur/plugin/plugin.h\""},
+        {"game/cli/main.cpp", "\"engine/app/window.h\""},
     });
     expectRefused({
         {"modules/tonemap/tonemap.cpp", "\"engine/app/window.h\""},
         {"modules/tonemap/tonemap.cpp", "\"modules/motion_blur/motion_blur.h\""},
         {"modules/motion_blur/plugin/plugin.cpp", "\"modules/tonemap/tonemap.h\""},
-        {"modules/tonemap/tonemap.cpp", "\"game/main.h\""},
+        {"modules/tonemap/tonemap.cpp", "\"game/cli/commands.h\""},
     });
 }
 
@@ -192,13 +192,35 @@ TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
     });
 }
 
+TEST(LayerTable, RoomsOfTheProgramDependOneWay) {
+    expectAllowed({
+        {"game/output/film.cpp", "\"game/shot/shot.h\""},
+        {"game/options/shot_arguments.cpp", "\"game/output/render_options.h\""},
+        {"game/play/loop/play_loop.cpp", "\"game/play/panel/panel.h\""},
+        {"game/bench/bench_run.cpp", "\"game/bench/suites/suite.h\""},
+        {"game/bench/suites/held_suites.cpp", "\"tests/conformance/demand/claim.h\""},
+        {"game/cli/main.cpp", "\"game/bench/bench_run.h\""},
+    });
+    expectRefused({
+        {"game/shot/shot.cpp", "\"game/output/render_options.h\""},
+        {"game/output/film.cpp", "\"game/options/render_arguments.h\""},
+        {"game/play/panel/panel.cpp", "\"game/play/loop/play_loop.h\""},
+        {"game/bench/suites/suite.cpp", "\"game/bench/bench_run.h\""},
+        {"game/bench/bench_run.cpp", "\"game/play/panel/panel.h\""},
+        {"tests/conformance/demand/claim.cpp", "\"game/bench/bench_run.h\""},
+        {"tests/conformance/demand/claim.cpp", "\"tests/support/stage.h\""},
+        {"game/new_room/a.cpp", "\"engine/core/log.h\""},
+        {"game/a.cpp", "\"engine/core/log.h\""},
+    });
+}
+
 TEST(LayerTable, LibrariesStayWithTheirOwners) {
     expectAllowed({
         {"engine/gltf/gltf_loader.cpp", "<tiny_gltf.h>"},
         {"engine/io/oiio_codec.cpp", "<OpenImageIO/imageio.h>"},
         {"engine/app/window.cpp", "<GLFW/glfw3.h>"},
         {"engine/app/ui.cpp", "<imgui.h>"},
-        {"game/play/panel.cpp", "<imgui.h>"},
+        {"game/play/panel/panel.cpp", "<imgui.h>"},
         {"engine/gpu/vulkan.h", "<vulkan/vulkan.h>"},
         {"engine/graph/graph.cpp", "<vulkan/vulkan.h>"},
         {"engine/render/gbuffer.cpp", "<vulkan/vulkan.h>"},
@@ -210,7 +232,7 @@ TEST(LayerTable, LibrariesStayWithTheirOwners) {
         {"engine/render/renderer.cpp", "\"tiny_gltf.h\""},
         {"engine/image/metrics.cpp", "<OpenImageIO/imageio.h>"},
         {"engine/gpu/device.cpp", "<GLFW/glfw3.h>"},
-        {"game/main.cpp", "<GLFW/glfw3.h>"},
+        {"game/cli/main.cpp", "<GLFW/glfw3.h>"},
         {"engine/render/renderer.cpp", "<imgui.h>"},
         {"modules/tonemap/tonemap.cpp", "<imgui_internal.h>"},
         {"engine/scene/world.h", "<vulkan/vulkan_core.h>"},
@@ -228,10 +250,10 @@ TEST(LayerTable, CppSeesTheShadersOfItsOwnFolderAndBelow) {
         {"modules/tonemap/tonemap.cpp", "\"shaders/render/brdf.glsl\""},
         {"modules/tonemap/tonemap.cpp", "\"shaders/tonemap/tonemap_shared.h\""},
         {"modules/tonemap/tonemap.cpp", "\"spirv/tonemap/tonemap.comp.h\""},
-        {"game/bench/bench.cpp", "\"double/tonemap/tonemap.glsl.h\""},
+        {"tests/conformance/stability/a.cpp", "\"double/tonemap/tonemap.glsl.h\""},
         {"modules/motion_blur/motion_blur.cpp", "\"shaders/motion_blur/tile.glsl\""},
         {"modules/motion_blur/motion_blur.cpp", "\"shaders/render/scene_shared.h\""},
-        {"game/main.cpp", "\"shaders/tonemap/tonemap_shared.h\""},
+        {"game/cli/main.cpp", "\"shaders/tonemap/tonemap_shared.h\""},
     });
     expectRefused({
         {"engine/graph/graph.cpp", "\"shaders/render/scene_shared.h\""},
@@ -273,9 +295,9 @@ TEST(LayerTable, ExamplesAreProjectsOfTheirOwn) {
         {"game/examples/new_effect/vignette.h", "<spirv/vignette.comp.h>"},
     });
     expectRefused({
-        {"game/main.cpp", "<vulkan/vulkan_raii.hpp>"},
-        {"game/main.cpp", "\"spirv/vignette.comp.h\""},
-        {"game/examples/new_effect/main.cpp", "\"game/shot.h\""},
+        {"game/cli/main.cpp", "<vulkan/vulkan_raii.hpp>"},
+        {"game/cli/main.cpp", "\"spirv/vignette.comp.h\""},
+        {"game/examples/new_effect/main.cpp", "\"game/shot/shot.h\""},
         {"game/examples/new_effect/main.cpp", "\"tests/support/stage.h\""},
     });
 }
@@ -286,12 +308,12 @@ TEST(LayerTable, TheAssetGeneratorSeesItselfAloneAndIsSeenByTheGameAlone) {
         {"assets/generator/main.cpp", "\"textures.h\""},
         {"assets/generator/main.cpp", "<nlohmann/json.hpp>"},
     });
-    expectAllowed({{"game/main.cpp", "\"assets/generator/textures.h\""}});
+    expectAllowed({{"game/cli/main.cpp", "\"assets/generator/textures.h\""}});
     expectRefused({
         {"assets/generator/main.cpp", "\"engine/core/log.h\""},
         {"assets/generator/main.cpp", "\"shaders/common/shim.h\""},
         {"assets/generator/main.cpp", "\"modules/tonemap/tonemap.h\""},
-        {"assets/generator/main.cpp", "\"game/commands.h\""},
+        {"assets/generator/main.cpp", "\"game/cli/commands.h\""},
         {"modules/tonemap/tonemap.cpp", "\"assets/generator/textures.h\""},
     });
 }

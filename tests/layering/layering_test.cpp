@@ -49,6 +49,7 @@ TEST(Layering, TheModulesKeepTheOrderOfDependence) {
 
 TEST(Layering, TheGameKeepsTheOrderOfDependence) {
     expectNoViolationBelow("game");
+    expectNoViolationBelow("tests/conformance");
 }
 
 TEST(Layering, TheAssetGeneratorKeepsTheOrderOfDependence) {

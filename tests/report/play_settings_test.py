@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Settings of the player against game/play/panel/settings.schema.json: what the program writes is valid,
-and what the schema refuses the program refuses too, with line and field."""
+"""Settings of the player against the schema that `shutter info --schema` prints: what the program
+writes is valid, and what the schema refuses the program refuses too, with line and field."""
 
 import json
 import os
@@ -16,7 +16,7 @@ except ImportError:
     print("skipped: the package python3-jsonschema is missing")
     sys.exit(77)
 
-SCHEMA = pathlib.Path(__file__).parents[2] / "game/play/panel/settings.schema.json"
+SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
 PROGRAM = os.environ["SHUTTER_PLAY_SETTINGS"]
 FILES = 20
 
@@ -37,7 +37,7 @@ def place(path, value):
 class PlaySettings(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
+        cls.schema = json.loads(subprocess.check_output([SHUTTER, "info", "--schema"], text=True))
         jsonschema.Draft202012Validator.check_schema(cls.schema)
         cls.validator = jsonschema.Draft202012Validator(cls.schema)
         cls.folder = tempfile.TemporaryDirectory()
@@ -80,12 +80,15 @@ class PlaySettings(unittest.TestCase):
     def test_what_the_schema_refuses_the_program_refuses_with_line_and_field(self):
         cases = []
         for path, field in self.fields():
-            number = next((f for f in (field, *field.get("anyOf", [])) if "minimum" in f), None)
+            number = next((f for f in (field, *field.get("anyOf", [])) if "maximum" in f), None)
             wrong = [None, [{}], "nosuch" * 20]
             if number:
-                wrong += [number["minimum"] - 1, number["maximum"] + 1, 1e300]
+                lowest = number.get("minimum", number.get("exclusiveMinimum"))
+                wrong += [lowest - 1, number["maximum"] + 1, 1e300]
+                if "exclusiveMinimum" in number:
+                    wrong.append(lowest)
                 if number["type"] == "integer":
-                    wrong.append(number["minimum"] + 0.5)
+                    wrong.append(lowest + 0.5)
             elif "enum" in field:
                 wrong += [0, "nosuch"]
             cases += [(path, place(path, value)) for value in wrong]

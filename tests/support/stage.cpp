@@ -46,7 +46,7 @@ std::vector<std::string_view> listBlurMethods(const gpu::Device& device) {
         const bool isAble = method->rays == motion_blur::RayNeed::None ||
                             (method->rays == motion_blur::RayNeed::Any && device.hasRays()) ||
                             device.hasRayQuery();
-        if (isAble)
+        if (isAble && method->blursObjects)
             names.emplace_back(method->name);
     }
     return names;

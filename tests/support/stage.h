@@ -19,7 +19,7 @@
 
 namespace shutter::test {
 
-/// Names of the motion blur's methods, which the device must be able to run.
+/// Names of the motion blur's methods that blur moving objects and that the device can run.
 [[nodiscard]] std::vector<std::string_view> listBlurMethods(const gpu::Device& device);
 
 /// Names of the methods that share the raster image's half floats and may be held against it bit by

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/cli/commands.h"
 #include "game/options/error_output.h"
 #include "game/play/loop/play_loop.h"
 
@@ -10,11 +9,6 @@
 namespace shutter::game {
 
 namespace {
-
-int fail(int status, const core::Error& error) {
-    printError(error);
-    return status;
-}
 
 int runPlay(const PlayArguments& arguments) {
     auto options = interpret(arguments);

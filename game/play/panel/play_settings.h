@@ -66,12 +66,15 @@ void applyPreset(const Preset& preset, PlaySettings& settings);
 /// One sentence naming the field that is out of its range.
 [[nodiscard]] core::Status validate(const PlaySettings& settings);
 
-/// settings.schema.json says what a file holds. Fields that it lacks keep their defaults; the file
-/// says nothing of which intermediates there are (`view`). Error: names file, line and field.
+/// makeSettingsSchema() says what a file holds. Fields that it lacks keep their defaults; whether
+/// `view` names an intermediate is not checked. Error: names file, line and field.
 [[nodiscard]] core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path);
 /// Renamed into place. Error: settings that validate() refuses, or names the file.
 [[nodiscard]] core::Status
 savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings);
+
+/// The JSON schema of a settings file, made of the rows.
+[[nodiscard]] std::string makeSettingsSchema();
 
 /// The shutter as the camera gets it: reduced motion applied.
 [[nodiscard]] scene::CameraShutter makeShutter(const PlaySettings& settings);

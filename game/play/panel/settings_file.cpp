@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings as JSON. settings.schema.json describes the same.
+// Settings as JSON, read and written row by row.
 #include "engine/json/json_rows.h"
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"

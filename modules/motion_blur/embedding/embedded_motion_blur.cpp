@@ -133,7 +133,7 @@ core::Status EmbeddedMotionBlur::checkMethod(
              {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
             if (core::Status given = checkImage(name, *image); !given)
                 return given;
-    if (method.rays == RayNeed::None)
+    if (method.rays == RayNeed::None && !method.readsCamera)
         return {};
     if (inputs.rays.frameConstants == 0)
         return makeError(
@@ -234,9 +234,10 @@ core::Status EmbeddedMotionBlur::recordInto(
         own.target = own.color;
     own.rasterTime = inputs.rasterTime;
     own.response = gpu::splitAddress(inputs.response);
-    if (settings.method->rays == RayNeed::Any) {
+    const Method& method = *settings.method;
+    if (method.rays == RayNeed::Any || method.readsCamera) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
-        if (inputs.rays.tlas) {
+        if (method.rays == RayNeed::Any && inputs.rays.tlas) {
             rays.tlasBuffer = graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
             rays.tlas = inputs.rays.tlas;
             rays.textures = inputs.rays.scene;

@@ -50,7 +50,7 @@ TEST_F(ExtractionHistory, ACutLeavesNothingMoving) {
     scene::cut(world, camera, 0.7);
     ExtractedFrame frame = extract();
     EXPECT_FALSE(frame.moves);
-    EXPECT_EQ(frame.constants.clipFromDirectionOpen, frame.constants.clipFromDirectionClose);
+    EXPECT_EQ(frame.constants.clipFromEyeOpen, frame.constants.clipFromEyeClose);
     expectStill(frame, 0);
     EXPECT_EQ(computeTables(frame).camera.keys.size(), 1u);
 }

@@ -33,12 +33,26 @@ TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
     const ExtractedFrame frame = extract();
     EXPECT_TRUE(frame.moves);
     const math::vec4 ahead(0.0f, 0.0f, -1.0f, 0.0f);
-    const math::vec4 open = frame.constants.clipFromDirectionOpen * ahead;
-    const math::vec4 close = frame.constants.clipFromDirectionClose * ahead;
+    const math::vec4 open = frame.constants.clipFromEyeOpen * ahead;
+    const math::vec4 close = frame.constants.clipFromEyeClose * ahead;
     EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
     // Turned to the left by 0.1 rad: what was ahead is now seen at the right.
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
     EXPECT_NEAR(close.x / close.w, std::tan(0.1) * focal, 1e-5);
+}
+
+TEST_F(Extraction, AMovingCameraSeesAStillPointFromWhereItIsAtOpenAndClose) {
+    // Far from the origin, where single precision would lose the displacement.
+    world.registry.get<scene::Transform>(camera).translation = {4e6, 0.0, 0.0};
+    world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    request.exposure = {0.0, 0.0, 1.0, 0.0};
+    const ExtractedFrame frame = extract();
+    const math::vec4 ahead(0.0f, 0.0f, -2.0f, 1.0f); // from the eye
+    const math::vec4 open = frame.constants.clipFromEyeOpen * ahead;
+    const math::vec4 close = frame.constants.clipFromEyeClose * ahead;
+    EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
+    const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
+    EXPECT_NEAR(close.x / close.w, -0.5 * focal, 1e-5);
 }
 
 TEST_F(Extraction, AMovingCameraSeesAStillEntityFromWhereItIsAtEachInstant) {
