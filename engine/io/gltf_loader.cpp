@@ -12,6 +12,7 @@
 #include "engine/io/gltf_schema.h"
 #include "engine/io/gltf_skin.h"
 
+#include <exception>
 #include <new>
 #include <utility>
 

@@ -4,6 +4,7 @@
 #include "engine/io/gltf_attribute.h"
 
 #include <cmath>
+#include <map>
 
 namespace shutter::io {
 

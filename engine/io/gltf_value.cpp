@@ -3,6 +3,8 @@
 
 #include "engine/io/gltf_error.h"
 
+#include <cmath>
+
 namespace shutter::io {
 
 namespace {

@@ -5,6 +5,7 @@
 #include "engine/io/gltf_model.h"
 #include "engine/math/math.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 namespace shutter::bench {
 
 namespace {

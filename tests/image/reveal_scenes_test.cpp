@@ -15,6 +15,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <vector>
 
