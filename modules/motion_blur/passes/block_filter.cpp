@@ -66,7 +66,7 @@ graph::ImageHandle BlockFilter::add(
             gpu::BindingList bindings;
             for (graph::ImageHandle image : data.inputs)
                 bindings.sampled(context.resources.view(image), mSampler);
-            bindings.storage(context.resources.view(data.target))
+            bindings.storage(context.resources.image(data.target))
                 .buffer(context.resources.buffer(data.lists.blocks));
             dispatchList(context, mPipeline, bindings, params, data.lists.arguments, mList);
         }

@@ -205,9 +205,9 @@ RayRevealOutputs RayReveal::add(
                 .sampled(resources.view(data.in.motionDepth), mSampler)
                 .sampled(resources.view(data.in.meshId), mSampler)
                 .sampled(resources.view(data.in.mask), mSampler)
-                .storage(resources.view(data.out.color))
-                .storage(resources.view(data.out.motionDepth))
-                .storage(resources.view(data.out.meshId))
+                .storage(resources.image(data.out.color))
+                .storage(resources.image(data.out.motionDepth))
+                .storage(resources.image(data.out.meshId))
                 .buffer(resources.buffer(data.list));
             if (data.in.rays.topLevel != VK_NULL_HANDLE)
                 bindings.accelerationStructure(data.in.rays.topLevel);

@@ -51,7 +51,7 @@ graph::ImageHandle ScreenFilter::add(
             gpu::BindingList bindings;
             for (graph::ImageHandle image : data.inputs)
                 bindings.sampled(context.resources.view(image), mSampler);
-            bindings.storage(context.resources.view(data.blurred));
+            bindings.storage(context.resources.image(data.blurred));
             dispatchPixels(context, mPipeline, bindings, params, params.sizePx);
         }
     );
