@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
     Stability,
     HardCases,
     ::testing::ValuesIn(stability::listHardCases()),
-    [](const ::testing::TestParamInfo<HardCase>& info) { return info.param.name; }
+    [](const ::testing::TestParamInfo<HardCase>& instance) { return instance.param.name; }
 );
 
 TEST(HardCaseList, NamesAreUniqueAndEveryCaseSaysWhatItIs) {

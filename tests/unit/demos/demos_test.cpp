@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
     Demos,
     EveryDemo,
     testing::Values("rally", "gallery", "spin"),
-    [](const auto& info) { return std::string(info.param); }
+    [](const auto& instance) { return std::string(instance.param); }
 );
 
 TEST(Demos, RefuseANameThatIsNone) {

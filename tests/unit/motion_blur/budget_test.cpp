@@ -171,9 +171,10 @@ TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
             EXPECT_LT(later.shareOver(budget, 0), 0.02) << int(method) << ", " << budget << " ms";
             // It does not give up more than two rungs that would fit.
             const size_t better = controller.rung() >= 2 ? controller.rung() - 2 : 0;
-            if (controller.rung() >= 2)
+            if (controller.rung() >= 2) {
                 EXPECT_GT(Load{}.of(makeRungs(settingsOf(method))[better]), 0.7 * budget)
                     << int(method) << ", " << budget << " ms";
+            }
         }
 }
 
