@@ -3,6 +3,7 @@
 #include "engine/gltf/gltf_values.h"
 
 #include <cmath>
+#include <map>
 
 namespace shutter::gltf {
 

@@ -69,9 +69,10 @@ BindingList& BindingList::sampled(VkImageView view, VkSampler sampler) {
     return *this;
 }
 
-BindingList& BindingList::storage(VkImageView view) {
+BindingList& BindingList::storage(const Image& image) {
     Entry entry{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-    entry.image = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL};
+    entry.image = {VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL};
+    entry.storage = &image;
     mEntries.push_back(entry);
     return *this;
 }
@@ -88,6 +89,24 @@ BindingList& BindingList::accelerationStructure(VkAccelerationStructureKHR struc
     entry.structure = structure;
     mEntries.push_back(entry);
     return *this;
+}
+
+core::Status BindingList::checkFormats(const Pipeline& pipeline) const {
+    for (size_t i = 0; i < mEntries.size(); ++i) {
+        const Image* image = mEntries[i].storage;
+        const VkFormat declared = pipeline.storageFormat(i);
+        if (!image || declared == VK_FORMAT_UNDEFINED || image->desc().format == declared)
+            continue;
+        return core::makeError(
+            "the pipeline '{}' declares binding {} as {}, and the image '{}' bound there is {}",
+            pipeline.name(),
+            i,
+            nameFormat(declared),
+            image->name(),
+            nameFormat(image->desc().format)
+        );
+    }
+    return {};
 }
 
 void BindingList::write(const Device& device, VkDescriptorSet set) const {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
 #include "engine/gpu/vulkan.h"
 
 #include <cstdint>
@@ -32,11 +35,16 @@ class DescriptorArena {
 class BindingList {
   public:
     BindingList& sampled(VkImageView view, VkSampler sampler);
-    BindingList& storage(VkImageView view);
+    /// \param image must outlive this list
+    BindingList& storage(const Image& image);
     BindingList& buffer(VkBuffer buffer);
     BindingList& accelerationStructure(VkAccelerationStructureKHR structure);
 
     [[nodiscard]] size_t count() const { return mEntries.size(); }
+
+    /// Error: a storage image's format is not the one that the pipeline's shaders declare there.
+    /// Vulkan then leaves what is stored undefined.
+    [[nodiscard]] core::Status checkFormats(const Pipeline& pipeline) const;
 
     void write(const Device& device, VkDescriptorSet set) const;
 
@@ -44,6 +52,7 @@ class BindingList {
     struct Entry {
         VkDescriptorType type;
         VkDescriptorImageInfo image{};
+        const Image* storage = nullptr; ///< whose view it is; null for a sampled one
         VkDescriptorBufferInfo buffer{};
         VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
     };

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <system_error>
+#include <type_traits>
 #include <unistd.h>
 
 namespace shutter::gpu {

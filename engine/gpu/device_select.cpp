@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <system_error>
 
 namespace shutter::gpu {
 

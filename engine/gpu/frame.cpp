@@ -82,6 +82,8 @@ void Frame::bind(
     VkDescriptorSet sceneSet
 ) {
     SHUTTER_CHECK_EQ(bindings.count(), pipeline.bindingCount());
+    const core::Status formats = bindings.checkFormats(pipeline);
+    SHUTTER_CHECK(formats.ok(), "{}", formats.error().message);
     vkCmdBindPipeline(mCommands, pipeline.bindPoint(), pipeline.handle());
     const VkDescriptorSet set = mDescriptors.allocate(pipeline.setLayout());
     bindings.write(mDevice, set);

@@ -41,7 +41,8 @@ class Frame {
     [[nodiscard]] VkCommandBuffer commands() const { return mCommands; }
 
     /// Binds `pipeline` with `bindings` as set 0, `sceneSet` as set 1 where the pipeline has one,
-    /// and the push constants.
+    /// and the push constants. CHECKed: as many bindings as the pipeline has, and storage images of
+    /// the formats that its shaders declare.
     void bind(
         const Pipeline& pipeline,
         const BindingList& bindings,

@@ -3,6 +3,8 @@
 
 #include "engine/core/check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -152,6 +154,36 @@ uint32_t texelBytes(VkFormat format) {
     }
     SHUTTER_CHECK(false, "format {} has no size here", static_cast<int>(format));
     return 0;
+}
+
+std::string nameFormat(VkFormat format) {
+    switch (format) {
+#define SHUTTER_FORMAT(name)                                                                       \
+    case VK_FORMAT_##name:                                                                         \
+        return #name;
+        SHUTTER_FORMAT(R8_UNORM)
+        SHUTTER_FORMAT(R8_UINT)
+        SHUTTER_FORMAT(R8G8_UNORM)
+        SHUTTER_FORMAT(R8G8B8A8_UNORM)
+        SHUTTER_FORMAT(R8G8B8A8_SRGB)
+        SHUTTER_FORMAT(B8G8R8A8_UNORM)
+        SHUTTER_FORMAT(B8G8R8A8_SRGB)
+        SHUTTER_FORMAT(R16_UINT)
+        SHUTTER_FORMAT(R16_SFLOAT)
+        SHUTTER_FORMAT(R16G16_SFLOAT)
+        SHUTTER_FORMAT(R16G16B16A16_SFLOAT)
+        SHUTTER_FORMAT(R32_UINT)
+        SHUTTER_FORMAT(R32_SFLOAT)
+        SHUTTER_FORMAT(R32G32_UINT)
+        SHUTTER_FORMAT(R32G32_SFLOAT)
+        SHUTTER_FORMAT(R32G32B32A32_UINT)
+        SHUTTER_FORMAT(R32G32B32A32_SFLOAT)
+        SHUTTER_FORMAT(D16_UNORM)
+        SHUTTER_FORMAT(D32_SFLOAT)
+#undef SHUTTER_FORMAT
+    default:
+        return fmt::format("format {}", static_cast<int>(format));
+    }
 }
 
 VkImageAspectFlags aspectOf(VkFormat format) {

@@ -85,6 +85,8 @@ struct ImageDesc {
 
 /// Bytes of one texel of the uncompressed formats this engine uses.
 [[nodiscard]] uint32_t texelBytes(VkFormat format);
+/// "R16G16B16A16_SFLOAT": Vulkan's name without VK_FORMAT_; "format N" for one not used here.
+[[nodiscard]] std::string nameFormat(VkFormat format);
 [[nodiscard]] VkImageAspectFlags aspectOf(VkFormat format);
 
 /// A 2D image and its view. Owns its memory unless it was placed into somebody else's, and the

@@ -2,7 +2,9 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/shader_reflection.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -112,10 +114,19 @@ void Pipeline::createLayout(const PipelineInterface& interface) {
     );
 }
 
+void Pipeline::addStorageFormats(std::span<const uint32_t> spirv) {
+    const std::vector<VkFormat> formats = reflectStorageFormats(spirv);
+    mStorageFormats.resize(std::max(mStorageFormats.size(), formats.size()));
+    for (size_t i = 0; i < formats.size(); ++i)
+        if (formats[i] != VK_FORMAT_UNDEFINED)
+            mStorageFormats[i] = formats[i];
+}
+
 Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_COMPUTE),
-      mStages(VK_SHADER_STAGE_COMPUTE_BIT) {
+      mStages(VK_SHADER_STAGE_COMPUTE_BIT), mName(desc.name) {
     createLayout(desc.interface);
+    addStorageFormats(desc.spirv);
     const Module module(device, desc.spirv, desc.name);
     const Specialization constants(desc.specialization);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
@@ -132,8 +143,10 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
 
 Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_GRAPHICS),
-      mStages(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT) {
+      mStages(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT), mName(desc.name) {
     createLayout(desc.interface);
+    for (const auto spirv : {desc.vertexSpirv, desc.fragmentSpirv})
+        addStorageFormats(spirv);
     const Module vertex(device, desc.vertexSpirv, desc.name);
     const Module fragment(device, desc.fragmentSpirv, desc.name);
     const Specialization constants(desc.specialization);
@@ -205,8 +218,12 @@ Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
       mStages(
           VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
           VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR
-      ) {
+      ),
+      mName(desc.name) {
     createLayout(desc.interface);
+    for (const auto spirv :
+         {desc.raygenSpirv, desc.missSpirv, desc.closestHitSpirv, desc.anyHitSpirv})
+        addStorageFormats(spirv);
     const Module raygen(device, desc.raygenSpirv, desc.name);
     const Module miss(device, desc.missSpirv, desc.name);
     const Module closestHit(device, desc.closestHitSpirv, desc.name);
@@ -265,6 +282,8 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     mBindPoint = other.mBindPoint;
     mStages = other.mStages;
     mBindingCount = other.mBindingCount;
+    mName = std::move(other.mName);
+    mStorageFormats = std::move(other.mStorageFormats);
     return *this;
 }
 

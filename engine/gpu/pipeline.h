@@ -78,8 +78,18 @@ class Pipeline {
 
     [[nodiscard]] size_t bindingCount() const { return mBindingCount; }
 
+    [[nodiscard]] const std::string& name() const { return mName; }
+
+    /// The format that its shaders declare for the storage image at a binding of set 0; UNDEFINED
+    /// where they declare none.
+    [[nodiscard]] VkFormat storageFormat(size_t binding) const {
+        return binding < mStorageFormats.size() ? mStorageFormats[binding] : VK_FORMAT_UNDEFINED;
+    }
+
   private:
     void createLayout(const PipelineInterface& interface);
+    /// Takes over the storage formats of one of its shaders.
+    void addStorageFormats(std::span<const uint32_t> spirv);
     void release();
 
     Device* mDevice = nullptr;
@@ -89,6 +99,8 @@ class Pipeline {
     VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags mStages = 0;
     size_t mBindingCount = 0;
+    std::string mName;
+    std::vector<VkFormat> mStorageFormats; ///< by binding; the rest have none
 };
 
 /// A compute pipeline that is made when it is first asked for.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/graph/dump.h"
 
+#include "engine/gpu/memory.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,36 +13,6 @@
 namespace shutter::graph {
 
 namespace {
-
-std::string nameFormat(VkFormat format) {
-    switch (format) {
-#define SHUTTER_FORMAT(name)                                                                       \
-    case VK_FORMAT_##name:                                                                         \
-        return #name;
-        SHUTTER_FORMAT(R8_UNORM)
-        SHUTTER_FORMAT(R8_UINT)
-        SHUTTER_FORMAT(R8G8_UNORM)
-        SHUTTER_FORMAT(R8G8B8A8_UNORM)
-        SHUTTER_FORMAT(R8G8B8A8_SRGB)
-        SHUTTER_FORMAT(B8G8R8A8_UNORM)
-        SHUTTER_FORMAT(B8G8R8A8_SRGB)
-        SHUTTER_FORMAT(R16_UINT)
-        SHUTTER_FORMAT(R16_SFLOAT)
-        SHUTTER_FORMAT(R16G16_SFLOAT)
-        SHUTTER_FORMAT(R16G16B16A16_SFLOAT)
-        SHUTTER_FORMAT(R32_UINT)
-        SHUTTER_FORMAT(R32_SFLOAT)
-        SHUTTER_FORMAT(R32G32_UINT)
-        SHUTTER_FORMAT(R32G32_SFLOAT)
-        SHUTTER_FORMAT(R32G32B32A32_UINT)
-        SHUTTER_FORMAT(R32G32B32A32_SFLOAT)
-        SHUTTER_FORMAT(D16_UNORM)
-        SHUTTER_FORMAT(D32_SFLOAT)
-#undef SHUTTER_FORMAT
-    default:
-        return fmt::format("format {}", static_cast<int>(format));
-    }
-}
 
 std::string nameLayout(VkImageLayout layout) {
     switch (layout) {
@@ -169,7 +141,7 @@ void dumpTransients(const Graph& graph, const Plan& plan, std::string& text) {
             record.name,
             record.imageDesc.width,
             record.imageDesc.height,
-            nameFormat(record.imageDesc.format),
+            gpu::nameFormat(record.imageDesc.format),
             image.firstPass,
             image.lastPass,
             image.bytes,

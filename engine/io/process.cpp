@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/process.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 namespace shutter::bench {
 
 namespace {

@@ -4,6 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace shutter::bench {
 

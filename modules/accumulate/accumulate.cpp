@@ -117,7 +117,7 @@ void Accumulate::declare(render::PostContext& context) {
         [this, params](const Data& data, graph::PassContext& recording) {
             gpu::BindingList bindings;
             bindings.sampled(recording.resources.view(data.color), mDevice.nearestSampler())
-                .storage(recording.resources.view(data.sum));
+                .storage(recording.resources.image(data.sum));
             recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
             vkCmdDispatch(
                 recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1

@@ -185,7 +185,7 @@ void DebugView::declare(render::PostContext& context) {
             gpu::BindingList bindings;
             for (const graph::ImageHandle source : data.sources)
                 bindings.sampled(recording.resources.view(source), mSampler);
-            bindings.storage(recording.resources.view(data.display));
+            bindings.storage(recording.resources.image(data.display));
             recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
             vkCmdDispatch(
                 recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1

@@ -64,7 +64,7 @@ void Tonemap::declare(render::PostContext& context) {
         [this, params](const Data& data, graph::PassContext& recording) {
             gpu::BindingList bindings;
             bindings.sampled(recording.resources.view(data.color), mSampler)
-                .storage(recording.resources.view(data.display));
+                .storage(recording.resources.image(data.display));
             recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
             vkCmdDispatch(
                 recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1

@@ -152,10 +152,10 @@ void Truth::declare(render::PostContext& context) {
             const graph::PassResources& resources = recording.resources;
             gpu::BindingList bindings;
             bindings.accelerationStructure(rays.tlas)
-                .storage(resources.view(data.sums.sumA))
-                .storage(resources.view(data.sums.sumB))
-                .storage(resources.view(data.mean))
-                .storage(resources.view(data.error))
+                .storage(resources.image(data.sums.sumA))
+                .storage(resources.image(data.sums.sumB))
+                .storage(resources.image(data.mean))
+                .storage(resources.image(data.error))
                 .buffer(resources.buffer(data.groups));
             recording.frame.bind(mPipeline, bindings, &params, sizeof(params), rays.textures);
             vkCmdDispatch(recording.commands, groups.x, groups.y, 1);

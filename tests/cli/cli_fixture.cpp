@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <sys/wait.h>
+#include <system_error>
 #include <unistd.h>
 #include <utility>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The lists of blocks on the device against the same rules in C++, and what the filters do with
 // them.
+#include "engine/image/half_float.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/still_pixels.h"
@@ -42,12 +43,13 @@ Image makePicture(uint32_t width, uint32_t height, float value) {
     return picture;
 }
 
+/// Half floats, so that a colour image holds the picture itself.
 Image makeNoise(uint32_t width, uint32_t height) {
     Image picture(width, height, 4);
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     for (float& value : picture.pixels)
-        value = unit(random);
+        value = image::roundToHalf(unit(random));
     return picture;
 }
 
@@ -75,8 +77,8 @@ Sorted sortBlocks(
     const auto tiles = tileMotion.add(rig.graph, rig.upload(motion), params);
     const auto blocks = sorter.add(rig.graph, tiles, params, forMask);
     sorter.addCounters(rig.graph, blocks, params);
-    const auto ones = rig.upload(makePicture(motion.width, motion.height, 1.0f));
-    const auto poison = rig.upload(makePicture(motion.width, motion.height, kPoison));
+    const auto ones = rig.uploadColor(makePicture(motion.width, motion.height, 1.0f));
+    const auto poison = rig.uploadColor(makePicture(motion.width, motion.height, kPoison));
     std::array<size_t, 3> tickets{};
     for (size_t i = 0; i < tickets.size(); ++i) {
         const auto target =
@@ -278,8 +280,9 @@ class Effect {
         test::GraphRig rig(mDevice);
         motion_blur::MotionBlurInputs inputs;
         // A transient: its usage follows from the passes.
-        inputs.color =
-            mStill.begin(rig.graph, rig.upload(color), {}, motion_blur::StillPixelsBy::WholeCopy);
+        inputs.color = mStill.begin(
+            rig.graph, rig.uploadColor(color), {}, motion_blur::StillPixelsBy::WholeCopy
+        );
         inputs.motionDepth = rig.upload(motion);
         inputs.colorIsWritable = writable;
         const auto outputs = mEffect.add(rig.graph, inputs, settings);
@@ -481,17 +484,19 @@ TEST_F(BlockLists, TheFloorAveragesTheGathersTaps) {
     const motion_blur::BlockSorter sorter(device());
     const motion_blur::TapFloor tapFloor(device());
     const auto motionDepth = rig.upload(motion);
-    const auto color = rig.upload(makePicture(40, 24, 2.0f));
+    const auto color = rig.uploadColor(makePicture(40, 24, 2.0f));
     const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
     const auto lists = sorter.add(rig.graph, tiles, params, false).lists;
     const size_t ticket =
         rig.want(tapFloor.add(rig.graph, {color, motionDepth, tiles.dominant}, lists, params));
     rig.run();
     const Image mean = rig.take(ticket);
+    // Stored as a half float, of which those of [2, 4) are 2^-9 apart: either neighbour.
+    constexpr float kStored = 0x1p-9f;
     for (uint32_t y = 0; y < 24; ++y)
         for (uint32_t x = 0; x < 40; ++x) {
-            ASSERT_NEAR(mean.at(x, y, 0), 2.0f + motion.at(x, y, 0), 1e-5f);
-            ASSERT_NEAR(mean.at(x, y, 2), 2.25f, 1e-5f);
+            ASSERT_NEAR(mean.at(x, y, 0), 2.0f + motion.at(x, y, 0), kStored);
+            ASSERT_NEAR(mean.at(x, y, 2), 2.25f, kStored);
         }
 }
 

@@ -71,7 +71,7 @@ ImageHandle addScale(
             [&device, &pipeline, params](const Data& data, graph::PassContext& context) {
                 gpu::BindingList bindings;
                 bindings.sampled(context.resources.view(data.source), device.nearestSampler())
-                    .storage(context.resources.view(data.target));
+                    .storage(context.resources.image(data.target));
                 context.frame.bind(pipeline, bindings, &params, sizeof(params));
                 vkCmdDispatch(context.commands, (kWidth + 7) / 8, (kHeight + 7) / 8, 1);
             }

@@ -6,9 +6,13 @@
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
+#include "engine/image/half_float.h"
 #include "shaders/accumulate/accumulate_shared.h"
 
 #include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace shutter::test {
 
@@ -17,19 +21,29 @@ GraphRig::GraphRig(gpu::Device& device)
     mFrame.begin();
 }
 
-graph::ImageHandle GraphRig::upload(const image::Image& picture) {
+graph::ImageHandle
+GraphRig::upload(const image::Image& picture, VkFormat format, std::span<const std::byte> texels) {
     SHUTTER_CHECK_EQ(picture.channels, 4u);
     gpu::ImageDesc desc;
     desc.width = picture.width;
     desc.height = picture.height;
-    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.format = format;
     desc.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                  VK_IMAGE_USAGE_SAMPLED_BIT;
     gpu::Image& image = mUploads.emplace_back(mDevice, "uploaded", desc);
-    gpu::uploadTexture(mDevice, image, std::as_bytes(std::span(picture.pixels)));
+    gpu::uploadTexture(mDevice, image, texels);
     return graph.importImage(
         "uploaded", image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_UNDEFINED
     );
+}
+
+graph::ImageHandle GraphRig::upload(const image::Image& picture) {
+    return upload(picture, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(picture.pixels)));
+}
+
+graph::ImageHandle GraphRig::uploadColor(const image::Image& picture) {
+    const std::vector<uint16_t> halves = image::packHalf(picture);
+    return upload(picture, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(halves)));
 }
 
 size_t GraphRig::want(graph::ImageHandle image) {

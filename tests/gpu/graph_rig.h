@@ -11,7 +11,9 @@
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
+#include <cstddef>
 #include <deque>
+#include <span>
 #include <string>
 
 namespace shutter::test {
@@ -24,6 +26,9 @@ class GraphRig {
 
     /// Four channels, as RGBA32F, ready to be sampled.
     [[nodiscard]] graph::ImageHandle upload(const image::Image& picture);
+    /// Four channels, as RGBA16F, ready to be sampled: the format of colours, which images made
+    /// like this one inherit. Values are rounded to half floats.
+    [[nodiscard]] graph::ImageHandle uploadColor(const image::Image& picture);
     /// Asks for a picture; \return the ticket for take()
     [[nodiscard]] size_t want(graph::ImageHandle image);
     /// Records, submits and waits. Fails the test where the graph does not compile.
@@ -32,6 +37,9 @@ class GraphRig {
     [[nodiscard]] image::Image take(size_t ticket) const { return mReadback.take(ticket); }
 
   private:
+    graph::ImageHandle
+    upload(const image::Image& picture, VkFormat format, std::span<const std::byte> texels);
+
     gpu::Device& mDevice;
     gpu::Frame mFrame;
     graph::TransientPool mPool;

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <imgui.h>
 #include <imgui_internal.h>
+#include <initializer_list>
 #include <random>
 
 namespace shutter {

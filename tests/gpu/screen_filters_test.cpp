@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The filters of one layer on the device: in a centred exposure each is its publication's, written
 // down once more here in half velocities; and no input makes a value that is not finite.
+#include "engine/image/half_float.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "tests/gpu/graph_rig.h"
 #include "tests/support/gpu_fixture.h"
@@ -35,7 +36,8 @@ struct Scene {
     Image motionDepth{kWidth, kHeight, 4};
 };
 
-/// Random colours; motions shorter than the dominant one, a third of them none, at two depths.
+/// Random colours that half floats hold; motions shorter than the dominant one, a third of them
+/// none, at two depths.
 Scene makeScene() {
     Scene scene;
     std::mt19937 random(7);
@@ -43,7 +45,7 @@ Scene makeScene() {
     for (uint32_t y = 0; y < kHeight; ++y)
         for (uint32_t x = 0; x < kWidth; ++x) {
             for (uint32_t c = 0; c < 3; ++c)
-                scene.color.at(x, y, c) = unit(random);
+                scene.color.at(x, y, c) = image::roundToHalf(unit(random));
             scene.color.at(x, y, 3) = 1.0f;
             const bool still = random() % 3 == 0;
             for (uint32_t c = 0; c < 2; ++c)
@@ -61,7 +63,7 @@ Image blur(
     test::GraphRig rig(device);
     motion_blur::MotionBlur effect(device, VK_NULL_HANDLE);
     motion_blur::MotionBlurInputs inputs;
-    inputs.color = rig.upload(scene.color);
+    inputs.color = rig.uploadColor(scene.color);
     inputs.motionDepth = rig.upload(scene.motionDepth);
     inputs.rasterTime = rasterTime;
     const size_t ticket = rig.want(effect.add(rig.graph, inputs, settings).color);

@@ -5,6 +5,7 @@
 #include "tests/graph/story.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
 
 namespace shutter::graph {

@@ -16,6 +16,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <vector>
 

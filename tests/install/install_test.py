@@ -77,8 +77,8 @@ def check_components(prefix, folder):
 
 def build_example(name, prefix, folder):
     folder.mkdir()
-    run([CMAKE, "-S", EXAMPLES / name, "-B", folder, "-G", os.environ["SHUTTER_GENERATOR"],
-         f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={os.environ['SHUTTER_CXX']}",
+    run([CMAKE, "-S", EXAMPLES / name, "-B", folder, f"-DCMAKE_PREFIX_PATH={prefix}",
+         f"-DCMAKE_CXX_COMPILER={os.environ['SHUTTER_CXX']}",
          f"-DCMAKE_CXX_COMPILER_LAUNCHER={os.environ['SHUTTER_LAUNCHER']}",
          f"-DCMAKE_BUILD_TYPE={os.environ['SHUTTER_CONFIG']}"], folder)
     run([CMAKE, "--build", folder, "--parallel", "2"], folder)

@@ -5,12 +5,37 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <utility>
 
 namespace shutter::layering {
 
 namespace {
 
-/// The text with every comment turned into spaces; line ends and string contents stay.
+std::string_view trimLeft(std::string_view text) {
+    const size_t start = text.find_first_not_of(" \t");
+    return start == std::string_view::npos ? std::string_view() : text.substr(start);
+}
+
+/// Whether the line is an #include; leaves what follows the word in `rest`.
+bool splitDirective(std::string_view line, std::string_view& rest) {
+    line = trimLeft(line);
+    if (!line.starts_with('#'))
+        return false;
+    line = trimLeft(line.substr(1));
+    constexpr std::string_view kWord = "include";
+    if (!line.starts_with(kWord))
+        return false;
+    rest = trimLeft(line.substr(kWord.size()));
+    return true;
+}
+
+bool isSource(const std::filesystem::path& path) {
+    static const std::set<std::string> kNoSources = {".md", ".txt", ".json", ".cmake"};
+    return !kNoSources.contains(path.extension().string());
+}
+
+} // namespace
+
 std::string blankComments(std::string_view text) {
     enum class State { Code, String, LineComment, BlockComment };
     std::string result(text);
@@ -49,31 +74,6 @@ std::string blankComments(std::string_view text) {
     }
     return result;
 }
-
-std::string_view trimLeft(std::string_view text) {
-    const size_t start = text.find_first_not_of(" \t");
-    return start == std::string_view::npos ? std::string_view() : text.substr(start);
-}
-
-/// Whether the line is an #include; leaves what follows the word in `rest`.
-bool splitDirective(std::string_view line, std::string_view& rest) {
-    line = trimLeft(line);
-    if (!line.starts_with('#'))
-        return false;
-    line = trimLeft(line.substr(1));
-    constexpr std::string_view kWord = "include";
-    if (!line.starts_with(kWord))
-        return false;
-    rest = trimLeft(line.substr(kWord.size()));
-    return true;
-}
-
-bool isSource(const std::filesystem::path& path) {
-    static const std::set<std::string> kNoSources = {".md", ".txt", ".json", ".cmake"};
-    return !kNoSources.contains(path.extension().string());
-}
-
-} // namespace
 
 std::vector<Include> readIncludes(std::string_view file, std::string_view text) {
     std::vector<Include> includes;

@@ -18,6 +18,9 @@ struct Include {
     bool quoted = false; ///< "target" rather than <target>
 };
 
+/// The text with every comment turned into spaces; line ends and string contents stay.
+[[nodiscard]] std::string blankComments(std::string_view text);
+
 /// The includes of one file's text, in order. Lines inside comments do not count; lines that the
 /// preprocessor would skip do, so that a dependence cannot hide behind an #if.
 [[nodiscard]] std::vector<Include> readIncludes(std::string_view file, std::string_view text);

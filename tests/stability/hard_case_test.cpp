@@ -4,6 +4,8 @@
 #include "tests/conformance/stability/measured.h"
 #include "tests/support/gpu_fixture.h"
 
+#include <limits>
+#include <ostream>
 #include <set>
 
 namespace shutter {

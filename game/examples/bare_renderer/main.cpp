@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 
 using namespace shutter;
@@ -103,8 +104,7 @@ int main() try {
     const vk::raii::CommandBuffers commands(gpu.device, {*pool, {}, kFrames});
     std::vector<vk::raii::Fence> fences;
     using enum vk::ImageUsageFlagBits;
-    const Image color(gpu, kHalf, eSampled | eTransferSrc);
-    const Image motion(gpu, kFull, eSampled);
+    const Image color(gpu, kHalf, eSampled | eTransferSrc), motion(gpu, kFull, eSampled);
     const Image output(gpu, kHalf, eStorage | eTransferDst | eTransferSrc);
     constexpr auto kTo = vk::BufferUsageFlagBits::eTransferDst;
     vk::raii::Buffer copies(gpu.device, {{}, 2 * kFrames * kBytes, kTo});

@@ -29,7 +29,7 @@ class Vignette : public shutter::render::PostEffect {
         const auto run = [this](const ImageHandle& color, PassContext& pass) {
             const auto& [width, height, format, usage, levels] = pass.resources.image(color).desc();
             shutter::gpu::BindingList bindings;
-            bindings.storage(pass.resources.view(color));
+            bindings.storage(pass.resources.image(color));
             pass.frame.bind(mPipeline, bindings, &mLoss, sizeof(mLoss));
             vkCmdDispatch(pass.commands, (width + 7) / 8, (height + 7) / 8, 1);
         };

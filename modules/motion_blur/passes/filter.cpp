@@ -45,7 +45,7 @@ bindImages(const FilterData& data, const graph::PassResources& resources, VkSamp
     gpu::BindingList bindings;
     for (const graph::ImageHandle image : data.inputs)
         bindings.sampled(resources.view(image), sampler);
-    bindings.storage(resources.view(data.target));
+    bindings.storage(resources.image(data.target));
     return bindings;
 }
 

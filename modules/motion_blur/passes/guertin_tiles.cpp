@@ -44,8 +44,8 @@ GuertinTilesOutputs GuertinTiles::add(
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
             bindings.sampled(context.resources.view(data.tiles), mSampler)
-                .storage(context.resources.view(data.outputs.dominant))
-                .storage(context.resources.view(data.outputs.variance));
+                .storage(context.resources.image(data.outputs.dominant))
+                .storage(context.resources.image(data.outputs.variance));
             dispatchPixels(context, mPipeline.get(), bindings, params, params.tileCount);
         }
     );

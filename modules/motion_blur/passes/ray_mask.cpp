@@ -156,7 +156,7 @@ graph::ImageHandle RayMask::addEdgeView(
             gpu::BindingList bindings;
             for (graph::ImageHandle image : data.in)
                 bindings.sampled(context.resources.view(image), mSampler);
-            bindings.storage(context.resources.view(data.edge));
+            bindings.storage(context.resources.image(data.edge));
             dispatchPixels(context, pipeline.get(), bindings, params, params.sizePx);
         }
     );
@@ -193,8 +193,8 @@ RayMask::Edges RayMask::addEdges(
             gpu::BindingList bindings;
             for (graph::ImageHandle image : data.in)
                 bindings.sampled(resources.view(image), mSampler);
-            bindings.storage(resources.view(data.out.edges))
-                .storage(resources.view(data.out.blocks))
+            bindings.storage(resources.image(data.out.edges))
+                .storage(resources.image(data.out.blocks))
                 .buffer(resources.buffer(data.candidates.blocks));
             dispatchList(
                 context, mEdge.get(), bindings, params, data.candidates.arguments, shader::kCandidateList
@@ -243,7 +243,7 @@ RayMaskOutputs RayMask::add(
             bindings.sampled(resources.view(data.motionDepth), mSampler)
                 .sampled(resources.view(data.edges.edges), mSampler)
                 .sampled(resources.view(data.edges.blocks), mSampler)
-                .storage(resources.view(data.out.mask))
+                .storage(resources.image(data.out.mask))
                 .buffer(resources.buffer(data.out.blocks.candidates.blocks))
                 .buffer(resources.buffer(data.out.list))
                 .buffer(resources.buffer(data.out.arguments))

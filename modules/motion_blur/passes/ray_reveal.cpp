@@ -205,9 +205,9 @@ RayRevealOutputs RayReveal::add(
                 .sampled(resources.view(data.in.motionDepth), mSampler)
                 .sampled(resources.view(data.in.entityId), mSampler)
                 .sampled(resources.view(data.in.mask), mSampler)
-                .storage(resources.view(data.out.color))
-                .storage(resources.view(data.out.motionDepth))
-                .storage(resources.view(data.out.entityId))
+                .storage(resources.image(data.out.color))
+                .storage(resources.image(data.out.motionDepth))
+                .storage(resources.image(data.out.entityId))
                 .buffer(resources.buffer(data.list));
             if (data.in.rays.tlas != VK_NULL_HANDLE)
                 bindings.accelerationStructure(data.in.rays.tlas);

@@ -76,7 +76,7 @@ graph::ImageHandle RevealedLayerPasses::addDominant(
                     gpu::BindingList bindings;
                     for (graph::ImageHandle in : data.in)
                         bindings.sampled(context.resources.view(in), mSampler);
-                    bindings.storage(context.resources.view(data.out))
+                    bindings.storage(context.resources.image(data.out))
                         .buffer(context.resources.buffer(data.tiles));
                     dispatchList(context, pipeline.get(), bindings, params, data.arguments, list);
                 }
@@ -134,8 +134,8 @@ RevealedViews RevealedLayerPasses::addViews(
             gpu::BindingList bindings;
             for (graph::ImageHandle in : data.in)
                 bindings.sampled(context.resources.view(in), mSampler);
-            bindings.storage(context.resources.view(data.out.color))
-                .storage(context.resources.view(data.out.motionDepth));
+            bindings.storage(context.resources.image(data.out.color))
+                .storage(context.resources.image(data.out.motionDepth));
             dispatchPixels(context, mView.get(), bindings, params, params.sizePx);
         }
     );

@@ -47,8 +47,8 @@ StochasticRaysOutputs StochasticRays::add(
         [this, rays, params](const StochasticRaysOutputs& data, graph::PassContext& context) {
             gpu::BindingList bindings;
             bindings.accelerationStructure(rays.tlas)
-                .storage(context.resources.view(data.color))
-                .storage(context.resources.view(data.motionDepth));
+                .storage(context.resources.image(data.color))
+                .storage(context.resources.image(data.motionDepth));
             dispatchPixels(context, mPipeline.get(), bindings, params, params.sizePx, rays.textures);
         }
     );

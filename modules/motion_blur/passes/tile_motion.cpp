@@ -62,8 +62,8 @@ TileMaxOutputs TileMotion::addTileMax(
         [this, params](const Data& data, graph::PassContext& context) {
             gpu::BindingList bindings;
             bindings.sampled(context.resources.view(data.motionDepth), mSampler)
-                .storage(context.resources.view(data.out.tiles))
-                .storage(context.resources.view(data.out.ranges));
+                .storage(context.resources.image(data.out.tiles))
+                .storage(context.resources.image(data.out.ranges));
             context.frame.bind(mTileMax.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(context.commands, params.tileCount.x, params.tileCount.y, 1);
         }
@@ -102,8 +102,8 @@ TileMotionOutputs TileMotion::add(
             gpu::BindingList bindings;
             bindings.sampled(context.resources.view(data.in.tiles), mSampler)
                 .sampled(context.resources.view(data.in.ranges), mSampler)
-                .storage(context.resources.view(data.out.dominant))
-                .storage(context.resources.view(data.out.tileClass));
+                .storage(context.resources.image(data.out.dominant))
+                .storage(context.resources.image(data.out.tileClass));
             dispatchPixels(context, mNeighbourMax.get(), bindings, params, params.tileCount);
         }
     );

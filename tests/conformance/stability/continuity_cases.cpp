@@ -19,6 +19,8 @@ constexpr uint32_t kHeight = 48;
 constexpr float kStepPx = 1e-4f;
 /// Steepest slope of the picture, brightness a pixel.
 constexpr double kSlope = 1.0 / 32.0;
+/// Half floats of [1/2, 1) are 2^-11 apart, smaller ones less; one is rounded to either neighbour.
+constexpr double kStored = 0x1p-11;
 
 /// A smooth picture, so that a tap that moves on to the next texel changes little; a slab in front
 /// that moves by `frontPx` to the right before a wall that moves by `backPx` down.
@@ -71,8 +73,9 @@ core::Result<Worst> compareSteps(
 /// Largest change of a filter whose taps are nearest texels. Weights change by about the step over
 /// a tenth of the motion, 1e-4 of them; what is more is the decision that flips, which texel a tap
 /// takes: of the taps, at most two of a pixel are within the step of a border at a time, and each
-/// has less than a tenth of the weight. Each then moves the mean by its share of the slope.
-constexpr double kBound = 0.2 * kSlope;
+/// has less than a tenth of the weight. Each then moves the mean by its share of the slope. Both
+/// means are stored as half floats, off by less than kStored each.
+constexpr double kBound = 0.2 * kSlope + 2.0 * kStored;
 
 core::Result<Measurements> measureSmall(gpu::Device& device) {
     Measurements found;
@@ -94,9 +97,10 @@ core::Result<Measurements> measureThreshold(gpu::Device& device) {
         auto worst = compareSteps(device, *method, {{0.47886f, 0.0f}, {0.0f, 0.49022f}});
         if (!worst)
             return worst.error();
-        // The taps are in the pixel's own texel then: what is left is the rounding of their mean.
+        // The taps are in the pixel's own texel then, whose colour is a half float: what is left is
+        // the rounding of their mean, which may store that colour's neighbour.
         found.push_back(describe(
-            worst.value(), std::string(method->name) + " at half a pixel", "brightness", 1e-6
+            worst.value(), std::string(method->name) + " at half a pixel", "brightness", kStored
         ));
     }
     return found;

@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
+#include "engine/image/half_float.h"
 #include "game/shot/methods.h"
 
 #include <optional>
@@ -39,6 +40,12 @@ graph::ImageHandle GBufferRig::upload(const Image& picture) {
     return upload(picture, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(picture.pixels)));
 }
 
+graph::ImageHandle GBufferRig::uploadColor(const Image& picture) {
+    SHUTTER_CHECK_EQ(picture.channels, 4u);
+    const std::vector<uint16_t> halves = image::packHalf(picture);
+    return upload(picture, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(halves)));
+}
+
 graph::ImageHandle GBufferRig::uploadIds(const Image& ids) {
     SHUTTER_CHECK_EQ(ids.channels, 1u);
     std::vector<uint32_t> whole;
@@ -62,9 +69,9 @@ core::Status GBufferRig::run() {
 }
 
 void GBuffer::setColor(uint32_t x, uint32_t y, float r, float g, float b) {
-    color.at(x, y, 0) = r;
-    color.at(x, y, 1) = g;
-    color.at(x, y, 2) = b;
+    color.at(x, y, 0) = image::roundToHalf(r);
+    color.at(x, y, 1) = image::roundToHalf(g);
+    color.at(x, y, 2) = image::roundToHalf(b);
     color.at(x, y, 3) = 1.0f;
 }
 
@@ -87,7 +94,7 @@ core::Result<Blurred> FilterRig::blur(
 ) {
     GBufferRig rig(mDevice);
     motion_blur::MotionBlurInputs inputs;
-    inputs.color = rig.upload(gbuffer.color);
+    inputs.color = rig.uploadColor(gbuffer.color);
     inputs.motionDepth = rig.upload(gbuffer.motionDepth);
     inputs.rasterTime = rasterTime;
     const motion_blur::MotionBlurOutputs outputs = mEffect.add(rig.graph, inputs, settings);

@@ -25,6 +25,9 @@ class GBufferRig {
 
     /// Four channels, as RGBA32F.
     [[nodiscard]] graph::ImageHandle upload(const image::Image& picture);
+    /// Four channels, as RGBA16F: the format of colours, which images made like this one inherit.
+    /// Values are rounded to half floats.
+    [[nodiscard]] graph::ImageHandle uploadColor(const image::Image& picture);
     /// One channel of whole numbers, as R32_UINT.
     [[nodiscard]] graph::ImageHandle uploadIds(const image::Image& ids);
     /// Asks for a picture; \return the ticket for take()
@@ -53,6 +56,7 @@ struct GBuffer {
     GBuffer(uint32_t width, uint32_t height)
         : color(width, height, 4), motionDepth(width, height, 4) {}
 
+    /// Rounds to half floats, as the image that is filtered holds them.
     void setColor(uint32_t x, uint32_t y, float r, float g, float b);
     void setMotion(uint32_t x, uint32_t y, float right, float down, float depth);
 };

@@ -227,7 +227,10 @@ core::Result<Measurements> measureGather(gpu::Device& device) {
                 for (int c = 0; c < 3 && reader.isDecided(); ++c) {
                     const double found =
                         blurred.value().color.at(uint32_t(x), uint32_t(y), uint32_t(c));
-                    (jitter > 0.0f ? noisy : even).add(std::abs(found - wanted[c]) * 0x1p24);
+                    // Stored as a half float, rounded to either neighbour (Vulkan 1.3, "Floating-
+                    // Point Format Conversions"): less than one unit in the last place.
+                    const double beyond = std::abs(found - wanted[c]) - halfUlp(wanted[c]);
+                    (jitter > 0.0f ? noisy : even).add(std::max(beyond, 0.0) * 0x1p24);
                 }
             }
     }
@@ -236,11 +239,10 @@ core::Result<Measurements> measureGather(gpu::Device& device) {
         // Two products and a root where a motion is cut to a tile's length, else none.
         describe(tileMotion, "tile max and neighbour max", "2^-24", 4.0),
         // Colours are below 1. A weight is off by 60 roundings at most, a few of them of one sign.
-        describe(even, "gather, evenly spaced taps", "2^-24", 64.0),
+        describe(even, "gather, evenly spaced taps, beyond a half ulp", "2^-24", 64.0),
         // Noise is the fraction of 53 times a fraction of up to 72 / 15: each tap is off by some
-        // 300
-        // roundings of the tap's distance, and of a weight's slope over it.
-        describe(noisy, "gather, taps moved by noise", "2^-24", 4096.0),
+        // 300 roundings of the tap's distance, and of a weight's slope over it.
+        describe(noisy, "gather, taps moved by noise, beyond a half ulp", "2^-24", 4096.0),
         {"pixels whose taps hang on rounding",
          100.0 * double(undecided) / pixels,
          15.0,

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <system_error>
 
 namespace shutter::stability {
 

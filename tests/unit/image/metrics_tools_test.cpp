@@ -13,6 +13,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 
 using namespace shutter::image;
