@@ -206,7 +206,7 @@ core::SettingRows<BlurBudget> listBudgetRows() {
          &BlurBudget::milliseconds,
          "ms",
          {.lowest = 0,
-          .highest = 1e6,
+          .highest = 1e9,
           .isLowestValid = false,
           .isUnlimited = true,
           .isLogarithmic = true,

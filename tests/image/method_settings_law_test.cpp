@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace shutter {
 namespace {
@@ -42,6 +44,16 @@ test::SceneBuilder makeScene() {
         {.position = {0.3, -0.2, -3.02}, .velocity = {-0.7, 0.9, 0.4}, .angularVelocity = {0, 1, 3}}
     );
     scene.add(test::makeQuad(0.8, 0.3, waves), {.position = {0.6, -0.6, -2}});
+    // One entity of more layers than a stepping ray passes.
+    std::vector<scene::Primitive> layers;
+    for (int i = 0; i < 16; ++i)
+        layers.push_back(test::transformed(
+            test::makeQuad(0.5, 0.5, waves),
+            glm::translate(math::dmat4(1.0), dvec3(0.0, 0.0, -0.01 * i))
+        ));
+    scene.add(
+        scene.addMesh(std::move(layers)), {.position = {-0.4, 0.8, -3}, .velocity = {0.9, -0.3, 0}}
+    );
     return scene;
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ template <class T> [[nodiscard]] std::string wordOf(const T& value) {
 template <class Define> [[nodiscard]] core::Status parseWords(Words words, const Define& define) {
     CLI::App app;
     define(app);
+    // An empty value has to be a word of its own, or the next word is taken for it.
+    for (size_t i = 0; i < words.size(); ++i)
+        if (words[i].size() > 2 && words[i].back() == '=') {
+            words[i].pop_back();
+            words.insert(words.begin() + ptrdiff_t(i) + 1, std::string());
+        }
     std::reverse(words.begin(), words.end()); // as CLI11 takes them
     try {
         app.parse(words);
