@@ -4,9 +4,9 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -2,9 +2,9 @@
 // Frames that the CPU submits before the GPU is done with those before: the same pictures.
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <array>
 #include <vector>

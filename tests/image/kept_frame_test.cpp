@@ -3,10 +3,10 @@
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <algorithm>
 #include <array>

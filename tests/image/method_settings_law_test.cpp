@@ -4,9 +4,9 @@
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/motion_blur/setting_rows.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 #include "tests/support/stage.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "engine/scene/motion.h"
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/methods.h"
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <cstdint>
 #include <functional>

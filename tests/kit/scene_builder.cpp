@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <cmath>
 #include <numbers>
