@@ -158,7 +158,7 @@ class KeepEverything : public render::PostEffect {
 TEST_F(GraphExecute, ARealFrameIsTheSameWithAndWithoutSharedMemory) {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(6, 5, waves), {.position = {0, 0, -5}});
     scene.add(
         test::makeBox({0.8, 0.8, 0.8}, scene.addColor({1, 0.5f, 0})),

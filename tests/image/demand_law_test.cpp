@@ -33,7 +33,7 @@ bool hasPass(const render::FrameResult& frame, const std::string& part) {
 SceneBuilder makeCrossing() {
     SceneBuilder scene;
     scene.setPerspective(0.9);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(9.0, 9.0, waves), {.position = {0, 0, -4}});
     scene.add(
         test::makeSphere(0.5, scene.addColor({1.0f, 0.4f, 0.1f})),
@@ -46,7 +46,7 @@ SceneBuilder makeCrossing() {
 SceneBuilder makePan(const dvec3& velocity) {
     SceneBuilder scene;
     scene.setPixelView(120);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(900.0, 900.0, waves), {.position = {0, 0, -10}, .velocity = velocity});
     return scene;
 }

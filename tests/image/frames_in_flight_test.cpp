@@ -25,7 +25,7 @@ struct Scene {
     Scene() {
         builder.setPerspective(0.9);
         builder.moveCamera({.velocity = {0.1, 0, 0}});
-        const auto waves = builder.addTextured(builder.addWaves());
+        const auto waves = builder.addTextured(builder.addWaveTexture());
         builder.add(test::makeQuad(9, 7, waves), {.position = {0, 0, -6}});
         builder.add(
             test::makeQuad(0.7, 0.7, builder.addColor({1, 0, 0})),

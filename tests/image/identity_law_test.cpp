@@ -21,7 +21,7 @@ SceneBuilder makeScene(const math::dvec3& velocity) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene::Material lit;
-    lit.baseColor.texture = scene.addWaves();
+    lit.baseColor.texture = scene.addWaveTexture();
     lit.roughnessFactor = 0.4f;
     const auto material = scene.addMaterial(lit);
     scene.add(test::makeQuad(8, 6, material), {.position = {0, 0, -6}});
@@ -95,7 +95,7 @@ TEST_F(IdentityLaw, PixelsOutOfReachOfEveryMoverKeepTheirBits) {
     // four tiles on the right are out of reach.
     SceneBuilder scene;
     scene.setPixelView(64);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(96, 64, waves), {.position = {0, 0, -20}});
     scene.add(
         test::makeQuad(6, 6, scene.addColor({1, 0, 0})),
