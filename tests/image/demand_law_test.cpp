@@ -131,7 +131,9 @@ TEST_F(DemandLaw, WithoutRaysHybridIsSkippedBeforeTheSkyToo) {
         test::makeSphere(0.5, scene.addColor({1.0f, 0.4f, 0.1f})),
         {.position = {0, 0, -2}, .velocity = {0.5, 0.2, 0}}
     );
-    const auto frame = test::renderOnce(*lower.value(), scene, hybridShot());
+    MotionBlurSettings settings;
+    settings.method = &motion_blur::getMethod("hybrid");
+    const auto frame = Loop(*lower.value(), scene, settings).draw(1.0);
     EXPECT_NE(test::describeMotionBlur(frame).find("needs rays"), std::string::npos);
     EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
 }
