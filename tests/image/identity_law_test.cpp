@@ -47,32 +47,30 @@ void expectSkipped(const render::FrameResult& result, const std::string& reason)
     EXPECT_FALSE(hasBlurPass(result));
 }
 
-TEST_F(IdentityLaw, ExposureZeroGivesTheSharpPictureBitForBit) {
-    const SceneBuilder scene = makeScene({2.0, 0.5, 0.0});
-    Stage stage(device(), scene);
-    const Shot sharp{.exposureSeconds = 0.0, .ambient = math::vec3(0.2f)};
-    const auto expected = stage.render(sharp);
-    for (std::string_view method : test::listBlurMethods(device())) {
-        Shot shot = sharp;
+void expectTheSharpPicture(
+    gpu::Device& device, const SceneBuilder& scene, Shot shot, const std::string& reason
+) {
+    Stage stage(device, scene);
+    shot.ambient = math::vec3(0.2f);
+    const auto expected = stage.render(shot);
+    for (std::string_view method : test::listBlurMethods(device)) {
         shot.method = method;
         const auto result = stage.render(shot);
         EXPECT_TRUE(test::sameBits(result.color, expected.color)) << method;
-        expectSkipped(result, "exposure is 0");
+        expectSkipped(result, reason);
     }
 }
 
+TEST_F(IdentityLaw, ExposureZeroGivesTheSharpPictureBitForBit) {
+    expectTheSharpPicture(
+        device(), makeScene({2.0, 0.5, 0.0}), {.exposureSeconds = 0.0}, "exposure is 0"
+    );
+}
+
 TEST_F(IdentityLaw, WithoutMotionThePictureIsTheSharpOneBitForBit) {
-    const SceneBuilder scene = makeScene(math::dvec3(0.0));
-    Stage stage(device(), scene);
-    const Shot sharp{.ambient = math::vec3(0.2f)};
-    const auto expected = stage.render(sharp);
-    for (std::string_view method : test::listBlurMethods(device())) {
-        Shot shot = sharp;
-        shot.method = method;
-        const auto result = stage.render(shot);
-        EXPECT_TRUE(test::sameBits(result.color, expected.color)) << method;
-        expectSkipped(result, "nothing in the picture moves");
-    }
+    expectTheSharpPicture(
+        device(), makeScene(math::dvec3(0.0)), {}, "nothing in the picture moves"
+    );
 }
 
 TEST_F(IdentityLaw, AMoverThatIsThereRunsTheEffectAndChangesThePicture) {
