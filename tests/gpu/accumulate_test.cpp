@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/accumulate/accumulate.h"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <random>
@@ -30,7 +30,7 @@ addAll(gpu::Device& device, accumulate::Accumulate& sum, const std::vector<image
         sum.setInstant(i, count);
         sum.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);
-        rig.run();
+        run(rig);
         mean = rig.take(ticket);
     }
     return mean;

@@ -6,7 +6,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "shaders/accumulate/accumulate_shared.h"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <string>

@@ -7,7 +7,7 @@
 #include "modules/motion_blur/passes/still_pixels.h"
 #include "modules/motion_blur/passes/tap_floor.h"
 #include "shaders/motion_blur/block_class.glsl"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
@@ -90,7 +90,7 @@ Sorted sortBlocks(
     const size_t tileTicket = rig.want(tiles.tiles);
     const size_t dominantTicket = rig.want(tiles.dominant);
     const size_t classTicket = rig.want(tiles.tileClass);
-    rig.run();
+    run(rig);
     return {
         rig.take(tileTicket),
         rig.take(dominantTicket),
@@ -287,7 +287,7 @@ class Effect {
         inputs.colorIsWritable = writable;
         const auto outputs = mEffect.add(rig.graph, inputs, settings);
         const size_t ticket = rig.want(outputs.color);
-        const graph::Plan plan = rig.run();
+        const graph::Plan plan = run(rig);
         hasWholeCopy = false;
         for (const auto& pass : plan.passes)
             hasWholeCopy =
@@ -489,7 +489,7 @@ TEST_F(BlockLists, TheFloorAveragesTheGathersTaps) {
     const auto lists = sorter.add(rig.graph, tiles, params, false).lists;
     const size_t ticket =
         rig.want(tapFloor.add(rig.graph, {color, motionDepth, tiles.dominant}, lists, params));
-    rig.run();
+    run(rig);
     const Image mean = rig.take(ticket);
     // Stored as a half float, of which those of [2, 4) are 2^-9 apart: either neighbour.
     constexpr float kStored = 0x1p-9f;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Pictures on the way of a progressive method, as a benchmark takes them.
 #include "game/shot/picture_drawer.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <map>
 

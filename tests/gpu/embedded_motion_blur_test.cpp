@@ -4,9 +4,9 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -229,8 +229,8 @@ class HostOfTheGBuffer : public render::PostEffect {
 /// Two movers that cross before a wall, one of them near.
 void build(test::SceneBuilder& scene) {
     scene.setPerspective(1.0);
-    const auto wall = scene.addTextured(scene.addWaves());
-    const auto front = scene.addTextured(scene.addWaves(32));
+    const auto wall = scene.addTextured(scene.addWaveTexture());
+    const auto front = scene.addTextured(scene.addWaveTexture(32));
     scene.add(test::makeQuad(12.0, 8.0, wall), {.position = dvec3(0.0, 0.0, -6.0)});
     scene.add(
         test::makeQuad(1.2, 1.2, front),

@@ -3,7 +3,7 @@
 // memory do not disturb one another.
 #include "engine/graph/execute.h"
 #include "shaders/accumulate/accumulate_shared.h"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -97,7 +97,7 @@ TEST_F(GraphExecute, AClearedImageIsCopiedByComputeAndReadBack) {
     const auto copied = addScale(rig.graph, device(), scale, cleared, 2.0f);
     const size_t before = rig.want(cleared);
     const size_t after = rig.want(copied);
-    rig.run();
+    run(rig);
     expectConstant(rig.take(before), {0.5f, 2.0f, 0.25f});
     expectConstant(rig.take(after), {1.0f, 4.0f, 0.5f});
 }
@@ -109,7 +109,7 @@ TEST_F(GraphExecute, APassThatNobodyNeedsDoesNotRun) {
         addClear(rig.graph, VK_FORMAT_R32G32B32A32_SFLOAT, {{1.0f, 1.0f, 1.0f, 1.0f}});
     (void)addScale(rig.graph, device(), scale, cleared, 2.0f);
     (void)rig.want(cleared);
-    const graph::Plan plan = rig.run();
+    const graph::Plan plan = run(rig);
     EXPECT_EQ(plan.passes.size(), 2u);
     ASSERT_EQ(plan.culled.size(), 1u);
     EXPECT_EQ(plan.culled[0].name, "scale");
@@ -124,7 +124,7 @@ TEST_F(GraphExecute, AChainWhoseImagesShareMemoryKeepsItsValues) {
     for (int i = 0; i < 8; ++i)
         last = addScale(rig.graph, device(), scale, last, 2.0f);
     const size_t ticket = rig.want(last);
-    const graph::Plan plan = rig.run();
+    const graph::Plan plan = run(rig);
     expectConstant(rig.take(ticket), {256.0f, 768.0f, 1280.0f});
     // Two at a time are alive.
     EXPECT_LE(plan.blockBytes, plan.unaliasedBytes / 3);
@@ -158,7 +158,7 @@ class KeepEverything : public render::PostEffect {
 TEST_F(GraphExecute, ARealFrameIsTheSameWithAndWithoutSharedMemory) {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(6, 5, waves), {.position = {0, 0, -5}});
     scene.add(
         test::makeBox({0.8, 0.8, 0.8}, scene.addColor({1, 0.5f, 0})),

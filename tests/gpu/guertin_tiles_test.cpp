@@ -3,7 +3,7 @@
 #include "modules/motion_blur/passes/guertin_tiles.h"
 #include "modules/motion_blur/settings.h"
 #include "shaders/motion_blur/guertin2014.glsl"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ Tiles runPass(gpu::Device& device, const Image& motion, uint32_t neighbourhoodTi
     const auto outputs = pass.add(rig.graph, rig.upload(motion), params);
     const size_t dominant = rig.want(outputs.dominant);
     const size_t variance = rig.want(outputs.variance);
-    rig.run();
+    run(rig);
     return {rig.take(dominant), rig.take(variance)};
 }
 

@@ -106,7 +106,7 @@ class RayPipelineTier : public test::GpuTest {
 test::SceneBuilder makeScene() {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(7, 5, waves), {.position = {0, 0, -5}});
     scene.add(
         test::makeBox({1.0, 1.0, 0.4}, waves), {.position = {0.6, 0, -4}, .scale = {-1.2, 1, 1}}
@@ -115,7 +115,7 @@ test::SceneBuilder makeScene() {
     leaves.unlit = true;
     leaves.alphaMode = scene::AlphaMode::Mask;
     leaves.doubleSided = true;
-    leaves.baseColor.texture = scene.addWaves(64, true);
+    leaves.baseColor.texture = scene.addWaveTexture(64, true);
     scene.add(test::makeQuad(2, 2, scene.addMaterial(leaves)), {.position = {-0.6, 0.1, -3}});
     const auto pink = scene.addColor({1, 0, 0.9f});
     scene.world.assets.materials.back().doubleSided = true;
@@ -188,7 +188,7 @@ TEST_F(RayPipelineTier, AnEmptyMaskLaunchesNothing) {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.add(
-        test::makeQuad(40, 40, scene.addTextured(scene.addWaves())),
+        test::makeQuad(40, 40, scene.addTextured(scene.addWaveTexture())),
         {.position = {0, 0, -4}, .velocity = {0.5, 0, 0}}
     );
     expectSamePictures(scene, {}, 0);

@@ -3,7 +3,7 @@
 #include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/settings.h"
 #include "shaders/motion_blur/weights.glsl"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
@@ -38,7 +38,7 @@ Tiles runPasses(gpu::Device& device, const Image& motion, uint32_t neighbourhood
     const auto outputs = passes.add(rig.graph, rig.upload(motion), params);
     const size_t tiles = rig.want(outputs.tiles);
     const size_t dominant = rig.want(outputs.dominant);
-    rig.run();
+    run(rig);
     return {rig.take(tiles), rig.take(dominant)};
 }
 

@@ -2,7 +2,7 @@
 // The tone mapper on the device against the same functions in C++.
 #include "modules/tonemap/tonemap.h"
 #include "shaders/tonemap/tonemap.glsl"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <cmath>
@@ -32,7 +32,7 @@ runTonemap(gpu::Device& device, const image::Image& colors, const tonemap::Tonem
     tonemap::Tonemap tonemap(device, how);
     tonemap.declare(effect.context);
     const size_t ticket = rig.want(effect.context.display);
-    rig.run();
+    run(rig);
     return rig.take(ticket);
 }
 

@@ -3,7 +3,7 @@
 #include "engine/app/ui.h"
 #include "engine/app/window_output.h"
 #include "modules/tonemap/tonemap.h"
-#include "tests/gpu/graph_rig.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 
@@ -46,7 +46,7 @@ class UiOnWindow : public test::GpuTest {
         window.setTarget({.size = {kWidth, kHeight}, .overlay = &overlay});
         window.declare(effect.context);
         const size_t ticket = rig.want(effect.context.display);
-        rig.run();
+        run(rig);
         return rig.take(ticket);
     }
 

@@ -45,7 +45,9 @@ TEST_F(AccumulateLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
 SceneBuilder makeScene() {
     SceneBuilder scene;
     scene.setPerspective(0.9);
-    scene.add(test::makeQuad(6, 5, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(6, 5, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     scene.add(
         test::makeBox({0.8, 0.8, 0.8}, scene.addColor({0.9f, 0.2f, 0.1f})),
         {.position = {0.1, 0, -2.5},

@@ -65,7 +65,8 @@ struct Scene {
     Scene() {
         builder.setPerspective(0.9);
         builder.add(
-            test::makeQuad(9, 7, builder.addTextured(builder.addWaves())), {.position = {0, 0, -5}}
+            test::makeQuad(9, 7, builder.addTextured(builder.addWaveTexture())),
+            {.position = {0, 0, -5}}
         );
         mover = builder.add(
             test::makeQuad(1.4, 1.4, builder.addColor({0.9f, 0.2f, 0.1f})),
@@ -117,7 +118,7 @@ TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharp) {
     Scene scene;
     // A texture shows whatever is off its place.
     const ecs::Entity excluded = scene.builder.add(
-        test::makeQuad(1.2, 1.2, scene.builder.addTextured(scene.builder.addWaves())),
+        test::makeQuad(1.2, 1.2, scene.builder.addTextured(scene.builder.addWaveTexture())),
         {.position = {-0.1, 0.1, -2}, .velocity = {0.8, 0.1, 0.1}, .angularVelocity = {0, 0.5, 2}}
     );
     scene.builder.world.registry.add(excluded, scene::MotionBlur{.exclude = true});

@@ -33,7 +33,9 @@ class DeformFrame : public test::GpuTest {
 SceneBuilder makeScene(bool bends) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
-    scene.add(test::makeQuad(7, 6, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(7, 6, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     scene.add(
         test::makeQuad(0.5, 0.5, scene.addColor({1, 0, 0})),
         {.position = {0, 0, -2}, .velocity = {0.4, 0, 0}}
@@ -43,7 +45,7 @@ SceneBuilder makeScene(bool bends) {
     const std::array joints{
         Placement{.position = {0.1, -0.8, -3}},
         Placement{.position = {0, 0.8, 0}, .angularVelocity = {0.4, 0, 0.9}}};
-    const scene::AssetIndex material = scene.addTextured(scene.addWaves(), true);
+    const scene::AssetIndex material = scene.addTextured(scene.addWaveTexture(), true);
     test::addSkinned(scene, test::makeStrip(0.9, 1.6, 12, material), joints);
     return scene;
 }

@@ -42,7 +42,9 @@ SceneBuilder makeRoom() {
     SceneBuilder scene;
     scene.setPerspective(kYFov);
     scene.addSun(glm::normalize(dvec3(-0.3, -0.6, -0.8)), 2.0f);
-    scene.add(test::makeQuad(8, 6, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(8, 6, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     return scene;
 }
 
@@ -243,7 +245,7 @@ void expectMotion(
 }
 
 scene::AssetIndex addTwoSided(SceneBuilder& scene) {
-    return scene.addTextured(scene.addWaves(), true);
+    return scene.addTextured(scene.addWaveTexture(), true);
 }
 
 TEST_F(DeformLaw, ABendingStripMovesByTheClosedForm) {

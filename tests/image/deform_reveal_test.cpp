@@ -90,7 +90,7 @@ void addDeformedWall(SceneBuilder& scene, bool doubleSided, const dvec3& scale) 
     const std::array joints{
         Placement{.position = {0, -3, -4}, .scale = scale, .angularVelocity = {0, 0.1, 0}},
         Placement{.position = {0, 3, 0}, .angularVelocity = {0.2, 0.1, 0.3}}};
-    const scene::AssetIndex material = scene.addTextured(scene.addWaves(), doubleSided);
+    const scene::AssetIndex material = scene.addTextured(scene.addWaveTexture(), doubleSided);
     test::addSkinned(scene, test::makeStrip(7.0, 6.0, 10, material), joints);
 }
 
@@ -117,7 +117,7 @@ TEST_F(DeformReveal, AMorphingWallIsRevealedAsRasterDrawsIt) {
         device(),
         [](SceneBuilder& scene) {
             scene::Primitive wall =
-                test::makeStrip(7.0, 6.0, 10, scene.addTextured(scene.addWaves()));
+                test::makeStrip(7.0, 6.0, 10, scene.addTextured(scene.addWaveTexture()));
             scene::MorphTarget& target = wall.morphTargets.emplace_back();
             for (const math::vec3& position : wall.positions)
                 target.positions.push_back({0.3f * position.y, 0.0f, 0.2f * position.x});
@@ -134,7 +134,8 @@ TEST_F(DeformReveal, BehindADeformedMeshTheWallIsRevealed) {
         device(),
         [](SceneBuilder& scene) {
             scene.add(
-                test::makeQuad(7, 6, scene.addTextured(scene.addWaves())), {.position = {0, 0, -4}}
+                test::makeQuad(7, 6, scene.addTextured(scene.addWaveTexture())),
+                {.position = {0, 0, -4}}
             );
         },
         [](SceneBuilder& scene) {

@@ -2,9 +2,9 @@
 // Frames that the CPU submits before the GPU is done with those before: the same pictures.
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <array>
 #include <vector>
@@ -25,7 +25,7 @@ struct Scene {
     Scene() {
         builder.setPerspective(0.9);
         builder.moveCamera({.velocity = {0.1, 0, 0}});
-        const auto waves = builder.addTextured(builder.addWaves());
+        const auto waves = builder.addTextured(builder.addWaveTexture());
         builder.add(test::makeQuad(9, 7, waves), {.position = {0, 0, -6}});
         builder.add(
             test::makeQuad(0.7, 0.7, builder.addColor({1, 0, 0})),

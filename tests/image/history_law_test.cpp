@@ -55,7 +55,8 @@ struct Scene {
     explicit Scene(const math::dvec3& cameraTurn) {
         builder.setPerspective(0.9);
         builder.add(
-            test::makeQuad(9, 7, builder.addTextured(builder.addWaves())), {.position = {0, 0, -5}}
+            test::makeQuad(9, 7, builder.addTextured(builder.addWaveTexture())),
+            {.position = {0, 0, -5}}
         );
         parent = builder.world.registry.create();
         mover = builder.add(

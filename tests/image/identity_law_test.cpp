@@ -21,7 +21,7 @@ SceneBuilder makeScene(const math::dvec3& velocity) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene::Material lit;
-    lit.baseColor.texture = scene.addWaves();
+    lit.baseColor.texture = scene.addWaveTexture();
     lit.roughnessFactor = 0.4f;
     const auto material = scene.addMaterial(lit);
     scene.add(test::makeQuad(8, 6, material), {.position = {0, 0, -6}});
@@ -47,32 +47,30 @@ void expectSkipped(const render::FrameResult& result, const std::string& reason)
     EXPECT_FALSE(hasBlurPass(result));
 }
 
-TEST_F(IdentityLaw, ExposureZeroGivesTheSharpPictureBitForBit) {
-    const SceneBuilder scene = makeScene({2.0, 0.5, 0.0});
-    Stage stage(device(), scene);
-    const Shot sharp{.exposureSeconds = 0.0, .ambient = math::vec3(0.2f)};
-    const auto expected = stage.render(sharp);
-    for (std::string_view method : test::listBlurMethods(device())) {
-        Shot shot = sharp;
+void expectTheSharpPicture(
+    gpu::Device& device, const SceneBuilder& scene, Shot shot, const std::string& reason
+) {
+    Stage stage(device, scene);
+    shot.ambient = math::vec3(0.2f);
+    const auto expected = stage.render(shot);
+    for (std::string_view method : test::listBlurMethods(device)) {
         shot.method = method;
         const auto result = stage.render(shot);
         EXPECT_TRUE(test::sameBits(result.color, expected.color)) << method;
-        expectSkipped(result, "exposure is 0");
+        expectSkipped(result, reason);
     }
 }
 
+TEST_F(IdentityLaw, ExposureZeroGivesTheSharpPictureBitForBit) {
+    expectTheSharpPicture(
+        device(), makeScene({2.0, 0.5, 0.0}), {.exposureSeconds = 0.0}, "exposure is 0"
+    );
+}
+
 TEST_F(IdentityLaw, WithoutMotionThePictureIsTheSharpOneBitForBit) {
-    const SceneBuilder scene = makeScene(math::dvec3(0.0));
-    Stage stage(device(), scene);
-    const Shot sharp{.ambient = math::vec3(0.2f)};
-    const auto expected = stage.render(sharp);
-    for (std::string_view method : test::listBlurMethods(device())) {
-        Shot shot = sharp;
-        shot.method = method;
-        const auto result = stage.render(shot);
-        EXPECT_TRUE(test::sameBits(result.color, expected.color)) << method;
-        expectSkipped(result, "nothing in the picture moves");
-    }
+    expectTheSharpPicture(
+        device(), makeScene(math::dvec3(0.0)), {}, "nothing in the picture moves"
+    );
 }
 
 TEST_F(IdentityLaw, AMoverThatIsThereRunsTheEffectAndChangesThePicture) {
@@ -95,7 +93,7 @@ TEST_F(IdentityLaw, PixelsOutOfReachOfEveryMoverKeepTheirBits) {
     // four tiles on the right are out of reach.
     SceneBuilder scene;
     scene.setPixelView(64);
-    const auto waves = scene.addTextured(scene.addWaves());
+    const auto waves = scene.addTextured(scene.addWaveTexture());
     scene.add(test::makeQuad(96, 64, waves), {.position = {0, 0, -20}});
     scene.add(
         test::makeQuad(6, 6, scene.addColor({1, 0, 0})),

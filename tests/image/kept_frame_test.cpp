@@ -3,10 +3,10 @@
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ struct Crowd {
 
     explicit Crowd(size_t count) {
         scene.setPerspective(0.9);
-        const auto material = scene.addTextured(scene.addWaves());
+        const auto material = scene.addTextured(scene.addWaveTexture());
         const auto tile = scene.addMesh({test::makeQuad(0.32, 0.3, material)});
         const auto glass = addGlass();
         for (size_t i = 0; i < count; ++i) {
@@ -176,7 +176,7 @@ TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
         const std::array joints{
             test::Placement{.position = {0.6, -0.8, -3}},
             test::Placement{.position = {0, 0.8, 0}, .angularVelocity = {0.4, 0, 0.9}}};
-        const auto strip = crowd.scene.addTextured(crowd.scene.addWaves(), true);
+        const auto strip = crowd.scene.addTextured(crowd.scene.addWaveTexture(), true);
         test::addSkinned(crowd.scene, test::makeStrip(0.5, 1.6, 8, strip), joints);
         double seconds = 0.0;
         uint32_t width = 96;

@@ -4,9 +4,9 @@
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/motion_blur/setting_rows.h"
+#include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
-#include "tests/support/scene_builder.h"
 #include "tests/support/stage.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ test::SceneBuilder makeScene() {
     test::SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.moveCamera({.velocity = {-1.0, 0.2, 0}});
-    const scene::AssetIndex waves = scene.addTextured(scene.addWaves(), true);
+    const scene::AssetIndex waves = scene.addTextured(scene.addWaveTexture(), true);
     // The wall alone is seen at the left and right: uniform motion, far from all else.
     scene.add(test::makeQuad(64, 18, waves), {.position = {0, 0, -12}, .velocity = {0.6, 0.2, 0}});
     scene.add(test::makeQuad(2.4, 1.2, waves), {.position = {1, 1, -4}, .velocity = {2.5, 0, 0}});

@@ -32,7 +32,8 @@ SceneBuilder makeScene(const dvec3& fast) {
     SceneBuilder scene;
     scene.setPixelView(64);
     scene.add(
-        test::makeQuad(300, 200, scene.addTextured(scene.addWaves())), {.position = {0, 0, -20}}
+        test::makeQuad(300, 200, scene.addTextured(scene.addWaveTexture())),
+        {.position = {0, 0, -20}}
     );
     scene.add(
         test::makeQuad(14, 14, scene.addColor({0, 0.4f, 1})),

@@ -84,7 +84,7 @@ TEST_F(RevealLaw, MorePixelsAreRevealedThanOneRowOfGroupsHolds) {
     shot.height = 720;
     const auto background = [](SceneBuilder& scene) {
         setCamera(scene);
-        scene.add(test::makeQuad(9.0, 9.0, scene.addTextured(scene.addWaves())), wall());
+        scene.add(test::makeQuad(9.0, 9.0, scene.addTextured(scene.addWaveTexture())), wall());
     };
     expectRevealIsRaster(device(), background, addOccluder, shot, 256 * 64 + 64);
 }
@@ -94,7 +94,7 @@ TEST_F(RevealLaw, ATexturedWallIsRevealedAsRasterDrawsIt) {
         device(),
         [](SceneBuilder& scene) {
             setCamera(scene);
-            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaves())), wall());
+            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())), wall());
         },
         addOccluder
     );
@@ -108,7 +108,7 @@ TEST_F(RevealLaw, ItHoldsInEveryPhase) {
             device(),
             [](SceneBuilder& scene) {
                 setCamera(scene);
-                scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaves())), wall());
+                scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())), wall());
             },
             addOccluder,
             shot
@@ -123,7 +123,9 @@ TEST_F(RevealLaw, ItHoldsUnderAnOrthographicCamera) {
             scene.setPixelView(64);
             Placement placement = wall();
             placement.position = {0, 0, -50};
-            scene.add(test::makeQuad(110, 90, scene.addTextured(scene.addWaves())), placement);
+            scene.add(
+                test::makeQuad(110, 90, scene.addTextured(scene.addWaveTexture())), placement
+            );
         },
         [](SceneBuilder& scene) {
             scene.add(
@@ -141,7 +143,7 @@ TEST_F(RevealLaw, AMirroredBackgroundShowsTheSideThatRasterShows) {
         device(),
         [](SceneBuilder& scene) {
             setCamera(scene);
-            const auto waves = scene.addTextured(scene.addWaves());
+            const auto waves = scene.addTextured(scene.addWaveTexture());
             scene.add(
                 test::makeBox({1.6, 1.6, 0.6}, waves),
                 {.position = {0, 0, -4},
@@ -160,7 +162,7 @@ TEST_F(RevealLaw, AMirroredQuadThatTurnsItsBackIsPassed) {
         device(),
         [](SceneBuilder& scene) {
             setCamera(scene);
-            const auto waves = scene.addTextured(scene.addWaves());
+            const auto waves = scene.addTextured(scene.addWaveTexture());
             scene.add(
                 test::makeQuad(5, 4, scene.addColor({1, 1, 0})),
                 {.position = {0, 0, -3}, .scale = {-1, -1, -1}}
@@ -179,14 +181,14 @@ TEST_F(RevealLaw, HolesOfAnAlphaMaskShowWhatLiesBehindThem) {
             Material leaves;
             leaves.unlit = true;
             leaves.alphaMode = scene::AlphaMode::Mask;
-            leaves.baseColor.texture = scene.addWaves(64, true);
+            leaves.baseColor.texture = scene.addWaveTexture(64, true);
             // Level 0 of its texture (nearest, below one texel a pixel): the hole's border is where
             // both say it is.
             scene.world.assets.textures.back().nearest = true;
             scene.add(
                 test::makeQuad(9, 9, scene.addMaterial(leaves)), {.position = {0.03, 0.02, -3}}
             );
-            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaves())), wall());
+            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())), wall());
         },
         addOccluder
     );
@@ -198,7 +200,7 @@ TEST_F(RevealLaw, ADoubleSidedWallShowsItsBack) {
         [](SceneBuilder& scene) {
             setCamera(scene);
             scene.add(
-                test::makeQuad(5, 4, scene.addTextured(scene.addWaves(), true)),
+                test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture(), true)),
                 {.position = {0, 0, -4}, .rotation = glm::angleAxis(2.8, dvec3(0, 1, 0))}
             );
         },
@@ -213,7 +215,7 @@ TEST_F(RevealLaw, ATextureTransformIsTheSame) {
             setCamera(scene);
             Material material;
             material.unlit = true;
-            material.baseColor = {scene.addWaves(), 0, {0.3f, -0.2f}, 0.7f, {2.5f, 1.3f}};
+            material.baseColor = {scene.addWaveTexture(), 0, {0.3f, -0.2f}, 0.7f, {2.5f, 1.3f}};
             scene.add(test::makeQuad(5, 4, scene.addMaterial(material)), wall());
         },
         addOccluder
@@ -232,7 +234,7 @@ void addPronged(SceneBuilder& scene) {
 
 void addWall(SceneBuilder& scene) {
     setCamera(scene);
-    scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaves())), wall());
+    scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())), wall());
 }
 
 TEST_F(RevealLaw, AConcaveOccluderIsPassedWithEnoughLevels) {
@@ -295,7 +297,7 @@ TEST_F(RevealLaw, SingleAndDoubleSidedPartsOfOneMeshKeepTheirSides) {
         device(),
         [](SceneBuilder& scene) {
             setCamera(scene);
-            const auto texture = scene.addWaves();
+            const auto texture = scene.addWaveTexture();
             const auto single = scene.addTextured(texture);
             const auto both = scene.addTextured(texture, true);
             const auto yellow = scene.addColor({1, 1, 0});
@@ -325,7 +327,7 @@ TEST_F(RevealLaw, TheLuminanceTestFindsAnObjectOfAnotherLuminance) {
         device(),
         [](SceneBuilder& scene) {
             setCamera(scene);
-            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaves())), wall());
+            scene.add(test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())), wall());
         },
         [](SceneBuilder& scene) {
             // Luminance 1; the waves stay below 0.9.

@@ -51,7 +51,7 @@ SceneBuilder makeScene(const dvec3& velocity) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene::Material lit;
-    lit.baseColor.texture = scene.addWaves();
+    lit.baseColor.texture = scene.addWaveTexture();
     const auto material = scene.addMaterial(lit);
     scene.add(test::makeQuad(6, 5, material), {.position = {0, 0, -5}});
     scene.add(test::makeSphere(0.5, material), {.position = {0.1, 0, -2.5}, .velocity = velocity});
@@ -101,7 +101,7 @@ TEST_F(RobustLaw, ACameraInsideAMovingObjectStaysFinite) {
     scene.setPerspective(0.9);
     scene::Material inside;
     inside.doubleSided = true;
-    inside.baseColor.texture = scene.addWaves();
+    inside.baseColor.texture = scene.addWaveTexture();
     const auto material = scene.addMaterial(inside);
     scene.add(
         test::makeBox({1, 1, 1}, material),

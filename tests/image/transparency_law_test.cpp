@@ -42,7 +42,7 @@ scene::AssetIndex addLeaves(SceneBuilder& scene) {
     scene::Material leaves;
     leaves.unlit = true;
     leaves.alphaMode = scene::AlphaMode::Mask;
-    leaves.baseColor.texture = scene.addWaves(64, true);
+    leaves.baseColor.texture = scene.addWaveTexture(64, true);
     scene.world.assets.textures.back().nearest = true; // a hole's border is one place for everyone
     return scene.addMaterial(leaves);
 }
@@ -51,7 +51,7 @@ SceneBuilder makeScene() {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.add(
-        test::makeQuad(5, 4, scene.addTextured(scene.addWaves())),
+        test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture())),
         {.position = {0, 0, -4}, .rotation = glm::angleAxis(0.3, dvec3(0, 1, 0))}
     );
     return scene;

@@ -30,7 +30,9 @@ SceneBuilder makeScene(bool moves) {
     SceneBuilder scene;
     scene.setPerspective(0.9);
     scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
-    scene.add(test::makeQuad(6, 5, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(6, 5, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     test::Placement placement{.position = {0.1, 0, -2.5}};
     if (moves) {
         placement.velocity = {0.6, 0.2, 0.3};

@@ -44,7 +44,9 @@ class TruthMotionLaw : public test::GpuTest {
 SceneBuilder makeRoom() {
     SceneBuilder scene;
     scene.setPerspective(0.9);
-    scene.add(test::makeQuad(8, 6, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(8, 6, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     return scene;
 }
 
@@ -108,7 +110,7 @@ TEST_F(TruthMotionLaw, HolesOfAMaskedMover) {
     scene::Material material;
     material.unlit = true;
     material.alphaMode = scene::AlphaMode::Mask;
-    material.baseColor.texture = scene.addWaves(64, true);
+    material.baseColor.texture = scene.addWaveTexture(64, true);
     scene.add(
         test::makeQuad(2, 2, scene.addMaterial(material)),
         {.position = {-0.3, 0, -3}, .velocity = {0.7, 0.1, 0}}

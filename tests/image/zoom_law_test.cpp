@@ -37,7 +37,9 @@ SceneBuilder makeZoom() {
             scene::PathInterpolation::CatmullRom,
             scene::PathEase::None}
     );
-    scene.add(test::makeQuad(9, 7, scene.addTextured(scene.addWaves())), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeQuad(9, 7, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
     scene.add(
         test::makeBox({0.5, 0.4, 0.4}, scene.addColor({0.9f, 0.2f, 0.1f})),
         {.position = {0.5, 0.3, -2.5}, .angularVelocity = {0.1, 0.3, 0.2}}
@@ -115,7 +117,8 @@ TEST_F(ZoomLaw, ACutOfThePathAlsoCutsTheLens) {
 TEST_F(ZoomLaw, InsideWhatIsExcludedFromBlurThePictureIsSharp) {
     SceneBuilder scene = makeZoom();
     const ecs::Entity excluded = scene.add(
-        test::makeQuad(1.2, 1.2, scene.addTextured(scene.addWaves())), {.position = {-0.3, 0.2, -2}}
+        test::makeQuad(1.2, 1.2, scene.addTextured(scene.addWaveTexture())),
+        {.position = {-0.3, 0.2, -2}}
     );
     scene.world.registry.add(excluded, scene::MotionBlur{.exclude = true});
     Stage stage(device(), scene);

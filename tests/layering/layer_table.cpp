@@ -55,8 +55,11 @@ const std::vector<Row> kEngineRows = {
     {"app", kUpToRender},
 };
 
+constexpr std::string_view kTestKit = "tests/kit";
+
 /// Which rooms of the program a room may see; each sees all of engine/ and modules/. The suites of
-/// checks in tests/conformance are shown by `shutter bench` and count as a room.
+/// checks in tests/conformance are shown by `shutter bench` and count as a room, and so does
+/// tests/kit, which they and the tests share.
 const std::vector<Row> kGameRows = {
     {"shot", {}},
     {"output", {"shot"}},
@@ -69,7 +72,8 @@ const std::vector<Row> kGameRows = {
     {"bench", {"shot", "options", "bench/report", "bench/suites", "tests/conformance"}},
     {"cli", {"shot", "output", "options", "play/panel", "play/loop", "bench"}},
     {"examples", {}},
-    {"tests/conformance", {"shot", "options"}},
+    {kTestKit, {}},
+    {"tests/conformance", {"shot", "options", kTestKit}},
 };
 
 /// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
@@ -160,7 +164,7 @@ Part findPart(std::string_view path) {
         const bool isEffect = kModulesWithEffect.contains(name) && !isPlugin;
         return {isEffect ? Kind::Effect : Kind::Module, name, isPlugin};
     }
-    if (top == "game" || path.starts_with("tests/conformance/")) {
+    if (top == "game" || (top == "tests" && (name == "conformance" || name == "kit"))) {
         const Row* room = findGameRow(path);
         return room ? Part{Kind::Game, std::string(room->from)} : Part{};
     }
@@ -277,7 +281,7 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
     case Kind::Game:
         return from.kind == Kind::Game && maySeeRoom(from, to);
     case Kind::Generator:
-        return from.kind == Kind::Game; // `bench` makes its scenes at run time
+        return from.kind == Kind::Game && from.name != kTestKit; // `bench` makes its scenes
     default:
         return false;
     }

@@ -200,6 +200,10 @@ TEST(LayerTable, RoomsOfTheProgramDependOneWay) {
         {"game/bench/bench_run.cpp", "\"game/bench/suites/suite.h\""},
         {"game/bench/suites/held_suites.cpp", "\"tests/conformance/demand/claim.h\""},
         {"game/cli/main.cpp", "\"game/bench/bench_run.h\""},
+        {"tests/conformance/demand/subject.h", "\"tests/kit/scene_builder.h\""},
+        {"tests/conformance/stability/shapes.h", "\"assets/generator/mesh_shapes.h\""},
+        {"tests/kit/graph_rig.h", "\"engine/render/readback.h\""},
+        {"tests/kit/graph_rig.h", "\"modules/tonemap/tonemap.h\""},
     });
     expectRefused({
         {"game/shot/shot.cpp", "\"game/output/render_options.h\""},
@@ -209,6 +213,11 @@ TEST(LayerTable, RoomsOfTheProgramDependOneWay) {
         {"game/bench/bench_run.cpp", "\"game/play/panel/panel.h\""},
         {"tests/conformance/demand/claim.cpp", "\"game/bench/bench_run.h\""},
         {"tests/conformance/demand/claim.cpp", "\"tests/support/stage.h\""},
+        {"tests/kit/scene_builder.h", "\"tests/support/stage.h\""},
+        {"tests/kit/scene_builder.h", "\"tests/conformance/stability/pictures.h\""},
+        {"tests/kit/scene_builder.h", "\"game/shot/shot.h\""},
+        {"tests/kit/scene_builder.h", "\"assets/generator/mesh_shapes.h\""},
+        {"game/shot/shot.cpp", "\"tests/kit/scene_builder.h\""},
         {"game/new_room/a.cpp", "\"engine/core/log.h\""},
         {"game/a.cpp", "\"engine/core/log.h\""},
     });

@@ -50,6 +50,7 @@ TEST(Layering, TheModulesKeepTheOrderOfDependence) {
 TEST(Layering, TheGameKeepsTheOrderOfDependence) {
     expectNoViolationBelow("game");
     expectNoViolationBelow("tests/conformance");
+    expectNoViolationBelow("tests/kit");
 }
 
 TEST(Layering, TheAssetGeneratorKeepsTheOrderOfDependence) {

@@ -2,7 +2,7 @@
 // Skinned and morphed meshes made in code.
 #pragma once
 
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <cstdint>
 #include <span>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/stage.h"
 
-#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "game/shot/picture_drawer.h"
 #include "modules/tonemap/tonemap.h"
-#include "modules/truth/truth.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace shutter::test {
@@ -31,24 +30,34 @@ render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     return request;
 }
 
-render::FrameResult unwrap(core::Result<render::FrameResult> result) {
-    if (result)
-        return std::move(result).value();
-    ADD_FAILURE() << result.error().message;
-    return {};
+/// Error: there is no such method, or its settings are invalid.
+core::Result<game::PictureRequest> makePicture(const SceneBuilder& scene, const Shot& shot) {
+    const auto method = game::findMethod(shot.method);
+    if (!method)
+        return method.error();
+    const game::MethodFamily family = method.value()->family;
+    game::PictureRequest picture;
+    picture.frame = makeRequest(scene, shot);
+    picture.method.method = method.value();
+    picture.method.samples = shot.instants;
+    picture.method.motionBlur = shot.settings;
+    if (family == game::MethodFamily::MotionBlur)
+        picture.method.motionBlur.method = method.value()->blur;
+    if (core::Status valid = motion_blur::validate(picture.method.motionBlur); !valid)
+        return valid.error();
+    picture.pixel = shot.pixel;
+    picture.seed = family == game::MethodFamily::Truth ? shot.seed : 0;
+    picture.raysPerFrame = shot.batch > 0 ? shot.batch : shot.instants;
+    return picture;
 }
 
 } // namespace
 
 std::vector<std::string_view> listBlurMethods(const gpu::Device& device) {
     std::vector<std::string_view> names;
-    for (const motion_blur::Method* method : motion_blur::listMethods()) {
-        const bool isAble = method->rays == motion_blur::RayNeed::None ||
-                            (method->rays == motion_blur::RayNeed::Any && device.hasRays()) ||
-                            device.hasRayQuery();
-        if (isAble && method->blursObjects)
-            names.emplace_back(method->name);
-    }
+    for (const game::MethodInfo& method : game::listMethods())
+        if (method.blur && method.blur->blursObjects && game::canRun(method, device))
+            names.emplace_back(method.name);
     return names;
 }
 
@@ -64,71 +73,22 @@ Stage::Stage(gpu::Device& device, const SceneBuilder& scene)
     : mDevice(device), mScene(scene), mRenderer(device, scene.world.assets) {}
 
 render::FrameResult Stage::render(const Shot& shot) {
-    render::FrameRequest request = makeRequest(mScene, shot);
-    auto cap = mRenderer.measureMotionCap(mScene.world, request.view);
-    if (!cap) {
-        ADD_FAILURE() << cap.error().message;
+    const auto picture = makePicture(mScene, shot);
+    if (!picture) {
+        ADD_FAILURE() << picture.error().message;
         return {};
     }
-    request.view.exposure.cap = std::move(cap).value();
-    if (shot.method == "accumulate")
-        return renderAccumulated(shot, request);
-    if (shot.method == "truth")
-        return renderTruth(shot, request);
-    motion_blur::MotionBlurSettings settings = shot.settings;
-    if (const motion_blur::Method* method = motion_blur::findMethod(shot.method))
-        settings.method = method;
-    else
-        EXPECT_EQ(shot.method, "sharp") << "there is no such method";
-    const core::Status valid = motion_blur::validate(settings);
-    if (!valid) {
-        ADD_FAILURE() << valid.error().message;
-        return {};
-    }
-    motion_blur::MotionBlurPlugin blur(mDevice, mRenderer.scene(), settings);
     tonemap::Tonemap tonemap(mDevice, {});
-    std::vector<render::PostEffect*> effects;
-    if (shot.method != "sharp")
-        effects.push_back(&blur);
-    effects.push_back(&tonemap);
+    game::PictureRequest request = picture.value();
+    request.ending.push_back(&tonemap);
     if (shot.last)
-        effects.push_back(shot.last);
-    return unwrap(mRenderer.renderFrame(mScene.world, request, effects));
-}
-
-render::FrameResult
-Stage::renderAccumulated(const Shot& shot, const render::FrameRequest& request) {
-    accumulate::Accumulate sum(mDevice);
-    tonemap::Tonemap tonemap(mDevice, {});
-    const std::vector<render::PostEffect*> effects{&sum, &tonemap};
-    render::FrameResult result;
-    for (uint32_t i = 0; i < shot.instants; ++i) {
-        const bool last = i + 1 == shot.instants;
-        render::FrameRequest instant = request;
-        instant.view = accumulate::makeInstant(request.view, i, shot.instants, shot.pixel, 0);
-        instant.wantColor = last;
-        instant.wantDisplay = last && shot.wantDisplay;
-        sum.setInstant(i, shot.instants);
-        result = unwrap(mRenderer.renderFrame(mScene.world, instant, effects));
-    }
-    return result;
-}
-
-render::FrameResult Stage::renderTruth(const Shot& shot, const render::FrameRequest& request) {
-    truth::Truth rays(mDevice, mRenderer.scene(), {shot.pixel, shot.seed});
-    tonemap::Tonemap tonemap(mDevice, {});
-    const std::vector<render::PostEffect*> effects{&rays, &tonemap};
-    render::FrameRequest batch = request;
-    batch.view.lodBias += truth::computeLodBias(shot.pixel, shot.instants);
-    const uint32_t longest = shot.batch > 0 ? shot.batch : shot.instants;
-    render::FrameResult result;
-    for (uint32_t done = 0; done < shot.instants;) {
-        const uint32_t count = std::min(longest, shot.instants - done);
-        rays.setBatch(done, count);
-        result = unwrap(mRenderer.renderFrame(mScene.world, batch, effects));
-        done += count;
-    }
-    return result;
+        request.ending.push_back(shot.last);
+    // A drawer for each picture: no effect keeps anything of an earlier one.
+    auto drawn = game::PictureDrawer(mDevice, mRenderer).draw(mScene.world, request);
+    if (drawn)
+        return std::move(drawn).value();
+    ADD_FAILURE() << drawn.error().message;
+    return {};
 }
 
 render::FrameResult renderOnce(gpu::Device& device, const SceneBuilder& scene, const Shot& shot) {

@@ -7,7 +7,7 @@
 #include "engine/scene/motion.h"
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/methods.h"
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <cstdint>
 #include <functional>
@@ -45,25 +45,21 @@ struct Shot {
     motion_blur::MotionBlurSettings settings{}; ///< of the motion blur; its method is set here
     std::set<std::string> aovs{};
     bool wantDisplay = false;
-    /// Declared after the method's own effects; null: none.
+    /// Declared after the method's own effects and the tone map; null: none.
     render::PostEffect* last = nullptr;
 };
 
-/// A world that was uploaded once, and is drawn as often as one likes. Entities may move between
-/// shots; assets may not change.
+/// A world that is uploaded once and drawn, by game::PictureDrawer, as often as one likes. Entities
+/// may move between shots; assets may not change.
 class Stage {
   public:
     Stage(gpu::Device& device, const SceneBuilder& scene);
 
-    /// Fails the test (and returns an empty result) where the engine reports an error.
+    /// Fails the test, and returns an empty result, if the device cannot run the method or drawing
+    /// reports an error.
     [[nodiscard]] render::FrameResult render(const Shot& shot);
 
   private:
-    [[nodiscard]] render::FrameResult
-    renderAccumulated(const Shot& shot, const render::FrameRequest& request);
-    [[nodiscard]] render::FrameResult
-    renderTruth(const Shot& shot, const render::FrameRequest& request);
-
     gpu::Device& mDevice;
     const SceneBuilder& mScene;
     render::Renderer mRenderer;

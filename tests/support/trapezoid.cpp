@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/trapezoid.h"
 
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -35,16 +35,19 @@ Curve drawCurve(
 
 /// A sheet that fills the picture, before and after it moves, in front of a wall that rays could
 /// find.
-std::unique_ptr<Stage> makeSheetStage(const stability::Stand& movement) {
-    stability::SceneDraft draft;
-    stability::Stand stand = movement;
-    stand.position = {0, 0, -5};
-    draft.add(stability::makeSheet(30, 30), draft.addLitWaves(), stand);
-    draft.add(
-        stability::makeSheet(60, 60), draft.addLitWaves(), stability::Stand{.position = {0, 0, -9}}
+std::unique_ptr<Stage> makeSheetStage(const test::Placement& movement) {
+    test::SceneBuilder scene = stability::makeEmptyScene();
+    test::Placement placement = movement;
+    placement.position = {0, 0, -5};
+    stability::addShape(scene, stability::makeSheetShape(30, 30), scene.addLitWaves(), placement);
+    stability::addShape(
+        scene,
+        stability::makeSheetShape(60, 60),
+        scene.addLitWaves(),
+        test::Placement{.position = {0, 0, -9}}
     );
-    draft.addSun(math::dvec3(0, 0, -1), 3.0f);
-    return makeStage(draft, kExposureSeconds);
+    scene.addSun(math::dvec3(0, 0, -1), 3.0f);
+    return makeStage(std::move(scene), kExposureSeconds);
 }
 
 core::Status addEmptyMask(
@@ -52,7 +55,7 @@ core::Status addEmptyMask(
     gpu::Device& device,
     const DemandOptions& options,
     const std::string& name,
-    const stability::Stand& movement
+    const test::Placement& movement
 ) {
     const auto stage = makeSheetStage(movement);
     auto subject = Subject::create(device, *stage, "hybrid", options.width, options.height);

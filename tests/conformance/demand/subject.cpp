@@ -59,10 +59,10 @@ core::Result<std::unique_ptr<Stage>> loadScalingStage(
     return loadStage(options, name, build, std::move(arguments));
 }
 
-std::unique_ptr<Stage> makeStage(stability::SceneDraft& draft, double exposureSeconds) {
+std::unique_ptr<Stage> makeStage(test::SceneBuilder scene, double exposureSeconds) {
     auto stage = std::make_unique<Stage>();
     stage->arguments.scene = "a scene made in code";
-    stage->shot = std::move(draft.shot);
+    stage->shot = {std::move(scene.world), scene.camera};
     stage->shot.world.registry.add(
         stage->shot.camera, scene::CameraShutter{exposureSeconds, scene::ShutterPhase::End}
     );

@@ -9,7 +9,7 @@
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 #include "tests/conformance/demand/claim.h"
-#include "tests/conformance/stability/scene_draft.h"
+#include "tests/conformance/stability/shapes.h"
 
 #include <functional>
 #include <memory>
@@ -43,8 +43,7 @@ struct Stage {
 );
 
 /// A scene made in code, with a physical shutter that ends at the raster instant.
-[[nodiscard]] std::unique_ptr<Stage>
-makeStage(stability::SceneDraft& draft, double exposureSeconds);
+[[nodiscard]] std::unique_ptr<Stage> makeStage(test::SceneBuilder scene, double exposureSeconds);
 
 /// A stage drawn by one method.
 class Subject {

@@ -4,7 +4,7 @@
 #include "engine/core/check.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/pictures.h"
-#include "tests/conformance/stability/scene_draft.h"
+#include "tests/conformance/stability/shapes.h"
 
 #include <fmt/format.h>
 
@@ -54,22 +54,26 @@ struct Moment {
 
 /// Movers before each other, one with holes, light, a camera that turns.
 game::Shot buildScene() {
-    stability::SceneDraft draft;
-    draft.add(stability::makeSheet(6, 5), draft.addLitWaves(), {.position = {0, 0, -5}});
-    draft.add(
+    test::SceneBuilder scene = stability::makeEmptyScene();
+    stability::addShape(
+        scene, stability::makeSheetShape(6, 5), scene.addLitWaves(), {.position = {0, 0, -5}}
+    );
+    stability::addShape(
+        scene,
         generator::sphere(0.5f, 16, 8),
-        draft.addLitWaves(),
-        stability::Stand{
+        scene.addLitWaves(),
+        test::Placement{
             .position = {0.1, 0, -2.5}, .velocity = {1.0, 0.2, 0.1}, .angularVelocity = {0, 0.9, 0}}
     );
-    draft.add(
-        stability::makeSheet(0.8, 0.8),
-        draft.addWaves(true),
-        stability::Stand{.position = {-0.3, 0.1, -2}, .velocity = {-0.8, 0.1, 0}}
+    stability::addShape(
+        scene,
+        stability::makeSheetShape(0.8, 0.8),
+        scene.addWaves(true),
+        test::Placement{.position = {-0.3, 0.1, -2}, .velocity = {-0.8, 0.1, 0}}
     );
-    draft.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
-    draft.place(draft.shot.camera, {.angularVelocity = {0.02, 0.05, 0}});
-    return std::move(draft.shot);
+    scene.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
+    scene.place(scene.camera, {.angularVelocity = {0.02, 0.05, 0}});
+    return {std::move(scene.world), scene.camera};
 }
 
 /// One renderer, and every method's effects as they are needed.

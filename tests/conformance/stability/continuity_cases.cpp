@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A motion that changes by 1e-4 pixels may change no pixel by more than a bound.
 #include "tests/conformance/stability/case_lists.h"
-#include "tests/conformance/stability/gbuffer_rig.h"
+#include "tests/conformance/stability/filter_rig.h"
 #include "tests/conformance/stability/pictures.h"
 
 #include <cmath>

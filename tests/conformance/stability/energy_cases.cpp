@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace shutter::stability {
 
@@ -41,15 +42,16 @@ double sumLight(const image::Image& picture) {
 }
 
 core::Result<Measurements> measureMover(gpu::Device& device) {
-    SceneDraft draft;
-    draft.setPixelView(64);
-    draft.add(
-        makeSheet(24, 20),
-        draft.addColor({0.8f, 0.5f, 0.2f}),
-        Stand{.position = {0.3, 0.2, -5}, .velocity = {16, 4, 0}}
+    SceneBuilder scene = makeEmptyScene();
+    scene.setPixelView(64);
+    addShape(
+        scene,
+        makeSheetShape(24, 20),
+        scene.addColor({0.8f, 0.5f, 0.2f}),
+        Placement{.position = {0.3, 0.2, -5}, .velocity = {16, 4, 0}}
     );
     View view{.width = 96, .height = 64, .samples = 64};
-    Drawer drawer(device, draft);
+    Drawer drawer(device, std::move(scene));
     auto sharp = drawer.draw("sharp", view, false);
     if (!sharp)
         return sharp.error();

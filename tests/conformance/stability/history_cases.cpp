@@ -6,6 +6,8 @@
 #include "tests/conformance/stability/pictures.h"
 
 #include <functional>
+#include <string>
+#include <utility>
 
 namespace shutter::stability {
 
@@ -19,26 +21,16 @@ constexpr double kEvent = -0.01;
 const View kView{.background = math::vec3(0.1f, 0.2f, 0.3f), .ambient = math::vec3(0.3f)};
 
 /// A change to the stage. \param sphere its mover
-using Change = std::function<void(SceneDraft& draft, ecs::Entity sphere)>;
+using Change = std::function<void(SceneBuilder& scene, ecs::Entity sphere)>;
 
-/// Every method's picture of the changed stage against the sharp picture of another one.
-core::Result<Measurements> measureAgainstSharp(
-    gpu::Device& device,
-    const Change& happened,
-    const Change& instead,
-    const View& view,
-    const View& sharpView
-) {
-    SceneDraft draft;
-    happened(draft, buildStage(draft));
-    SceneDraft other;
-    instead(other, buildStage(other));
-    Drawer drawer(device, draft);
-    Drawer otherDrawer(device, other);
+/// Every method's pictures by `drawer`, held against the sharp one by `expected`. \param check what
+/// the row of the comparison is called
+core::Result<Measurements>
+measureAgainstSharp(Drawer& drawer, const View& view, Drawer& expected, std::string check) {
     auto found = measureEveryMethod(drawer, view);
     if (!found)
         return found;
-    const auto sharp = otherDrawer.draw("sharp", sharpView);
+    const auto sharp = expected.draw("sharp", kView);
     if (!sharp)
         return sharp.error();
     Worst worst;
@@ -49,10 +41,21 @@ core::Result<Measurements> measureAgainstSharp(
         addDifference(worst, frame.value().color, sharp.value().color, method.name);
     }
     // Rays shade at their own hit, a few float steps from the raster's place.
-    found.value().push_back(
-        describe(worst, "the sharp picture, by every method", "brightness", 1.0 / 255.0)
-    );
+    found.value().push_back(describe(worst, std::move(check), "brightness", 1.0 / 255.0));
     return found;
+}
+
+/// The pictures of the changed stage against the sharp picture of another one.
+core::Result<Measurements> measureChange(
+    gpu::Device& device, const Change& happened, const Change& instead, const View& view
+) {
+    SceneBuilder scene = makeEmptyScene();
+    happened(scene, addWallAndSphere(scene));
+    SceneBuilder other = makeEmptyScene();
+    instead(other, addWallAndSphere(other));
+    Drawer drawer(device, std::move(scene));
+    Drawer otherDrawer(device, std::move(other));
+    return measureAgainstSharp(drawer, view, otherDrawer, "the sharp picture, by every method");
 }
 
 HardCase makeCase(
@@ -60,11 +63,11 @@ HardCase makeCase(
     const char* title,
     const char* description,
     Change happened,
-    Change instead = [](SceneDraft&, ecs::Entity) {},
+    Change instead = [](SceneBuilder&, ecs::Entity) {},
     View view = kView
 ) {
     return {name, title, description, [=](gpu::Device& device) {
-                return measureAgainstSharp(device, happened, instead, view, kView);
+                return measureChange(device, happened, instead, view);
             }};
 }
 
@@ -74,55 +77,41 @@ math::Transform elsewhere() {
     return transform;
 }
 
-void teleportSphere(SceneDraft& draft, ecs::Entity sphere) {
-    scene::teleport(draft.shot.world, sphere, elsewhere(), kEvent);
+void teleportSphere(SceneBuilder& scene, ecs::Entity sphere) {
+    scene::teleport(scene.world, sphere, elsewhere(), kEvent);
 }
 
 /// Another view: a step aside and a turn.
-void cutCamera(SceneDraft& draft) {
+void cutCamera(SceneBuilder& scene) {
     math::Transform transform;
     transform.translation = {0.4, 0.2, 0.3};
     transform.rotation = glm::angleAxis(0.3, dvec3(0, 1, 0));
-    scene::cutTo(draft.shot.world, draft.shot.camera, transform, kEvent);
+    scene::cutTo(scene.world, scene.camera, transform, kEvent);
 }
 
 /// The sphere is gone, and so is its light on the picture.
 core::Result<Measurements> measureDespawn(gpu::Device& device) {
-    SceneDraft draft;
-    const ecs::Entity sphere = buildStage(draft);
-    Drawer drawer(device, draft);
+    SceneBuilder scene = makeEmptyScene();
+    const ecs::Entity sphere = addWallAndSphere(scene);
+    Drawer drawer(device, std::move(scene));
     // Drawn once with it: whatever the renderer keeps of a frame must not come back.
     if (auto before = drawer.draw("hybrid", kView); !before)
         return before.error();
-    scene::despawn(draft.shot.world, sphere);
-    auto found = measureEveryMethod(drawer, kView);
-    if (!found)
-        return found;
-    SceneDraft without;
-    const ecs::Entity other = buildStage(without);
-    scene::hide(without.shot.world, other);
-    Drawer otherDrawer(device, without);
-    const auto sharp = otherDrawer.draw("sharp", kView);
-    if (!sharp)
-        return sharp.error();
-    Worst worst;
-    for (const game::MethodInfo& method : game::listMethods()) {
-        const auto frame = drawer.draw(method.name, kView);
-        if (!frame)
-            return frame.error();
-        addDifference(worst, frame.value().color, sharp.value().color, method.name);
-    }
-    found.value().push_back(
-        describe(worst, "no hole and no trace of it, by every method", "brightness", 1.0 / 255.0)
+    scene::despawn(drawer.world(), sphere);
+    SceneBuilder without = makeEmptyScene();
+    const ecs::Entity other = addWallAndSphere(without);
+    scene::hide(without.world, other);
+    Drawer otherDrawer(device, std::move(without));
+    return measureAgainstSharp(
+        drawer, kView, otherDrawer, "no hole and no trace of it, by every method"
     );
-    return found;
 }
 
 /// A hitch of 10 s with a capped shutter is a frame of the reference's length.
 core::Result<Measurements> measureCappedHitch(gpu::Device& device) {
-    SceneDraft draft;
-    buildStage(draft);
-    Drawer drawer(device, draft);
+    SceneBuilder scene = makeEmptyScene();
+    addWallAndSphere(scene);
+    Drawer drawer(device, std::move(scene));
     View hitch = kView;
     hitch.mode = scene::ShutterMode::Capped;
     hitch.frameSeconds = 10.0;
@@ -155,8 +144,8 @@ std::vector<HardCase> listHistoryCases() {
             "Spawn",
             "An entity that was just made",
             "The mover appears within the frame: nothing streaks in from anywhere.",
-            [](SceneDraft& draft, ecs::Entity sphere) {
-                scene::appear(draft.shot.world, sphere, kEvent);
+            [](SceneBuilder& scene, ecs::Entity sphere) {
+                scene::appear(scene.world, sphere, kEvent);
             }
         ),
         {"Despawn",
@@ -174,21 +163,21 @@ std::vector<HardCase> listHistoryCases() {
             "CameraCut",
             "A camera cut within the exposure",
             "The camera is put elsewhere while the sphere moves: the whole picture stands still.",
-            [](SceneDraft& draft, ecs::Entity) { cutCamera(draft); },
-            [](SceneDraft& draft, ecs::Entity) { cutCamera(draft); }
+            [](SceneBuilder& scene, ecs::Entity) { cutCamera(scene); },
+            [](SceneBuilder& scene, ecs::Entity) { cutCamera(scene); }
         ),
         makeCase(
             "WorldBegins",
             "The first frame of a world",
             "The world was loaded within the frame: it has no past.",
-            [](SceneDraft& draft, ecs::Entity) { draft.shot.world.startSeconds = kEvent; }
+            [](SceneBuilder& scene, ecs::Entity) { scene.world.startSeconds = kEvent; }
         ),
         makeCase(
             "Paused",
             "A frame of no length",
             "The frame time is 0: a paused world does not move, whatever the exposure.",
-            [](SceneDraft&, ecs::Entity) {},
-            [](SceneDraft&, ecs::Entity) {},
+            [](SceneBuilder&, ecs::Entity) {},
+            [](SceneBuilder&, ecs::Entity) {},
             paused
         ),
         {"CappedHitch",

@@ -25,9 +25,9 @@ View makeView(Size size) {
 }
 
 core::Result<Measurements> measureSmallSizes(gpu::Device& device) {
-    SceneDraft draft;
-    buildStage(draft);
-    Drawer drawer(device, draft);
+    SceneBuilder scene = makeEmptyScene();
+    addWallAndSphere(scene);
+    Drawer drawer(device, std::move(scene));
     Measurements all;
     for (const Size size : {Size{1, 1}, Size{40, 40}, Size{41, 39}, Size{1, 50}, Size{81, 1}}) {
         auto found = measureEveryMethod(drawer, makeView(size));
@@ -45,9 +45,9 @@ core::Result<Measurements> measureSmallSizes(gpu::Device& device) {
 template <size_t N>
 core::Result<Measurements>
 measureLarge(gpu::Device& device, Size size, const std::array<const char*, N>& methods) {
-    SceneDraft draft;
-    buildStage(draft);
-    Drawer drawer(device, draft);
+    SceneBuilder scene = makeEmptyScene();
+    addWallAndSphere(scene);
+    Drawer drawer(device, std::move(scene));
     View view = makeView(size);
     view.samples = 1;
     Census census;
@@ -80,21 +80,22 @@ core::Result<Measurements> measureEntities(gpu::Device& device) {
     constexpr uint32_t kLimit = 7;
     Measured measured{"refused above the limit and not at it", 0.0, 0.0, ""};
     for (uint32_t count = 1; count <= kLimit + 2; ++count) {
-        SceneDraft draft;
-        const auto waves = draft.addWaves();
+        SceneBuilder scene = makeEmptyScene();
+        const auto waves = scene.addWaves();
         for (uint32_t i = 0; i < count; ++i)
-            draft.add(
-                makeBox(0.1, 0.1, 0.1),
+            addShape(
+                scene,
+                makeBoxShape(0.1, 0.1, 0.1),
                 waves,
                 // Every other one is out of the picture: the table holds it, rays may meet it.
-                Stand{.position = {i % 2 == 0 ? 0.0 : 90.0, 0, -2}, .velocity = {0.2 * i, 0, 0}}
+                Placement{.position = {i % 2 == 0 ? 0.0 : 90.0, 0, -2}, .velocity = {0.2 * i, 0, 0}}
             );
-        render::Renderer renderer(device, draft.shot.world.assets);
+        render::Renderer renderer(device, scene.world.assets);
         render::FrameRequest request;
-        request.view.camera = draft.shot.camera;
+        request.view.camera = scene.camera;
         request.view.width = request.view.height = 8;
         request.view.entityLimit = kLimit;
-        const auto frame = renderer.renderFrame(draft.shot.world, request, {});
+        const auto frame = renderer.renderFrame(scene.world, request, {});
         const bool refused =
             !frame && frame.error().message.find(fmt::format("more than {} entities", kLimit)) !=
                           std::string::npos;

@@ -3,7 +3,7 @@
 #include "shaders/common/numeric.glsl"
 #include "shaders/render/motion.glsl"
 #include "tests/conformance/stability/case_lists.h"
-#include "tests/conformance/stability/gbuffer_rig.h"
+#include "tests/conformance/stability/filter_rig.h"
 #include "tests/conformance/stability/pictures.h"
 
 #include <limits>

@@ -5,8 +5,9 @@
 
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "tests/conformance/stability/case_lists.h"
-#include "tests/conformance/stability/gbuffer_rig.h"
+#include "tests/conformance/stability/filter_rig.h"
 #include "tests/conformance/stability/pictures.h"
+#include "tests/kit/graph_rig.h"
 
 #include <algorithm>
 #include <array>
@@ -316,7 +317,7 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
     uint64_t undecided = 0;
     uint64_t masked = 0;
     for (const double share : {0.0, 0.5, 1.0}) {
-        GBufferRig rig(device);
+        test::GraphRig rig(device);
         const auto params = motion_blur::resolve(settings, kWidth, kHeight, share);
         const graph::ImageHandle motionDepth = rig.upload(layer.gbuffer.motionDepth);
         const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
@@ -331,7 +332,7 @@ core::Result<Measurements> measureMask(gpu::Device& device) {
         );
         const size_t edgeTicket = rig.want(outputs.edge);
         const size_t maskTicket = rig.want(outputs.mask);
-        if (core::Status ran = rig.run(); !ran)
+        if (const auto ran = rig.run(); !ran)
             return ran.error();
         const Image edge = rig.take(edgeTicket);
         const Image mask = rig.take(maskTicket);

@@ -41,10 +41,10 @@ Range findInputs(const Image& sharp, const FrameResult& frame) {
 } // namespace
 
 Drawer::Drawer(
-    gpu::Device& device, SceneDraft& draft, const motion_blur::MotionBlurSettings& settings
+    gpu::Device& device, SceneBuilder scene, const motion_blur::MotionBlurSettings& settings
 )
-    : mDevice(device), mShot(draft.shot), mSettings(settings),
-      mRenderer(device, draft.shot.world.assets), mDrawer(device, mRenderer) {}
+    : mDevice(device), mShot{std::move(scene.world), scene.camera}, mSettings(settings),
+      mRenderer(device, mShot.world.assets), mDrawer(device, mRenderer) {}
 
 core::Result<FrameResult>
 Drawer::draw(std::string_view name, const View& view, bool intermediates) {
@@ -220,14 +220,14 @@ HardCase makeSceneCase(
     std::string name,
     std::string title,
     std::string description,
-    std::function<void(SceneDraft&)> build,
+    std::function<void(SceneBuilder&)> build,
     View view
 ) {
     HardCase made{std::move(name), std::move(title), std::move(description), {}};
     made.measure = [build = std::move(build), view](gpu::Device& device) {
-        SceneDraft draft;
-        build(draft);
-        Drawer drawer(device, draft);
+        SceneBuilder scene = makeEmptyScene();
+        build(scene);
+        Drawer drawer(device, std::move(scene));
         auto found = measureEveryMethod(drawer, view);
         if (!found || !device.hasRayQuery())
             return found;

@@ -6,7 +6,7 @@
 #include "engine/render/renderer.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/measured.h"
-#include "tests/conformance/stability/scene_draft.h"
+#include "tests/conformance/stability/shapes.h"
 
 #include <limits>
 #include <string>
@@ -28,11 +28,13 @@ struct View {
     uint32_t samples = 0; ///< instants or rays of the truths; 0: four
 };
 
-/// Draws a scene, which outlives it, as often as one likes; entities may move in between.
+/// Draws a scene as often as one likes; entities may move in between.
 class Drawer {
   public:
     Drawer(
-        gpu::Device& device, SceneDraft& draft, const motion_blur::MotionBlurSettings& settings = {}
+        gpu::Device& device,
+        SceneBuilder scene,
+        const motion_blur::MotionBlurSettings& settings = {}
     );
 
     /// With every intermediate of the method, unless told otherwise.
@@ -41,9 +43,11 @@ class Drawer {
 
     [[nodiscard]] gpu::Device& device() { return mDevice; }
 
+    [[nodiscard]] scene::World& world() { return mShot.world; }
+
   private:
     gpu::Device& mDevice;
-    game::Shot& mShot;
+    game::Shot mShot;
     motion_blur::MotionBlurSettings mSettings;
     render::Renderer mRenderer;
     game::PictureDrawer mDrawer;
@@ -115,7 +119,7 @@ void addDifference(
     std::string name,
     std::string title,
     std::string description,
-    std::function<void(SceneDraft&)> build,
+    std::function<void(SceneBuilder&)> build,
     View view = {}
 );
 

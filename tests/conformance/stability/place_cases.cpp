@@ -25,16 +25,17 @@ View during(double exposureSeconds) {
 /// A sheet flies at the camera and past it: each of its points moves away from the vanishing point,
 /// never towards it, whatever of its corners lies behind the camera at shutter close.
 core::Result<Measurements> measureNearPlane(gpu::Device& device) {
-    SceneDraft draft;
+    SceneBuilder scene = makeEmptyScene();
     // Seen at the raster instant (start) at 0.2 m; 5 m behind the camera at close.
-    draft.add(
-        makeSheet(0.4, 0.3),
-        draft.addWaves(),
-        Stand{.position = {0.0, 0.0, -0.2}, .velocity = {0.0, 0.0, 5.2}}
+    addShape(
+        scene,
+        makeSheetShape(0.4, 0.3),
+        scene.addWaves(),
+        Placement{.position = {0.0, 0.0, -0.2}, .velocity = {0.0, 0.0, 5.2}}
     );
     View view;
     view.phase = scene::ShutterPhase::Start;
-    Drawer drawer(device, draft);
+    Drawer drawer(device, std::move(scene));
     auto found = measureEveryMethod(drawer, view);
     if (!found)
         return found;
@@ -59,13 +60,13 @@ core::Result<Measurements> measureNearPlane(gpu::Device& device) {
 /// The same scene at the origin and far away: the same pixels show the same entities and move the
 /// same.
 core::Result<Measurements> measureFar(gpu::Device& device, double metres, double motionBound) {
-    SceneDraft near;
-    buildStage(near);
-    SceneDraft far;
-    buildStage(far);
+    SceneBuilder near = makeEmptyScene();
+    addWallAndSphere(near);
+    SceneBuilder far = makeEmptyScene();
+    addWallAndSphere(far);
     far.moveAll(dvec3(metres, -0.6 * metres, 0.8 * metres));
-    Drawer nearDrawer(device, near);
-    Drawer farDrawer(device, far);
+    Drawer nearDrawer(device, std::move(near));
+    Drawer farDrawer(device, std::move(far));
     auto found = measureEveryMethod(farDrawer, kLit);
     if (!found)
         return found;
@@ -110,14 +111,15 @@ core::Result<Measurements> measureFar(gpu::Device& device, double metres, double
 core::Result<Measurements> measureSpin(gpu::Device& device) {
     Measurements all;
     for (const double turns : {0.6, 1.0, 10.3}) {
-        SceneDraft draft;
-        draft.add(makeSheet(6, 5), draft.addWaves(), Stand{.position = {0, 0, -5}});
-        draft.add(
-            makeBox(1.6, 0.3, 0.2),
-            draft.addWaves(),
-            Stand{.position = {0, 0, -2.5}, .angularVelocity = {0, 0.2, turns * 2.0 * kPi}}
+        SceneBuilder scene = makeEmptyScene();
+        addShape(scene, makeSheetShape(6, 5), scene.addWaves(), Placement{.position = {0, 0, -5}});
+        addShape(
+            scene,
+            makeBoxShape(1.6, 0.3, 0.2),
+            scene.addWaves(),
+            Placement{.position = {0, 0, -2.5}, .angularVelocity = {0, 0.2, turns * 2.0 * kPi}}
         );
-        Drawer drawer(device, draft);
+        Drawer drawer(device, std::move(scene));
         auto found = measureEveryMethod(drawer, {});
         if (!found)
             return found;
@@ -129,50 +131,54 @@ core::Result<Measurements> measureSpin(gpu::Device& device) {
     return all;
 }
 
-void buildSky(SceneDraft& draft) {
-    draft.place(draft.shot.camera, {.angularVelocity = {0.1, 0.5, 0.2}});
+void buildSky(SceneBuilder& scene) {
+    scene.place(scene.camera, {.angularVelocity = {0.1, 0.5, 0.2}});
 }
 
-void buildPan(SceneDraft& draft) {
-    const auto waves = draft.addWaves();
-    draft.add(makeSheet(8, 6), waves, Stand{.position = {0, 0, -5}});
-    draft.add(makeBox(0.5, 0.5, 0.5), waves, Stand{.position = {-0.4, 0, -2}});
-    draft.place(draft.shot.camera, {.angularVelocity = {0.1, 0.6, 0.3}});
+void buildPan(SceneBuilder& scene) {
+    const auto waves = scene.addWaves();
+    addShape(scene, makeSheetShape(8, 6), waves, Placement{.position = {0, 0, -5}});
+    addShape(scene, makeBoxShape(0.5, 0.5, 0.5), waves, Placement{.position = {-0.4, 0, -2}});
+    scene.place(scene.camera, {.angularVelocity = {0.1, 0.6, 0.3}});
 }
 
-void buildInside(SceneDraft& draft) {
+void buildInside(SceneBuilder& scene) {
     scene::Material inside;
     inside.doubleSided = true;
-    draft.add(
-        makeBox(1, 1, 1),
-        draft.addMaterial(inside),
-        Stand{.velocity = {0.2, 0.1, 0.3}, .angularVelocity = {0.3, 1.0, 0.2}}
+    addShape(
+        scene,
+        makeBoxShape(1, 1, 1),
+        scene.addMaterial(inside),
+        Placement{.velocity = {0.2, 0.1, 0.3}, .angularVelocity = {0.3, 1.0, 0.2}}
     );
-    draft.add(makeSheet(6, 5), draft.addWaves(), Stand{.position = {0, 0, -5}});
+    addShape(scene, makeSheetShape(6, 5), scene.addWaves(), Placement{.position = {0, 0, -5}});
 }
 
-void buildThroughCamera(SceneDraft& draft) {
-    draft.add(makeSheet(6, 5), draft.addWaves(), Stand{.position = {0, 0, -5}});
-    draft.add(
+void buildThroughCamera(SceneBuilder& scene) {
+    addShape(scene, makeSheetShape(6, 5), scene.addWaves(), Placement{.position = {0, 0, -5}});
+    addShape(
+        scene,
         generator::sphere(0.5f, 24, 12),
-        draft.addWaves(),
-        Stand{.position = {0.1, 0.05, -2.5}, .velocity = {0, 0, 6}}
+        scene.addWaves(),
+        Placement{.position = {0.1, 0.05, -2.5}, .velocity = {0, 0, 6}}
     );
 }
 
 /// A grain of a millimetre close to the camera before a hill of a kilometre.
-void buildMillimetresAndKilometres(SceneDraft& draft) {
-    draft.camera().near = 1e-4;
-    const auto waves = draft.addWaves();
-    draft.add(
+void buildMillimetresAndKilometres(SceneBuilder& scene) {
+    scene.cameraSettings().near = 1e-4;
+    const auto waves = scene.addWaves();
+    addShape(
+        scene,
         generator::sphere(0.001f, 24, 12),
         waves,
-        Stand{.position = {0, 0, -0.004}, .velocity = {0.001, 0.0005, 0}}
+        Placement{.position = {0, 0, -0.004}, .velocity = {0.001, 0.0005, 0}}
     );
-    draft.add(
+    addShape(
+        scene,
         generator::sphere(1000.0f, 24, 12),
         waves,
-        Stand{.position = {300, 100, -4000}, .velocity = {-400, 100, 0}}
+        Placement{.position = {300, 100, -4000}, .velocity = {-400, 100, 0}}
     );
 }
 
@@ -259,7 +265,7 @@ std::vector<HardCase> listPlaceCases() {
             shutter.name,
             shutter.title,
             shutter.description,
-            [](SceneDraft& draft) { buildStage(draft); },
+            [](SceneBuilder& scene) { addWallAndSphere(scene); },
             shutter.view
         ));
     return cases;

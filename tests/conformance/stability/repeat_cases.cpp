@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 namespace shutter::stability {
 
@@ -19,23 +20,25 @@ namespace fs = std::filesystem;
 constexpr uint32_t kRuns = 20;
 
 /// Every pass has something to do: movers before each other, holes, light, a camera that turns.
-void buildBusy(SceneDraft& draft) {
-    draft.add(makeSheet(6, 5), draft.addLitWaves(), Stand{.position = {0, 0, -5}});
-    draft.add(
+void buildBusy(SceneBuilder& scene) {
+    addShape(scene, makeSheetShape(6, 5), scene.addLitWaves(), Placement{.position = {0, 0, -5}});
+    addShape(
+        scene,
         generator::sphere(0.5f, 24, 12),
-        draft.addLitWaves(),
-        Stand{
+        scene.addLitWaves(),
+        Placement{
             .position = {0.1, 0, -2.5},
             .velocity = {0.5, 0.2, 0.1},
             .angularVelocity = {0.2, 0.9, 0.1}}
     );
-    draft.add(
-        makeSheet(0.8, 0.8),
-        draft.addWaves(true),
-        Stand{.position = {-0.3, 0.1, -2}, .velocity = {-0.4, 0.1, 0}}
+    addShape(
+        scene,
+        makeSheetShape(0.8, 0.8),
+        scene.addWaves(true),
+        Placement{.position = {-0.3, 0.1, -2}, .velocity = {-0.4, 0.1, 0}}
     );
-    draft.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
-    draft.place(draft.shot.camera, {.angularVelocity = {0.02, 0.05, 0}});
+    scene.addSun(glm::normalize(math::dvec3(-0.4, -0.7, -0.6)), 3.0f);
+    scene.place(scene.camera, {.angularVelocity = {0.02, 0.05, 0}});
 }
 
 const View kView{
@@ -66,9 +69,9 @@ void compareHashes(Worst& worst, const Hashes& expected, const Hashes& found) {
 }
 
 core::Result<Measurements> measureRuns(gpu::Device& device) {
-    SceneDraft draft;
-    buildBusy(draft);
-    Drawer drawer(device, draft);
+    SceneBuilder scene = makeEmptyScene();
+    buildBusy(scene);
+    Drawer drawer(device, std::move(scene));
     const auto first = hashEveryMethod(drawer);
     if (!first)
         return first.error();
@@ -124,10 +127,10 @@ uint32_t countDriverThreads() {
 }
 
 core::Result<Measurements> measureThreads(gpu::Device& device) {
-    SceneDraft draft;
-    buildBusy(draft);
-    const auto hashOn = [&](gpu::Device& with) {
-        Drawer drawer(with, draft);
+    const auto hashOn = [](gpu::Device& with) {
+        SceneBuilder scene = makeEmptyScene();
+        buildBusy(scene);
+        Drawer drawer(with, std::move(scene));
         return hashEveryMethod(drawer);
     };
     const auto expected = hashOn(device);

@@ -99,21 +99,22 @@ constexpr float kFront = 0.0f;
 constexpr float kBehind = 1.0f;
 
 /// A sphere, another of the same facets a millimetre within it, a wall far behind.
-void buildShells(SceneDraft& draft, double radius, const dvec3& centre) {
+void buildShells(SceneBuilder& scene, double radius, const dvec3& centre) {
     constexpr int kSegments = 160;
     constexpr int kRings = 80;
-    const auto color = draft.addColor({0.5f, 0.5f, 0.5f});
-    const Stand stand{
+    const auto color = scene.addColor({0.5f, 0.5f, 0.5f});
+    const Placement placement{
         .position = centre, .rotation = glm::angleAxis(0.7, glm::normalize(dvec3(0.3, 0.8, 0.2)))};
-    draft.add(generator::sphere(float(radius), kSegments, kRings), color, stand);
-    draft.add(generator::sphere(float(radius - kGap), kSegments, kRings), color, stand);
-    draft.add(
-        makeSheet(40.0 * radius, 40.0 * radius),
+    addShape(scene, generator::sphere(float(radius), kSegments, kRings), color, placement);
+    addShape(scene, generator::sphere(float(radius - kGap), kSegments, kRings), color, placement);
+    addShape(
+        scene,
+        makeSheetShape(40.0 * radius, 40.0 * radius),
         color,
-        Stand{.position = centre - dvec3(0, 0, 3.0 * radius)}
+        Placement{.position = centre - dvec3(0, 0, 3.0 * radius)}
     );
-    draft.camera().yFov = kYFov;
-    draft.camera().near = std::min(0.05, 0.1 * radius);
+    scene.cameraSettings().yFov = kYFov;
+    scene.cameraSettings().near = std::min(0.05, 0.1 * radius);
 }
 
 /// Whether the pixel's ray passes well within the inner sphere, so that missing it is a leak.
@@ -133,17 +134,17 @@ struct Place {
 
 core::Result<Measurements> measurePlace(gpu::Device& device, const Place& place) {
     const double distance = 3.0 * place.radius;
-    SceneDraft draft;
-    buildShells(draft, place.radius, {0, 0, -distance});
-    draft.moveAll(place.offset);
-    render::Renderer renderer(device, draft.shot.world.assets);
+    SceneBuilder scene = makeEmptyScene();
+    buildShells(scene, place.radius, {0, 0, -distance});
+    scene.moveAll(place.offset);
+    render::Renderer renderer(device, scene.world.assets);
     RevealEverywhere reveal(device, renderer.scene());
     render::FrameRequest request;
-    request.view.camera = draft.shot.camera;
+    request.view.camera = scene.camera;
     request.view.width = request.view.height = kSizePx;
     request.intermediates = {"mesh_id", "reveal_id"};
     const std::array<render::PostEffect*, 1> effects{&reveal};
-    auto frame = renderer.renderFrame(draft.shot.world, request, effects);
+    auto frame = renderer.renderFrame(scene.world, request, effects);
     if (!frame)
         return frame.error();
     const image::Image& seen = frame.value().intermediates.at("mesh_id");

@@ -14,47 +14,48 @@ using math::dvec3;
 
 const View kBefore{.background = math::vec3(0.2f, 0.3f, 0.4f), .ambient = math::vec3(0.3f)};
 
-void addWall(SceneDraft& draft) {
-    draft.add(makeSheet(6, 5), draft.addWaves(), Stand{.position = {0, 0, -5}});
+void addWall(SceneBuilder& scene) {
+    addShape(scene, makeSheetShape(6, 5), scene.addWaves(), Placement{.position = {0, 0, -5}});
 }
 
-const Stand kMover{.position = {0.05, -0.03, -2}, .velocity = {0.5, 0.2, 0}};
+const Placement kMover{.position = {0.05, -0.03, -2}, .velocity = {0.5, 0.2, 0}};
 
-void buildDegenerate(SceneDraft& draft) {
-    addWall(draft);
-    const auto white = draft.addColor({1, 1, 1});
-    Shape needle = makeSheet(1, 1);
+void buildDegenerate(SceneBuilder& scene) {
+    addWall(scene);
+    const auto white = scene.addColor({1, 1, 1});
+    Shape needle = makeSheetShape(1, 1);
     for (auto& position : needle.positions)
         position.y = 0.0f;
-    draft.add(needle, white, kMover);
-    Shape point = makeSheet(1, 1);
+    addShape(scene, needle, white, kMover);
+    Shape point = makeSheetShape(1, 1);
     for (auto& position : point.positions)
         position = glm::vec3(0.0f);
-    draft.add(point, white, kMover);
+    addShape(scene, point, white, kMover);
     // Two of its triangles have area, two have none.
-    Shape mixed = makeSheet(1, 1);
+    Shape mixed = makeSheetShape(1, 1);
     const uint32_t corner = mixed.indices.front();
     mixed.indices.insert(mixed.indices.end(), {corner, corner, corner, corner, corner, corner});
-    draft.add(mixed, white, kMover);
-    Shape alone = makeSheet(0.5, 0.5);
+    addShape(scene, mixed, white, kMover);
+    Shape alone = makeSheetShape(0.5, 0.5);
     alone.indices.resize(3);
-    draft.add(alone, white, Stand{.position = {-0.5, 0.4, -2}, .velocity = {0.5, 0, 0}});
+    addShape(scene, alone, white, Placement{.position = {-0.5, 0.4, -2}, .velocity = {0.5, 0, 0}});
 }
 
 /// Movers in one plane: which of them a pixel shows is a matter of rounding.
-void buildCoplanar(SceneDraft& draft) {
-    addWall(draft);
+void buildCoplanar(SceneBuilder& scene) {
+    addWall(scene);
     for (int i = 0; i < 3; ++i)
-        draft.add(
-            makeSheet(1.0 - 0.1 * i, 0.8),
-            draft.addWaves(),
-            Stand{.position = {0.1 * i, 0.05 * i, -2}, .velocity = {0.5 - 0.4 * i, 0.2, 0}}
+        addShape(
+            scene,
+            makeSheetShape(1.0 - 0.1 * i, 0.8),
+            scene.addWaves(),
+            Placement{.position = {0.1 * i, 0.05 * i, -2}, .velocity = {0.5 - 0.4 * i, 0.2, 0}}
         );
 }
 
 /// Eight closed shells of one entity inside one another: sixteen surfaces on a ray.
-void buildShells(SceneDraft& draft) {
-    addWall(draft);
+void buildShells(SceneBuilder& scene) {
+    addWall(scene);
     scene::Material both;
     both.doubleSided = true;
     both.unlit = true;
@@ -62,15 +63,15 @@ void buildShells(SceneDraft& draft) {
     std::vector<Shape> shells;
     for (int i = 0; i < 8; ++i)
         shells.push_back(generator::sphere(0.7f - 0.08f * float(i), 24, 12));
-    draft.add(shells, draft.addMaterial(both), kMover);
+    addShapes(scene, shells, scene.addMaterial(both), kMover);
 }
 
 core::Result<Measurements> measureShells(gpu::Device& device) {
-    SceneDraft draft;
-    buildShells(draft);
+    SceneBuilder scene = makeEmptyScene();
+    buildShells(scene);
     motion_blur::MotionBlurSettings settings;
     settings.revealTraversal = motion_blur::RevealTraversal::Stepping; // the other has no limit
-    Drawer drawer(device, draft, settings);
+    Drawer drawer(device, std::move(scene), settings);
     auto found = measureEveryMethod(drawer, kBefore);
     if (!found)
         return found;
@@ -90,13 +91,14 @@ core::Result<Measurements> measureShells(gpu::Device& device) {
 }
 
 /// Two bars of one mesh that pass through each other.
-void buildOverlap(SceneDraft& draft) {
-    addWall(draft);
-    const std::vector<Shape> bars = {makeBox(1.2, 0.3, 0.3), makeBox(0.3, 1.2, 0.3)};
-    draft.add(
+void buildOverlap(SceneBuilder& scene) {
+    addWall(scene);
+    const std::vector<Shape> bars = {makeBoxShape(1.2, 0.3, 0.3), makeBoxShape(0.3, 1.2, 0.3)};
+    addShapes(
+        scene,
         bars,
-        draft.addWaves(),
-        Stand{
+        scene.addWaves(),
+        Placement{
             .position = {0.05, 0, -2},
             .velocity = {0.3, 0.1, 0},
             .angularVelocity = {0.3, 0.8, 1.0}}
@@ -128,18 +130,19 @@ core::Result<uint64_t> countRevealedGreen(Drawer& drawer) {
 core::Result<Measurements> measureEqualLuminance(gpu::Device& device) {
     Measurements all;
     for (const auto test : {motion_blur::ObjectTest::MeshId, motion_blur::ObjectTest::Luminance}) {
-        SceneDraft draft;
-        addWall(draft);
+        SceneBuilder scene = makeEmptyScene();
+        addWall(scene);
         // Red and green of one luminance, in front of each other, in opposite directions.
-        draft.add(makeSheet(1, 0.8), draft.addColor({0.7152f, 0, 0}), kMover);
-        draft.add(
-            makeSheet(1, 0.8),
-            draft.addColor({0, 0.2126f, 0}),
-            Stand{.position = {0.1, 0, -2.5}, .velocity = {-0.5, 0.1, 0}}
+        addShape(scene, makeSheetShape(1, 0.8), scene.addColor({0.7152f, 0, 0}), kMover);
+        addShape(
+            scene,
+            makeSheetShape(1, 0.8),
+            scene.addColor({0, 0.2126f, 0}),
+            Placement{.position = {0.1, 0, -2.5}, .velocity = {-0.5, 0.1, 0}}
         );
         motion_blur::MotionBlurSettings settings;
         settings.objectTest = test;
-        Drawer drawer(device, draft, settings);
+        Drawer drawer(device, std::move(scene), settings);
         auto found = measureEveryMethod(drawer, kBefore);
         if (!found)
             return found;
@@ -163,28 +166,30 @@ core::Result<Measurements> measureEqualLuminance(gpu::Device& device) {
 }
 
 /// Rods a twentieth of a pixel wide.
-void buildThin(SceneDraft& draft) {
-    addWall(draft);
-    const auto white = draft.addColor({1, 1, 1});
+void buildThin(SceneBuilder& scene) {
+    addWall(scene);
+    const auto white = scene.addColor({1, 1, 1});
     for (int i = 0; i < 12; ++i)
-        draft.add(
-            makeBox(0.002, 1.5, 0.002),
+        addShape(
+            scene,
+            makeBoxShape(0.002, 1.5, 0.002),
             white,
-            Stand{
+            Placement{
                 .position = {-0.8 + 0.1377 * i, 0, -2},
                 .rotation = glm::angleAxis(0.1 * i, dvec3(0, 0, 1)),
                 .velocity = {0.4, 0.1, 0}}
         );
 }
 
-void buildLeaves(SceneDraft& draft) {
-    addWall(draft);
-    const auto leaves = draft.addWaves(true);
+void buildLeaves(SceneBuilder& scene) {
+    addWall(scene);
+    const auto leaves = scene.addWaves(true);
     for (int i = 0; i < 5; ++i)
-        draft.add(
-            makeSheet(0.8, 0.8),
+        addShape(
+            scene,
+            makeSheetShape(0.8, 0.8),
             leaves,
-            Stand{
+            Placement{
                 .position = {-0.6 + 0.3 * i, 0.1 * i - 0.2, -2.0 - 0.2 * i},
                 .rotation = glm::angleAxis(0.5 * i, glm::normalize(dvec3(0.2, 1, 0.3))),
                 .velocity = {0.4, 0.1, 0},
@@ -194,25 +199,27 @@ void buildLeaves(SceneDraft& draft) {
 
 /// Emission of 1e5 and 1e30, and light of 1e6 lux.
 core::Result<Measurements> measureHighlights(gpu::Device& device) {
-    SceneDraft draft;
-    addWall(draft);
+    SceneBuilder scene = makeEmptyScene();
+    addWall(scene);
     scene::Material lamp;
     lamp.emissive = math::vec3(1e5f, 2e5f, 1.0f);
-    draft.add(generator::sphere(0.4f, 24, 12), draft.addMaterial(lamp), kMover);
+    addShape(scene, generator::sphere(0.4f, 24, 12), scene.addMaterial(lamp), kMover);
     scene::Material sun;
     sun.emissive = math::vec3(1e30f, std::numeric_limits<float>::max(), 0.0f);
-    draft.add(
+    addShape(
+        scene,
         generator::sphere(0.1f, 24, 12),
-        draft.addMaterial(sun),
-        Stand{.position = {-0.5, 0.3, -1.5}, .velocity = {0.1, 0.3, 0}}
+        scene.addMaterial(sun),
+        Placement{.position = {-0.5, 0.3, -1.5}, .velocity = {0.1, 0.3, 0}}
     );
-    draft.add(
+    addShape(
+        scene,
         generator::sphere(0.3f, 24, 12),
-        draft.addLitWaves(),
-        Stand{.position = {0.6, -0.3, -2}, .velocity = {-0.2, 0.3, 0}}
+        scene.addLitWaves(),
+        Placement{.position = {0.6, -0.3, -2}, .velocity = {-0.2, 0.3, 0}}
     );
-    draft.addSun(dvec3(0, 0, -1), 1e6f);
-    Drawer drawer(device, draft);
+    scene.addSun(dvec3(0, 0, -1), 1e6f);
+    Drawer drawer(device, std::move(scene));
     auto found = measureEveryMethod(drawer, kBefore);
     if (!found)
         return found;
@@ -228,15 +235,16 @@ core::Result<Measurements> measureHighlights(gpu::Device& device) {
     return found;
 }
 
-void buildMirrored(SceneDraft& draft) {
-    addWall(draft);
-    const auto waves = draft.addWaves();
+void buildMirrored(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
     const dvec3 scales[] = {{-1, 1, 1}, {1, -1, 1}, {-1, -1, -1}, {-1, -1, 1}};
     for (int i = 0; i < 4; ++i)
-        draft.add(
-            makeBox(0.5, 0.4, 0.3),
+        addShape(
+            scene,
+            makeBoxShape(0.5, 0.4, 0.3),
             waves,
-            Stand{
+            Placement{
                 .position = {-0.6 + 0.4 * i, 0.1 * i, -2},
                 .scale = scales[i],
                 .velocity = {0.4, 0.1, 0},
@@ -244,21 +252,22 @@ void buildMirrored(SceneDraft& draft) {
         );
 }
 
-void buildFlat(SceneDraft& draft) {
-    addWall(draft);
-    const auto waves = draft.addWaves();
+void buildFlat(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
     for (const dvec3& scale :
          {dvec3(0.0), dvec3(1, 0, 1), dvec3(0, 1, 1), dvec3(1, 1, 0), dvec3(1e-30), dvec3(1e30)})
-        draft.add(
-            makeBox(0.5, 0.4, 0.3),
+        addShape(
+            scene,
+            makeBoxShape(0.5, 0.4, 0.3),
             waves,
-            Stand{.position = {0.1, 0, -2}, .scale = scale, .velocity = {0.4, 0.1, 0}}
+            Placement{.position = {0.1, 0, -2}, .scale = scale, .velocity = {0.4, 0.1, 0}}
         );
 }
 
-void buildSingular(SceneDraft& draft) {
-    addWall(draft);
-    const auto waves = draft.addWaves();
+void buildSingular(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
     math::dmat4 rankOne(0.0);
@@ -268,14 +277,14 @@ void buildSingular(SceneDraft& draft) {
         math::dmat4 matrix(1.0);
         matrix[3] = math::dvec4(0, 0, -2, 1);
         matrix[1][1] = bad;
-        draft.add(makeBox(0.5, 0.4, 0.3), waves, matrix);
+        addShape(scene, makeBoxShape(0.5, 0.4, 0.3), waves, matrix);
         matrix[1][1] = 1.0;
         matrix[3][0] = bad;
-        draft.add(makeBox(0.5, 0.4, 0.3), waves, matrix);
+        addShape(scene, makeBoxShape(0.5, 0.4, 0.3), waves, matrix);
     }
-    draft.add(makeBox(0.5, 0.4, 0.3), waves, rankOne);
-    draft.add(makeBox(0.5, 0.4, 0.3), waves, math::dmat4(0.0));
-    draft.add(makeBox(0.3, 0.3, 0.3), waves, kMover);
+    addShape(scene, makeBoxShape(0.5, 0.4, 0.3), waves, rankOne);
+    addShape(scene, makeBoxShape(0.5, 0.4, 0.3), waves, math::dmat4(0.0));
+    addShape(scene, makeBoxShape(0.3, 0.3, 0.3), waves, kMover);
 }
 
 } // namespace

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "tests/gpu/graph_rig.h"
-
-#include "spirv/accumulate/accumulate.comp.h"
+#include "tests/kit/graph_rig.h"
 
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
 #include "engine/image/half_float.h"
-#include "shaders/accumulate/accumulate_shared.h"
-
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <vector>
@@ -23,7 +18,6 @@ GraphRig::GraphRig(gpu::Device& device)
 
 graph::ImageHandle
 GraphRig::upload(const image::Image& picture, VkFormat format, std::span<const std::byte> texels) {
-    SHUTTER_CHECK_EQ(picture.channels, 4u);
     gpu::ImageDesc desc;
     desc.width = picture.width;
     desc.height = picture.height;
@@ -38,44 +32,34 @@ GraphRig::upload(const image::Image& picture, VkFormat format, std::span<const s
 }
 
 graph::ImageHandle GraphRig::upload(const image::Image& picture) {
+    SHUTTER_CHECK_EQ(picture.channels, 4u);
     return upload(picture, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(picture.pixels)));
 }
 
 graph::ImageHandle GraphRig::uploadColor(const image::Image& picture) {
+    SHUTTER_CHECK_EQ(picture.channels, 4u);
     const std::vector<uint16_t> halves = image::packHalf(picture);
     return upload(picture, VK_FORMAT_R16G16B16A16_SFLOAT, std::as_bytes(std::span(halves)));
+}
+
+graph::ImageHandle GraphRig::uploadIds(const image::Image& ids) {
+    SHUTTER_CHECK_EQ(ids.channels, 1u);
+    std::vector<uint32_t> whole;
+    whole.reserve(ids.pixels.size());
+    for (const float id : ids.pixels)
+        whole.push_back(static_cast<uint32_t>(id));
+    return upload(ids, VK_FORMAT_R32_UINT, std::as_bytes(std::span(whole)));
 }
 
 size_t GraphRig::want(graph::ImageHandle image) {
     return mReadback.add(graph, "picture", image);
 }
 
-graph::Plan GraphRig::run() {
+core::Result<graph::Plan> GraphRig::run() {
     auto plan = graph::execute(graph, mFrame, mPool);
     mFrame.submit();
     mFrame.wait();
-    if (plan)
-        return std::move(plan).value();
-    ADD_FAILURE() << plan.error().message;
-    return {};
-}
-
-EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height)
-    : context{
-          rig.graph, facts, gbuffer, nullptr, nullptr, color, {}, intermediates, 0, 0, explainer} {
-    facts.width = width;
-    facts.height = height;
-    facts.displayWanted = true;
-}
-
-gpu::Pipeline makeScalePipeline(gpu::Device& device) {
-    gpu::ComputePipelineDesc desc;
-    desc.name = "scale";
-    desc.spirv = accumulate_accumulate_comp;
-    desc.interface.bindings = {
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-    desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
-    return gpu::Pipeline(device, desc);
+    return plan;
 }
 
 } // namespace shutter::test

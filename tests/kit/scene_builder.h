@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Scenes made in code: a few shapes, unlit or lit, that stand or move. Numbers stand in the tests.
+// Scenes made in code: a few shapes, unlit or lit, static or moving.
 #pragma once
 
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
 
 #include <cstdint>
-#include <string>
+#include <vector>
 
 namespace shutter::test {
 
 /// Where an entity is at time 0 and how it moves from there.
 struct Placement {
-    math::dvec3 position{0.0};
+    math::dvec3 position{0.0}; ///< metres
     math::dquat rotation{1.0, 0.0, 0.0, 0.0};
     math::dvec3 scale{1.0};
     math::dvec3 velocity{0.0};        ///< m/s
@@ -36,29 +36,42 @@ class SceneBuilder {
     scene::World world;
     ecs::Entity camera;
 
+    [[nodiscard]] scene::Camera& cameraSettings() {
+        return world.registry.get<scene::Camera>(camera);
+    }
+
     /// \param yFov radians
     void setPerspective(double yFov, double near = 0.05);
     /// One metre is one pixel; the picture's centre is the origin. From 0.1 m to 100 m.
     void setPixelView(uint32_t heightPx);
 
+    /// Gives the entity the transform and the velocities, in place of those it has.
+    void place(ecs::Entity entity, const Placement& placement);
+
     void moveCamera(const Placement& placement) { place(camera, placement); }
 
+    /// Moves every entity without a parent, the camera too. \param offset metres
+    void moveAll(const math::dvec3& offset);
+
+    scene::AssetIndex addMaterial(scene::Material material);
     /// Unlit, one colour.
     scene::AssetIndex addColor(const math::vec3& color);
-    scene::AssetIndex addMaterial(scene::Material material);
     /// Unlit, double-sided or not, with `texture`.
     scene::AssetIndex addTextured(scene::AssetIndex texture, bool doubleSided = false);
-    /// Smooth waves of hue, no two places of a tile alike. Linear filter, repeats.
+    /// A texture of smooth waves of hue, no two places of a tile alike. Linear filter, repeats.
     /// \param alphaHoles every other cell of an 8 x 8 board is transparent
-    scene::AssetIndex addWaves(uint32_t sizePx = 64, bool alphaHoles = false);
+    scene::AssetIndex addWaveTexture(uint32_t sizePx = 64, bool alphaHoles = false);
+    /// Unlit, with waves of 64 pixels. \param alphaHoles the transparent cells are cut out
+    scene::AssetIndex addWaves(bool alphaHoles = false);
+    /// Lit, smooth and not metallic, with waves of 64 pixels.
+    scene::AssetIndex addLitWaves();
 
     scene::AssetIndex addMesh(std::vector<scene::Primitive> primitives);
     ecs::Entity add(scene::Primitive primitive, const Placement& placement);
     ecs::Entity add(scene::AssetIndex mesh, const Placement& placement);
+    /// \param matrix may be anything, even singular or not finite
+    ecs::Entity add(scene::AssetIndex mesh, const math::dmat4& matrix);
     void addSun(const math::dvec3& direction, float lux);
-
-  private:
-    void place(ecs::Entity entity, const Placement& placement);
 };
 
 } // namespace shutter::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/support/scene_builder.h"
+#include "tests/kit/scene_builder.h"
 
 #include <cmath>
 #include <numbers>
@@ -102,14 +102,14 @@ SceneBuilder::SceneBuilder() : camera(world.registry.create()) {
 }
 
 void SceneBuilder::setPerspective(double yFov, double near) {
-    auto& settings = world.registry.get<scene::Camera>(camera);
+    scene::Camera& settings = cameraSettings();
     settings.kind = scene::CameraKind::Perspective;
     settings.yFov = yFov;
     settings.near = near;
 }
 
 void SceneBuilder::setPixelView(uint32_t heightPx) {
-    auto& settings = world.registry.get<scene::Camera>(camera);
+    scene::Camera& settings = cameraSettings();
     settings.kind = scene::CameraKind::Orthographic;
     settings.yMag = heightPx / 2.0;
     settings.near = 0.1;
@@ -124,6 +124,13 @@ void SceneBuilder::place(ecs::Entity entity, const Placement& placement) {
     world.registry.add(entity, scene::LocalTransform{transform});
     world.registry.add(entity, scene::LinearVelocity{placement.velocity});
     world.registry.add(entity, scene::AngularVelocity{placement.angularVelocity});
+}
+
+void SceneBuilder::moveAll(const dvec3& offset) {
+    for (auto [entity, local] : world.registry.view<scene::LocalTransform>())
+        local.transform.translation += offset;
+    for (auto [entity, local] : world.registry.view<scene::LocalMatrix>())
+        local.matrix[3] += math::dvec4(offset, 0.0);
 }
 
 AssetIndex SceneBuilder::addMaterial(scene::Material material) {
@@ -146,7 +153,7 @@ AssetIndex SceneBuilder::addTextured(AssetIndex texture, bool doubleSided) {
     return addMaterial(std::move(material));
 }
 
-AssetIndex SceneBuilder::addWaves(uint32_t sizePx, bool alphaHoles) {
+AssetIndex SceneBuilder::addWaveTexture(uint32_t sizePx, bool alphaHoles) {
     scene::TextureImage image;
     image.width = image.height = sizePx;
     for (uint32_t y = 0; y < sizePx; ++y)
@@ -164,6 +171,23 @@ AssetIndex SceneBuilder::addWaves(uint32_t sizePx, bool alphaHoles) {
     world.assets.images.push_back(std::move(image));
     world.assets.textures.push_back(texture);
     return static_cast<AssetIndex>(world.assets.textures.size() - 1);
+}
+
+AssetIndex SceneBuilder::addWaves(bool alphaHoles) {
+    scene::Material material;
+    material.unlit = true;
+    material.baseColor.texture = addWaveTexture(64, alphaHoles);
+    if (alphaHoles)
+        material.alphaMode = scene::AlphaMode::Mask;
+    return addMaterial(std::move(material));
+}
+
+AssetIndex SceneBuilder::addLitWaves() {
+    scene::Material material;
+    material.roughnessFactor = 0.4f;
+    material.metallicFactor = 0.0f;
+    material.baseColor.texture = addWaveTexture();
+    return addMaterial(std::move(material));
 }
 
 AssetIndex SceneBuilder::addMesh(std::vector<Primitive> primitives) {
@@ -186,6 +210,13 @@ ecs::Entity SceneBuilder::add(AssetIndex mesh, const Placement& placement) {
     const ecs::Entity entity = world.registry.create();
     world.registry.add(entity, scene::MeshInstance{mesh});
     place(entity, placement);
+    return entity;
+}
+
+ecs::Entity SceneBuilder::add(AssetIndex mesh, const math::dmat4& matrix) {
+    const ecs::Entity entity = world.registry.create();
+    world.registry.add(entity, scene::MeshInstance{mesh});
+    world.registry.add(entity, scene::LocalMatrix{matrix});
     return entity;
 }
 

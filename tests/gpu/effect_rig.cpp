@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "tests/gpu/effect_rig.h"
+
+#include "spirv/accumulate/accumulate.comp.h"
+
+#include "shaders/accumulate/accumulate_shared.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+namespace shutter::test {
+
+graph::Plan run(GraphRig& rig) {
+    auto plan = rig.run();
+    if (plan)
+        return std::move(plan).value();
+    ADD_FAILURE() << plan.error().message;
+    return {};
+}
+
+EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height)
+    : context{
+          rig.graph, facts, gbuffer, nullptr, nullptr, color, {}, intermediates, 0, 0, explainer} {
+    facts.width = width;
+    facts.height = height;
+    facts.displayWanted = true;
+}
+
+gpu::Pipeline makeScalePipeline(gpu::Device& device) {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "scale";
+    desc.spirv = accumulate_accumulate_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
+    return gpu::Pipeline(device, desc);
+}
+
+} // namespace shutter::test

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What tests of single passes put around the rig of tests/kit: failures are the test's, a post
+// effect gets its context.
+#pragma once
+
+#include "engine/render/post_effect.h"
+#include "tests/kit/graph_rig.h"
+
+#include <cstdint>
+
+namespace shutter::test {
+
+/// GraphRig::run() that fails the test, and returns an empty plan, if the graph does not compile.
+graph::Plan run(GraphRig& rig);
+
+/// What a post effect is given, around one picture.
+struct EffectRig {
+    EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height);
+
+    render::ViewFacts facts;
+    render::GBuffer gbuffer;
+    render::Intermediates intermediates{{}};
+    render::Explainer explainer;
+    render::PostContext context;
+};
+
+/// The shader that adds pictures: with index 0, rgb = source's rgb times the scale. Something to
+/// dispatch, pushed AccumulateParams.
+[[nodiscard]] gpu::Pipeline makeScalePipeline(gpu::Device& device);
+
+} // namespace shutter::test
