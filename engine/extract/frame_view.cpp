@@ -2,7 +2,6 @@
 #include "engine/extract/frame_view.h"
 
 #include "engine/extract/poses.h"
-#include "engine/math/projection.h"
 #include "engine/math/transform.h"
 #include "engine/scene/lens.h"
 #include "engine/scene/motion.h"

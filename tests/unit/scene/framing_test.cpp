@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/math/projection.h"
+#include "engine/math/transform.h"
 #include "engine/scene/framing.h"
 #include "engine/scene/motion.h"
 
