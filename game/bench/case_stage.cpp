@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_stage.h"
 
-#include "engine/image/flip.h"
-#include "engine/image/magma.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/content_hash.h"
 #include "engine/io/image_file.h"

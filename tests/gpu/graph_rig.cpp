@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 #include "shaders/accumulate/accumulate_shared.h"
 
 #include <gtest/gtest.h>

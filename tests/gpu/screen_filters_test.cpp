@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The filters of one layer on the device: in a centred exposure each is its publication's, written
 // down once more here in half velocities; and no input makes a value that is not finite.
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "tests/gpu/graph_rig.h"
 #include "tests/support/gpu_fixture.h"
@@ -361,7 +361,8 @@ TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
                 scene.motionDepth.at(x, y, 2) = 3.0f;
             }
     scene.motionDepth.at(20, 13, 2) = 9.0f; // behind them all: it may cover nothing
-    for (const Method* method : {&getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("own_velocity")}) {
+    for (const Method* method :
+         {&getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("own_velocity")}) {
         const Image picture = blur(device(), scene, oneTile(method));
         const auto still = [](uint32_t x, uint32_t y) { return x != 20 || y != 13; };
         // A sum of one weighted colour divided by its weight, as a half float.
@@ -418,7 +419,10 @@ TEST_F(ScreenFilters, MotionThatIsNotFiniteCountsAsNone) {
             zeroed.motionDepth.at(column, row, 0) = zeroed.motionDepth.at(column, row, 1) = 0.0f;
         }
         for (const Method* method :
-             {&getMethod("own_velocity"), &getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("jimenez2014")}) {
+             {&getMethod("own_velocity"),
+              &getMethod("mcguire2012"),
+              &getMethod("guertin2014"),
+              &getMethod("jimenez2014")}) {
             MotionBlurSettings settings = oneTile(method);
             settings.occluderTest = motion_blur::OccluderTest::Velocity;
             const Image picture = blur(device(), scene, settings);
