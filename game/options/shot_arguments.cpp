@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/options/shot_arguments.h"
 
-#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
 #include "engine/scene/shutter_rows.h"
 #include "game/shot/flight.h"
 

@@ -83,7 +83,7 @@ struct PublicHeaders {
 };
 
 const std::vector<PublicHeaders> kPublicHeaders = {
-    {"io", {"content_hash.h", "file_bytes.h", "image_file.h", "process.h", "uri.h", "video.h"}},
+    {"io", {"file_bytes.h", "image_file.h", "process.h", "uri.h", "video.h"}},
     {"json", {"json_file.h", "json_rows.h"}},
     {"gltf", {"gltf_loader.h"}},
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
