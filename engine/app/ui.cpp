@@ -6,9 +6,9 @@
 
 #include "engine/app/ui_input.h"
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 #include "shaders/app/ui_shared.h"
 
 #include <algorithm>
