@@ -4,7 +4,6 @@
 #include "spirv/app/ui.frag.h"
 #include "spirv/app/ui.vert.h"
 
-#include "engine/app/ui_input.h"
 #include "engine/core/check.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
