@@ -3,7 +3,7 @@
 
 #include "engine/extract/poses.h"
 #include "engine/math/transform.h"
-#include "engine/scene/lens.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
 
 #include <algorithm>

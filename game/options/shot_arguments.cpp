@@ -2,7 +2,7 @@
 #include "game/options/shot_arguments.h"
 
 #include "engine/io/file_bytes.h"
-#include "engine/scene/shutter_rows.h"
+#include "engine/scene/shutter.h"
 #include "game/shot/flight.h"
 
 #include <array>

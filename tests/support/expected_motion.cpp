@@ -2,9 +2,9 @@
 #include "tests/support/expected_motion.h"
 
 #include "engine/math/transform.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/components.h"
 #include "engine/scene/deformation.h"
-#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <cmath>
