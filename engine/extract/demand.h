@@ -5,7 +5,6 @@
 
 #include "engine/core/decision.h"
 #include "engine/extract/extracted_frame.h"
-#include "engine/extract/scene_layout.h"
 
 namespace shutter::extract {
 
