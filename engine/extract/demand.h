@@ -3,7 +3,7 @@
 // wants it. Pure functions.
 #pragma once
 
-#include "engine/core/decision.h"
+#include "engine/core/result.h"
 #include "engine/extract/extracted_frame.h"
 
 namespace shutter::extract {
