@@ -4,11 +4,10 @@
 #include "spirv/app/ui.frag.h"
 #include "spirv/app/ui.vert.h"
 
-#include "engine/app/ui_input.h"
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 #include "shaders/app/ui_shared.h"
 
 #include <algorithm>

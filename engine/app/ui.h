@@ -7,7 +7,7 @@
 #pragma once
 
 #include "engine/app/input.h"
-#include "engine/app/overlay.h"
+#include "engine/app/window_output.h"
 
 #include <memory>
 
@@ -43,5 +43,12 @@ class Ui : public Overlay {
     struct State;
     std::unique_ptr<State> mState;
 };
+
+/// Tells the current ImGui context once which of our keys its widgets read.
+void mapKeys();
+
+/// Hands one frame's input to the current ImGui context. A key or button that was pressed and
+/// released within the frame counts as down in this frame.
+void feedInput(const InputState& input);
 
 } // namespace shutter::app

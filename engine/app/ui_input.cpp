@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/app/ui_input.h"
+#include "engine/app/ui.h"
 
 #include <imgui.h>
 #include <utility>

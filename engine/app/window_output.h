@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The last effect of a frame that is shown: its picture onto the window's image, at its left
-// perhaps another one, and what is drawn over both.
+// The last effect of a frame that is shown: draws its picture onto the window's image, optionally
+// another picture to the left of a divider, and an overlay over both.
 #pragma once
 
-#include "engine/app/overlay.h"
+#include "engine/gpu/frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/math/math.h"
 #include "engine/render/post_effect.h"
@@ -21,9 +21,27 @@ struct PixelRect {
     math::dvec2 extent{0.0};
 };
 
-/// The largest rectangle of the picture's shape in the middle of the window. Both above 0; a side
-/// that is within a pixel of the window's is the window's.
+/// The largest rectangle with the picture's aspect ratio, in the middle of the window. Both sizes
+/// above 0; a side that is within a pixel of the window's is the window's.
 [[nodiscard]] PixelRect fitPicture(const math::uvec2& picture, const math::uvec2& window);
+
+/// Where an overlay draws: a colour attachment of dynamic rendering that has begun, with viewport
+/// and scissor set to all of it. Values are display-encoded.
+struct OverlayTarget {
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    uint32_t width = 0;  ///< pixels
+    uint32_t height = 0; ///< pixels
+    uint32_t slot = 0;   ///< frame in flight, below gpu::kMaxFramesInFlight
+};
+
+/// Drawn over the picture in the window: the user interface.
+class Overlay {
+  public:
+    virtual ~Overlay() = default;
+
+    /// Records the drawing; called once per frame, when the GPU has finished the slot's last one.
+    virtual void record(gpu::Frame& frame, const OverlayTarget& target) = 0;
+};
 
 /// One frame's window.
 struct WindowTarget {
@@ -44,7 +62,7 @@ class WindowOutput : public render::PostEffect {
     WindowOutput(const WindowOutput&) = delete;
     WindowOutput& operator=(const WindowOutput&) = delete;
 
-    /// To be called before each frame.
+    /// Must be called before each frame.
     void setTarget(const WindowTarget& target) { mTarget = target; }
 
     [[nodiscard]] std::string name() const override { return "window"; }

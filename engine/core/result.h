@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How this project reports what the world does wrong (files, devices, formats): a value or one
-// sentence that names the file, field or option. Programmer's mistakes are CHECKs (check.h).
+// How functions report outcomes that a person may read. Result and Status: a value, or one sentence
+// that names the file, field or option at fault (bad files, devices, formats; programming errors
+// are CHECKs, check.h). Decision: whether work runs, and why.
 #pragma once
 
 #include "engine/core/check.h"
@@ -23,8 +24,8 @@ template <class... Args>
     return Error{fmt::format(format, std::forward<Args>(args)...)};
 }
 
-/// A value of type T, or an Error. Ask `ok()` (or bool) first: value() of an error and error() of a
-/// value are CHECK failures.
+/// A value of type T, or an Error. Test `ok()` (or bool) first: value() of an error and error() of
+/// a value are CHECK failures.
 template <class T> class [[nodiscard]] Result {
   public:
     Result(T value) : mState(std::in_place_index<0>, std::move(value)) {}
@@ -83,5 +84,16 @@ class [[nodiscard]] Status {
     Error mError;
     bool mOk = true;
 };
+
+/// Whether something runs, and why.
+struct Decision {
+    bool run = false;
+    std::string reason; ///< for a person; continues "because"
+};
+
+/// "ran: ..." or "skipped: ...".
+[[nodiscard]] inline std::string describe(const Decision& decision) {
+    return (decision.run ? "ran: " : "skipped: ") + decision.reason;
+}
 
 } // namespace shutter::core

@@ -3,9 +3,8 @@
 // wants it. Pure functions.
 #pragma once
 
-#include "engine/core/decision.h"
+#include "engine/core/result.h"
 #include "engine/extract/extracted_frame.h"
-#include "engine/extract/scene_layout.h"
 
 namespace shutter::extract {
 

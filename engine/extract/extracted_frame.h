@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The world, copied for one frame into what rendering reads: the entity table (one row an entity
-// that is drawn; the row's index is the mesh id), lights, draws and constants.
+// The world, copied for one frame into what rendering reads: the entity table (one row per
+// drawn entity; the row's index is its mesh id), lights, draws and constants.
 #pragma once
 
 #include "engine/core/result.h"
 #include "engine/extract/deformed_entity.h"
-#include "engine/extract/scene_layout.h"
+#include "engine/math/bounds.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/deformed_bounds.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/world.h"
 #include "shaders/render/scene_shared.h"
@@ -25,6 +27,22 @@ inline constexpr uint32_t kMaxEntities = (1u << 24) - 1;
 enum class PixelModel : uint8_t {
     Centre, ///< at the centre: isolates motion from anti-aliasing
     Box,    ///< anywhere, evenly: a box filter one pixel wide
+};
+
+/// What extraction needs to know of a scene's meshes, once they are on the device.
+struct SceneLayout {
+    struct GeometryInfo {
+        uint32_t firstIndex = 0;
+        uint32_t indexCount = 0;
+        scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
+        bool doubleSided = false;
+        uint32_t vertexCount = 0;
+    };
+
+    std::vector<uint32_t> firstGeometry;   ///< one per mesh, and one past the last
+    std::vector<GeometryInfo> geometries;  ///< all meshes' primitives in order
+    std::vector<math::Bounds> bounds;      ///< one per mesh, object space, undeformed
+    std::vector<scene::PoseReach> reaches; ///< one per mesh
 };
 
 struct ViewRequest {
@@ -111,27 +129,28 @@ struct ExtractedFrame {
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows stand still; no two frame extractors have the same.
     uint64_t stillSet = 0;
-    /// Changes whenever a row that stands still changes, in eye space too: the camera moved. But
-    /// for EntityRow::instanceMask, which rows that stand still in the world have only if the
-    /// camera moves.
+    /// Changes whenever a row that stands still changes, also in eye space, as when the camera
+    /// moves; except for EntityRow::instanceMask, which rows that stand still in the world have
+    /// only if the camera moves.
     uint64_t stillRevision = 0;
-    std::vector<uint32_t> entityMeshes;     ///< one a row: index into Assets::meshes
-    std::vector<ecs::Entity> entityHandles; ///< one a row: whose it is
+    std::vector<uint32_t> entityMeshes;     ///< one per row: index into Assets::meshes
+    std::vector<ecs::Entity> entityHandles; ///< one per row: its entity
     /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
     /// frame's geometry table stand behind the scene's own, one entity's behind the other's.
     std::vector<DeformedEntity> deformed;
     DrawList opaque{.farFirst = false, .still = {}, .moving = {}}; ///< opaque and masked
     DrawList blended{.farFirst = true, .still = {}, .moving = {}};
     std::vector<shader::LightRow> lights;
-    std::vector<ecs::Entity> lightEntities; ///< one a light: whose it is
+    std::vector<ecs::Entity> lightEntities; ///< one per light: its entity
     shader::FrameConstants constants{};     ///< without the tables' addresses
     bool moves = false;                     ///< something in the picture, or the camera, moves
 };
 
-/// What is said of a scene with more entities than `limit`.
+/// The error for a scene with more entities than `limit`.
 [[nodiscard]] core::Error describeFullTable(uint32_t limit);
 
-/// From nothing; FrameExtractor (frame_extractor.h) gives the same from frame to frame for less.
+/// Extracts from scratch; FrameExtractor (frame_extractor.h) gives the same more cheaply from frame
+/// to frame.
 /// Entities whose transform or shape is singular or not finite, or whose mesh has no triangles, get
 /// no row.
 /// Error: the world draws more entities than ViewRequest::entityLimit.

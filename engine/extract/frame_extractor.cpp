@@ -2,7 +2,7 @@
 #include "engine/extract/frame_extractor.h"
 
 #include "engine/core/check.h"
-#include "engine/extract/poses.h"
+#include "engine/extract/frame_view.h"
 #include "engine/math/transform.h"
 #include "engine/scene/deformation.h"
 #include "engine/scene/history.h"

@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: MIT
-// The camera of one frame, and what places in the world become for it. Pure.
+// The camera of one frame, and entities and lights as it sees them. Pure.
 #pragma once
 
 #include "engine/extract/deformed_entity.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/math/bounds.h"
 #include "engine/math/math.h"
+#include "engine/scene/components.h"
 #include "engine/scene/exposure_motion.h"
+#include "shaders/render/scene_shared.h"
 
 namespace shutter::extract {
+
+/// Finite and not singular: triangles keep an area, and the matrix has an inverse.
+[[nodiscard]] bool isDrawable(const math::dmat4& matrix);
+
+/// Scale in a camera's node has no meaning for the view: only position and orientation count. A
+/// camera scaled to nothing looks along the world's axes.
+[[nodiscard]] math::dmat4 computeWorldFromView(const math::dmat4& worldFromCamera);
+
+/// \param world transform of the light's entity, finite
+/// \param origin of eye space, in the world
+[[nodiscard]] shader::LightRow
+makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
 /// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
 /// equal bytes give equal rows.
@@ -20,7 +34,7 @@ struct ViewMatrices {
     math::dvec3 eye{0.0}; ///< of the camera at the raster instant, world space, metres
 };
 
-/// Bit by bit: what is not a number equals itself, and the two zeros differ.
+/// Bit by bit: NaN equals itself, and the two zeros differ.
 [[nodiscard]] bool isIdentical(const ViewMatrices& a, const ViewMatrices& b);
 
 class FrameView {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Finds what of a frame's motion CameraShutter::maxBlurPercent leaves (scene/motion_cap.h).
+// Finds what of a frame's motion CameraShutter::maxBlurPercent leaves (scene::MotionCap).
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/image/image.h"
 #include "engine/scene/exposure_motion.h"
-#include "engine/scene/motion_cap.h"
+#include "engine/scene/shutter.h"
 
 namespace shutter::extract {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/timed_tables.h"
 
-#include "engine/extract/poses.h"
+#include "engine/extract/frame_view.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
 

@@ -4,8 +4,8 @@
 
 #include "engine/core/result.h"
 #include "engine/ecs/registry.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/components.h"
-#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 
 #include <cstddef>

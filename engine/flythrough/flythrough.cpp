@@ -3,7 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/json/json_rows.h"
-#include "engine/scene/shutter_rows.h"
+#include "engine/scene/shutter.h"
 
 #include <nlohmann/json.hpp>
 

@@ -5,8 +5,8 @@
 
 #include "engine/core/result.h"
 #include "engine/math/math.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/components.h"
-#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 #include "engine/scene/world.h"
 

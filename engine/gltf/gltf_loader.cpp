@@ -3,7 +3,6 @@
 
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
-#include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
 

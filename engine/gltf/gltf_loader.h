@@ -21,7 +21,7 @@ struct LoadedScene {
 /// supported. Never opens a URI outside the file's own folder. Nothing is half-loaded.
 [[nodiscard]] core::Result<LoadedScene> loadGltf(const std::filesystem::path& path);
 
-/// A hash (engine/io/content_hash.h) that changes whenever the scene's file changes, or a buffer or
+/// A hash (engine/io/file_bytes.h) that changes whenever the scene's file changes, or a buffer or
 /// image that it names. A named file that is missing changes the hash too. Error: the scene itself
 /// cannot be read or is not glTF; names it.
 [[nodiscard]] core::Result<std::string> computeSceneHash(const std::filesystem::path& path);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gpu/acceleration_build.h"
-
 #include "engine/core/check.h"
+#include "engine/gpu/acceleration_structure.h"
 
 namespace shutter::gpu {
 

@@ -2,7 +2,6 @@
 #include "engine/gpu/acceleration_structure.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/acceleration_build.h"
 #include "engine/gpu/upload.h"
 
 #include <algorithm>

@@ -116,4 +116,23 @@ class Tlas {
     uint32_t mCount = 0;
 };
 
+// Shared by the builds here and in structure_set.h (acceleration_build.cpp).
+
+inline constexpr VkBufferUsageFlags kBuildInputUsage =
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+
+[[nodiscard]] VkAccelerationStructureGeometryKHR describeTriangles(const TriangleGeometry& triangles
+);
+/// \param boxes address of BoxGeometry[]
+[[nodiscard]] VkAccelerationStructureGeometryKHR describeBoxes(VkDeviceAddress boxes);
+/// \param instances address of VkAccelerationStructureInstanceKHR[]
+[[nodiscard]] VkAccelerationStructureGeometryKHR describeInstances(VkDeviceAddress instances);
+
+[[nodiscard]] VkAccelerationStructureInstanceKHR makeRecord(const Instance& instance);
+
+[[nodiscard]] VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment);
+/// Large enough for alignScratch() to align its address.
+[[nodiscard]] Buffer makeScratch(Device& device, const char* name, VkDeviceSize bytes);
+[[nodiscard]] VkDeviceAddress alignScratch(const Device& device, const Buffer& scratch);
+
 } // namespace shutter::gpu

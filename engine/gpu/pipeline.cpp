@@ -2,7 +2,6 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/shader_reflection.h"
 
 #include <algorithm>
 #include <array>

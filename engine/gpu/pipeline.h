@@ -13,8 +13,8 @@
 
 namespace shutter::gpu {
 
-/// What a pipeline binds. Set 0 is the pass's own, bound anew each frame; set 1, where given, is
-/// the scene's (bindless textures) and lives long.
+/// What a pipeline binds. Set 0 belongs to the pass and is bound anew each frame; set 1, where
+/// given, belongs to the scene (bindless textures) and is long-lived.
 struct PipelineInterface {
     std::vector<VkDescriptorType> bindings; ///< set 0, binding i
     uint32_t pushConstantBytes = 0;         ///< [0, 128]
@@ -28,8 +28,7 @@ struct ComputePipelineDesc {
     std::vector<uint32_t> specialization; ///< constant_id 0, 1, 2, ...
 };
 
-/// Shaders of one traversal: where it starts, what becomes of candidates, and its two ends. Rays
-/// start in the first alone.
+/// Shaders of one traversal. Only the ray generation shader starts rays.
 struct RayPipelineDesc {
     std::string name;
     std::span<const uint32_t> raygenSpirv;
@@ -103,7 +102,7 @@ class Pipeline {
     std::vector<VkFormat> mStorageFormats; ///< by binding; the rest have none
 };
 
-/// A compute pipeline that is made when it is first asked for.
+/// A compute pipeline that is created when it is first used.
 class LazyPipeline {
   public:
     LazyPipeline(Device& device, ComputePipelineDesc desc)
@@ -120,5 +119,13 @@ class LazyPipeline {
     ComputePipelineDesc mDesc;
     mutable std::optional<Pipeline> mPipeline;
 };
+
+/// The formats that a shader declares for its storage images in descriptor set 0: element i is
+/// binding i's, VK_FORMAT_UNDEFINED where that is not a storage image or has no declared format. No
+/// element follows the last storage image. Vulkan leaves values undefined where the declared format
+/// is not that of the image bound there, and older validation layers do not report it. The words
+/// must be SPIR-V (CHECKed).
+/// Source: SPIR-V 1.6, physical layout of a module, image formats, instructions.
+[[nodiscard]] std::vector<VkFormat> reflectStorageFormats(std::span<const uint32_t> spirv);
 
 } // namespace shutter::gpu

@@ -2,7 +2,7 @@
 #include "engine/gpu/ray_pipeline.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/acceleration_build.h"
+#include "engine/gpu/acceleration_structure.h"
 
 #include <vector>
 

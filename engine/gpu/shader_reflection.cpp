@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/gpu/shader_reflection.h"
-
 #include "engine/core/check.h"
+#include "engine/gpu/pipeline.h"
 
 #include <array>
 #include <map>

@@ -2,7 +2,7 @@
 #include "engine/gpu/structure_set.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/acceleration_build.h"
+#include "engine/gpu/acceleration_structure.h"
 
 #include <algorithm>
 #include <utility>

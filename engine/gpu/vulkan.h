@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Vulkan and the one way its failures are reported.
+// Vulkan, how its failures are reported, and device addresses in tables that shaders read.
 #pragma once
+
+#include "engine/math/math.h"
 
 #include <vulkan/vulkan.h>
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,5 +26,14 @@ void require(VkResult result, std::string_view doing);
 
 /// "VK_ERROR_OUT_OF_DEVICE_MEMORY" and the like.
 [[nodiscard]] std::string describe(VkResult result);
+
+/// A device address as the two words (low, high) from which shaders make a reference.
+[[nodiscard]] inline math::uvec2 splitAddress(VkDeviceAddress address) {
+    return {static_cast<uint32_t>(address), static_cast<uint32_t>(address >> 32)};
+}
+
+[[nodiscard]] inline VkDeviceAddress joinAddress(const math::uvec2& words) {
+    return VkDeviceAddress{words.y} << 32 | words.x;
+}
 
 } // namespace shutter::gpu

@@ -2,8 +2,8 @@
 #include "engine/gpu_scene/deform_sources.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu_scene/deformation_pass.h"
 
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 
 namespace shutter::gpu_scene {

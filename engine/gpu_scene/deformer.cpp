@@ -5,7 +5,7 @@
 #include "spirv/render/deformed_boxes.comp.h"
 
 #include "engine/extract/motion_keys.h"
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 
 #include <algorithm>
 #include <span>

@@ -2,8 +2,8 @@
 #include "engine/gpu_scene/gpu_scene.h"
 
 #include "engine/extract/spatial_order.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/extract/scene_layout.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/acceleration_structure.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"

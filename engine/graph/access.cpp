@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/access.h"
-
 #include "engine/core/check.h"
+#include "engine/graph/compile_stages.h"
 
 #include <array>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/alias.h"
-
 #include "engine/core/check.h"
-#include "engine/graph/access.h"
+#include "engine/graph/compile_stages.h"
 
 #include <algorithm>
 #include <map>

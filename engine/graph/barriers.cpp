@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/barriers.h"
-
-#include "engine/graph/access.h"
-#include "engine/graph/alias.h"
+#include "engine/graph/compile_stages.h"
 
 #include <algorithm>
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/graph/compile.h"
 
-#include "engine/graph/alias.h"
-#include "engine/graph/barriers.h"
-#include "engine/graph/order.h"
-#include "engine/graph/validate.h"
+#include "engine/graph/compile_stages.h"
 
 #include <utility>
 

@@ -53,7 +53,7 @@ struct CulledPass {
     std::string reason;
 };
 
-/// What execute() records. Resources nobody uses appear nowhere in it.
+/// What execute() records. Unused resources do not appear in it.
 struct Plan {
     std::vector<PlannedPass> passes;              ///< in execution order
     std::vector<ImageBarrier> finalImageBarriers; ///< imported images to their final layout
@@ -80,5 +80,9 @@ using RequirementFunction =
 /// ways that clash, an output that a later pass overwrites.
 [[nodiscard]] core::Result<Plan>
 compile(const Graph& graph, const RequirementFunction& requirement);
+
+/// The plan as text for a person: passes in order with what each reads and writes, barriers with
+/// layouts, what was culled and why, images with size, format, lifetime and place in memory.
+[[nodiscard]] std::string dump(const Graph& graph, const Plan& plan);
 
 } // namespace shutter::graph

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/dump.h"
-
 #include "engine/gpu/memory.h"
+#include "engine/graph/compile.h"
 
 #include <fmt/format.h>
 

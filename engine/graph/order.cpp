@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/order.h"
+#include "engine/graph/compile_stages.h"
 
 #include <fmt/format.h>
 

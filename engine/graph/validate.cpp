@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/validate.h"
-
 #include "engine/gpu/memory.h"
-#include "engine/graph/access.h"
+#include "engine/graph/compile_stages.h"
 
 namespace shutter::graph {
 

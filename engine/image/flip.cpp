@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/flip.h"
-
-#include "engine/image/comparison.h"
-#include "engine/image/convolution.h"
+#include "engine/image/metric_parts.h"
+#include "engine/image/metrics.h"
 
 #include <algorithm>
 #include <array>

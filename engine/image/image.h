@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Pictures in main memory, as half floats and as colour maps.
 #pragma once
 
 #include "engine/core/check.h"
@@ -16,7 +17,7 @@ struct Image {
     uint32_t height = 0;
     uint32_t channels = 0;
     std::vector<float> pixels;               ///< width * height * channels
-    std::vector<std::string> channelNames{}; ///< empty, or one a channel ("R", "motion.x", ...)
+    std::vector<std::string> channelNames{}; ///< empty, or one per channel ("R", "motion.x")
 
     Image() = default;
 
@@ -31,5 +32,17 @@ struct Image {
         return pixels[(size_t(y) * width + x) * channels + c];
     }
 };
+
+/// The half float nearest to `value`, as a float; infinite where |value| is 65520 or more.
+[[nodiscard]] float roundToHalf(float value);
+
+/// Every value of the picture as the bits of its nearest half float, in the picture's order, as an
+/// RGBA16F image stores them.
+[[nodiscard]] std::vector<uint16_t> packHalf(const Image& picture);
+
+/// Colours for display (sRGB) of a map's first channel: 0 black, through violet and orange, 1 pale
+/// yellow; clamped to [0, 1], NaN as 1. The colour map magma (S. van der Walt, N. Smith, 2015),
+/// within 3/255 of the original.
+[[nodiscard]] Image colorWithMagma(const Image& map);
 
 } // namespace shutter::image

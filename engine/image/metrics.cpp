@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/image/metrics.h"
 
-#include "engine/image/comparison.h"
+#include "engine/image/metric_parts.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How far two pictures are apart. All take the first three channels (or those there are), compare
-// values as they stand, clamped to [0, 1], and need equal sizes and channel counts (CHECKed).
-// Two pictures without a pixel are equal.
+// How different two pictures are. Values are clamped to [0, 1] except where a metric says
+// otherwise; sizes and channel counts must be equal (CHECKed). Pictures without a pixel are equal.
+// PSNR, SSIM and the largest difference compare the first three channels (or those there are)
+// unconverted.
 #pragma once
 
 #include "engine/image/image.h"
+
+#include <numbers>
 
 namespace shutter::image {
 
@@ -22,5 +25,23 @@ namespace shutter::image {
 /// Largest absolute difference of any channel (not clamped). NaN counts as infinity; infinity
 /// equals itself.
 [[nodiscard]] double computeMaxDifference(const Image& a, const Image& b);
+
+/// Viewing conditions of FLIP, the default of Andersson 2020: a display 0.7 m and 3840 pixels wide,
+/// seen from 0.7 m. 67.02 pixels per degree.
+inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840.0 / 0.7) * std::numbers::pi / 180.0;
+
+struct FlipResult {
+    double mean = 0.0; ///< of the map, [0, 1]; 0 for pictures without a pixel
+    Image errorMap;    ///< one channel, [0, 1]: 0 no difference seen, 1 the largest
+};
+
+/// FLIP, the difference that a person sees who alternates between two pictures on one display:
+/// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator
+/// for Alternating Images", HPG 2020 (the LDR metric, with the separable filters used from
+/// version 1.2 on). Takes both pictures as a display does: sRGB-encoded, three channels (below
+/// three, the first as grey; alpha is not compared), clamped to [0, 1]; equal sizes and channel
+/// counts are CHECKed. The error is symmetric; equal pictures have error 0 everywhere. An error
+/// whose filters reach a NaN (10 pixels each way) in either picture is 1.
+[[nodiscard]] FlipResult computeFlip(const Image& a, const Image& b);
 
 } // namespace shutter::image

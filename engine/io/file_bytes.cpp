@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
 
+#include <OpenImageIO/hash.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <unistd.h>
 
@@ -84,6 +88,20 @@ core::Status writeFileBytes(const fs::path& path, std::span<const uint8_t> bytes
 
 core::Status writeFileText(const fs::path& path, std::string_view text) {
     return writeFileBytes(path, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+std::string computeContentHash(std::string_view bytes) {
+    const auto hash = OIIO::farmhash::Fingerprint128(bytes.data(), bytes.size());
+    return fmt::format("{:016x}{:016x}", hash.first, hash.second);
+}
+
+core::Result<std::string> computeFileHash(const std::filesystem::path& path) {
+    auto bytes = readFileBytes(path, std::numeric_limits<uint64_t>::max());
+    if (!bytes)
+        return bytes.error();
+    return computeContentHash(
+        {reinterpret_cast<const char*>(bytes.value().data()), bytes.value().size()}
+    );
 }
 
 } // namespace shutter::io

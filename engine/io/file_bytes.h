@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Whole files: read, written whole or not at all, and hashed.
 #pragma once
 
 #include "engine/core/result.h"
@@ -6,20 +7,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace shutter::io {
 
-/// How names of temporary files begin; a process that was killed leaves them.
+/// Prefix of temporary files' names; a process that was killed leaves such files behind.
 inline constexpr std::string_view kTemporaryPrefix = ".shutter-";
 
-/// A name of its own for what will be renamed to `path`: in the same folder, so that the rename is
-/// atomic; short, so that it fits where the name does.
+/// A unique name for a file that will be renamed to `path`: in the same folder, so that the rename
+/// is atomic; short, so that it is allowed wherever the final name is.
 [[nodiscard]] std::filesystem::path makeTemporaryPath(const std::filesystem::path& path);
 
 /// The first `maxBytes` bytes of a regular file (all of it when it is shorter). An Error says in
-/// one sentence that the path is missing, a folder, no regular file or not readable.
+/// one sentence that the path is missing, a folder, not a regular file or not readable.
 [[nodiscard]] core::Result<std::vector<uint8_t>>
 readFileBytes(const std::filesystem::path& path, uint64_t maxBytes);
 
@@ -31,5 +33,12 @@ writeFileBytes(const std::filesystem::path& path, std::span<const uint8_t> bytes
 
 /// The same for text.
 [[nodiscard]] core::Status writeFileText(const std::filesystem::path& path, std::string_view text);
+
+/// 32 hexadecimal digits that identify contents, to find again what was computed from them; not for
+/// security. FarmHash Fingerprint128: the same on every machine.
+[[nodiscard]] std::string computeContentHash(std::string_view bytes);
+
+/// computeContentHash() of a file's bytes. Error: the file cannot be read; names it.
+[[nodiscard]] core::Result<std::string> computeFileHash(const std::filesystem::path& path);
 
 } // namespace shutter::io

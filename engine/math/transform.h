@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Transforms and projections, and the matrices made of them.
 #pragma once
 
 #include "engine/math/math.h"
@@ -15,15 +16,27 @@ struct Transform {
 /// Matrix that takes the transform's local space to its parent's.
 [[nodiscard]] dmat4 computeMatrix(const Transform& transform);
 
-/// Rotation by `angularVelocity` (rad/s, axis in the parent space) kept up for `seconds`.
+/// Rotation after turning at `angularVelocity` (rad/s, axis in the parent space) for `seconds`.
 /// Exact at zero velocity: returns the identity.
 [[nodiscard]] dquat integrateRotation(const dvec3& angularVelocity, double seconds);
 
-/// The matrix with axes of length 1: where it stands and how it is turned. One that is not finite
-/// or is scaled to nothing keeps its place only and is turned as the space around it.
+/// The matrix with axes of length 1: position and orientation only. A matrix that is not finite or
+/// is singular keeps its translation and gets the identity as rotation.
 [[nodiscard]] dmat4 removeScale(const dmat4& matrix);
 
 /// True when every element is finite.
 [[nodiscard]] bool isFinite(const dmat4& matrix);
+
+/// Perspective with reversed depth and the far plane at infinity: clip depth is near / distance,
+/// so a float depth buffer keeps its relative precision at every distance. Clip w is the distance
+/// along the view direction. y points down (Vulkan).
+/// \param yFov vertical field of view in radians, in (0, pi)
+/// \param aspect width / height, above 0
+/// \param near distance of the near plane in metres, above 0
+[[nodiscard]] dmat4 clipFromViewPerspective(double yFov, double aspect, double near);
+
+/// Orthographic with reversed depth: 1 at `near`, 0 at `far`; clip w is 1.
+/// \param xMag, yMag half width and half height of the view in metres, above 0
+[[nodiscard]] dmat4 clipFromViewOrthographic(double xMag, double yMag, double near, double far);
 
 } // namespace shutter::math

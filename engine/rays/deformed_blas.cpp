@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/rays/deformed_blas.h"
 
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 
 #include <algorithm>

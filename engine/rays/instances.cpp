@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/rays/instances.h"
 
-#include "engine/extract/poses.h"
+#include "engine/extract/frame_view.h"
 #include "engine/math/bounds.h"
 
 namespace shutter::rays {

@@ -2,8 +2,8 @@
 #include "engine/rays/timed_blas.h"
 
 #include "engine/extract/deformed_entity.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/rays/instances.h"
 
 #include <algorithm>

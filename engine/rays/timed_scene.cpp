@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/rays/timed_scene.h"
 
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "engine/rays/instances.h"
 

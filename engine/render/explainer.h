@@ -2,7 +2,7 @@
 // The list of reasons that `--explain` prints: why effects, work and passes ran or were skipped.
 #pragma once
 
-#include "engine/core/decision.h"
+#include "engine/core/result.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/graph.h"
 

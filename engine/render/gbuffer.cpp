@@ -6,8 +6,8 @@
 #include "spirv/render/sky.frag.h"
 #include "spirv/render/sky.vert.h"
 
-#include "engine/gpu/address.h"
 #include "engine/gpu/frame.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 
 #include <utility>

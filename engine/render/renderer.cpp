@@ -5,8 +5,8 @@
 #include "engine/extract/demand.h"
 #include "engine/extract/instance_masks.h"
 #include "engine/extract/motion_cap.h"
-#include "engine/gpu/address.h"
-#include "engine/graph/dump.h"
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/scene/shutter.h"
 

@@ -14,10 +14,10 @@
 #include "engine/rays/tlas.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
-#include "engine/render/idle_counter.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -51,6 +51,27 @@ struct FrameResult {
     std::map<std::string, image::Image> intermediates;
     FrameStatistics statistics;
     std::string dump;
+};
+
+/// Frames for which unused memory is kept: a short pause causes no reallocation, and a scene that
+/// no longer needs the memory frees it.
+inline constexpr uint32_t kFramesKept = 120;
+
+/// Counts consecutive frames in which something was not wanted.
+class IdleCounter {
+  public:
+    /// Must be called each frame. \return true once: in the kFramesKept-th frame in a row in which
+    /// it was not wanted
+    bool advance(bool wanted) {
+        if (wanted)
+            mIdle = 0;
+        else if (mIdle <= kFramesKept)
+            ++mIdle;
+        return mIdle == kFramesKept;
+    }
+
+  private:
+    uint32_t mIdle = 0;
 };
 
 /// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished

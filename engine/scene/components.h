@@ -129,7 +129,7 @@ struct CameraShutter {
     double cameraRotationScale = 1.0;    ///< of the blur by the camera's turning, [0, 2]
     double cameraTranslationScale = 1.0; ///< of the blur by its displacement, [0, 2]
     double objectScale = 1.0;            ///< of the blur by what moves in the world, [0, 2]
-    /// Longest way across the picture, percent of its width, 0 or more (motion_cap.h).
+    /// Longest way across the picture, percent of its width, 0 or more (MotionCap).
     double maxBlurPercent = std::numeric_limits<double>::infinity();
     CutDetection cuts{};
 };

@@ -2,10 +2,9 @@
 #include "engine/scene/exposure_motion.h"
 
 #include "engine/math/transform.h"
-#include "engine/scene/ancestors.h"
-#include "engine/scene/camera_cut.h"
-#include "engine/scene/lens.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/path.h"
+#include "engine/scene/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "engine/scene/history.h"
 
 #include "engine/core/check.h"
-#include "engine/scene/ancestors.h"
-#include "engine/scene/lens.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/path.h"
+#include "engine/scene/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
-#include "engine/scene/ancestors.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/path.h"
+#include "engine/scene/world.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,19 +1,55 @@
 // SPDX-License-Identifier: MIT
-// When a frame's light is taken: the shutter's pure functions.
+// The shutter: when a frame's light is taken, and its settings.
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
+#include "engine/ecs/entity.h"
 #include "engine/scene/components.h"
-#include "engine/scene/motion_cap.h"
 #include "shaders/common/shutter_response_shared.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace shutter::scene {
 
-/// Duration of a frame that stands alone.
+/// Duration of a single frame that belongs to no sequence.
 inline constexpr double kStillFrameSeconds = 1.0 / 24.0;
+
+/// How much of its motion a frame keeps where CameraShutter::maxBlurPercent caps it.
+///
+/// What moves too far for the cap moves less as a whole, as if its exposure were shorter:
+/// everything static in the world together with the camera, each mover by itself. Clamping each
+/// pixel's motion vector instead would give motion that no rigid body has, which neither rays nor
+/// ground truth could reproduce.
+struct MotionCap {
+    /// Share of its motion, [0, 1], that the camera keeps, and everything without a share of its
+    /// own.
+    double camera = 1.0;
+    /// Movers' shares of their motion on the screen, [0, 1], by rising entity index.
+    std::vector<std::pair<ecs::Entity, double>> movers;
+
+    /// Null: it has no share of its own.
+    [[nodiscard]] const double* findMover(ecs::Entity entity) const {
+        const auto at = std::lower_bound(
+            movers.begin(),
+            movers.end(),
+            entity.index,
+            [](const auto& mover, uint32_t index) { return mover.first.index < index; }
+        );
+        return at != movers.end() && at->first == entity ? &at->second : nullptr;
+    }
+
+    [[nodiscard]] double of(ecs::Entity entity) const {
+        const double* share = findMover(entity);
+        return share ? *share : camera;
+    }
+};
 
 /// The exposure around a frame's own time, and the shutter it is one of.
 struct ExposureInterval {
@@ -30,9 +66,9 @@ struct ExposureInterval {
     MotionCap cap{}; ///< of this frame; render::measureMotionCap() finds it
 };
 
-/// Length of the exposure, 0 or more and finite. A frame of duration 0 is a paused one: nothing
-/// moves, whatever the mode, and the exposure is 0. What is negative or not finite counts as 0,
-/// except that Capped takes a frame of any length.
+/// Length of the exposure, 0 or more and finite. A frame of duration 0 is paused: nothing moves,
+/// whatever the mode, and the exposure is 0. Negative or non-finite durations count as 0, except
+/// that Capped accepts a frame of any length.
 [[nodiscard]] double computeExposureSeconds(const CameraShutter& shutter, double frameSeconds);
 
 /// \param raster the frame's own time, seconds
@@ -44,12 +80,28 @@ struct ExposureInterval {
 /// One sentence that names the field which is out of its range.
 [[nodiscard]] core::Status validateResponse(const ShutterResponse& response);
 
-/// The response as methods sample it; nothing for one that is constant, as a box is. Must be valid
+/// The response as methods sample it; nothing for a constant one such as a box. It must be valid
 /// (CHECKed).
 [[nodiscard]] std::optional<shader::ResponseTable>
 computeResponseTable(const ShutterResponse& response);
 
-/// Shutter time before which the share u of the light is taken; a box leaves u as it is.
+/// Shutter time before which the share u of the light is taken; a box response returns u.
 [[nodiscard]] double invertResponse(const ShutterResponse& response, double u);
+
+// The settings as rows (engine/core/setting_row.h): the command line, settings files, panels and
+// flythroughs read their names, ranges and meanings here.
+
+/// One row per field of CameraShutter, except for `response` and `cuts`, which have their own.
+[[nodiscard]] core::SettingRows<CameraShutter> listShutterRows();
+/// One row per field of ShutterResponse, except for `samples`, which is a list.
+[[nodiscard]] core::SettingRows<ShutterResponse> listResponseRows();
+[[nodiscard]] core::SettingRows<CutDetection> listCutRows();
+
+/// Error: one sentence that names the field which is out of its range.
+/// \param prefix before the field's name, e.g. "shutter."
+[[nodiscard]] core::Status validate(const CameraShutter& shutter, std::string_view prefix = "");
+
+/// All fields and their values in one line; equal only if all values are.
+[[nodiscard]] std::string describe(const CameraShutter& shutter);
 
 } // namespace shutter::scene

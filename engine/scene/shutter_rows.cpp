@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/shutter_rows.h"
-
 #include "engine/scene/shutter.h"
 
 #include <fmt/ranges.h>

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/check.h"
 #include "engine/ecs/registry.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/components.h"
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace shutter::scene {
 
-/// How time runs for the animation clips.
+/// How animation clips play.
 struct Playback {
     bool loop = false;             ///< false: clips hold at their ends
-    std::vector<bool> activeClips; ///< by clip; false: does not play; clips past its end play
+    std::vector<bool> activeClips; ///< by clip; false: does not play; clips beyond its end do
 };
 
 /// The entities and what they refer to. Systems and extraction take it by reference; rendering
@@ -23,8 +25,24 @@ struct World {
     Assets assets;
     Playback playback;
     std::vector<ecs::Entity> cameras; ///< in the order of the file
-    /// When the world came to be: nothing has a past before it. Default: it was always there.
+    /// When the world came to be: nothing has a past before it. Default: it always existed.
     double startSeconds = -std::numeric_limits<double>::infinity();
 };
+
+/// The first of `entity`, its parent, its parent's parent and so on for which `matches` is true, or
+/// null.
+template <class Matches>
+[[nodiscard]] ecs::Entity findUpwards(const World& world, ecs::Entity entity, Matches&& matches) {
+    const ecs::Registry& registry = world.registry;
+    size_t steps = 0;
+    for (ecs::Entity ancestor = entity; ancestor != ecs::kNullEntity; ++steps) {
+        SHUTTER_CHECK(steps < registry.aliveCount(), "the parents of {} form a cycle", entity);
+        if (matches(ancestor))
+            return ancestor;
+        const auto* parent = registry.find<Parent>(ancestor);
+        ancestor = parent ? parent->entity : ecs::kNullEntity;
+    }
+    return ecs::kNullEntity;
+}
 
 } // namespace shutter::scene

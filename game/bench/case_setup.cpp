@@ -2,7 +2,7 @@
 #include "game/bench/case_setup.h"
 
 #include "engine/gltf/gltf_loader.h"
-#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
 
 namespace shutter::bench {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_stage.h"
 
-#include "engine/image/flip.h"
-#include "engine/image/magma.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
-#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/bench/case_setup.h"
 #include "game/options/render_arguments.h"

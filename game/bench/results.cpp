@@ -3,7 +3,6 @@
 
 #include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
-#include "engine/scene/shutter_rows.h"
 #include "game/bench/cost.h"
 #include "game/shot/pass_groups.h"
 

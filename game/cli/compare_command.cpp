@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/flip.h"
-#include "engine/image/magma.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"

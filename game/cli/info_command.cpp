@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_loader.h"
 #include "engine/gpu/device_select.h"
-#include "engine/scene/framing.h"
+#include "engine/scene/camera.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
 #include "game/play/panel/play_settings.h"

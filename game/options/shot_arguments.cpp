@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/options/shot_arguments.h"
 
-#include "engine/io/content_hash.h"
-#include "engine/scene/shutter_rows.h"
+#include "engine/io/file_bytes.h"
+#include "engine/scene/shutter.h"
 #include "game/shot/flight.h"
 
 #include <array>

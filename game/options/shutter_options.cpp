@@ -2,7 +2,6 @@
 #include "game/options/shutter_options.h"
 
 #include "engine/scene/shutter.h"
-#include "engine/scene/shutter_rows.h"
 #include "game/options/option_rows.h"
 
 namespace shutter::game {

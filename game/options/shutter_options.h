@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shutter's options: those of engine/scene/shutter_rows.h, and --response.
+// The shutter's options: those of engine/scene/shutter.h, and --response.
 #pragma once
 
 #include "engine/core/result.h"

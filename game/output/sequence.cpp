@@ -4,7 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
 #include "engine/gltf/gltf_loader.h"
-#include "engine/io/content_hash.h"
+#include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/output/film.h"
 #include "game/output/intermediates.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/output/sequence_journal.h"
 
-#include "engine/io/content_hash.h"
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_file.h"
 #include "game/output/render_options.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/flight.h"
 
-#include "engine/scene/ancestors.h"
+#include "engine/scene/world.h"
 #include "game/shot/shot.h"
 
 #include <algorithm>

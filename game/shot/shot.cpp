@@ -3,7 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/gltf/gltf_loader.h"
-#include "engine/scene/framing.h"
+#include "engine/scene/camera.h"
 #include "game/shot/flight.h"
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include "spirv/truth/truth.comp.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/frame.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "shaders/truth/truth_shared.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The lists of blocks on the device against the same rules in C++, and what the filters do with
 // them.
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/still_pixels.h"

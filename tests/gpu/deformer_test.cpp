@@ -3,8 +3,8 @@
 // sweep.
 #include "engine/extract/motion_keys.h"
 #include "engine/extract/spatial_order.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/upload.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/gpu_scene/deformer.h"
 #include "shaders/render/deform.glsl"
 #include "tests/support/deformed_meshes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The filters of one layer on the device: in a centred exposure each is its publication's, written
 // down once more here in half velocities; and no input makes a value that is not finite.
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"

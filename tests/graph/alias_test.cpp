@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/alias.h"
+#include "engine/graph/compile_stages.h"
 #include "tests/graph/story.h"
 
 namespace shutter::graph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/graph/dump.h"
+#include "engine/graph/compile.h"
 #include "tests/graph/story.h"
 
 namespace shutter::graph {

@@ -3,8 +3,8 @@
 // twice, and blur against brute force as near as on a rigid mover of the same speed.
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/animation.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/deformation.h"
-#include "engine/scene/framing.h"
 #include "tests/image/shutter_command.h"
 #include "tests/support/expected_motion.h"
 #include "tests/support/gpu_fixture.h"

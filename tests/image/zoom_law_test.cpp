@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A lens that zooms during the exposure is motion like any other.
 #include "engine/image/metrics.h"
-#include "engine/scene/lens.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/path.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"

@@ -4,7 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/upload.h"
 #include "engine/graph/execute.h"
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 
 #include <cstdint>
 #include <vector>

@@ -175,7 +175,7 @@ TEST(LayerTable, OnlyThePluginOfMotionBlurSeesTheScene) {
           "io/image_file.h",
           "gltf/gltf_loader.h",
           "flythrough/a.h",
-          "image/a.h"}) {
+          "image/image.h"}) {
         const std::string directive = "\"engine/" + header + "\"";
         expectRefused({
             {"modules/motion_blur/motion_blur.h", directive},

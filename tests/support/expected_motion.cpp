@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/expected_motion.h"
 
-#include "engine/math/projection.h"
+#include "engine/math/transform.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/components.h"
 #include "engine/scene/deformation.h"
-#include "engine/scene/lens.h"
 
 #include <algorithm>
 #include <cmath>

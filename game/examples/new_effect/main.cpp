@@ -4,7 +4,7 @@
 
 #include "engine/gltf/gltf_loader.h"
 #include "engine/io/image_file.h"
-#include "engine/scene/framing.h"
+#include "engine/scene/camera.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "modules/tonemap/tonemap.h"
 

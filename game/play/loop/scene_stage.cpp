@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/flythrough/flythrough.h"
-#include "engine/scene/framing.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/history.h"
 #include "engine/scene/motion.h"
 #include "game/play/loop/stage.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of what a player sets besides the blur, its budget (motion_blur/setting_rows.h) and the
-// shutter (engine/scene/shutter_rows.h).
+// shutter (engine/scene/shutter.h).
 #pragma once
 
 #include "engine/core/setting_row.h"

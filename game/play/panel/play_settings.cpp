@@ -3,7 +3,6 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/shutter.h"
-#include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_rows.h"
 #include "modules/motion_blur/setting_rows.h"
 

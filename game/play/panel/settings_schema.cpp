@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The JSON schema of the settings file, made of the rows that read and write it.
 #include "engine/core/setting_row.h"
-#include "engine/scene/shutter_rows.h"
+#include "engine/scene/shutter.h"
 #include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/setting_rows.h"

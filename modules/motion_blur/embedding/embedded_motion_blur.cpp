@@ -2,9 +2,9 @@
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "engine/graph/transient_pool.h"
 

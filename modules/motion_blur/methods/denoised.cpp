@@ -3,7 +3,7 @@
 #include "spirv/motion_blur/denoise_atrous.comp.h"
 #include "spirv/motion_blur/denoise_variance.comp.h"
 
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/filter.h"
@@ -101,8 +101,8 @@ const Method kDenoised = {
             params.setMethod(own);
         },
     .addBudgetLevels = addDenoisedLevels,
-    .makePasses = [](gpu::Device& device, VkDescriptorSetLayout sceneLayout
-                  ) -> std::unique_ptr<MethodPasses> {
+    .makePasses = [](gpu::Device& device,
+                     VkDescriptorSetLayout sceneLayout) -> std::unique_ptr<MethodPasses> {
         return std::make_unique<DenoisedPasses>(device, sceneLayout);
     },
 };

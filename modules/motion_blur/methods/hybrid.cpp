@@ -2,7 +2,7 @@
 // Tan, Cui, Bhojan, "Hybrid MBlur": inside a ray mask at moving silhouettes, rays past the
 // foreground reveal a second layer; both layers are gathered and composited.
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/ray_mask.h"
@@ -57,11 +57,7 @@ MotionBlurOutputs HybridPasses::add(
     const SortedBlocks sorted = shared.sorter.add(graph, tiles, params, true);
     const RayMaskOutputs mask = mMask.add(
         graph,
-        {inputs.motionDepth,
-         inputs.normal,
-         inputs.entityId,
-         sorted,
-         inputs.measureEdgesEverywhere},
+        {inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere},
         params
     );
     shared.sorter.addCounters(graph, mask.blocks, params, inputs.slot);
@@ -174,8 +170,8 @@ const Method kHybrid = {
                    settings.revealTraversal != RevealTraversal::Single;
         },
     .addBudgetLevels = addHybridLevels,
-    .makePasses = [](gpu::Device& device, VkDescriptorSetLayout sceneLayout
-                  ) -> std::unique_ptr<MethodPasses> {
+    .makePasses = [](gpu::Device& device,
+                     VkDescriptorSetLayout sceneLayout) -> std::unique_ptr<MethodPasses> {
         return std::make_unique<HybridPasses>(device, sceneLayout);
     },
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 
-#include "engine/gpu/address.h"
+#include "engine/gpu/vulkan.h"
 
 #include <fmt/format.h>
 

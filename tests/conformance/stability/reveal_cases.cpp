@@ -2,8 +2,8 @@
 // Rays that go on from a surface: how many meet it again, how many miss the next one a millimetre
 // behind.
 #include "engine/core/check.h"
-#include "engine/gpu/address.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/render/post_effect.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/ray_reveal.h"

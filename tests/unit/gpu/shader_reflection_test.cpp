@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The storage formats of shaders as they are shipped, and of modules written down word by word.
-#include "engine/gpu/shader_reflection.h"
+#include "engine/gpu/pipeline.h"
 
 #include <gtest/gtest.h>
 

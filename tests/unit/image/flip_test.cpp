@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/flip.h"
+#include "engine/image/metrics.h"
 #include "tests/unit/image/flip_pictures.h"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -91,6 +92,36 @@ TEST(FileBytes, APipeIsWrittenToAndStaysAPipe) {
     EXPECT_EQ(received, "through the pipe");
     EXPECT_TRUE(fs::is_fifo(path));
     EXPECT_EQ(countFiles(folder.path()), 1u);
+}
+
+TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {
+    std::set<std::string> seen;
+    const std::string base(200, 'a');
+    for (size_t i = 0; i <= base.size(); ++i) {
+        std::string changed = base;
+        if (i < base.size())
+            changed[i] = 'b';
+        const std::string hash = computeContentHash(changed);
+        EXPECT_EQ(hash.size(), 32u);
+        EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos);
+        seen.insert(hash);
+    }
+    EXPECT_EQ(seen.size(), base.size() + 1);
+    EXPECT_NE(computeContentHash(""), computeContentHash(std::string(1, '\0')));
+}
+
+TEST(ContentHash, OfAFileIsThatOfItsBytes) {
+    const test::TempFolder folder;
+    const std::string bytes("x\0y", 3);
+    const auto hash = computeFileHash(folder.write("a.bin", bytes));
+    ASSERT_TRUE(hash.ok());
+    EXPECT_EQ(hash.value(), computeContentHash(bytes));
+}
+
+TEST(ContentHash, AMissingFileIsNamed) {
+    const auto hash = computeFileHash("no/such/file");
+    ASSERT_FALSE(hash.ok());
+    EXPECT_NE(hash.error().message.find("no/such/file"), std::string::npos);
 }
 
 } // namespace shutter::io

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/shutter.h"
-#include "engine/scene/shutter_rows.h"
 #include "game/options/shutter_options.h"
 #include "tests/unit/options/command_words.h"
 

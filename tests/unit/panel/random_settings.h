@@ -2,7 +2,7 @@
 // Settings that are valid and otherwise anything.
 #pragma once
 
-#include "engine/scene/shutter_rows.h"
+#include "engine/scene/shutter.h"
 #include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/setting_rows.h"

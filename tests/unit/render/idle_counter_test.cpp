@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/idle_counter.h"
+#include "engine/render/renderer.h"
 
 #include <gtest/gtest.h>
 

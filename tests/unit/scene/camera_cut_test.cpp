@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/transform.h"
-#include "engine/scene/camera_cut.h"
+#include "engine/scene/camera.h"
 
 #include <gtest/gtest.h>
 

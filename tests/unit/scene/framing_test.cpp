@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/math/projection.h"
-#include "engine/scene/framing.h"
+#include "engine/math/transform.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
 
 #include <gtest/gtest.h>

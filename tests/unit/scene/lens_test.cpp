@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "engine/scene/camera.h"
 #include "engine/scene/exposure_motion.h"
-#include "engine/scene/lens.h"
 #include "engine/scene/path.h"
 
 #include <gtest/gtest.h>

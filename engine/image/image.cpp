@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/magma.h"
+#include "engine/image/image.h"
 
 #include "engine/core/check.h"
+
+#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 namespace shutter::image {
 
@@ -39,6 +42,22 @@ float channelOf(uint32_t color, uint32_t channel) {
 }
 
 } // namespace
+
+float roundToHalf(float value) {
+    return glm::unpackHalf1x16(glm::packHalf1x16(value));
+}
+
+std::vector<uint16_t> packHalf(const Image& picture) {
+    std::vector<uint16_t> bits;
+    bits.reserve(picture.pixels.size());
+    std::transform(
+        picture.pixels.begin(),
+        picture.pixels.end(),
+        std::back_inserter(bits),
+        [](float value) { return glm::packHalf1x16(value); }
+    );
+    return bits;
+}
 
 Image colorWithMagma(const Image& map) {
     SHUTTER_CHECK(map.channels > 0 || map.pixels.empty(), "a map without a channel");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/convolution.h"
+#include "engine/image/metric_parts.h"
 
 #include <gtest/gtest.h>
 

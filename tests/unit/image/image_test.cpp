@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -32,6 +33,18 @@ TEST(HalfFloat, APictureIsPackedInItsOrder) {
     picture.pixels = {1.0f, -2.0f, 0.5f, 0.0f};
     // Sign, five bits of exponent with a bias of 15, ten bits of fraction.
     EXPECT_EQ(packHalf(picture), (std::vector<uint16_t>{0x3c00, 0xc000, 0x3800, 0x0000}));
+}
+
+std::array<float, 3> colorOf(float value) {
+    Image map(1, 1, 1);
+    map.pixels = {value};
+    const Image color = colorWithMagma(map);
+    return {color.at(0, 0, 0), color.at(0, 0, 1), color.at(0, 0, 2)};
+}
+
+void expectBytes(const std::array<float, 3>& color, const std::array<int, 3>& bytes, float within) {
+    for (size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(color[c] * 255.0f, float(bytes[c]), within) << c;
 }
 
 } // namespace
