@@ -3,8 +3,6 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
-#include "game/bench/environment.h"
-#include "game/bench/paper_figures.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
 

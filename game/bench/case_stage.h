@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One case ready to be drawn: its scene on the device, its truth, its journal.
+// One case ready to be drawn: its scene on disk and on the device, its truth, its journal, and a
+// name for everything that its pictures depend on.
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/device_select.h"
 #include "engine/image/image.h"
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
@@ -19,6 +22,17 @@
 #include <vector>
 
 namespace shutter::bench {
+
+struct CaseSetup {
+    std::filesystem::path scene;
+    /// Of the scene's bytes, the shot's options, this program and the device: pictures of equal
+    /// hashes are equal, and their times comparable.
+    std::string hash;
+};
+
+/// Writes a generated scene into folder/scenes/. Error: a file cannot be read or written.
+[[nodiscard]] core::Result<CaseSetup>
+setUpCase(const Case& shot, const gpu::DeviceInfo& device, const std::filesystem::path& folder);
 
 /// A method at one sample count, drawn again and again.
 struct DrawnPoint {

@@ -4,7 +4,6 @@
 #include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"
-#include "game/bench/cost.h"
 #include "game/shot/pass_groups.h"
 
 #include <algorithm>
@@ -352,6 +351,22 @@ json describeMetrics() {
          {{"id", "ssim"}, {"name", "SSIM"}, {"unit", ""}, {"better", "higher"}},
          {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}}}
     );
+}
+
+double computeFrameTime(const Sample& sample) {
+    double sum = 0.0;
+    for (const PassSample& pass : sample.passes)
+        if (pass.owner != render::PassOwner::Display)
+            sum += pass.milliseconds;
+    return sum;
+}
+
+double computeEffectTime(const game::MethodInfo& method, const Sample& sample) {
+    double sum = 0.0;
+    for (const PassSample& pass : sample.passes)
+        if (game::groupOf(method, pass.owner) == game::PassGroup::Blur)
+            sum += pass.milliseconds;
+    return sum;
 }
 
 } // namespace shutter::bench

@@ -2,6 +2,7 @@
 // Measurements as the JSON that results.schema.json describes.
 #pragma once
 
+#include "engine/gpu/device_select.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
 
@@ -72,5 +73,28 @@ struct MeasuredClaim {
 
 /// How metrics are named and which way is better.
 [[nodiscard]] nlohmann::json describeMetrics();
+
+/// GPU milliseconds from the G-buffer to the linear picture.
+[[nodiscard]] double computeFrameTime(const Sample& sample);
+
+/// GPU milliseconds of the passes that the method adds to the sharp frame
+/// (game/shot/pass_groups.h).
+[[nodiscard]] double computeEffectTime(const game::MethodInfo& method, const Sample& sample);
+
+/// Processor, cores, memory and operating system.
+[[nodiscard]] nlohmann::json describeMachine();
+
+/// Name, driver and API of the Vulkan device.
+[[nodiscard]] nlohmann::json describeDevice(const gpu::DeviceInfo& device);
+
+/// The source's revision when the program was built, and whether it had been changed since.
+[[nodiscard]] nlohmann::json describeRevision();
+
+/// Now, as ISO 8601 in UTC.
+[[nodiscard]] std::string describeNow();
+
+/// What Tan, Cui and Bhojan print in "Hybrid MBlur": Table 1 (quality on their shot) and Table 2
+/// (GPU milliseconds a pass of three shots).
+[[nodiscard]] nlohmann::json describePaperFigures();
 
 } // namespace shutter::bench

@@ -3,9 +3,7 @@
 
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
-#include "game/bench/report/base64.h"
 #include "game/bench/report/page_template.h"
-#include "game/bench/report/report_sources.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/suites/suite.h"
 
-#include "game/bench/suites/suites.h"
-
 #include <algorithm>
 #include <array>
 

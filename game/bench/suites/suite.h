@@ -2,6 +2,7 @@
 // What a benchmark suite consists of, as data.
 #pragma once
 
+#include "assets/generator/gltf_writer.h"
 #include "engine/core/result.h"
 #include "game/options/shot_arguments.h"
 #include "game/shot/methods.h"
@@ -77,5 +78,20 @@ makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays)
 /// them.
 [[nodiscard]] std::vector<DialPoint>
 makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
+
+/// Case::writeScene of a generated scene.
+[[nodiscard]] std::function<core::Status(const std::filesystem::path&)>
+makeWriter(std::function<generator::GltfWriter()> build);
+
+/// The paper's shot: a vase that crosses in front of a sofa.
+[[nodiscard]] Suite makePaperSuite();
+/// Twelve shots in which methods are known to fail.
+[[nodiscard]] Suite makeHardSuite();
+/// Resolution, entities, triangles, moving share of the screen, exposure.
+[[nodiscard]] Suite makeScalingSuite();
+/// Hard cases against the bounds that keep them numerically stable.
+[[nodiscard]] Suite makeStabilitySuite();
+/// What a frame costs against what its scene calls for.
+[[nodiscard]] Suite makeDemandSuite();
 
 } // namespace shutter::bench

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/cost.h"
 #include "game/bench/results.h"
 
 #include <fmt/format.h>

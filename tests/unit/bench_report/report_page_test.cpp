@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
-#include "game/bench/report/base64.h"
+#include "game/bench/report/page_template.h"
 #include "game/bench/report/report_page.h"
 
 #include <gtest/gtest.h>
