@@ -4,8 +4,8 @@
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
 #include "game/options/error_output.h"
+#include "game/options/folders.h"
 #include "game/options/render_arguments.h"
-#include "game/options/user_folders.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <algorithm>
 #include <cmath>

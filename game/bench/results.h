@@ -78,7 +78,7 @@ struct MeasuredClaim {
 [[nodiscard]] double computeFrameTime(const Sample& sample);
 
 /// GPU milliseconds of the passes that the method adds to the sharp frame
-/// (game/shot/pass_groups.h).
+/// (game::PassGroup::Blur).
 [[nodiscard]] double computeEffectTime(const game::MethodInfo& method, const Sample& sample);
 
 /// Processor, cores, memory and operating system.

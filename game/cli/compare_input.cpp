@@ -2,7 +2,7 @@
 #include "game/cli/compare_input.h"
 
 #include "engine/io/image_file.h"
-#include "game/output/intermediates.h"
+#include "game/output/extra_files.h"
 #include "modules/tonemap/display.h"
 
 #include <fmt/ranges.h>

@@ -2,7 +2,6 @@
 // `rally`: two laps by car, against the clock, past posts that had better stay where they are.
 #pragma once
 
-#include "game/demos/chase_camera.h"
 #include "game/demos/demo_base.h"
 #include "game/demos/rally_car.h"
 #include "game/demos/rally_track.h"

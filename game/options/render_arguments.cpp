@@ -3,7 +3,7 @@
 
 #include "engine/io/image_file.h"
 #include "game/options/option_rows.h"
-#include "game/output/film.h"
+#include "game/output/sequence.h"
 #include "game/shot/picture_drawer.h"
 
 #include <algorithm>

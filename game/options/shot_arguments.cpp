@@ -3,7 +3,7 @@
 
 #include "engine/io/content_hash.h"
 #include "engine/scene/shutter_rows.h"
-#include "game/shot/flight.h"
+#include "game/shot/shot.h"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "game/output/film.h"
-
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "game/output/sequence.h"
 
 #include <system_error>
 #include <vector>

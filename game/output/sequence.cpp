@@ -6,11 +6,8 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/io/content_hash.h"
 #include "engine/io/image_file.h"
-#include "game/output/film.h"
-#include "game/output/intermediates.h"
+#include "game/output/extra_files.h"
 #include "game/output/sequence_journal.h"
-#include "game/output/statistics_file.h"
-#include "game/shot/flight.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The methods of drawing a picture, by name: those of the motion blur, and those that draw the
-// scene in their own way.
+// scene in their own way; and which of a picture's passes count as the method's.
 #pragma once
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/render/frame_statistics.h"
 #include "modules/motion_blur/methods.h"
 
 #include <cstdint>
@@ -42,5 +43,22 @@ struct MethodInfo {
 
 /// Error: the names there are.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
+
+enum class PassGroup : uint8_t {
+    Scene,   ///< what a picture without blur draws as well
+    Blur,    ///< what the method adds to it, acceleration structures for its rays included
+    Display, ///< what brings the linear picture to the window or to memory
+};
+
+/// `sharp` adds nothing to a picture. Everything that a method draws counts as its own if it draws
+/// the scene in its own way (many frames, rays alone).
+[[nodiscard]] PassGroup groupOf(const MethodInfo& method, render::PassOwner owner);
+
+/// GPU milliseconds of the passes of PassGroup::Blur.
+[[nodiscard]] double
+sumBlurMilliseconds(const MethodInfo& method, const render::FrameStatistics& statistics);
+
+/// GPU milliseconds from the G-buffer to the linear picture.
+[[nodiscard]] double sumFrameMilliseconds(const render::FrameStatistics& statistics);
 
 } // namespace shutter::game

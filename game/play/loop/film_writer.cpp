@@ -2,8 +2,8 @@
 #include "game/play/loop/film_writer.h"
 
 #include "engine/io/image_file.h"
-#include "game/output/film.h"
 #include "game/output/render_options.h"
+#include "game/output/sequence.h"
 
 #include <system_error>
 

@@ -4,7 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/io/image_file.h"
 #include "engine/scene/shutter.h"
-#include "game/options/user_folders.h"
+#include "game/options/folders.h"
 #include "modules/debug_view/debug_view.h"
 
 #include <algorithm>

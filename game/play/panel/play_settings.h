@@ -3,11 +3,13 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 #include "engine/scene/components.h"
 #include "game/shot/methods.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -78,5 +80,12 @@ savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings
 
 /// The shutter as the camera gets it: reduced motion applied.
 [[nodiscard]] scene::CameraShutter makeShutter(const PlaySettings& settings);
+
+/// Longest name of an intermediate, bytes.
+inline constexpr size_t kMaxViewBytes = 64;
+
+/// One row per field of PlaySettings, except for names (method, leftMethod, view) and for structs
+/// that have rows of their own.
+[[nodiscard]] core::SettingRows<PlaySettings> listPlayRows();
 
 } // namespace shutter::game

@@ -3,7 +3,6 @@
 #include "engine/json/json_rows.h"
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/setting_rows.h"
 

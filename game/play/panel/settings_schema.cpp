@@ -2,7 +2,6 @@
 // The JSON schema of the settings file, made of the rows that read and write it.
 #include "engine/core/setting_row.h"
 #include "engine/scene/shutter_rows.h"
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
 #include "modules/motion_blur/setting_rows.h"
 #include "shaders/common/shutter_response_shared.h"

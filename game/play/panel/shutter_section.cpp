@@ -2,7 +2,7 @@
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"
 #include "game/play/panel/panel_sections.h"
-#include "game/play/panel/play_rows.h"
+#include "game/play/panel/play_settings.h"
 #include "game/play/panel/setting_widgets.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/panel/panel_sections.h"
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,6 @@
 // Settings that are valid and otherwise anything.
 #pragma once
 
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
 
 #include <algorithm>
