@@ -1,26 +1,98 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/result.h"
 #include "engine/image/flip.h"
+#include "engine/image/image.h"
 #include "engine/image/magma.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"
-#include "game/cli/compare_input.h"
 #include "game/options/error_output.h"
 #include "game/options/shot_arguments.h"
+#include "game/output/extra_files.h"
+#include "modules/tonemap/tonemap.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace shutter::game {
 
 namespace {
+
+// What is compared: both pictures brought to the display alike.
+
+struct CompareInput {
+    image::Image image;        ///< colour alone: alpha says nothing of how a picture looks
+    bool isDisplay = false;    ///< values are those a display takes, sRGB
+    bool isToneMapped = false; ///< they were made so here
+};
+
+/// "R" of "R" and of "layer.R".
+std::string_view lastPart(std::string_view channelName) {
+    return channelName.substr(channelName.find_last_of('.') + 1);
+}
+
+/// Whether the channels are red, green, blue or grey, by name. Motion or depth is no colour.
+bool isColor(const image::Image& picture) {
+    const auto& names = picture.channelNames;
+    if (picture.channels == 1)
+        return names.empty() || lastPart(names[0]) == "Y";
+    constexpr std::array<std::string_view, 3> kRgb{"R", "G", "B"};
+    return picture.channels == 3 &&
+           (names.empty() ||
+            std::equal(kRgb.begin(), kRgb.end(), names.begin(), [](auto a, auto& b) {
+                return a == lastPart(b);
+            }));
+}
+
+image::Image dropAlpha(image::Image picture) {
+    if (picture.channels == 2 && picture.channelNames.size() == 2 &&
+        lastPart(picture.channelNames[1]) == "A")
+        return selectChannels(picture, {{0, "Y"}});
+    if (picture.channels <= 3)
+        return picture;
+    std::vector<std::string> names = std::move(picture.channelNames);
+    image::Image color = selectChannels(picture, {{0, "R"}, {1, "G"}, {2, "B"}});
+    if (names.size() >= 3)
+        color.channelNames.assign(names.begin(), names.begin() + 3);
+    return color;
+}
+
+/// Reads a picture. One that is not stored for a display (EXR, HDR) is tone mapped, unless `stored`
+/// asks for the values as they stand. An Error names the file; channels that are no colour cannot
+/// be tone mapped.
+core::Result<CompareInput>
+readCompareInput(const std::string& path, bool stored, const tonemap::TonemapSettings& settings) {
+    auto file = io::readStoredImage(path);
+    if (!file)
+        return file.error();
+    CompareInput input;
+    input.image = dropAlpha(std::move(file.value().image));
+    input.isDisplay = file.value().isDisplayEncoded;
+    if (input.isDisplay || stored)
+        return input;
+    if (!isColor(input.image))
+        return core::makeError(
+            "'{}' holds no colour that can be tone mapped but {}: compare its values with --linear",
+            path,
+            fmt::join(input.image.channelNames, ", ")
+        );
+    input.image = tonemap::computeDisplayImage(input.image, settings);
+    input.isDisplay = true;
+    input.isToneMapped = true;
+    return input;
+}
 
 struct CompareArguments {
     std::string a;

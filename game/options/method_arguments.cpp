@@ -3,7 +3,8 @@
 
 #include "engine/core/setting_row.h"
 #include "game/options/option_rows.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 #include <array>

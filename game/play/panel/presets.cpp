@@ -2,7 +2,7 @@
 // README.md, "Presets", says what each costs.
 #include "engine/core/setting_row.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 
 namespace shutter::game {
 

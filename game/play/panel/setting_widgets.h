@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/setting_row.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 
 #include <cstdint>
 #include <span>

@@ -4,7 +4,8 @@
 #include "engine/scene/shutter.h"
 #include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,8 @@
 #include "engine/core/setting_row.h"
 #include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 #include "shaders/common/shutter_response_shared.h"
 
 #include <nlohmann/json.hpp>
