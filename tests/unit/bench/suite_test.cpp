@@ -35,7 +35,8 @@ TEST(Suites, TheHardOneHasTwelveCases) {
 TEST(Suites, ClaimsAreToldApartAndSayWhatTheyCompare) {
     const auto suite = findSuite("demand");
     ASSERT_TRUE(suite.ok());
-    EXPECT_STREQ(suite.value().size, "1280x720");
+    EXPECT_EQ(suite.value().size.width, 1280u);
+    EXPECT_EQ(suite.value().size.height, 720u);
     std::set<std::string> names;
     for (const demand::Claim& claim : suite.value().claims) {
         EXPECT_TRUE(names.insert(claim.name).second) << claim.name;

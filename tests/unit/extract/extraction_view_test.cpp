@@ -43,7 +43,7 @@ TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
 
 TEST_F(Extraction, AMovingCameraSeesAStillPointFromWhereItIsAtOpenAndClose) {
     // Far from the origin, where single precision would lose the displacement.
-    world.registry.get<scene::Transform>(camera).translation = {4e6, 0.0, 0.0};
+    camera = request.camera = addCamera({.translation = {4e6, 0.0, 0.0}});
     world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
     request.exposure = {0.0, 0.0, 1.0, 0.0};
     const ExtractedFrame frame = extract();

@@ -52,7 +52,7 @@ template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
             visit(row, owner, prefix);
     };
     each(game::listPlayRows(), settings, "");
-    each(game::listBudgetRows(), settings.budget, "budget.");
+    each(motion_blur::listBudgetRows(), settings.budget, "budget.");
     each(motion_blur::listSettingRows(), settings.blur, "blur.");
     each(scene::listShutterRows(), settings.shutter, "shutter.");
     each(scene::listResponseRows(), settings.shutter.response, "shutter.response.");

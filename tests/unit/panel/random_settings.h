@@ -2,7 +2,9 @@
 // Settings that are valid and otherwise anything.
 #pragma once
 
+#include "engine/scene/shutter_rows.h"
 #include "game/play/panel/play_settings.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +23,7 @@ class RandomSettings {
         settings.leftMethod = pickMethod();
         settings.view = index(2) == 0 ? "" : "tiles \"\\ \xc3\xa9";
         fill(game::listPlayRows(), settings);
-        fill(game::listBudgetRows(), settings.budget);
+        fill(motion_blur::listBudgetRows(), settings.budget);
         fill(motion_blur::listSettingRows(), settings.blur);
         fill(scene::listShutterRows(), settings.shutter);
         scene::ShutterResponse& response = settings.shutter.response;

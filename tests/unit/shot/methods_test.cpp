@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/options/error_output.h"
 #include "game/shot/methods.h"
 
 #include <gtest/gtest.h>
@@ -43,16 +42,6 @@ TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     for (const char* part :
          {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate", "truth"})
         EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
-}
-
-TEST(Report, ControlCharactersBecomeSpaces) {
-    EXPECT_EQ(toOneLine("a\nb\tc\r\x1b[31m\x7f"), "a b c  [31m ");
-    EXPECT_EQ(toOneLine(std::string("a\0b", 3)), "a b");
-}
-
-TEST(Report, OtherTextStaysAsItIs) {
-    EXPECT_EQ(toOneLine(""), "");
-    EXPECT_EQ(toOneLine("größe 5 µm"), "größe 5 µm");
 }
 
 } // namespace shutter::game
