@@ -87,7 +87,7 @@ class BenchRun {
     void describeRun() {
         mRoot = {
             {"schema", "shutter-bench"},
-            {"version", 1},
+            {"version", 2},
             {"suite", mSuite.name},
             {"created", describeNow()},
             {"complete", false},
@@ -123,7 +123,7 @@ class BenchRun {
             return pictureFile(
                 shot.name,
                 row.at("method"),
-                row.at("dial").is_null() ? 0u : row.at("dial").get<uint32_t>()
+                row.at("samples").is_null() ? 0u : row.at("samples").get<uint32_t>()
             );
         };
         if (json row = compareAtEqualTime(described, kReference, imageOf); !row.is_null())
@@ -200,8 +200,8 @@ class BenchRun {
     const std::vector<const game::MethodInfo*>& mMethods;
     const game::ShotOptions& mShot;
     const StopQuestion& mStop;
-    std::vector<DialPoint> mSweep;
-    std::vector<DialPoint> mScalingPoints;
+    std::vector<SamplePoint> mSweep;
+    std::vector<SamplePoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
     std::vector<std::string> mBroken; ///< hard cases and claims that left their bounds

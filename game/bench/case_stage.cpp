@@ -147,12 +147,12 @@ CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
     );
 }
 
-bool CaseStage::isKnown(const DialPoint& point, uint32_t repeats) const {
+bool CaseStage::isKnown(const SamplePoint& point, uint32_t repeats) const {
     const Record& record = mJournal.find(makeKey(point));
     return record.samples.size() >= repeats && (record.hasPicture || mTruth.width == 0);
 }
 
-Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult& drawn) {
+Status CaseStage::keepPicture(const SamplePoint& point, const render::FrameResult& drawn) {
     const std::string key = makeKey(point);
     if (mTruth.width == 0 || mJournal.find(key).hasPicture)
         return {};
@@ -177,7 +177,7 @@ Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult&
     return mJournal.setPicture(key, std::move(facts));
 }
 
-Status CaseStage::keepSample(const DialPoint& point, const render::FrameResult& drawn) {
+Status CaseStage::keepSample(const SamplePoint& point, const render::FrameResult& drawn) {
     Sample sample;
     for (const render::PassTime& pass : drawn.statistics.passes)
         sample.passes.push_back({pass.name, pass.gpuMilliseconds, pass.owner});

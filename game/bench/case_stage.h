@@ -36,7 +36,7 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const std::filesystem
 
 /// A method at one sample count, drawn again and again.
 struct DrawnPoint {
-    DialPoint point;
+    SamplePoint point;
     std::unique_ptr<game::PictureDrawer> drawer{}; ///< made when it is drawn first
 };
 
@@ -58,9 +58,10 @@ class CaseStage {
 
     /// Writes the picture and its error map, unless there is no truth or the journal has them.
     [[nodiscard]] core::Status
-    keepPicture(const DialPoint& point, const render::FrameResult& drawn);
+    keepPicture(const SamplePoint& point, const render::FrameResult& drawn);
     /// Adds the picture's times to the journal.
-    [[nodiscard]] core::Status keepSample(const DialPoint& point, const render::FrameResult& drawn);
+    [[nodiscard]] core::Status
+    keepSample(const SamplePoint& point, const render::FrameResult& drawn);
 
     /// Where rays change the picture most, and where motion blur does.
     [[nodiscard]] core::Result<std::vector<Crop>> chooseCrops() const;
@@ -68,7 +69,7 @@ class CaseStage {
     [[nodiscard]] Journal& journal() { return mJournal; }
 
     /// Nothing more is to be measured here.
-    [[nodiscard]] bool isKnown(const DialPoint& point, uint32_t repeats) const;
+    [[nodiscard]] bool isKnown(const SamplePoint& point, uint32_t repeats) const;
 
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }
 

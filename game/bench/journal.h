@@ -37,7 +37,7 @@ struct PictureFacts {
     std::map<std::string, uint64_t> counters;
 };
 
-/// All there is about one method and dial.
+/// Everything known about a method at one sample count.
 struct Record {
     std::vector<Sample> samples;
     bool hasPicture = false;

@@ -58,18 +58,18 @@ json describePasses(const game::MethodInfo& method, const std::vector<Sample>& s
     return passes;
 }
 
-/// A method without a dial has none in the results either.
-json packDial(uint32_t samples) {
+/// Null for a method that takes no samples.
+json packSampleCount(uint32_t samples) {
     return samples > 0 ? json(samples) : json();
 }
 
-json describeMeasurement(const DialPoint& point, const Record& record) {
+json describeMeasurement(const SamplePoint& point, const Record& record) {
     json metrics = json::object();
     for (const auto& [id, value] : record.picture.metrics)
         metrics[id] = std::isfinite(value) ? json(value) : json(); // null: equal pictures
     json row = {
         {"method", point.method->name},
-        {"dial", packDial(point.samples)},
+        {"samples", packSampleCount(point.samples)},
         {"isDefault", point.isDefault},
         {"repeats", record.samples.size()},
         {"metrics", metrics},
@@ -158,7 +158,7 @@ json describeCurve(const demand::Curve& curve) {
 
 json describeCase(
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const CaseResult& result,
     const MeasureOptions& options
 ) {
@@ -189,14 +189,14 @@ json describeCase(
              {"height", crop.height},
              {"label", crop.label}}
         );
-    for (const DialPoint& point : sweep) {
+    for (const SamplePoint& point : sweep) {
         const auto found = result.records.find(makeKey(point));
         if (found == result.records.end())
             continue;
         if (!found->second.skipped.empty())
             described["skipped"].push_back(
                 {{"method", point.method->name},
-                 {"dial", packDial(point.samples)},
+                 {"samples", packSampleCount(point.samples)},
                  {"reason", found->second.skipped}}
             );
         else if (!found->second.samples.empty() && found->second.hasPicture)
@@ -233,7 +233,7 @@ json compareAtEqualTime(
         const json& row = *nearest.at(method);
         rows.push_back(
             {{"method", method},
-             {"dial", row.at("dial")},
+             {"samples", row.at("samples")},
              {"milliseconds", frameTimeOf(row)},
              {"metrics", row.at("metrics")},
              {"image", imageOf(row)}}
@@ -241,25 +241,26 @@ json compareAtEqualTime(
     }
     return {
         {"case", described.at("name")},
-        {"reference", {{"method", reference}, {"dial", own->at("dial")}, {"milliseconds", time}}},
+        {"reference",
+         {{"method", reference}, {"samples", own->at("samples")}, {"milliseconds", time}}},
         {"rows", rows}};
 }
 
 json describeAxis(
     const ScalingAxis& axis,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const std::vector<MeasuredPoint>& points
 ) {
     json series = json::array();
-    for (const DialPoint& dial : sweep) {
+    for (const SamplePoint& point : sweep) {
         json rows = json::array();
         std::vector<math::CurvePoint> frames;
         std::vector<math::CurvePoint> effects;
         for (const MeasuredPoint& measured : points) {
-            const auto found = measured.result.records.find(makeKey(dial));
+            const auto found = measured.result.records.find(makeKey(point));
             if (found == measured.result.records.end() || found->second.samples.empty())
                 continue;
-            json times = describeTimes(*dial.method, found->second.samples);
+            json times = describeTimes(*point.method, found->second.samples);
             frames.push_back({measured.point->value, times.at("frame").at("median")});
             effects.push_back({measured.point->value, times.at("effect").at("median")});
             rows.push_back(
@@ -271,7 +272,7 @@ json describeAxis(
         if (rows.empty())
             continue;
         series.push_back(
-            {{"method", dial.method->name},
+            {{"method", point.method->name},
              {"points", rows},
              {"fit", {{"frame", describeFit(frames)}, {"effect", describeFit(effects)}}}}
         );
@@ -299,8 +300,8 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
             {{"name", method->name},
              {"title", method->description},
              {"publication", method->publication},
-             {"dial", nameUnit(*method)},
-             {"default", packDial(method->defaultSamples)},
+             {"sampleUnit", nameUnit(*method)},
+             {"default", packSampleCount(method->defaultSamples)},
              {"usesRays", method->rays != game::RayNeed::None}}
         );
     return rows;

@@ -17,7 +17,7 @@ namespace shutter::bench {
 /// One case with the sweep it was measured with.
 [[nodiscard]] nlohmann::json describeCase(
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const CaseResult& result,
     const MeasureOptions& options
 );
@@ -25,10 +25,10 @@ namespace shutter::bench {
 /// The picture file of a measurement, relative to the report's folder.
 using ImageOf = std::function<std::string(const nlohmann::json& measurement)>;
 
-/// What each other method reaches with the dial whose frame time is nearest to the reference
-/// method's at its default.
-/// \param described of describeCase()
-/// \return null where the reference was not measured
+/// What each other method reaches with the sample count whose frame time is nearest to the
+/// reference method's at its default.
+/// \param described describeCase()'s
+/// \return null if the reference was not measured
 [[nodiscard]] nlohmann::json compareAtEqualTime(
     const nlohmann::json& described, const std::string& reference, const ImageOf& imageOf
 );
@@ -41,7 +41,7 @@ struct MeasuredPoint {
 /// A scaling axis: a series a method, with its fit.
 [[nodiscard]] nlohmann::json describeAxis(
     const ScalingAxis& axis,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const std::vector<MeasuredPoint>& points
 );
 

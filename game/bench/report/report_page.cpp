@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kSchema = "shutter-bench";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr uint64_t kMaxResultsBytes = 256ULL << 20;
 constexpr uint64_t kMaxPictureBytes = 64ULL << 20;
 

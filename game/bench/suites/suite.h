@@ -53,8 +53,8 @@ struct Suite {
     std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
     game::PictureSize size{640, 360};           ///< of its pictures, unless another is asked for
     uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
-    double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
-    uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays
+    double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
+    uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
 };
 
 /// Error: the suites there are.
@@ -63,20 +63,20 @@ struct Suite {
 /// A user's own shot as a suite of one case, swept like `paper`.
 [[nodiscard]] Suite makeOwnSuite(const game::ShotArguments& shot);
 
-/// A method at one position of its dial.
-struct DialPoint {
+/// A method at one of its sample counts.
+struct SamplePoint {
     const game::MethodInfo* method = nullptr;
-    uint32_t samples = 0; ///< 0: the method has no dial
+    uint32_t samples = 0; ///< 0: the method takes none
     bool isDefault = false;
 };
 
-/// Every dial position of the methods, cheap to dear.
-[[nodiscard]] std::vector<DialPoint>
+/// Every sample count that the methods are measured at, the cheapest first.
+[[nodiscard]] std::vector<SamplePoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
 
 /// The methods at their defaults; truths with a few samples, since their time is proportional to
 /// them.
-[[nodiscard]] std::vector<DialPoint>
+[[nodiscard]] std::vector<SamplePoint>
 makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
 
 /// Case::writeScene of a generated scene.
