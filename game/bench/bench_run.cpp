@@ -188,7 +188,7 @@ class BenchRun {
         return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
     }
 
-    /// What was measured is kept, but for hard cases and claims.
+    /// Measurements are kept for the next run, except those of hard cases and claims.
     Status stopEarly() const {
         if (!mSuite.hardCases.empty() || !mSuite.claims.empty())
             return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);

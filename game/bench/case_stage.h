@@ -25,8 +25,8 @@ namespace shutter::bench {
 
 struct CaseSetup {
     std::filesystem::path scene;
-    /// Of the scene's bytes, the shot's options, this program and the device: pictures of equal
-    /// hashes are equal, and their times comparable.
+    /// Hash of the scene's bytes, the shot's options, this program and the device: pictures with
+    /// equal hashes are equal, and their times comparable.
     std::string hash;
 };
 
@@ -68,7 +68,7 @@ class CaseStage {
 
     [[nodiscard]] Journal& journal() { return mJournal; }
 
-    /// Nothing more is to be measured here.
+    /// Whether everything at this point has been measured.
     [[nodiscard]] bool isKnown(const SamplePoint& point, uint32_t repeats) const;
 
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Raw measurements of one case on disk, written after each, so that a run which was stopped goes on
+// Raw measurements of one case on disk, written after each, so that a stopped run continues
 // where it was.
 #pragma once
 

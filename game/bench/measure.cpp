@@ -114,14 +114,14 @@ class Rounds {
         }
         const std::vector<Sample>& samples = mStage.journal().find(makeKey(point)).samples;
         const double known = samples.empty() ? 0.0 : samples.front().wallMilliseconds / 1e3;
-        // A dear point is done before it has all repeats.
+        // An expensive point is done before it has all repeats.
         const bool isDone = double(samples.size()) * known >= kSecondsAPoint;
         if (mStage.isKnown(point, isDone ? 1 : mOptions.repeats)) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
             entry.seconds = known;
             return {};
         }
-        // A method's first picture compiles its shaders, which is no part of its time.
+        // A method's first picture compiles its shaders, which does not count as its time.
         if (predicted == 0.0)
             if (auto warm = mStage.draw(entry.drawn); !warm)
                 return warm.error();
@@ -131,7 +131,7 @@ class Rounds {
         entry.seconds = secondsOf(drawn.value());
         if (Status kept = mStage.keepPicture(point, drawn.value()); !kept)
             return kept;
-        // A dear picture is drawn once: it is its own measurement.
+        // An expensive picture is drawn once: it is its own measurement.
         const bool isDear = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
         return isDear ? mStage.keepSample(point, drawn.value()) : Status();
     }

@@ -38,7 +38,7 @@ struct MeasuredPoint {
     CaseResult result;
 };
 
-/// A scaling axis: a series a method, with its fit.
+/// A scaling axis: one series per method, with its fit.
 [[nodiscard]] nlohmann::json describeAxis(
     const ScalingAxis& axis,
     const std::vector<SamplePoint>& sweep,
@@ -51,7 +51,7 @@ struct MeasuredPoint {
 struct HeldCase {
     const stability::HardCase* hard = nullptr;
     core::Result<stability::Measurements> found; ///< or why it could not be drawn
-    double seconds = 0.0;                        ///< that it took, on the wall's clock
+    double seconds = 0.0;                        ///< wall time that it took
 };
 
 /// Whether it was drawn and every measurement is within its bound.
@@ -63,7 +63,7 @@ struct HeldCase {
 struct MeasuredClaim {
     const demand::Claim* claim = nullptr;
     core::Result<demand::Findings> found; ///< or why it could not be measured
-    double seconds = 0.0;                 ///< that it took, on the wall's clock
+    double seconds = 0.0;                 ///< wall time that it took
 };
 
 /// Whether it was measured and every check is within its bound.
@@ -94,7 +94,7 @@ struct MeasuredClaim {
 [[nodiscard]] std::string describeNow();
 
 /// What Tan, Cui and Bhojan print in "Hybrid MBlur": Table 1 (quality on their shot) and Table 2
-/// (GPU milliseconds a pass of three shots).
+/// (GPU milliseconds per pass of three shots).
 [[nodiscard]] nlohmann::json describePaperFigures();
 
 } // namespace shutter::bench

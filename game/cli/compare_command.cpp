@@ -33,9 +33,9 @@ namespace {
 // What is compared: both pictures brought to the display alike.
 
 struct CompareInput {
-    image::Image image;        ///< colour alone: alpha says nothing of how a picture looks
-    bool isDisplay = false;    ///< values are those a display takes, sRGB
-    bool isToneMapped = false; ///< they were made so here
+    image::Image image;        ///< colour alone: alpha does not change how a picture looks
+    bool isDisplay = false;    ///< values are display values, sRGB
+    bool isToneMapped = false; ///< they were tone mapped here
 };
 
 /// "R" of "R" and of "layer.R".
@@ -43,7 +43,7 @@ std::string_view lastPart(std::string_view channelName) {
     return channelName.substr(channelName.find_last_of('.') + 1);
 }
 
-/// Whether the channels are red, green, blue or grey, by name. Motion or depth is no colour.
+/// Whether the channels are red, green, blue or grey, by name. Motion and depth are not colours.
 bool isColor(const image::Image& picture) {
     const auto& names = picture.channelNames;
     if (picture.channels == 1)
@@ -70,8 +70,8 @@ image::Image dropAlpha(image::Image picture) {
 }
 
 /// Reads a picture. One that is not stored for a display (EXR, HDR) is tone mapped, unless `stored`
-/// asks for the values as they stand. An Error names the file; channels that are no colour cannot
-/// be tone mapped.
+/// keeps the values as they are. Error: names the file; channels that are not colours cannot be
+/// tone mapped.
 core::Result<CompareInput>
 readCompareInput(const std::string& path, bool stored, const tonemap::TonemapSettings& settings) {
     auto file = io::readStoredImage(path);
@@ -265,7 +265,8 @@ writeMap(const CompareArguments& arguments, const Comparison& pictures, const Me
     if (arguments.map == "difference" || !metrics.flip)
         return io::writeImage(arguments.out, makeHeatMap(pictures.a.image, pictures.b.image));
     const image::Image& errors = metrics.flip->errorMap;
-    // The extension was checked before. Colours are for a display; what is not gets the errors.
+    // The extension was checked before. A display format gets colours, any other the errors
+    // themselves.
     return io::writeImage(
         arguments.out,
         io::isDisplayFormat(arguments.out).value() ? image::colorWithMagma(errors) : errors
@@ -300,12 +301,18 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
     command->add_option("a", arguments->a, "picture")->required();
     command->add_option("b", arguments->b, "reference")->required();
     command->add_flag("--json", arguments->json, "print JSON");
-    command->add_option("--out", arguments->out, "error map: .png or .jpg in colours, .exr");
     command->add_option(
-        "--map", arguments->map, "flip (default), or difference: absolute, black to white at 0.5"
+        "--out", arguments->out, "write an error map: .png or .jpg in colours, or .exr"
+    );
+    command->add_option(
+        "--map",
+        arguments->map,
+        "kind of error map: flip (default) or difference (absolute, white at 0.5)"
     );
     CLI::Option* linear = command->add_flag(
-        "--linear", arguments->linear, "no tone mapping: values as stored, clamped to [0, 1]"
+        "--linear",
+        arguments->linear,
+        "compare values as stored, clamped to [0, 1], without tone mapping"
     );
     for (CLI::Option* option : defineTonemapOptions(*command, arguments->display))
         option->excludes(linear);

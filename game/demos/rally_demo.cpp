@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLaps = 2;
 constexpr double kTimeLimit = 120.0; // s
-constexpr double kParSeconds = 90.0; // a faster race is worth kPerSecond a second
+constexpr double kParSeconds = 90.0; // each second below it is worth kPerSecond
 constexpr int kPerSecond = 20;
 constexpr int kPerGate = 100;
 constexpr int kPerPost = -50;

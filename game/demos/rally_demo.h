@@ -36,7 +36,7 @@ class RallyDemo final : public DemoBase {
 
   private:
     struct Wheel {
-        ecs::Entity tyre;   ///< stands on the car and is steered
+        ecs::Entity tyre;   ///< fixed to the car and steered
         ecs::Entity spokes; ///< roll in it
         math::Transform rest;
         bool isFront = false;

@@ -94,7 +94,7 @@ void SpinDemo::simulate(const DemoControls& controls) {
     stepRide(mRide, wasOver ? DemoControls{.drive = -0.15} : controls);
     mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMostOrbit, kMostOrbit);
     placeParts();
-    // Seat 0 faces +Z, where the ring stands, at angle 0.
+    // Seat 0 faces the ring, which is at +Z, at angle 0.
     if (!wasOver)
         stepRules(mRules, mRide, mRide.carousel, controls.action, mRandom);
 }

@@ -23,12 +23,12 @@ constexpr uint32_t kMaxSamples = 65536;
 using A = MethodArguments;
 
 constexpr std::array kRows = {
-    makeRow<&A::method>("--method", "see `shutter info --methods`; default hybrid"),
+    makeRow<&A::method>("--method", "method, see `shutter info --methods`; default hybrid"),
     makeRow<&A::samples>(
         "--samples", "taps (filters), instants (accumulate) or rays per pixel (truth, denoised)"
     ),
-    makeRow<&A::error>("--error", "truth: stop at this standard error (linear RMS)"),
-    makeRow<&A::settings>("--set", "NAME=VALUE of the method's settings (repeatable)"),
+    makeRow<&A::error>("--error", "stop truth at this standard error (linear RMS)"),
+    makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
 };
 
 Status interpretSamples(const MethodArguments& arguments, MethodOptions& options) {

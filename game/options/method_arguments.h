@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of a method as typed.
+// The options that choose and set up a method, as typed.
 #pragma once
 
 #include "engine/core/result.h"

@@ -40,7 +40,8 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
             core::logWarning(
                 "--aov {} is not written: {}",
                 aov,
-                blur ? "motion blur was " + core::describe(*blur) : "one ray a pixel shows no error"
+                blur ? "motion blur was " + core::describe(*blur)
+                     : "one ray per pixel shows no error"
             );
             continue;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Frames one after the other, each on disk before the next, those that are there already left out;
-// and the film of `--out FILE.mp4`, whose frames are PNG files in the folder FILE.mp4.frames.
+// Draws frames one after another, each written to disk before the next, and skips those that are
+// there already. The frames of a film (`--out FILE.mp4`) are PNG files in the folder
+// FILE.mp4.frames.
 #pragma once
 
 #include "engine/core/result.h"
@@ -14,8 +15,8 @@
 
 namespace shutter::game {
 
-/// Draws every frame of `options`, which may become a film, and writes what was asked for.
-/// \param encoder of the film, where there is to be one
+/// Draws every frame of `options` and writes the files that they name, the film included.
+/// \param encoder makes the film, if there is to be one
 [[nodiscard]] core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
 );
@@ -23,7 +24,7 @@ namespace shutter::game {
 /// The folder beside the film that its frames are drawn into, and their names, from 0.
 [[nodiscard]] std::filesystem::path filmFrames(const std::filesystem::path& film);
 
-/// Before hours of rendering: finds ffmpeg, and checks that the film can be written. Error: names
+/// Finds ffmpeg and checks that the film can be written, before hours of rendering. Error: names
 /// the option, and what to install.
 [[nodiscard]] core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options);
 

@@ -76,7 +76,7 @@ core::Status appendLine(const fs::path& file, const std::string& line) {
 } // namespace
 
 fs::path journalFile(const fs::path& pattern) {
-    // Above the first part that has the frame's number: a folder a frame, perhaps.
+    // Above the first part that holds the frame's number: each frame may have its own folder.
     fs::path folder;
     for (const fs::path& part : pattern.parent_path()) {
         if (frameFile(part, 0) != part)

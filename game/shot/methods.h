@@ -26,11 +26,11 @@ enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate, Truth };
 struct MethodInfo {
     const char* name;
     const char* description;
-    const char* publication; ///< authors and year; empty: nobody's in particular
+    const char* publication; ///< authors and year; empty: no particular one
     MethodFamily family;
-    const motion_blur::Method* blur = nullptr; ///< of MethodFamily::MotionBlur; else null
+    const motion_blur::Method* blur = nullptr; ///< null unless the family is MotionBlur
     RayNeed rays = RayNeed::None;
-    /// What `--samples` counts, which trades time for error; nothing: the method takes none.
+    /// What `--samples` counts, which trades time for error; empty: the method takes no samples.
     std::optional<SampleUnit> sampleUnit{};
     uint32_t defaultSamples = 0;     ///< 0 without a sample unit
     std::vector<std::string> aovs{}; ///< intermediates that it writes beyond the G-buffer's
@@ -38,10 +38,10 @@ struct MethodInfo {
 
 [[nodiscard]] bool canRun(const MethodInfo& method, const gpu::Device& device);
 
-/// In the order in which quality rises.
+/// All methods, in order of rising quality.
 [[nodiscard]] std::span<const MethodInfo> listMethods();
 
-/// Error: the names there are.
+/// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
 
 enum class PassGroup : uint8_t {

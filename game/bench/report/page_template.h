@@ -30,7 +30,7 @@ namespace shutter::bench {
 [[nodiscard]] core::Result<std::string>
 fillPage(std::string_view page, const std::map<std::string, std::string_view>& values);
 
-/// JSON text that means the same and can stand inside a <script> element: it holds no `<`, so it
+/// JSON text with the same meaning that is safe inside a <script> element: it holds no `<`, so it
 /// can neither end the element nor open a comment, and no line separator (U+2028, U+2029).
 [[nodiscard]] std::string escapeForScript(std::string_view json);
 

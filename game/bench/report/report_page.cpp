@@ -40,7 +40,7 @@ core::Status checkResults(const json& results) {
     return {};
 }
 
-/// Every string that stands under "image" or "errorMap", at any depth.
+/// Every string under "image" or "errorMap", at any depth.
 void collectPicturePaths(const json& value, std::set<std::string>& paths) {
     if (value.is_object()) {
         for (const auto& [key, member] : value.items()) {

@@ -28,7 +28,8 @@ std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
     return powers;
 }
 
-/// Sample counts to measure a method at, rising; its default joins them where it lies among them.
+/// Sample counts to measure a method at, rising; its default is one of them if it is not above
+/// them.
 std::vector<uint32_t> listSampleCounts(const game::MethodInfo& method, uint32_t maxRays) {
     if (!method.sampleUnit)
         return {0};

@@ -25,7 +25,7 @@ struct Case {
     std::string title;
     std::string description;
     game::ShotArguments shot;
-    std::optional<game::PictureSize> size; ///< that belongs to the case; nothing: the run's
+    std::optional<game::PictureSize> size; ///< empty: the run's size
     /// Writes the scene to a file; empty where `shot.scene` names one that is there.
     std::function<core::Status(const std::filesystem::path&)> writeScene;
 };
@@ -37,7 +37,7 @@ struct ScalingPoint {
     Case shot;
 };
 
-/// What time does when one thing grows.
+/// How time grows with one parameter.
 struct ScalingAxis {
     std::string name; ///< letters, digits, -
     std::string title;
@@ -50,14 +50,14 @@ struct Suite {
     std::vector<Case> cases;                    ///< compared with the truth
     std::vector<ScalingAxis> axes;              ///< timed only
     std::vector<stability::HardCase> hardCases; ///< measured against bounds
-    std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
-    game::PictureSize size{640, 360};           ///< of its pictures, unless another is asked for
+    std::vector<demand::Claim> claims;          ///< about cost, measured against bounds
+    game::PictureSize size{640, 360};           ///< of its pictures, unless --size says otherwise
     uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
     uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
 };
 
-/// Error: the suites there are.
+/// Error: lists the names of all suites.
 [[nodiscard]] core::Result<Suite> findSuite(std::string_view name);
 
 /// A user's own shot as a suite of one case, swept like `paper`.
@@ -91,7 +91,7 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeScalingSuite();
 /// Hard cases against the bounds that keep them numerically stable.
 [[nodiscard]] Suite makeStabilitySuite();
-/// What a frame costs against what its scene calls for.
+/// The cost of a frame against the demands of its scene.
 [[nodiscard]] Suite makeDemandSuite();
 
 } // namespace shutter::bench

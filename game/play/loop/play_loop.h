@@ -22,7 +22,8 @@ namespace shutter::game {
 
 class PlayLoop {
   public:
-    /// Opens what is asked for: settings, script, window, device, stage.
+    /// Opens what the options name: script, settings, film, window, device, stage. `options` must
+    /// outlive the loop.
     [[nodiscard]] static core::Result<std::unique_ptr<PlayLoop>> open(const PlayOptions& options);
     ~PlayLoop();
     PlayLoop(const PlayLoop&) = delete;

@@ -12,7 +12,7 @@
 namespace shutter::game {
 
 /// Names of MotionBlurSettings that the method reads, its count of samples too unless that is
-/// PlaySettings::denoisedRays. Empty for what is no method of modules/motion_blur.
+/// PlaySettings::denoisedRays. Empty for methods outside modules/motion_blur.
 [[nodiscard]] std::vector<std::string_view> listReadSettings(const MethodInfo& method);
 
 void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes);

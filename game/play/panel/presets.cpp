@@ -20,8 +20,8 @@ MotionBlurSettings makePerformance() {
     return blur;
 }
 
-/// The paper's but for the foreground's magnification, without which pictures are nearer to the
-/// truth.
+/// The paper's settings without the magnification of the foreground: pictures are closer to the
+/// truth that way.
 MotionBlurSettings makeBalanced() {
     MotionBlurSettings blur;
     blur.foregroundMagnification = 1.0f;
