@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "assets/generator/axes.h"
 #include "assets/generator/courtyard.h"
 #include "assets/generator/textures.h"
 
@@ -11,12 +12,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
 
 /// Spins by 25 degrees in an exposure: further than the gap between its spokes.
 void addSpinningWheel(GltfWriter& writer, const CourtyardSurfaces& surfaces) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many movers in different directions at once: spin, translation, tumbling, towards the camera,
 // under a moving parent, behind a static post; and a camera that pans.
+#include "assets/generator/axes.h"
 #include "assets/generator/courtyard.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
@@ -15,11 +16,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
 
 constexpr float kYardHalfWidth = 6.0f;
 constexpr float kBackWallZ = -3.6f; ///< its face

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "assets/generator/axes.h"
 #include "assets/generator/textures.h"
 
 #include <algorithm>
@@ -7,8 +8,6 @@
 namespace shutter::generator {
 
 using glm::mix;
-using glm::vec2;
-using glm::vec3;
 
 Picture bricks() {
     return paint(1024, 1024, [](vec2 uv) {

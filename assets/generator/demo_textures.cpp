@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Small pictures, 256 pixels at most: the demos are drawn many times a second.
+#include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/scenes.h"
 
@@ -8,8 +9,6 @@
 namespace shutter::generator {
 
 using glm::mix;
-using glm::vec2;
-using glm::vec3;
 
 Picture meadow() {
     return paint(256, 256, [](vec2 uv) {

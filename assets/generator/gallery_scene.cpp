@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The shooting gallery: a booth with three rails of targets before a striped wall.
+#include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/scenes.h"
@@ -16,13 +17,6 @@ namespace shutter::generator {
 
 namespace {
 
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-
 /// A rail along X. Targets stand on it.
 struct Rail {
     vec3 middle{0.0f}; ///< of its upper side
@@ -35,10 +29,6 @@ constexpr std::array kRails = {
     Rail{.middle = {0.0f, 0.95f, -5.0f}, .halfLength = 4.2f, .targetRadius = 0.26f},
     Rail{.middle = {0.0f, 1.60f, -7.5f}, .halfLength = 5.2f, .targetRadius = 0.32f},
     Rail{.middle = {0.0f, 2.50f, -10.0f}, .halfLength = 6.2f, .targetRadius = 0.40f}};
-
-mat4 moved(vec3 by) {
-    return glm::translate(mat4(1.0f), by);
-}
 
 void addBooth(GltfWriter& writer) {
     const Index boards = addTextured(writer, "boards", planks(), 0.8f);

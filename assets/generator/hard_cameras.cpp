@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hard cases in which the camera alone moves.
+#include "assets/generator/axes.h"
 #include "assets/generator/hard_stage.h"
 #include "assets/generator/props.h"
 #include "assets/generator/textures.h"
@@ -9,12 +10,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
 
 /// Still things near the camera, so that its motion shows at several depths.
 void addForeground(GltfWriter& writer, const CourtyardSurfaces& surfaces) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hard cases in which one thing moves before a still camera.
+#include "assets/generator/axes.h"
 #include "assets/generator/hard_stage.h"
 #include "assets/generator/props.h"
 #include "assets/generator/textures.h"
@@ -10,18 +11,6 @@
 #include <array>
 
 namespace shutter::generator {
-
-namespace {
-
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
-
-} // namespace
 
 GltfWriter buildTranslationCase() {
     GltfWriter writer("translation");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hard cases of thin things and of open sky.
+#include "assets/generator/axes.h"
 #include "assets/generator/hard_stage.h"
 #include "assets/generator/props.h"
 #include "assets/generator/textures.h"
@@ -15,18 +16,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
-
-mat4 moved(vec3 by) {
-    return glm::translate(mat4(1.0f), by);
-}
 
 /// Still cables across the whole picture, sagging a little.
 Shape cables() {

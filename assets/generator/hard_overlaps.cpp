@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Hard cases in which movers overlap each other, something still, or themselves.
+#include "assets/generator/axes.h"
 #include "assets/generator/hard_stage.h"
 #include "assets/generator/props.h"
 #include "assets/generator/textures.h"
@@ -13,14 +14,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
 
 /// Two runners and a deck with crates on it, along X, its foot at the origin.
 void addSledge(GltfWriter& writer, Index parent, const CourtyardSurfaces& surfaces) {

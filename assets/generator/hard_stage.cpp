@@ -2,7 +2,6 @@
 #include "assets/generator/hard_stage.h"
 
 #include "assets/generator/props.h"
-#include "assets/generator/room.h"
 #include "assets/generator/textures.h"
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "assets/generator/props.h"
 
+#include "assets/generator/axes.h"
 #include "assets/generator/picture.h"
 
 #include <glm/gtc/constants.hpp>
@@ -12,18 +13,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
-
-mat4 moved(vec3 by) {
-    return glm::translate(mat4(1.0f), by);
-}
 
 /// A rod from one point to another.
 void addRod(Shape& shape, vec3 from, vec3 to, float radius, int segmentCount) {

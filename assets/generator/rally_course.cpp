@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The way of the rally and the land around it.
+#include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/scenes.h"
@@ -16,9 +17,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
 
 constexpr std::array kGates = {
     vec2(0, 0),

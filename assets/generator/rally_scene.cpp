@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The car of the rally and what stands along its way.
+#include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/scenes.h"
@@ -16,24 +17,9 @@ namespace shutter::generator {
 
 namespace {
 
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-
-mat4 moved(vec3 by) {
-    return glm::translate(mat4(1.0f), by);
-}
-
 /// Turned so that -Z points along `direction` of the ground.
 glm::quat headingOf(vec2 direction) {
     return glm::angleAxis(std::atan2(-direction.x, -direction.y), kY);
-}
-
-Index plainMaterial(GltfWriter& writer, const char* name, vec3 color, float roughness) {
-    return writer.addMaterial({.name = name, .color = color, .roughness = roughness});
 }
 
 /// What turns and what only looks so: a plain tyre is the same however far it has rolled, so that
@@ -63,9 +49,9 @@ WheelMeshes addWheelMeshes(GltfWriter& writer) {
         );
     }
     const MeshPart tyrePart{
-        .shape = tyre, .material = plainMaterial(writer, "tyre", vec3(0.04f), 0.9f)};
+        .shape = tyre, .material = addPlainMaterial(writer, "tyre", vec3(0.04f), 0.9f)};
     const MeshPart spokesPart{
-        .shape = spokes, .material = plainMaterial(writer, "spokes", vec3(0.72f), 0.35f)};
+        .shape = spokes, .material = addPlainMaterial(writer, "spokes", vec3(0.72f), 0.35f)};
     return {writer.addMesh("tyre", {&tyrePart, 1}), writer.addMesh("spokes", {&spokesPart, 1})};
 }
 
@@ -93,11 +79,12 @@ Index addBodyMesh(GltfWriter& writer) {
     const std::array parts = {
         MeshPart{
             .shape = paint,
-            .material = plainMaterial(writer, "paint", {0.62f, 0.05f, 0.05f}, 0.35f)},
+            .material = addPlainMaterial(writer, "paint", {0.62f, 0.05f, 0.05f}, 0.35f)},
         MeshPart{
             .shape = cabin,
-            .material = plainMaterial(writer, "glass", {0.03f, 0.05f, 0.07f}, 0.15f)},
-        MeshPart{.shape = stripes, .material = plainMaterial(writer, "stripe", vec3(0.85f), 0.4f)},
+            .material = addPlainMaterial(writer, "glass", {0.03f, 0.05f, 0.07f}, 0.15f)},
+        MeshPart{
+            .shape = stripes, .material = addPlainMaterial(writer, "stripe", vec3(0.85f), 0.4f)},
         MeshPart{
             .shape = lamps,
             .material = writer.addMaterial({.name = "lamps", .emissive = {0.9f, 0.85f, 0.6f}})},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "assets/generator/room.h"
-
+#include "assets/generator/axes.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
 
@@ -13,17 +12,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
-
-glm::quat turn(float radians, vec3 axis) {
-    return glm::angleAxis(radians, axis);
-}
 
 void addShell(GltfWriter& writer) {
     const Index paper = writer.addMaterial(
@@ -112,7 +100,7 @@ void addSofa(GltfWriter& writer, Index oak) {
         );
     };
     const glm::quat upright(1.0f, 0.0f, 0.0f, 0.0f);
-    addPart("sofa_back", {0.0f, 0.27f, -0.40f}, {0.93f, 0.37f, 0.10f}, 0.06f, turn(-0.10f, kX));
+    addPart("sofa_back", {0.0f, 0.27f, -0.40f}, {0.93f, 0.37f, 0.10f}, 0.06f, turned(-0.10f, kX));
     addPart("sofa_arm_left", {-0.98f, 0.13f, 0.01f}, {0.12f, 0.25f, 0.47f}, 0.08f, upright);
     addPart("sofa_arm_right", {0.98f, 0.13f, 0.01f}, {0.12f, 0.25f, 0.47f}, 0.08f, upright);
     addPart("seat_cushion_left", {-0.432f, 0.165f, 0.065f}, {0.43f, 0.085f, 0.42f}, 0.05f, upright);
@@ -122,14 +110,14 @@ void addSofa(GltfWriter& writer, Index oak) {
         {-0.430f, 0.46f, -0.22f},
         {0.425f, 0.24f, 0.09f},
         0.07f,
-        turn(-0.2f, kX)
+        turned(-0.2f, kX)
     );
     addPart(
         "back_cushion_right",
         {0.430f, 0.462f, -0.22f},
         {0.425f, 0.24f, 0.09f},
         0.07f,
-        turn(-0.2f, kX)
+        turned(-0.2f, kX)
     );
 
     const Shape leg = cylinder(0.028f, 0.13f, 12);
@@ -162,7 +150,7 @@ void addCushions(GltfWriter& writer) {
         writer,
         {.name = "pink_cushion",
          .translation = {-0.31f, 0.725f, -0.90f},
-         .rotation = turn(-0.30f, kX) * turn(-0.42f, kZ)},
+         .rotation = turned(-0.30f, kX) * turned(-0.42f, kZ)},
         pillow({0.29f, 0.27f, 0.10f}, 0.10f, 18),
         pink
     );
@@ -170,7 +158,7 @@ void addCushions(GltfWriter& writer) {
         writer,
         {.name = "blue_cushion",
          .translation = {0.72f, 0.67f, -0.92f},
-         .rotation = turn(-0.25f, kY) * turn(-0.30f, kX) * turn(0.12f, kZ)},
+         .rotation = turned(-0.25f, kY) * turned(-0.30f, kX) * turned(0.12f, kZ)},
         pillow({0.22f, 0.21f, 0.085f}, 0.09f, 12),
         blue
     );
@@ -229,7 +217,7 @@ void addSideTable(GltfWriter& writer, Index oak) {
             {.name = book.name,
              .parent = top,
              .translation = {0.0f, book.y, 0.0f},
-             .rotation = turn(book.yaw, kY)},
+             .rotation = turned(book.yaw, kY)},
             roundedBox(book.half, 0.004f, 1, 0.3f),
             writer.addMaterial({.name = book.name, .color = book.color, .roughness = 0.6f})
         );

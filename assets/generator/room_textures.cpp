@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "assets/generator/axes.h"
 #include "assets/generator/textures.h"
 
 #include <glm/gtc/constants.hpp>
@@ -9,8 +10,6 @@
 namespace shutter::generator {
 
 using glm::mix;
-using glm::vec2;
-using glm::vec3;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "assets/generator/scaling_scenes.h"
 
-#include "assets/generator/room.h"
+#include "assets/generator/axes.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
 
@@ -16,10 +16,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
 
 // Shot computes speeds from the one exposure.
 static_assert(static_cast<float>(kScalingExposureSeconds) == kExposureSeconds);

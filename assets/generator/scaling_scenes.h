@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Scenes with one dial each, for curves of cost. In all of them only the dial changes: camera
-// `main` stands still, no clip plays, movers have velocities and stand where they are meant to at
-// time 0; exposure 1/60 s, phase `end`. Resolution and exposure need no scene of their own: the
-// vase scene is the base of those curves.
+// Scenes with one parameter each, for curves of cost. In all of them only that parameter changes:
+// camera `main` stands still, no clip plays, movers have velocities and stand where they are meant
+// to at time 0; exposure 1/60 s, phase `end`. Resolution and exposure need no scene of their own:
+// the vase scene is the base of those curves.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"

@@ -39,4 +39,8 @@ Index addTextured(GltfWriter& writer, const char* name, const Picture& picture, 
     );
 }
 
+Index addPlainMaterial(GltfWriter& writer, const char* name, glm::vec3 color, float roughness) {
+    return writer.addMaterial({.name = name, .color = color, .roughness = roughness});
+}
+
 } // namespace shutter::generator

@@ -41,6 +41,16 @@ Index addObject(GltfWriter& writer, NodeDesc node, const Shape& shape, Index mat
 /// Adds a texture and a material of the same name. \return the material
 Index addTextured(GltfWriter& writer, const char* name, const Picture& picture, float roughness);
 
+/// The still part of the vase scene: wall, floor, white sofa with a pink cushion at its left, lamp,
+/// table, picture. The sofa faces +Z; none of it reaches beyond z = -0.5 m.
+void addRoom(GltfWriter& writer);
+
+/// `sun` and `fill_lamp`.
+void addRoomLights(GltfWriter& writer);
+
+/// A material of one colour without a texture. \param color linear
+Index addPlainMaterial(GltfWriter& writer, const char* name, glm::vec3 color, float roughness);
+
 [[nodiscard]] GltfWriter buildVaseScene();
 [[nodiscard]] GltfWriter buildCourtyardScene();
 

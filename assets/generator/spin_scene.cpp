@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A fairground of things that turn: a carousel, a fan that it drives, and a wind wheel.
+#include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/props.h"
@@ -17,23 +18,8 @@ namespace shutter::generator {
 
 namespace {
 
-using glm::mat4;
-using glm::vec2;
-using glm::vec3;
-
-constexpr vec3 kX{1.0f, 0.0f, 0.0f};
-constexpr vec3 kY{0.0f, 1.0f, 0.0f};
-constexpr vec3 kZ{0.0f, 0.0f, 1.0f};
 constexpr int kSeatCount = 8;
 constexpr float kSeatRadius = 2.3f;
-
-mat4 moved(vec3 by) {
-    return glm::translate(mat4(1.0f), by);
-}
-
-Index plainMaterial(GltfWriter& writer, const char* name, vec3 color, float roughness) {
-    return writer.addMaterial({.name = name, .color = color, .roughness = roughness});
-}
 
 /// A hobby horse that looks along +X, about the middle of its trunk, with its pole.
 struct Horse {
@@ -68,10 +54,10 @@ Horse buildHorse() {
 
 void addSeats(GltfWriter& writer, Index carousel) {
     const Horse horse = buildHorse();
-    const Index tack = plainMaterial(writer, "tack", {0.60f, 0.45f, 0.16f}, 0.4f);
+    const Index tack = addPlainMaterial(writer, "tack", {0.60f, 0.45f, 0.16f}, 0.4f);
     const auto addHorseMesh = [&](const char* name, vec3 color) {
         const std::array parts = {
-            MeshPart{.shape = horse.coat, .material = plainMaterial(writer, name, color, 0.5f)},
+            MeshPart{.shape = horse.coat, .material = addPlainMaterial(writer, name, color, 0.5f)},
             MeshPart{.shape = horse.tack, .material = tack}};
         return writer.addMesh(name, parts);
     };
@@ -116,7 +102,7 @@ Index addCarousel(GltfWriter& writer) {
         MeshPart{.shape = withUvScale(lathe(kRoof, 32), {3.0f, 1.0f}), .material = canvas},
         MeshPart{
             .shape = lathe(kCeiling, 32),
-            .material = plainMaterial(writer, "ceiling", {0.42f, 0.33f, 0.24f}, 0.9f)},
+            .material = addPlainMaterial(writer, "ceiling", {0.42f, 0.33f, 0.24f}, 0.9f)},
         MeshPart{.shape = withUvScale(lathe(kValance, 32), {16.0f, 1.0f}), .material = bunting}};
     const Index carousel = writer.addNode(
         {.name = "carousel",
@@ -142,7 +128,7 @@ Index addCarousel(GltfWriter& writer) {
 }
 
 void addFan(GltfWriter& writer) {
-    const Index iron = plainMaterial(writer, "iron", {0.20f, 0.22f, 0.25f}, 0.5f);
+    const Index iron = addPlainMaterial(writer, "iron", {0.20f, 0.22f, 0.25f}, 0.5f);
     Shape tower;
     append(tower, roundedBox({0.16f, 1.35f, 0.16f}, 0.03f, 1, 1.0f), moved({0, 1.35f, -0.30f}));
     append(tower, roundedBox({0.50f, 0.10f, 0.45f}, 0.04f, 1, 1.0f), moved({0, 0.10f, -0.20f}));
@@ -168,10 +154,10 @@ void addMill(GltfWriter& writer) {
     const std::array parts = {
         MeshPart{
             .shape = withUvScale(lathe(kTower, 20), {2.0f, 1.0f}),
-            .material = plainMaterial(writer, "plaster", {0.72f, 0.66f, 0.56f}, 0.9f)},
+            .material = addPlainMaterial(writer, "plaster", {0.72f, 0.66f, 0.56f}, 0.9f)},
         MeshPart{
             .shape = lathe(kCap, 20),
-            .material = plainMaterial(writer, "thatch", {0.28f, 0.18f, 0.09f}, 0.9f)}};
+            .material = addPlainMaterial(writer, "thatch", {0.28f, 0.18f, 0.09f}, 0.9f)}};
     writer.addNode(
         {.name = "mill_tower", .translation = kFoot, .mesh = writer.addMesh("mill_tower", parts)}
     );
@@ -229,7 +215,7 @@ void addGround(GltfWriter& writer) {
         MeshPart{.shape = ground, .material = slabs},
         MeshPart{
             .shape = hedge,
-            .material = plainMaterial(writer, "hedge", {0.08f, 0.20f, 0.06f}, 0.9f)}};
+            .material = addPlainMaterial(writer, "hedge", {0.08f, 0.20f, 0.06f}, 0.9f)}};
     writer.addNode(
         {.name = "ground",
          .translation = {0.0f, -0.1f, 0.0f},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "assets/generator/axes.h"
 #include "assets/generator/mesh_shapes.h"
 
 #include <glm/gtc/constants.hpp>
@@ -9,9 +10,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
 
 /// A flat end. \param side +1 faces along `tangent`, -1 against it
 void addCap(

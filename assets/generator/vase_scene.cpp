@@ -2,7 +2,7 @@
 // A red vase crosses in front of a white sofa with a pink cushion: the shot on which the paper
 // compares methods ("Graphics Quality Comparison"). The cushion's silhouette, the sofa's back and
 // the wall run on behind the vase, so that a guessed background shows.
-#include "assets/generator/room.h"
+#include "assets/generator/axes.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
 
@@ -13,9 +13,6 @@
 namespace shutter::generator {
 
 namespace {
-
-using glm::vec2;
-using glm::vec3;
 
 const Shot kShot{
     .position = {-0.55f, 1.16f, 2.25f},

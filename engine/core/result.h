@@ -97,3 +97,10 @@ struct Decision {
 }
 
 } // namespace shutter::core
+
+/// Hands an Error on: returns it from the function, whose type is Status or any Result.
+#define SHUTTER_TRY(...)                                                                           \
+    do {                                                                                           \
+        if (auto shutterTried = (__VA_ARGS__); !shutterTried) [[unlikely]]                         \
+            return shutterTried.error();                                                           \
+    } while (false)

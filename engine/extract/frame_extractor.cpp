@@ -37,8 +37,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     const scene::World& world, const SceneLayout& layout, const ViewRequest& request
 ) {
     SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
-    if (core::Status valid = mKeyedMotion.check(world.registry); !valid)
-        return valid.error();
+    SHUTTER_TRY(mKeyedMotion.check(world.registry));
     // Rows of another's making stand behind our own.
     mFrame.entities.resize(mRows.size());
     mFrame.entityMeshes.resize(mRows.size());
@@ -55,8 +54,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
                             mRows.size() <= request.entityLimit && !view.movesStillThings();
     mLayout = &layout;
     if (!mayRefresh || !refresh(frame, changes))
-        if (core::Status listed = rebuild(frame); !listed)
-            return listed.error();
+        SHUTTER_TRY(rebuild(frame));
     mFrame.changes.ownRows = mRows.size();
     mView = view.matrices();
     mFrame.constants = view.constants();

@@ -58,11 +58,9 @@ class Builder {
         describeView();
         for (size_t row = 0; row < mFrame.entities.size(); ++row)
             mTables.rows.push_back(computeRow(row));
-        if (core::Status added = addHiddenEntities(); !added)
-            return added.error();
+        SHUTTER_TRY(addHiddenEntities());
         addLights();
-        if (core::Status fits = checkShapes(); !fits)
-            return fits.error();
+        SHUTTER_TRY(checkShapes());
         collectMoving();
         return std::move(mTables);
     }

@@ -40,15 +40,13 @@ checkChanged(const ecs::Registry& registry, ecs::ChangeCursor& cursor, Validate 
     };
     if (changes.all) {
         for (auto [entity, component] : registry.view<T>())
-            if (core::Status valid = checkOne(entity, component); !valid)
-                return valid;
+            SHUTTER_TRY(checkOne(entity, component));
     } else {
         for (const ecs::Entity entity : changes.entities) {
             const T* component = registry.isAlive(entity) ? registry.find<T>(entity) : nullptr;
             if (!component)
                 continue;
-            if (core::Status valid = checkOne(entity, *component); !valid)
-                return valid;
+            SHUTTER_TRY(checkOne(entity, *component));
         }
     }
     cursor = next;
@@ -58,9 +56,7 @@ checkChanged(const ecs::Registry& registry, ecs::ChangeCursor& cursor, Validate 
 } // namespace
 
 core::Status KeyedMotionCheck::check(const ecs::Registry& registry) {
-    if (core::Status paths = checkChanged<scene::PathMotion>(registry, mPaths, scene::validatePath);
-        !paths)
-        return paths;
+    SHUTTER_TRY(checkChanged<scene::PathMotion>(registry, mPaths, scene::validatePath));
     return checkChanged<scene::LensMotion>(registry, mLenses, scene::validateLens);
 }
 

@@ -229,8 +229,7 @@ core::Result<Flythrough> parseFlythrough(std::string_view text, std::string name
     if (!document)
         return document.error();
     Flythrough flythrough = readRoot(document.value().root());
-    if (core::Status finished = document.value().finish(); !finished)
-        return finished.error();
+    SHUTTER_TRY(document.value().finish());
     return flythrough;
 }
 

@@ -46,8 +46,7 @@ void require(VkResult result, std::string_view doing) {
 core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     std::unique_ptr<Device> device(new Device);
     try {
-        if (core::Status made = device->createInstance(options); !made)
-            return made.error();
+        SHUTTER_TRY(device->createInstance(options));
         std::vector<DeviceInfo> devices = listDevices(device->mInstance);
         for (DeviceInfo& info : devices) {
             info.rayTier = chooseTier(info, options.bestTier);
@@ -57,9 +56,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         if (!chosen)
             return chosen.error();
         device->mInfo = chosen.value();
-        if (core::Status made = device->createLogicalDevice(!options.surfaceExtensions.empty());
-            !made)
-            return made.error();
+        SHUTTER_TRY(device->createLogicalDevice(!options.surfaceExtensions.empty()));
         device->loadFunctions();
         device->loadLimits();
         device->createSampler();

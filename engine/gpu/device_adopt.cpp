@@ -8,8 +8,7 @@ namespace shutter::gpu {
 core::Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
     std::unique_ptr<Device> device(new Device);
     try {
-        if (core::Status adopted = device->adoptHost(host); !adopted)
-            return adopted.error();
+        SHUTTER_TRY(device->adoptHost(host));
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
     }

@@ -40,8 +40,7 @@ Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& des
     );
     if (!supported)
         return core::makeError("{} cannot show pictures on this display", device.info().name);
-    if (core::Status chosen = swapchain->chooseFormat(); !chosen)
-        return chosen.error();
+    SHUTTER_TRY(swapchain->chooseFormat());
     for (VkSemaphore& semaphore : swapchain->mAcquired)
         semaphore = createSemaphore(device);
     swapchain->resize(desc);

@@ -8,12 +8,10 @@
 namespace shutter::graph {
 
 core::Result<Plan> compile(const Graph& graph, const RequirementFunction& requirement) {
-    if (core::Status status = checkDeclaration(graph); !status)
-        return status.error();
+    SHUTTER_TRY(checkDeclaration(graph));
     const VersionTable versions(graph);
     Culling culling = cull(graph, versions);
-    if (core::Status status = checkResults(graph, versions, culling.kept); !status)
-        return status.error();
+    SHUTTER_TRY(checkResults(graph, versions, culling.kept));
     const auto order = orderPasses(graph, versions, culling.kept);
     if (!order)
         return order.error();

@@ -172,18 +172,13 @@ core::Status checkDeclaration(const Graph& graph) {
     if (!graph.problems().empty())
         return core::Error{graph.problems().front()};
     for (const ResourceRecord& resource : graph.resources())
-        if (core::Status status = checkTransient(resource); !status)
-            return status;
-    if (core::Status status = checkImports(graph); !status)
-        return status;
+        SHUTTER_TRY(checkTransient(resource));
+    SHUTTER_TRY(checkImports(graph));
     for (const PassRecord& pass : graph.passes()) {
         for (const ResourceUse& use : pass.uses)
-            if (core::Status status = checkUse(graph, pass, use); !status)
-                return status;
-        if (core::Status status = checkTwice(graph, pass); !status)
-            return status;
-        if (core::Status status = checkAttachments(graph, pass); !status)
-            return status;
+            SHUTTER_TRY(checkUse(graph, pass, use));
+        SHUTTER_TRY(checkTwice(graph, pass));
+        SHUTTER_TRY(checkAttachments(graph, pass));
     }
     for (const auto& [resource, version] : graph.outputs())
         if (version == 0 && !graph.resources()[resource].hasContentsAtStart())

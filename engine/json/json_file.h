@@ -166,8 +166,7 @@ template <class Read>
     if (!document)
         return document.error();
     auto value = read(document.value().root());
-    if (core::Status finished = document.value().finish(); !finished)
-        return finished.error();
+    SHUTTER_TRY(document.value().finish());
     return value;
 }
 

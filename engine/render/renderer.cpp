@@ -167,8 +167,7 @@ core::Result<FrameResult> Renderer::renderFrame(
     const scene::World& world, const FrameRequest& request, std::span<PostEffect* const> effects
 ) {
     SHUTTER_CHECK(mPending.empty(), "{} frames are unfinished", mPending.size());
-    if (core::Status submitted = submitFrame(world, request, effects); !submitted)
-        return submitted.error();
+    SHUTTER_TRY(submitFrame(world, request, effects));
     return finishFrame();
 }
 

@@ -110,8 +110,7 @@ core::Status validatePath(const PathMotion& path) {
     if (path.keys.empty())
         return core::makeError("path: it has no keys");
     for (size_t i = 0; i < path.keys.size(); ++i)
-        if (core::Status valid = validateKey(path, i); !valid)
-            return valid;
+        SHUTTER_TRY(validateKey(path, i));
     if (!isFinite(path.up) || !(glm::length(path.up) > 0.0))
         return core::makeError("path: up has no direction");
     return {};

@@ -4,8 +4,8 @@
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
 #include "game/options/error_output.h"
+#include "game/options/folders.h"
 #include "game/options/render_arguments.h"
-#include "game/options/user_folders.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ Status keepCases(std::vector<T>& cases, const BenchArguments& arguments, std::st
     return {};
 }
 
-/// Sets the size, too, where none was asked for.
+/// Sets the size, too, if no option does.
 core::Result<Suite> chooseSuite(BenchArguments& arguments) {
     auto suite =
         arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
@@ -151,8 +151,7 @@ Status measureSuite(
     std::vector<const MethodInfo*> methods,
     game::ShotOptions shot
 ) {
-    if (Status made = makeFolders(arguments); !made)
-        return made;
+    SHUTTER_TRY(makeFolders(arguments));
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);
@@ -205,26 +204,46 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
     auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
-    command->add_option("--suite", arguments->suite, "paper, hard, scaling, stability or demand");
-    command->add_option("--out", arguments->out, "folder of results.json and index.html")
+    command->add_option(
+        "--suite", arguments->suite, "suite: paper, hard, scaling, stability or demand"
+    );
+    command->add_option("--out", arguments->out, "folder for results.json and index.html")
         ->required();
-    command->add_option("--methods", arguments->methods, "comma-separated; default: all")
+    command
+        ->add_option(
+            "--methods", arguments->methods, "methods to measure, comma-separated; default: all"
+        )
         ->delimiter(',');
     command->add_option(
-        "--case", arguments->cases, "cases of the suite (repeatable); default: all"
+        "--case", arguments->cases, "case of the suite to run (repeatable); default: all"
     );
-    command->add_option("--repeats", arguments->repeats, "timed pictures of each; default: 7")
+    command
+        ->add_option(
+            "--repeats",
+            arguments->repeats,
+            "timed pictures per method and sample count; default: 7"
+        )
         ->check(CLI::Range(1u, 1000u));
-    command->add_option("--limit", arguments->limitSeconds, "seconds of one picture; default: 60")
+    command
+        ->add_option(
+            "--limit",
+            arguments->limitSeconds,
+            "skip sample counts whose picture takes longer, seconds; default: 60"
+        )
         ->check(CLI::PositiveNumber);
-    command->add_option("--truth-samples", arguments->truthSamples, "instants; default 256")
+    command
+        ->add_option(
+            "--truth-samples", arguments->truthSamples, "instants of the truth; default 256"
+        )
         ->check(CLI::Range(1u, 65536u));
-    command->add_flag("--restart", arguments->restart, "measure anew what an earlier run left");
-    command->add_flag("--report-only", arguments->reportOnly, "make the page from results.json");
+    command->add_flag("--restart", arguments->restart, "discard what an earlier run measured");
+    command->add_flag(
+        "--report-only", arguments->reportOnly, "only make the page from results.json"
+    );
     game::addParsedOption(
         *command,
         "--size",
-        "WxH; default 640x360, demand 1280x720",
+        "picture size WxH; default 640x360, for demand 1280x720",
         [arguments](const std::string& text) -> core::Status {
             const auto size = game::parseSize(text);
             if (!size)

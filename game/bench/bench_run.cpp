@@ -3,8 +3,6 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
-#include "game/bench/environment.h"
-#include "game/bench/paper_figures.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
 
@@ -54,27 +52,21 @@ class BenchRun {
             addCase(shot, result.value());
             if (mStop())
                 return stopEarly();
-            if (Status written = writeResults(); !written)
-                return written;
+            SHUTTER_TRY(writeResults());
         }
         for (const ScalingAxis& axis : mSuite.axes)
-            if (Status measured = measureAxis(axis, progress); !measured)
-                return measured;
+            SHUTTER_TRY(measureAxis(axis, progress));
         for (const stability::HardCase& hard : mSuite.hardCases) {
-            if (Status measured = measureHardCase(hard); !measured)
-                return measured;
+            SHUTTER_TRY(measureHardCase(hard));
             progress.advance();
         }
         for (const demand::Claim& claim : mSuite.claims) {
-            if (Status measured = measureClaim(claim); !measured)
-                return measured;
+            SHUTTER_TRY(measureClaim(claim));
             progress.advance();
         }
         mRoot["complete"] = true;
-        if (Status written = writeResults(); !written)
-            return written;
-        if (Status made = page ? writeReportPage(mRoot, mOptions.folder) : Status(); !made)
-            return made;
+        SHUTTER_TRY(writeResults());
+        SHUTTER_TRY(page ? writeReportPage(mRoot, mOptions.folder) : Status());
         return judge();
     }
 
@@ -89,7 +81,7 @@ class BenchRun {
     void describeRun() {
         mRoot = {
             {"schema", "shutter-bench"},
-            {"version", 1},
+            {"version", 2},
             {"suite", mSuite.name},
             {"created", describeNow()},
             {"complete", false},
@@ -125,7 +117,7 @@ class BenchRun {
             return pictureFile(
                 shot.name,
                 row.at("method"),
-                row.at("dial").is_null() ? 0u : row.at("dial").get<uint32_t>()
+                row.at("samples").is_null() ? 0u : row.at("samples").get<uint32_t>()
             );
         };
         if (json row = compareAtEqualTime(described, kReference, imageOf); !row.is_null())
@@ -190,7 +182,7 @@ class BenchRun {
         return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
     }
 
-    /// What was measured is kept, but for hard cases and claims.
+    /// Measurements are kept for the next run, except those of hard cases and claims.
     Status stopEarly() const {
         if (!mSuite.hardCases.empty() || !mSuite.claims.empty())
             return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);
@@ -202,8 +194,8 @@ class BenchRun {
     const std::vector<const game::MethodInfo*>& mMethods;
     const game::ShotOptions& mShot;
     const StopQuestion& mStop;
-    std::vector<DialPoint> mSweep;
-    std::vector<DialPoint> mScalingPoints;
+    std::vector<SamplePoint> mSweep;
+    std::vector<SamplePoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
     std::vector<std::string> mBroken; ///< hard cases and claims that left their bounds

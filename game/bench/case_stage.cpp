@@ -2,10 +2,10 @@
 #include "game/bench/case_stage.h"
 
 #include "engine/image/image.h"
+#include "engine/gltf/gltf_loader.h"
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
-#include "game/bench/case_setup.h"
 #include "game/options/render_arguments.h"
 
 #include <fmt/format.h>
@@ -17,11 +17,43 @@ namespace shutter::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
+    if (!shot.writeScene)
+        return fs::path(shot.shot.scene);
+    const fs::path file = folder / "scenes" / (shot.name + ".glb");
+    SHUTTER_TRY(shot.writeScene(file));
+    return file;
+}
+
+namespace fs = std::filesystem;
 using core::Status;
 
 constexpr uint32_t kCropSidePx = 96;
 
 } // namespace
+
+core::Result<CaseSetup>
+setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folder) {
+    auto scene = writeScene(shot, folder);
+    if (!scene)
+        return scene.error();
+    auto sceneHash = gltf::computeSceneHash(scene.value());
+    if (!sceneHash)
+        return sceneHash.error();
+    auto program = io::computeFileHash("/proc/self/exe");
+    if (!program)
+        return program.error();
+    const std::string facts = fmt::format(
+        "scene {} program {} device {} {} {}",
+        sceneHash.value(),
+        program.value(),
+        device.name,
+        device.driver,
+        game::describe(shot.shot)
+    );
+    return CaseSetup{scene.value(), io::computeContentHash(facts)};
+}
 
 core::Result<std::unique_ptr<CaseStage>> CaseStage::create(
     gpu::Device& device, const Case& shot, const MeasureOptions& options, core::Progress& progress
@@ -32,8 +64,7 @@ core::Result<std::unique_ptr<CaseStage>> CaseStage::create(
     std::unique_ptr<CaseStage> stage(
         new CaseStage(device, shot, options, progress, setup.value().scene, setup.value().hash)
     );
-    if (Status loaded = stage->load(); !loaded)
-        return loaded.error();
+    SHUTTER_TRY(stage->load());
     return stage;
 }
 
@@ -99,8 +130,7 @@ CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
         .method = drawn.point.method->name, .samples = drawn.point.samples});
     if (!method)
         return method.error();
-    if (Status fits = game::checkPixel(mShotOptions, *drawn.point.method); !fits)
-        return fits.error();
+    SHUTTER_TRY(game::checkPixel(mShotOptions, *drawn.point.method));
     if (!drawn.drawer)
         drawn.drawer = std::make_unique<game::PictureDrawer>(mDevice, *mRenderer);
     game::PictureRequest picture =
@@ -113,12 +143,12 @@ CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
     );
 }
 
-bool CaseStage::isKnown(const DialPoint& point, uint32_t repeats) const {
+bool CaseStage::isKnown(const SamplePoint& point, uint32_t repeats) const {
     const Record& record = mJournal.find(makeKey(point));
     return record.samples.size() >= repeats && (record.hasPicture || mTruth.width == 0);
 }
 
-Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult& drawn) {
+Status CaseStage::keepPicture(const SamplePoint& point, const render::FrameResult& drawn) {
     const std::string key = makeKey(point);
     if (mTruth.width == 0 || mJournal.find(key).hasPicture)
         return {};
@@ -126,8 +156,7 @@ Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult&
     facts.image = pictureFile(mCase.name, point.method->name, point.samples);
     facts.errorMap = fs::path(facts.image).replace_extension(".flip.png").string();
     const fs::path file = mOptions.folder / facts.image;
-    if (Status written = io::writeImage(file, drawn.display); !written)
-        return written;
+    SHUTTER_TRY(io::writeImage(file, drawn.display));
     auto picture = io::readImage(file);
     if (!picture)
         return picture.error();
@@ -137,13 +166,12 @@ Status CaseStage::keepPicture(const DialPoint& point, const render::FrameResult&
         {"ssim", image::computeSsim(picture.value(), mTruth)},
         {"flip", flip.mean}};
     const fs::path map = mOptions.folder / facts.errorMap;
-    if (Status written = io::writeImage(map, image::colorWithMagma(flip.errorMap)); !written)
-        return written;
+    SHUTTER_TRY(io::writeImage(map, image::colorWithMagma(flip.errorMap)));
     facts.counters = drawn.statistics.counters;
     return mJournal.setPicture(key, std::move(facts));
 }
 
-Status CaseStage::keepSample(const DialPoint& point, const render::FrameResult& drawn) {
+Status CaseStage::keepSample(const SamplePoint& point, const render::FrameResult& drawn) {
     Sample sample;
     for (const render::PassTime& pass : drawn.statistics.passes)
         sample.passes.push_back({pass.name, pass.gpuMilliseconds, pass.owner});

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// One case ready to be drawn: its scene on the device, its truth, its journal.
+// One case ready to be drawn: its scene on disk and on the device, its truth, its journal, and a
+// name for everything that its pictures depend on.
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/device_select.h"
 #include "engine/image/image.h"
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
@@ -20,9 +23,20 @@
 
 namespace shutter::bench {
 
+struct CaseSetup {
+    std::filesystem::path scene;
+    /// Hash of the scene's bytes, the shot's options, this program and the device: pictures with
+    /// equal hashes are equal, and their times comparable.
+    std::string hash;
+};
+
+/// Writes a generated scene into folder/scenes/. Error: a file cannot be read or written.
+[[nodiscard]] core::Result<CaseSetup>
+setUpCase(const Case& shot, const gpu::DeviceInfo& device, const std::filesystem::path& folder);
+
 /// A method at one sample count, drawn again and again.
 struct DrawnPoint {
-    DialPoint point;
+    SamplePoint point;
     std::unique_ptr<game::PictureDrawer> drawer{}; ///< made when it is drawn first
 };
 
@@ -44,17 +58,18 @@ class CaseStage {
 
     /// Writes the picture and its error map, unless there is no truth or the journal has them.
     [[nodiscard]] core::Status
-    keepPicture(const DialPoint& point, const render::FrameResult& drawn);
+    keepPicture(const SamplePoint& point, const render::FrameResult& drawn);
     /// Adds the picture's times to the journal.
-    [[nodiscard]] core::Status keepSample(const DialPoint& point, const render::FrameResult& drawn);
+    [[nodiscard]] core::Status
+    keepSample(const SamplePoint& point, const render::FrameResult& drawn);
 
     /// Where rays change the picture most, and where motion blur does.
     [[nodiscard]] core::Result<std::vector<Crop>> chooseCrops() const;
 
     [[nodiscard]] Journal& journal() { return mJournal; }
 
-    /// Nothing more is to be measured here.
-    [[nodiscard]] bool isKnown(const DialPoint& point, uint32_t repeats) const;
+    /// Whether everything at this point has been measured.
+    [[nodiscard]] bool isKnown(const SamplePoint& point, uint32_t repeats) const;
 
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }
 

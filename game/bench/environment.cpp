@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/environment.h"
-
+#include "game/bench/results.h"
 #include "game/bench/revision.h"
 
 #include <fmt/chrono.h>

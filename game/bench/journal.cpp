@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// JSON has no infinity: null stands for it.
+/// JSON has no infinity: null is written instead.
 json packMetric(double value) {
     return std::isfinite(value) ? json(value) : json();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Raw measurements of one case on disk, written after each, so that a run which was stopped goes on
+// Raw measurements of one case on disk, written after each, so that a stopped run continues
 // where it was.
 #pragma once
 
@@ -37,7 +37,7 @@ struct PictureFacts {
     std::map<std::string, uint64_t> counters;
 };
 
-/// All there is about one method and dial.
+/// Everything known about a method at one sample count.
 struct Record {
     std::vector<Sample> samples;
     bool hasPicture = false;

@@ -18,13 +18,13 @@ using core::Status;
 constexpr double kSecondsAPoint = 8.0;
 
 /// Frames or rays of one picture.
-uint64_t stepsOf(const DialPoint& point) {
+uint64_t stepsOf(const SamplePoint& point) {
     const game::MethodInfo& method = *point.method;
     const bool drawsOneFrame = !method.sampleUnit || *method.sampleUnit == game::SampleUnit::Taps;
     return drawsOneFrame ? 1 : point.samples;
 }
 
-bool isProgressive(const DialPoint& point) {
+bool isProgressive(const SamplePoint& point) {
     return point.method->family == game::MethodFamily::Truth;
 }
 
@@ -44,30 +44,26 @@ class Rounds {
     Rounds(
         gpu::Device& device,
         CaseStage& stage,
-        const std::vector<DialPoint>& sweep,
+        const std::vector<SamplePoint>& sweep,
         const MeasureOptions& options,
         core::Progress& progress,
         const StopQuestion& stop
     )
         : mDevice(device), mStage(stage), mOptions(options), mProgress(progress), mStop(stop) {
-        for (const DialPoint& point : sweep)
+        for (const SamplePoint& point : sweep)
             (isProgressive(point) ? mProgressive : mEntries).push_back({{point}});
     }
 
     Status run() {
         for (Entry& entry : mEntries)
             if (!mStop())
-                if (Status drawn = drawFirst(entry); !drawn)
-                    return drawn;
-        if (Status drawn = drawProgressive(); !drawn)
-            return drawn;
+                SHUTTER_TRY(drawFirst(entry));
+        SHUTTER_TRY(drawProgressive());
         for (uint32_t round = 0; round < mOptions.repeats; ++round) {
             for (Entry& entry : mEntries)
                 if (!mStop())
-                    if (Status timed = timeOnce(entry, round); !timed)
-                        return timed;
-            if (Status timed = timeProgressive(round); !timed)
-                return timed;
+                    SHUTTER_TRY(timeOnce(entry, round));
+            SHUTTER_TRY(timeProgressive(round));
         }
         return {};
     }
@@ -78,7 +74,7 @@ class Rounds {
         double seconds = 0.0; ///< wall time of one picture; 0: not known
         bool isRefused = false;
 
-        [[nodiscard]] const DialPoint& point() const { return drawn.point; }
+        [[nodiscard]] const SamplePoint& point() const { return drawn.point; }
     };
 
     Status refuse(Entry& entry, const std::string& reason) {
@@ -92,7 +88,8 @@ class Rounds {
         );
     }
 
-    /// A picture's time grows with frames and rays: foretold from the dial before. 0: unknown.
+    /// A picture's time grows with frames and rays: predicted from the sample count before. 0:
+    /// unknown.
     double predict(const Entry& entry) const {
         double perStep = 0.0;
         for (const Entry& other : mEntries)
@@ -103,7 +100,7 @@ class Rounds {
 
     /// Compares the picture and learns what it costs.
     Status drawFirst(Entry& entry) {
-        const DialPoint& point = entry.point();
+        const SamplePoint& point = entry.point();
         if (!game::canRun(*point.method, mDevice))
             return refuse(entry, describeLack(*point.method));
         const double predicted = predict(entry);
@@ -113,14 +110,14 @@ class Rounds {
         }
         const std::vector<Sample>& samples = mStage.journal().find(makeKey(point)).samples;
         const double known = samples.empty() ? 0.0 : samples.front().wallMilliseconds / 1e3;
-        // A dear point is done before it has all repeats.
+        // An expensive point is done before it has all repeats.
         const bool isDone = double(samples.size()) * known >= kSecondsAPoint;
         if (mStage.isKnown(point, isDone ? 1 : mOptions.repeats)) {
             mProgress.advance(stepsOf(point) * (mOptions.repeats + 1));
             entry.seconds = known;
             return {};
         }
-        // A method's first picture compiles its shaders, which is no part of its time.
+        // A method's first picture compiles its shaders, which does not count as its time.
         if (predicted == 0.0)
             if (auto warm = mStage.draw(entry.drawn); !warm)
                 return warm.error();
@@ -128,9 +125,8 @@ class Rounds {
         if (!drawn)
             return drawn.error();
         entry.seconds = secondsOf(drawn.value());
-        if (Status kept = mStage.keepPicture(point, drawn.value()); !kept)
-            return kept;
-        // A dear picture is drawn once: it is its own measurement.
+        SHUTTER_TRY(mStage.keepPicture(point, drawn.value()));
+        // An expensive picture is drawn once: it is its own measurement.
         const bool isDear = entry.seconds > kSecondsAPoint / 2 && known == 0.0;
         return isDear ? mStage.keepSample(point, drawn.value()) : Status();
     }
@@ -147,8 +143,8 @@ class Rounds {
         return drawn ? mStage.keepSample(entry.point(), drawn.value()) : Status(drawn.error());
     }
 
-    /// One run of a progressive method to the dial of `last`; what it is at the dials before it is
-    /// measured on the way.
+    /// One run of a progressive method to the sample count of `last`; what it is at the smaller
+    /// ones is measured on the way.
     Status runProgressive(Entry& last) {
         Status kept;
         game::Checkpoints checkpoints;
@@ -168,7 +164,7 @@ class Rounds {
         return drawn ? kept : Status(drawn.error());
     }
 
-    /// The last dial whose picture takes at most so many seconds; null where none does.
+    /// The last entry whose picture takes at most so many seconds; null if none does.
     Entry* findLastWithin(double seconds) {
         Entry* last = nullptr;
         for (Entry& entry : mProgressive)
@@ -182,8 +178,7 @@ class Rounds {
             return {};
         if (!game::canRun(*mProgressive.front().point().method, mDevice)) {
             for (Entry& entry : mProgressive)
-                if (Status kept = refuse(entry, describeLack(*entry.point().method)); !kept)
-                    return kept;
+                SHUTTER_TRY(refuse(entry, describeLack(*entry.point().method)));
             return {};
         }
         // The first picture compiles shaders, the second tells what a ray costs.
@@ -198,13 +193,12 @@ class Rounds {
         Entry* last = findLastWithin(mOptions.limitSeconds);
         for (Entry& entry : mProgressive)
             if (last == nullptr || entry.point().samples > last->point().samples)
-                if (Status kept = refuse(entry, describeLimit(entry.seconds)); !kept)
-                    return kept;
+                SHUTTER_TRY(refuse(entry, describeLimit(entry.seconds)));
         const bool isKnown = last == nullptr || mStage.isKnown(last->point(), 1);
         return isKnown || mStop() ? Status() : runProgressive(*last);
     }
 
-    /// The dear end of the dial is timed once, by the run that made its pictures.
+    /// The largest sample count is timed once, by the run that made its pictures.
     Status timeProgressive(uint32_t round) {
         if (round == 0 || mProgressive.empty() || mStop() ||
             !game::canRun(*mProgressive.front().point().method, mDevice))
@@ -221,15 +215,15 @@ class Rounds {
     core::Progress& mProgress;
     const StopQuestion& mStop;
     std::vector<Entry> mEntries;
-    std::vector<Entry> mProgressive; ///< dials of methods that pass them on the way to the last
+    std::vector<Entry> mProgressive; ///< sample counts that a method passes on the way to its last
 };
 
 } // namespace
 
-uint64_t countSteps(const std::vector<DialPoint>& sweep, const MeasureOptions& options) {
+uint64_t countSteps(const std::vector<SamplePoint>& sweep, const MeasureOptions& options) {
     uint64_t steps = options.comparePictures ? options.truthSamples : 0;
-    uint64_t progressive = 0; // one run passes all dials
-    for (const DialPoint& point : sweep) {
+    uint64_t progressive = 0; // one run passes all sample counts
+    for (const SamplePoint& point : sweep) {
         if (isProgressive(point))
             progressive = std::max(progressive, stepsOf(point));
         else
@@ -242,14 +236,14 @@ std::string pictureFile(const std::string& caseName, const std::string& method, 
     return fmt::format("images/{}.{}.{}.png", caseName, method, samples);
 }
 
-std::string makeKey(const DialPoint& point) {
+std::string makeKey(const SamplePoint& point) {
     return fmt::format("{}/{}", point.method->name, point.samples);
 }
 
 core::Result<CaseResult> measureCase(
     gpu::Device& device,
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const MeasureOptions& options,
     core::Progress& progress,
     const StopQuestion& stop
@@ -259,10 +253,8 @@ core::Result<CaseResult> measureCase(
         return created.error();
     CaseStage& stage = *created.value();
     if (options.comparePictures)
-        if (Status drawn = stage.provideTruth(); !drawn)
-            return drawn.error();
-    if (Status measured = Rounds(device, stage, sweep, options, progress, stop).run(); !measured)
-        return measured.error();
+        SHUTTER_TRY(stage.provideTruth());
+    SHUTTER_TRY(Rounds(device, stage, sweep, options, progress, stop).run());
     CaseResult result{stage.truthImage(), stage.truthHash(), stage.journal().records(), {}};
     if (options.comparePictures && !stop()) {
         auto crops = stage.chooseCrops();

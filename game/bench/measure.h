@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Draws one case's pictures: interleaved rounds over methods and dials, each compared with the
-// truth once and timed several times.
+// Draws one case's pictures: interleaved rounds over methods and sample counts, each compared with
+// the truth once and timed several times.
 #pragma once
 
 #include "engine/core/progress.h"
@@ -21,7 +21,7 @@ namespace shutter::bench {
 
 struct MeasureOptions {
     uint32_t repeats = 7;
-    double limitSeconds = 60.0; ///< of one picture; dials beyond it are skipped
+    double limitSeconds = 60.0; ///< of one picture; sample counts that take longer are skipped
     uint32_t truthSamples = 256;
     std::filesystem::path folder;     ///< of the report: scenes/, images/ and journal/ go into it
     std::filesystem::path truthCache; ///< truth pictures by content, kept between runs; empty: none
@@ -41,21 +41,21 @@ using StopQuestion = std::function<bool()>;
 
 /// Work of a case for a progress bar, in frames and rays.
 [[nodiscard]] uint64_t
-countSteps(const std::vector<DialPoint>& sweep, const MeasureOptions& options);
+countSteps(const std::vector<SamplePoint>& sweep, const MeasureOptions& options);
 
 /// A measurement's picture, relative to the report's folder.
 [[nodiscard]] std::string
 pictureFile(const std::string& caseName, const std::string& method, uint32_t samples);
 
-/// "method/dial".
-[[nodiscard]] std::string makeKey(const DialPoint& point);
+/// "method/samples".
+[[nodiscard]] std::string makeKey(const SamplePoint& point);
 
 /// Measures what the case's journal lacks. Returns early, without an error, when `stop` says so.
 /// Error: the scene cannot be loaded, a file cannot be written.
 [[nodiscard]] core::Result<CaseResult> measureCase(
     gpu::Device& device,
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const MeasureOptions& options,
     core::Progress& progress,
     const StopQuestion& stop

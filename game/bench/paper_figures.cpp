@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/paper_figures.h"
+#include "game/bench/results.h"
 
 #include <nlohmann/json.hpp>
 

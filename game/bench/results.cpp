@@ -3,8 +3,7 @@
 
 #include "engine/math/statistics.h"
 #include "engine/scene/shutter.h"
-#include "game/bench/cost.h"
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,18 +57,18 @@ json describePasses(const game::MethodInfo& method, const std::vector<Sample>& s
     return passes;
 }
 
-/// A method without a dial has none in the results either.
-json packDial(uint32_t samples) {
+/// Null for a method that takes no samples.
+json packSampleCount(uint32_t samples) {
     return samples > 0 ? json(samples) : json();
 }
 
-json describeMeasurement(const DialPoint& point, const Record& record) {
+json describeMeasurement(const SamplePoint& point, const Record& record) {
     json metrics = json::object();
     for (const auto& [id, value] : record.picture.metrics)
         metrics[id] = std::isfinite(value) ? json(value) : json(); // null: equal pictures
     json row = {
         {"method", point.method->name},
-        {"dial", packDial(point.samples)},
+        {"samples", packSampleCount(point.samples)},
         {"isDefault", point.isDefault},
         {"repeats", record.samples.size()},
         {"metrics", metrics},
@@ -158,7 +157,7 @@ json describeCurve(const demand::Curve& curve) {
 
 json describeCase(
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const CaseResult& result,
     const MeasureOptions& options
 ) {
@@ -189,14 +188,14 @@ json describeCase(
              {"height", crop.height},
              {"label", crop.label}}
         );
-    for (const DialPoint& point : sweep) {
+    for (const SamplePoint& point : sweep) {
         const auto found = result.records.find(makeKey(point));
         if (found == result.records.end())
             continue;
         if (!found->second.skipped.empty())
             described["skipped"].push_back(
                 {{"method", point.method->name},
-                 {"dial", packDial(point.samples)},
+                 {"samples", packSampleCount(point.samples)},
                  {"reason", found->second.skipped}}
             );
         else if (!found->second.samples.empty() && found->second.hasPicture)
@@ -233,7 +232,7 @@ json compareAtEqualTime(
         const json& row = *nearest.at(method);
         rows.push_back(
             {{"method", method},
-             {"dial", row.at("dial")},
+             {"samples", row.at("samples")},
              {"milliseconds", frameTimeOf(row)},
              {"metrics", row.at("metrics")},
              {"image", imageOf(row)}}
@@ -241,25 +240,26 @@ json compareAtEqualTime(
     }
     return {
         {"case", described.at("name")},
-        {"reference", {{"method", reference}, {"dial", own->at("dial")}, {"milliseconds", time}}},
+        {"reference",
+         {{"method", reference}, {"samples", own->at("samples")}, {"milliseconds", time}}},
         {"rows", rows}};
 }
 
 json describeAxis(
     const ScalingAxis& axis,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const std::vector<MeasuredPoint>& points
 ) {
     json series = json::array();
-    for (const DialPoint& dial : sweep) {
+    for (const SamplePoint& point : sweep) {
         json rows = json::array();
         std::vector<math::CurvePoint> frames;
         std::vector<math::CurvePoint> effects;
         for (const MeasuredPoint& measured : points) {
-            const auto found = measured.result.records.find(makeKey(dial));
+            const auto found = measured.result.records.find(makeKey(point));
             if (found == measured.result.records.end() || found->second.samples.empty())
                 continue;
-            json times = describeTimes(*dial.method, found->second.samples);
+            json times = describeTimes(*point.method, found->second.samples);
             frames.push_back({measured.point->value, times.at("frame").at("median")});
             effects.push_back({measured.point->value, times.at("effect").at("median")});
             rows.push_back(
@@ -271,7 +271,7 @@ json describeAxis(
         if (rows.empty())
             continue;
         series.push_back(
-            {{"method", dial.method->name},
+            {{"method", point.method->name},
              {"points", rows},
              {"fit", {{"frame", describeFit(frames)}, {"effect", describeFit(effects)}}}}
         );
@@ -299,8 +299,8 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
             {{"name", method->name},
              {"title", method->description},
              {"publication", method->publication},
-             {"dial", nameUnit(*method)},
-             {"default", packDial(method->defaultSamples)},
+             {"sampleUnit", nameUnit(*method)},
+             {"default", packSampleCount(method->defaultSamples)},
              {"usesRays", method->rays != game::RayNeed::None}}
         );
     return rows;
@@ -351,6 +351,22 @@ json describeMetrics() {
          {{"id", "ssim"}, {"name", "SSIM"}, {"unit", ""}, {"better", "higher"}},
          {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}}}
     );
+}
+
+double computeFrameTime(const Sample& sample) {
+    double sum = 0.0;
+    for (const PassSample& pass : sample.passes)
+        if (pass.owner != render::PassOwner::Display)
+            sum += pass.milliseconds;
+    return sum;
+}
+
+double computeEffectTime(const game::MethodInfo& method, const Sample& sample) {
+    double sum = 0.0;
+    for (const PassSample& pass : sample.passes)
+        if (game::groupOf(method, pass.owner) == game::PassGroup::Blur)
+            sum += pass.milliseconds;
+    return sum;
 }
 
 } // namespace shutter::bench

@@ -2,6 +2,7 @@
 // Measurements as the JSON that results.schema.json describes.
 #pragma once
 
+#include "engine/gpu/device_select.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
 
@@ -16,7 +17,7 @@ namespace shutter::bench {
 /// One case with the sweep it was measured with.
 [[nodiscard]] nlohmann::json describeCase(
     const Case& shot,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const CaseResult& result,
     const MeasureOptions& options
 );
@@ -24,10 +25,10 @@ namespace shutter::bench {
 /// The picture file of a measurement, relative to the report's folder.
 using ImageOf = std::function<std::string(const nlohmann::json& measurement)>;
 
-/// What each other method reaches with the dial whose frame time is nearest to the reference
-/// method's at its default.
-/// \param described of describeCase()
-/// \return null where the reference was not measured
+/// What each other method reaches with the sample count whose frame time is nearest to the
+/// reference method's at its default.
+/// \param described describeCase()'s
+/// \return null if the reference was not measured
 [[nodiscard]] nlohmann::json compareAtEqualTime(
     const nlohmann::json& described, const std::string& reference, const ImageOf& imageOf
 );
@@ -37,10 +38,10 @@ struct MeasuredPoint {
     CaseResult result;
 };
 
-/// A scaling axis: a series a method, with its fit.
+/// A scaling axis: one series per method, with its fit.
 [[nodiscard]] nlohmann::json describeAxis(
     const ScalingAxis& axis,
-    const std::vector<DialPoint>& sweep,
+    const std::vector<SamplePoint>& sweep,
     const std::vector<MeasuredPoint>& points
 );
 
@@ -50,7 +51,7 @@ struct MeasuredPoint {
 struct HeldCase {
     const stability::HardCase* hard = nullptr;
     core::Result<stability::Measurements> found; ///< or why it could not be drawn
-    double seconds = 0.0;                        ///< that it took, on the wall's clock
+    double seconds = 0.0;                        ///< wall time that it took
 };
 
 /// Whether it was drawn and every measurement is within its bound.
@@ -62,7 +63,7 @@ struct HeldCase {
 struct MeasuredClaim {
     const demand::Claim* claim = nullptr;
     core::Result<demand::Findings> found; ///< or why it could not be measured
-    double seconds = 0.0;                 ///< that it took, on the wall's clock
+    double seconds = 0.0;                 ///< wall time that it took
 };
 
 /// Whether it was measured and every check is within its bound.
@@ -72,5 +73,28 @@ struct MeasuredClaim {
 
 /// How metrics are named and which way is better.
 [[nodiscard]] nlohmann::json describeMetrics();
+
+/// GPU milliseconds from the G-buffer to the linear picture.
+[[nodiscard]] double computeFrameTime(const Sample& sample);
+
+/// GPU milliseconds of the passes that the method adds to the sharp frame
+/// (game::PassGroup::Blur).
+[[nodiscard]] double computeEffectTime(const game::MethodInfo& method, const Sample& sample);
+
+/// Processor, cores, memory and operating system.
+[[nodiscard]] nlohmann::json describeMachine();
+
+/// Name, driver and API of the Vulkan device.
+[[nodiscard]] nlohmann::json describeDevice(const gpu::DeviceInfo& device);
+
+/// The source's revision when the program was built, and whether it had been changed since.
+[[nodiscard]] nlohmann::json describeRevision();
+
+/// Now, as ISO 8601 in UTC.
+[[nodiscard]] std::string describeNow();
+
+/// What Tan, Cui and Bhojan print in "Hybrid MBlur": Table 1 (quality on their shot) and Table 2
+/// (GPU milliseconds per pass of three shots).
+[[nodiscard]] nlohmann::json describePaperFigures();
 
 } // namespace shutter::bench

@@ -1,25 +1,96 @@
 // SPDX-License-Identifier: MIT
 #include "engine/image/image.h"
+#include "engine/core/result.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"
-#include "game/cli/compare_input.h"
 #include "game/options/error_output.h"
 #include "game/options/shot_arguments.h"
+#include "game/output/extra_files.h"
+#include "modules/tonemap/tonemap.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace shutter::game {
 
 namespace {
+
+// What is compared: both pictures brought to the display alike.
+
+struct CompareInput {
+    image::Image image;        ///< colour alone: alpha does not change how a picture looks
+    bool isDisplay = false;    ///< values are display values, sRGB
+    bool isToneMapped = false; ///< they were tone mapped here
+};
+
+/// "R" of "R" and of "layer.R".
+std::string_view lastPart(std::string_view channelName) {
+    return channelName.substr(channelName.find_last_of('.') + 1);
+}
+
+/// Whether the channels are red, green, blue or grey, by name. Motion and depth are not colours.
+bool isColor(const image::Image& picture) {
+    const auto& names = picture.channelNames;
+    if (picture.channels == 1)
+        return names.empty() || lastPart(names[0]) == "Y";
+    constexpr std::array<std::string_view, 3> kRgb{"R", "G", "B"};
+    return picture.channels == 3 &&
+           (names.empty() ||
+            std::equal(kRgb.begin(), kRgb.end(), names.begin(), [](auto a, auto& b) {
+                return a == lastPart(b);
+            }));
+}
+
+image::Image dropAlpha(image::Image picture) {
+    if (picture.channels == 2 && picture.channelNames.size() == 2 &&
+        lastPart(picture.channelNames[1]) == "A")
+        return selectChannels(picture, {{0, "Y"}});
+    if (picture.channels <= 3)
+        return picture;
+    std::vector<std::string> names = std::move(picture.channelNames);
+    image::Image color = selectChannels(picture, {{0, "R"}, {1, "G"}, {2, "B"}});
+    if (names.size() >= 3)
+        color.channelNames.assign(names.begin(), names.begin() + 3);
+    return color;
+}
+
+/// Reads a picture. One that is not stored for a display (EXR, HDR) is tone mapped, unless `stored`
+/// keeps the values as they are. Error: names the file; channels that are not colours cannot be
+/// tone mapped.
+core::Result<CompareInput>
+readCompareInput(const std::string& path, bool stored, const tonemap::TonemapSettings& settings) {
+    auto file = io::readStoredImage(path);
+    if (!file)
+        return file.error();
+    CompareInput input;
+    input.image = dropAlpha(std::move(file.value().image));
+    input.isDisplay = file.value().isDisplayEncoded;
+    if (input.isDisplay || stored)
+        return input;
+    if (!isColor(input.image))
+        return core::makeError(
+            "'{}' holds no colour that can be tone mapped but {}: compare its values with --linear",
+            path,
+            fmt::join(input.image.channelNames, ", ")
+        );
+    input.image = tonemap::computeDisplayImage(input.image, settings);
+    input.isDisplay = true;
+    input.isToneMapped = true;
+    return input;
+}
 
 struct CompareArguments {
     std::string a;
@@ -113,8 +184,7 @@ readPictures(const CompareArguments& arguments, const tonemap::TonemapSettings& 
     if (!b)
         return b.error();
     Comparison pictures{std::move(a.value()), std::move(b.value()), tonemap};
-    if (core::Status comparable = checkComparable(arguments, pictures); !comparable)
-        return comparable.error();
+    SHUTTER_TRY(checkComparable(arguments, pictures));
     return pictures;
 }
 
@@ -192,7 +262,8 @@ writeMap(const CompareArguments& arguments, const Comparison& pictures, const Me
     if (arguments.map == "difference" || !metrics.flip)
         return io::writeImage(arguments.out, makeHeatMap(pictures.a.image, pictures.b.image));
     const image::Image& errors = metrics.flip->errorMap;
-    // The extension was checked before. Colours are for a display; what is not gets the errors.
+    // The extension was checked before. A display format gets colours, any other the errors
+    // themselves.
     return io::writeImage(
         arguments.out,
         io::isDisplayFormat(arguments.out).value() ? image::colorWithMagma(errors) : errors
@@ -227,12 +298,18 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
     command->add_option("a", arguments->a, "picture")->required();
     command->add_option("b", arguments->b, "reference")->required();
     command->add_flag("--json", arguments->json, "print JSON");
-    command->add_option("--out", arguments->out, "error map: .png or .jpg in colours, .exr");
     command->add_option(
-        "--map", arguments->map, "flip (default), or difference: absolute, black to white at 0.5"
+        "--out", arguments->out, "write an error map: .png or .jpg in colours, or .exr"
+    );
+    command->add_option(
+        "--map",
+        arguments->map,
+        "kind of error map: flip (default) or difference (absolute, white at 0.5)"
     );
     CLI::Option* linear = command->add_flag(
-        "--linear", arguments->linear, "no tone mapping: values as stored, clamped to [0, 1]"
+        "--linear",
+        arguments->linear,
+        "compare values as stored, clamped to [0, 1], without tone mapping"
     );
     for (CLI::Option* option : defineTonemapOptions(*command, arguments->display))
         option->excludes(linear);

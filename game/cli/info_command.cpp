@@ -142,7 +142,9 @@ void addInfoCommand(CLI::App& app, int& exitStatus) {
     command->add_option("scene", arguments->scene, "glTF 2.0 scene");
     command->add_flag("--devices", arguments->devices, "list the Vulkan devices");
     command->add_flag("--methods", arguments->methods, "list the methods, one per line");
-    command->add_flag("--schema", arguments->schema, "JSON schema of the settings of `play`");
+    command->add_flag(
+        "--schema", arguments->schema, "print the JSON schema of the settings of `play`"
+    );
     command->callback([arguments, &exitStatus] { exitStatus = runInfo(*arguments); });
 }
 

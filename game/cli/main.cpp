@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     CLI::App app("Shutter: motion blur that is right", "shutter");
     app.require_subcommand(1);
     bool verbose = false;
-    app.add_flag("-v,--verbose", verbose, "say what was chosen and found");
+    app.add_flag("-v,--verbose", verbose, "log what was chosen and found");
     app.parse_complete_callback([&] {
         if (verbose)
             core::setLogLevel(core::LogLevel::Info);

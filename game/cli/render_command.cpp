@@ -2,9 +2,8 @@
 #include "engine/gpu/device.h"
 #include "game/cli/commands.h"
 #include "game/options/error_output.h"
+#include "game/options/folders.h"
 #include "game/options/render_arguments.h"
-#include "game/options/user_folders.h"
-#include "game/output/film.h"
 #include "game/output/sequence.h"
 
 #include <CLI/CLI.hpp>

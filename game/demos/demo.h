@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A game without a window: a world, its rules, and what the player asks of each fixed step. Who
+// A game without a window: a world, its rules, and what the player does in each fixed step. Who
 // shows one draws world() through camera() at seconds(), exposure ending there (ShutterPhase::End).
 #pragma once
 

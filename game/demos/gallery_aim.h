@@ -24,9 +24,9 @@ void stepAim(Aim& aim, const DemoControls& controls);
 /// The kick of a throw.
 void kickBack(Aim& aim);
 
-/// Of the camera: `rest` turned by the aim.
+/// The camera's pose: `rest` turned by the aim.
 [[nodiscard]] math::Transform aimPose(const Aim& aim, const math::Transform& rest);
-/// Of the launcher, relative to the camera.
+/// The launcher's pose relative to the camera.
 [[nodiscard]] math::Transform launcherPose(const Aim& aim, const math::Transform& rest);
 
 } // namespace shutter::game

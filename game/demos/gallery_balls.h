@@ -33,7 +33,7 @@ void throwBall(
 /// One step of all that fly, into their SimulatedPose; those that flew kBallSeconds are hidden.
 void stepBalls(scene::World& world, const BallRoom& room);
 
-/// Of one ball: motion and height, joules for 1 kg.
+/// Kinetic and potential energy of a ball, joules for a mass of 1 kg.
 [[nodiscard]] double measureEnergy(const Ball& ball, double height);
 
 } // namespace shutter::game

@@ -70,8 +70,7 @@ core::Result<std::unique_ptr<Demo>> GalleryDemo::create(scene::World world, std:
     nodes.ball = names.findMesh("ball");
     for (const RailRules& rules : kRails)
         (void)names.find(rules.targets + std::string("0"));
-    if (core::Status complete = names.check(file); !complete)
-        return complete.error();
+    SHUTTER_TRY(names.check(file));
     if (world.cameras.empty())
         return core::makeError("{}: it has no camera", file);
     Random random(11);

@@ -18,7 +18,7 @@ constexpr double kFallRate = 11.0;       // rad/s
 constexpr double kFallen = 1.50;         // radians: almost flat
 constexpr double kDownSeconds = 1.6;     // until it comes again
 constexpr double kFaceHalfDepth = 0.025; // metres
-/// Of the ball's radius: a hit that only grazes the rim does not count.
+/// Share of the ball's radius within which it must hit: grazing the rim does not count.
 constexpr double kGraze = 0.7;
 
 void enter(Target& target, Random& random) {

@@ -10,7 +10,7 @@
 
 namespace shutter::game {
 
-/// Component: stands on a rail along X.
+/// Component: a target on a rail along X.
 struct Target {
     math::dvec3 rail{0.0};     ///< the rail's middle, metres
     double halfLength = 1.0;   ///< of the rail, metres
@@ -21,7 +21,7 @@ struct Target {
     double along = 0.0;        ///< from the rail's middle, metres
     double speed = 0.0;        ///< m/s along X, either way
     double fall = 0.0;         ///< radians, 0 upright
-    double downSeconds = -1.0; ///< since it was hit; negative: it stands
+    double downSeconds = -1.0; ///< since it was hit; negative: it is upright
 };
 
 /// One step, into each SimulatedPose. A target that leaves its rail comes in again at the other

@@ -22,7 +22,7 @@ struct CarState {
     double heading = 0.0;      ///< about +Y; 0 looks along -Z; counts on over whole turns
     double steer = 0.0;        ///< of the front wheels, positive to the right
     double frontRoll = 0.0;    ///< angle that the front wheels have rolled by, [0, 2 pi)
-    double rearRoll = 0.0;     ///< likewise; stands while the hand brake is held
+    double rearRoll = 0.0;     ///< as above; does not change while the hand brake is held
     double pitch = 0.0;        ///< of the body, positive: nose up
     double roll = 0.0;         ///< of the body, positive: leans to the right
 
@@ -37,15 +37,29 @@ struct CarState {
 /// \param onRoad false: less grip, more drag
 void stepCar(CarState& car, const DemoControls& controls, bool onRoad);
 
-/// Of the car's root: on the ground.
+/// The pose of the car's root, which lies on the ground.
 [[nodiscard]] math::Transform carPose(const CarState& car);
-/// Of the body, relative to `rest`.
+/// The pose of the body, which leans from `rest`.
 [[nodiscard]] math::Transform bodyPose(const CarState& car, const math::Transform& rest);
-/// Of a wheel whose axle is its Z in the mesh, relative to the root, at the place of `rest`:
-/// steered.
+/// The pose of a wheel relative to the root: at the place of `rest`, steered. The axle is Z of the
+/// mesh.
 [[nodiscard]] math::Transform
 wheelPose(const CarState& car, const math::Transform& rest, bool isFront);
-/// Of its spokes, relative to the wheel: rolled.
+/// The pose of the spokes relative to the wheel, which makes them roll.
 [[nodiscard]] math::Transform spokesPose(const CarState& car, bool isFront);
+
+/// A camera on two springs behind a car: one turns it round, one holds its distance.
+struct ChaseCamera {
+    double heading = 0.0;      ///< as CarState's
+    double headingRate = 0.0;  ///< rad/s
+    double distance = 5.4;     ///< metres behind the car's middle
+    double distanceRate = 0.0; ///< m/s
+};
+
+/// One step of kDemoStepSeconds.
+void stepChase(ChaseCamera& camera, const CarState& car);
+
+/// The pose of the camera's entity, a root; it looks along its -Z.
+[[nodiscard]] math::Transform chasePose(const ChaseCamera& camera, const CarState& car);
 
 } // namespace shutter::game

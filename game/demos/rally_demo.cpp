@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kLaps = 2;
 constexpr double kTimeLimit = 120.0; // s
-constexpr double kParSeconds = 90.0; // a faster race is worth kPerSecond a second
+constexpr double kParSeconds = 90.0; // each second below it is worth kPerSecond
 constexpr int kPerSecond = 20;
 constexpr int kPerGate = 100;
 constexpr int kPerPost = -50;
@@ -46,8 +46,7 @@ core::Result<std::unique_ptr<Demo>> RallyDemo::create(scene::World world, std::s
             {},
             i < 2};
     (void)names.find("gate_02"); // a track has three gates at least
-    if (core::Status complete = names.check(file); !complete)
-        return complete.error();
+    SHUTTER_TRY(names.check(file));
     if (world.cameras.empty())
         return core::makeError("{}: it has no camera", file);
     for (Wheel& wheel : nodes.wheels)

@@ -2,7 +2,6 @@
 // `rally`: two laps by car, against the clock, past posts that had better stay where they are.
 #pragma once
 
-#include "game/demos/chase_camera.h"
 #include "game/demos/demo_base.h"
 #include "game/demos/rally_car.h"
 #include "game/demos/rally_track.h"
@@ -37,7 +36,7 @@ class RallyDemo final : public DemoBase {
 
   private:
     struct Wheel {
-        ecs::Entity tyre;   ///< stands on the car and is steered
+        ecs::Entity tyre;   ///< fixed to the car and steered
         ecs::Entity spokes; ///< roll in it
         math::Transform rest;
         bool isFront = false;

@@ -29,7 +29,7 @@ dvec2 nearestOn(const dvec2& from, const dvec2& to, const dvec2& place) {
     return from + along * share;
 }
 
-/// The curve through gates is that of a path whose keys are they, one a second.
+/// The curve through the gates is a path whose keys are the gates, one per second.
 std::vector<dvec2> sampleCentreLine(const std::vector<Gate>& gates) {
     constexpr int kPointsPerGate = 24;
     const auto count = static_cast<int>(gates.size());

@@ -49,7 +49,7 @@ struct Fence {
 /// most of its speed across. \return true when it touched one
 bool collideWithFences(CarState& car, std::span<const Fence> fences);
 
-/// A node's pose on the ground: a gate drives along its -Z, a fence panel stands along its X.
+/// A node's pose on the ground: cars pass a gate along its -Z, a fence panel extends along its X.
 [[nodiscard]] Gate readGate(const math::Transform& node);
 [[nodiscard]] Fence readFence(const math::Transform& node);
 

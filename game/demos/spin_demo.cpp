@@ -40,8 +40,7 @@ core::Result<std::unique_ptr<Demo>> SpinDemo::create(scene::World world, std::st
     parts.front = part(names.find("front"));
     parts.hub = names.find("hub");
     (void)names.find("seat_0"); // the golden one
-    if (core::Status complete = names.check(file); !complete)
-        return complete.error();
+    SHUTTER_TRY(names.check(file));
     if (world.cameras.empty())
         return core::makeError("{}: it has no camera", file);
     for (const ecs::Entity seat : names.findAll("seat_"))
@@ -94,7 +93,7 @@ void SpinDemo::simulate(const DemoControls& controls) {
     stepRide(mRide, wasOver ? DemoControls{.drive = -0.15} : controls);
     mOrbit = std::clamp(mOrbit + controls.turn * kOrbitRate * dt, -kMostOrbit, kMostOrbit);
     placeParts();
-    // Seat 0 faces +Z, where the ring stands, at angle 0.
+    // Seat 0 faces the ring, which is at +Z, at angle 0.
     if (!wasOver)
         stepRules(mRules, mRide, mRide.carousel, controls.action, mRandom);
 }

@@ -22,7 +22,7 @@ struct Ride {
 /// One step of kDemoStepSeconds: `drive` speeds up or brakes, friction slows.
 void stepRide(Ride& ride, const DemoControls& controls);
 
-/// The game: keep the carousel at the rate that is asked for, and catch the ring whenever the
+/// The game: keep the carousel at the demanded rate, and catch the ring whenever the
 /// golden horse passes it.
 struct RideRules {
     double targetRate = 1.2;  ///< rad/s
@@ -36,7 +36,7 @@ struct RideRules {
 
 inline constexpr double kRateTolerance = 0.15; ///< rad/s: so near counts as kept
 inline constexpr double kRingReach = 0.20;     ///< radians from the ring: a grab catches it
-inline constexpr double kTargetSeconds = 9.0;  ///< until another rate is asked for
+inline constexpr double kTargetSeconds = 9.0;  ///< until another rate is demanded
 
 /// \param horse angle of the golden horse from the ring, radians
 void stepRules(RideRules& rules, const Ride& ride, double horse, bool action, Random& random);

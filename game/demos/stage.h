@@ -26,7 +26,7 @@ struct SimulatedPose {
 /// Reads a demo's scene; nothing in it has a past before 0 s. Its warnings are logged.
 [[nodiscard]] core::Result<scene::World> loadDemoScene(const std::filesystem::path& file);
 
-/// Where the scene put an entity that stands somewhere (scene::LocalTransform), in its parent's
+/// Where the scene put an entity that has a place (scene::LocalTransform), in its parent's
 /// space.
 [[nodiscard]] math::Transform restOf(const scene::World& world, ecs::Entity entity);
 

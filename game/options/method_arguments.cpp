@@ -3,7 +3,8 @@
 
 #include "engine/core/setting_row.h"
 #include "game/options/option_rows.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 #include <array>
@@ -22,12 +23,12 @@ constexpr uint32_t kMaxSamples = 65536;
 using A = MethodArguments;
 
 constexpr std::array kRows = {
-    makeRow<&A::method>("--method", "see `shutter info --methods`; default hybrid"),
+    makeRow<&A::method>("--method", "method, see `shutter info --methods`; default hybrid"),
     makeRow<&A::samples>(
         "--samples", "taps (filters), instants (accumulate) or rays per pixel (truth, denoised)"
     ),
-    makeRow<&A::error>("--error", "truth: stop at this standard error (linear RMS)"),
-    makeRow<&A::settings>("--set", "NAME=VALUE of the method's settings (repeatable)"),
+    makeRow<&A::error>("--error", "stop truth at this standard error (linear RMS)"),
+    makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
 };
 
 Status interpretSamples(const MethodArguments& arguments, MethodOptions& options) {
@@ -67,11 +68,9 @@ core::Result<MethodOptions> interpret(const MethodArguments& arguments) {
     MethodOptions options;
     options.method = method.value();
     for (const auto step : {interpretSamples, interpretError})
-        if (Status done = step(arguments, options); !done)
-            return done.error();
+        SHUTTER_TRY(step(arguments, options));
     for (const std::string& setting : arguments.settings)
-        if (Status applied = applySetting(setting, *options.method, options.motionBlur); !applied)
-            return applied.error();
+        SHUTTER_TRY(applySetting(setting, *options.method, options.motionBlur));
     if (arguments.typed.contains("--budget") && !options.method->blur)
         return makeError("--budget: method {} has nothing to give up", options.method->name);
     options.budget = arguments.budget;

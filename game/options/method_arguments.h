@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options of a method as typed.
+// The options that choose and set up a method, as typed.
 #pragma once
 
 #include "engine/core/result.h"
@@ -32,7 +32,7 @@ void defineMethodOptions(CLI::App& command, MethodArguments& arguments);
 [[nodiscard]] core::Result<MethodOptions> interpret(const MethodArguments& arguments);
 
 /// Sets one setting from NAME=VALUE. Names are MotionBlurSettings' fields
-/// (motion_blur/setting_rows.h), and only those that the method reads. Error: names what was typed
+/// (motion_blur/settings.h), and only those that the method reads. Error: names what was typed
 /// wrongly, or the range that the value is not in.
 [[nodiscard]] core::Status applySetting(
     const std::string& text, const MethodInfo& method, motion_blur::MotionBlurSettings& settings

@@ -3,7 +3,7 @@
 
 #include "engine/io/image_file.h"
 #include "game/options/option_rows.h"
-#include "game/output/film.h"
+#include "game/output/sequence.h"
 #include "game/shot/picture_drawer.h"
 
 #include <algorithm>
@@ -24,16 +24,16 @@ using O = OutputArguments;
 
 constexpr std::array kOutputRows = {
     makeRow<&O::restart>(
-        "--restart", "draw frames again that are complete on disk", Matters::ToNoPicture
+        "--restart", "draw frames again even if they are complete on disk", Matters::ToNoPicture
     ),
     makeRow<&O::ffmpeg>(
-        "--ffmpeg", "the program, for .mp4; default: the one on PATH", Matters::ToNoPicture
+        "--ffmpeg", "program that encodes .mp4; default: the one on PATH", Matters::ToNoPicture
     ),
     makeRow<&O::keepFrames>(
-        "--keep-frames", "keep FILE.mp4.frames when the film is made", Matters::ToNoPicture
+        "--keep-frames", "keep FILE.mp4.frames after the film is made", Matters::ToNoPicture
     ),
     makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),
-    makeRow<&O::stats>("--stats", "times and counters as JSON", Matters::ToNoPicture),
+    makeRow<&O::stats>("--stats", "write times and counters to a JSON file", Matters::ToNoPicture),
     makeRow<&O::dumpGraph>(
         "--dump-graph", "print the render graph of the first frame", Matters::ToNoPicture
     ),
@@ -100,8 +100,7 @@ Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, Output
 
 Status interpretOut(const RenderArguments& all, const ShotOptions& shot, OutputOptions& options) {
     options.out = all.output.out;
-    if (Status film = interpretFilm(all, shot, options); !film)
-        return film;
+    SHUTTER_TRY(interpretFilm(all, shot, options));
     auto display = io::isDisplayFormat(options.out);
     if (!display)
         return makeError("--out: {}", display.error().message);
@@ -121,10 +120,8 @@ interpretOutput(const RenderArguments& all, const ShotOptions& shot, const Metho
     options.dumpGraph = all.output.dumpGraph;
     options.explain = all.output.explain;
     options.repeat = all.output.repeat;
-    if (Status aovs = interpretAovs(all.output, method, options); !aovs)
-        return aovs.error();
-    if (Status out = interpretOut(all, shot, options); !out)
-        return out.error();
+    SHUTTER_TRY(interpretAovs(all.output, method, options));
+    SHUTTER_TRY(interpretOut(all, shot, options));
     return options;
 }
 
@@ -133,11 +130,11 @@ interpretOutput(const RenderArguments& all, const ShotOptions& shot, const Metho
 void defineDeviceOptions(CLI::App& command, gpu::DeviceOptions& options) {
     using D = gpu::DeviceOptions;
     static constexpr std::array kRows = {
-        makeRow<&D::wanted>("--device", "name or index, see `shutter info --devices`"),
+        makeRow<&D::wanted>("--device", "device by name or index, see `shutter info --devices`"),
         makeWordRow<&D::bestTier, kTierWords>(
-            "--rays", "best way to trace rays: query (default), pipeline or none hide those above"
+            "--rays", "limit how rays are traced: query (default, no limit), pipeline or none"
         ),
-        makeRow<&D::validate>("--validate", "Vulkan validation; a message is a failure"),
+        makeRow<&D::validate>("--validate", "turn on Vulkan validation; any message is a failure"),
     };
 #ifndef NDEBUG
     options.validate = true; // every debug run is a validated run
@@ -151,7 +148,7 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
         .add_option(
             "--out",
             a.output.out,
-            ".exr (linear), .png or .jpg; %04d for sequences; .mp4 (by ffmpeg)"
+            "output: .exr (linear), .png or .jpg; %04d for sequences; .mp4 (needs ffmpeg)"
         )
         ->required();
     defineShotOptions(command, a.shot);
@@ -160,7 +157,7 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
     defineRows(command, OptionRows<O>(kOutputRows), a.output);
     command
         .add_option(
-            "--repeat", a.output.repeat, "draw each frame N more times, report median times"
+            "--repeat", a.output.repeat, "draw each frame N more times and report median times"
         )
         ->check(CLI::Range(1u, 1000u));
     defineDeviceOptions(command, a.device);
@@ -185,8 +182,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     if (!method)
         return method.error();
     options.method = std::move(method).value();
-    if (Status pixel = checkPixel(options.shot, *options.method.method); !pixel)
-        return pixel.error();
+    SHUTTER_TRY(checkPixel(options.shot, *options.method.method));
     auto output = interpretOutput(arguments, options.shot, *options.method.method);
     if (!output)
         return output.error();

@@ -3,7 +3,7 @@
 
 #include "engine/io/file_bytes.h"
 #include "engine/scene/shutter.h"
-#include "game/shot/flight.h"
+#include "game/shot/shot.h"
 
 #include <array>
 #include <cmath>
@@ -22,34 +22,42 @@ using A = ShotArguments;
 using Row = OptionRow<A>;
 
 constexpr std::array kViewRows = {
-    makeRow<&A::camera>("--camera", "name or index; default: the first, or one made to fit"),
-    makeRow<&A::time>("--time", "seconds; default 0"),
+    makeRow<&A::camera>(
+        "--camera", "camera by name or index; default: the first, or one that frames the scene"
+    ),
+    makeRow<&A::time>("--time", "time of the picture, seconds; default 0"),
     makeRow<&A::fps>("--fps", "frames per second; default 24, or the flythrough's"),
     makeRow<&A::clips>("--clip", "clip to play (repeatable), or none; default: all"),
-    makeRow<&A::loop>("--loop", "clips start again at their ends; default: hold"),
+    makeRow<&A::loop>("--loop", "restart clips when they end; default: hold the last pose"),
 };
 
 constexpr std::array kLookRows = {
-    makeWordRow<&A::pixel, kPixelWords>("--pixel", "centre (default) or box"),
-    makeRow<&A::seed>("--seed", "seeds the times (truth) and the places of --pixel box"),
-    makeRow<&A::unlit>("--unlit", "base colour only"),
-    makeRow<&A::background>("--background", "R,G,B linear; default 0.18,0.18,0.18"),
+    makeWordRow<&A::pixel, kPixelWords>("--pixel", "pixel filter: centre (default) or box"),
+    makeRow<&A::seed>(
+        "--seed", "seed of the sample times (truth) and of the positions of --pixel box"
+    ),
+    makeRow<&A::unlit>("--unlit", "draw base colour only"),
+    makeRow<&A::background>(
+        "--background", "linear R,G,B where nothing is hit; default 0.18,0.18,0.18"
+    ),
     makeRow<&A::ambient>("--ambient", "uniform light, R,G,B; default 0.25,0.25,0.25"),
 };
 
 constexpr std::array kTonemapRows = {
     makeRow<&A::exposureValue>("--ev", "stops of exposure before tone mapping; default 0"),
-    makeWordRow<&A::tonemap, kTonemapWords>("--tonemap", "neutral (default) or none"),
+    makeWordRow<&A::tonemap, kTonemapWords>("--tonemap", "tone mapper: neutral (default) or none"),
 };
 
 constexpr std::array kFrameRows = {
-    makeRow<&A::size>("--size", "WxH; default 1280x720"),
+    makeRow<&A::size>("--size", "picture size WxH; default 1280x720"),
     makeRow<&A::frames>(
-        "--frames", "A:B; a frame's time is its number divided by --fps", Matters::ToNoPicture
+        "--frames",
+        "frames A to B, as A:B; a frame's time is its number divided by --fps",
+        Matters::ToNoPicture
     ),
     makeRow<&A::flythrough>(
         "--flythrough",
-        "FILE.json of camera keys, or clip:NAME of the scene's; all of its frames by default",
+        "fly the camera along FILE.json or the scene's clip:NAME; default: all of its frames",
         Matters::ToNoPicture
     ),
 };
@@ -143,8 +151,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.background = arguments.background;
     options.ambient = arguments.ambient;
     for (const auto step : {parseTimes, parseFlythrough})
-        if (Status parsed = step(arguments, options); !parsed)
-            return parsed.error();
+        SHUTTER_TRY(step(arguments, options));
     auto shutter = interpretShutter(arguments.shutter);
     if (!shutter)
         return shutter.error();

@@ -18,8 +18,7 @@ Status parseResponse(const std::string& text, scene::ShutterResponse& response) 
     const size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);
     const auto& shape = core::getRow(scene::listResponseRows(), "shape");
-    if (Status parsed = core::parseValue(shape, name, response); !parsed)
-        return parsed;
+    SHUTTER_TRY(core::parseValue(shape, name, response));
     std::vector<double> numbers;
     if (colon != std::string::npos)
         for (const std::string& part : splitAt(text.substr(colon + 1), ',')) {
@@ -91,13 +90,11 @@ core::Result<scene::CameraShutter> interpretShutter(const ShutterArguments& argu
     if (!arguments.isTyped("--shutter-mode") && arguments.isTyped("--shutter-angle") &&
         !arguments.isTyped("--exposure"))
         shutter.mode = ShutterMode::Angle;
-    if (Status fits = checkMode(arguments, shutter.mode); !fits)
-        return fits.error();
+    SHUTTER_TRY(checkMode(arguments, shutter.mode));
     for (const char* threshold : {"--cut-angle", "--cut-distance"})
         if (!shutter.cuts.enabled && arguments.isTyped(threshold))
             return makeError("{} has no meaning with --cut-detection off", threshold);
-    if (Status valid = scene::validate(shutter, "shutter."); !valid)
-        return valid.error();
+    SHUTTER_TRY(scene::validate(shutter, "shutter."));
     return shutter;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "game/output/film.h"
-
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "game/output/sequence.h"
 
 #include <system_error>
 #include <vector>
@@ -28,7 +27,7 @@ core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options) {
         return core::makeError(
             "--out: cannot write '{}': it is a folder", options.output.film.string()
         );
-    // Of a picture in its place: the folder is what counts.
+    // Checked with the name of a picture: only the folder matters.
     const fs::path folder =
         options.output.film.has_parent_path() ? options.output.film.parent_path() : ".";
     if (core::Status writable = io::checkWritable(folder / "frame.png"); !writable)

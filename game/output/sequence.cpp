@@ -6,11 +6,8 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
-#include "game/output/film.h"
-#include "game/output/intermediates.h"
+#include "game/output/extra_files.h"
 #include "game/output/sequence_journal.h"
-#include "game/output/statistics_file.h"
-#include "game/shot/flight.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
@@ -33,8 +30,7 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
     std::vector<std::filesystem::path> files = {file};
     const image::Image& drawn = options.output.displayOut ? result.display : result.color;
     const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
-    if (core::Status written = io::writeImage(file, picture); !written)
-        return written.error();
+    SHUTTER_TRY(io::writeImage(file, picture));
     for (const std::string& aov : options.output.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
@@ -43,7 +39,8 @@ writePicture(const RenderOptions& options, int frameNumber, const render::FrameR
             core::logWarning(
                 "--aov {} is not written: {}",
                 aov,
-                blur ? "motion blur was " + core::describe(*blur) : "one ray a pixel shows no error"
+                blur ? "motion blur was " + core::describe(*blur)
+                     : "one ray per pixel shows no error"
             );
             continue;
         }
@@ -166,8 +163,7 @@ class Sequence {
         );
         for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
             if (!isComplete(i))
-                if (core::Status drawn = drawFrame(i, progress); !drawn)
-                    return drawn;
+                SHUTTER_TRY(drawFrame(i, progress));
         return {};
     }
 
@@ -273,17 +269,12 @@ core::Status renderFilm(
             core::logWarning("--keep-frames: its frames are gone; --restart draws them");
         return {};
     }
-    if (core::Status made = makeFilmFolder(options); !made)
-        return made;
-    if (core::Status opened = sequence.openJournal(fingerprint); !opened)
-        return opened;
-    if (core::Status drawn = sequence.draw(); !drawn)
-        return drawn;
-    if (core::Status encoded = encodeFilm(encoder, options); !encoded)
-        return encoded;
+    SHUTTER_TRY(makeFilmFolder(options));
+    SHUTTER_TRY(sequence.openJournal(fingerprint));
+    SHUTTER_TRY(sequence.draw());
+    SHUTTER_TRY(encodeFilm(encoder, options));
     // Known to be complete before its frames go: a run that ends here draws nothing again.
-    if (core::Status added = journal.value().add(0, {options.output.film}); !added)
-        return added;
+    SHUTTER_TRY(journal.value().add(0, {options.output.film}));
     removeFilmFrames(options, sequence.journal()->file());
     return {};
 }
@@ -296,11 +287,9 @@ core::Status renderSequence(
     auto shot = loadShot(options.shot);
     if (!shot)
         return shot.error();
-    if (core::Status planned = planClipFrames(shot.value().world, options.shot); !planned)
-        return planned;
+    SHUTTER_TRY(planClipFrames(shot.value().world, options.shot));
     Sequence sequence(options);
-    if (core::Status prepared = sequence.prepare(device, shot.value()); !prepared)
-        return prepared;
+    SHUTTER_TRY(sequence.prepare(device, shot.value()));
     core::Status drawn;
     if (options.shot.isSequence) {
         const auto fingerprint = computeFingerprint(options, device.info());

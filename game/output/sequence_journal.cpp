@@ -75,7 +75,7 @@ core::Status appendLine(const fs::path& file, const std::string& line) {
 } // namespace
 
 fs::path journalFile(const fs::path& pattern) {
-    // Above the first part that has the frame's number: a folder a frame, perhaps.
+    // Above the first part that holds the frame's number: each frame may have its own folder.
     fs::path folder;
     for (const fs::path& part : pattern.parent_path()) {
         if (frameFile(part, 0) != part)
@@ -102,8 +102,7 @@ core::Result<SequenceJournal> SequenceJournal::open(fs::path file, const std::st
     }
     if (isWhole)
         return journal;
-    if (core::Status written = journal.rewrite(fingerprint); !written)
-        return written.error();
+    SHUTTER_TRY(journal.rewrite(fingerprint));
     return journal;
 }
 
@@ -174,8 +173,7 @@ core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files)
             {file.lexically_relative(folderOf(mFile)).string(), std::move(hash).value()}
         );
     }
-    if (core::Status written = appendLine(mFile, formatLine(frame, complete)); !written)
-        return written;
+    SHUTTER_TRY(appendLine(mFile, formatLine(frame, complete)));
     mFrames[frame] = std::move(complete);
     return {};
 }

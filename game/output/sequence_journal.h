@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of a sequence is complete on disk, so that a run which was stopped goes on where it was. A
-// line of JSON each frame, added when all of the frame's files are in place; a frame counts when
+// Records what of a sequence is complete on disk, so that a stopped run continues where it was. A
+// line of JSON per frame, added when all of the frame's files are in place; a frame counts when
 // its files still have the bytes that its line tells.
 #pragma once
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The methods of drawing a picture, by name: those of the motion blur, and those that draw the
-// scene in their own way.
+// scene in their own way; and which of a picture's passes count as the method's.
 #pragma once
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/render/frame_statistics.h"
 #include "modules/motion_blur/methods.h"
 
 #include <cstdint>
@@ -25,11 +26,11 @@ enum class MethodFamily : uint8_t { Sharp, MotionBlur, Accumulate, Truth };
 struct MethodInfo {
     const char* name;
     const char* description;
-    const char* publication; ///< authors and year; empty: nobody's in particular
+    const char* publication; ///< authors and year; empty: no particular one
     MethodFamily family;
-    const motion_blur::Method* blur = nullptr; ///< of MethodFamily::MotionBlur; else null
+    const motion_blur::Method* blur = nullptr; ///< null unless the family is MotionBlur
     RayNeed rays = RayNeed::None;
-    /// What `--samples` counts, which trades time for error; nothing: the method takes none.
+    /// What `--samples` counts, which trades time for error; empty: the method takes no samples.
     std::optional<SampleUnit> sampleUnit{};
     uint32_t defaultSamples = 0;     ///< 0 without a sample unit
     std::vector<std::string> aovs{}; ///< intermediates that it writes beyond the G-buffer's
@@ -37,10 +38,27 @@ struct MethodInfo {
 
 [[nodiscard]] bool canRun(const MethodInfo& method, const gpu::Device& device);
 
-/// In the order in which quality rises.
+/// All methods, in order of rising quality.
 [[nodiscard]] std::span<const MethodInfo> listMethods();
 
-/// Error: the names there are.
+/// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
+
+enum class PassGroup : uint8_t {
+    Scene,   ///< what a picture without blur draws as well
+    Blur,    ///< what the method adds to it, acceleration structures for its rays included
+    Display, ///< what brings the linear picture to the window or to memory
+};
+
+/// `sharp` adds nothing to a picture. Everything that a method draws counts as its own if it draws
+/// the scene in its own way (many frames, rays alone).
+[[nodiscard]] PassGroup groupOf(const MethodInfo& method, render::PassOwner owner);
+
+/// GPU milliseconds of the passes of PassGroup::Blur.
+[[nodiscard]] double
+sumBlurMilliseconds(const MethodInfo& method, const render::FrameStatistics& statistics);
+
+/// GPU milliseconds from the G-buffer to the linear picture.
+[[nodiscard]] double sumFrameMilliseconds(const render::FrameStatistics& statistics);
 
 } // namespace shutter::game

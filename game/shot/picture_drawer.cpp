@@ -105,8 +105,7 @@ PictureDrawer::~PictureDrawer() {
 core::Status PictureDrawer::check(
     const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height
 ) {
-    if (core::Status traced = checkRays(device, *method.method); !traced)
-        return traced;
+    SHUTTER_TRY(checkRays(device, *method.method));
     return checkSize(device, *method.method, width, height);
 }
 
@@ -120,8 +119,7 @@ core::Result<PictureRequest>
 PictureDrawer::prepare(const scene::World& world, const PictureRequest& request) {
     SHUTTER_CHECK(request.slot < kSlots, "slot {} of {}", request.slot, kSlots);
     const extract::ViewRequest& view = request.frame.view;
-    if (core::Status able = check(mDevice, request.method, view.width, view.height); !able)
-        return able.error();
+    SHUTTER_TRY(check(mDevice, request.method, view.width, view.height));
     if (countSteps(request.method) == 0)
         return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
     PictureRequest prepared = request;
@@ -188,8 +186,7 @@ core::Status PictureDrawer::submitFrame(
     const Label& label
 ) {
     finishUntil(mRenderer.framesInFlight() - 1);
-    if (core::Status submitted = mRenderer.submitFrame(world, frame, effects); !submitted)
-        return submitted;
+    SHUTTER_TRY(mRenderer.submitFrame(world, frame, effects));
     mLabels.push_back(label);
     return {};
 }
@@ -249,8 +246,7 @@ core::Status PictureDrawer::submit(const scene::World& world, const PictureReque
     for (const uint32_t count : planParts(request, {})) {
         part.count = count;
         part.isShown = part.done + count == part.total;
-        if (core::Status submitted = submitPart(world, request, part); !submitted)
-            return submitted;
+        SHUTTER_TRY(submitPart(world, request, part));
         part.done += count;
     }
     return submitIntermediates(world, request);
@@ -276,13 +272,11 @@ core::Result<render::FrameResult> PictureDrawer::draw(
     Part part{.total = countSteps(request.method)};
     for (; part.done < part.total; ++part.done) {
         part.isShown = part.done + 1 == part.total;
-        if (core::Status submitted = submitPart(world, request, part); !submitted)
-            return submitted.error();
+        SHUTTER_TRY(submitPart(world, request, part));
         finishUntil(0);
         step();
     }
-    if (core::Status submitted = submitIntermediates(world, request); !submitted)
-        return submitted.error();
+    SHUTTER_TRY(submitIntermediates(world, request));
     return takeOnly();
 }
 
@@ -301,8 +295,7 @@ core::Result<render::FrameResult> PictureDrawer::drawTruth(
         part.count = count;
         const uint32_t done = part.done + count;
         part.isShown = isStop(done) || done == part.total;
-        if (core::Status submitted = submitPart(world, request, part); !submitted)
-            return submitted.error();
+        SHUTTER_TRY(submitPart(world, request, part));
         finishUntil(0);
         part.done = done;
         for (uint32_t i = 0; i < count; ++i)
@@ -323,8 +316,7 @@ core::Result<render::FrameResult> PictureDrawer::drawTruth(
     PictureRequest ended = request;
     ended.frame.view.lodBias += truth::computeLodBias(request.pixel, part.total) -
                                 truth::computeLodBias(request.pixel, part.done);
-    if (core::Status submitted = submitPart(world, ended, shown); !submitted)
-        return submitted.error();
+    SHUTTER_TRY(submitPart(world, ended, shown));
     return takeOnly();
 }
 

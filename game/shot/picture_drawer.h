@@ -55,7 +55,7 @@ makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& sett
 struct Checkpoints {
     std::vector<uint32_t> rays; ///< per pixel, above 0, in any order; those above the samples never
                                 ///< come
-    /// The picture so far, what was asked for of it (no intermediates), with the times summed so
+    /// The picture so far in the wanted encodings (no intermediates), with the times summed so
     /// far. Called for the last picture too if its rays are among `rays`.
     std::function<void(uint32_t rays, const render::FrameResult& picture)> onPicture;
 };

@@ -37,8 +37,9 @@ struct ShotOptions {
     double frameSeconds = scene::kStillFrameSeconds;  ///< duration of a frame, 1 / fps
     std::optional<flythrough::Flythrough> flythrough; ///< of --flythrough FILE
     std::string flythroughHash;                       ///< of its file
-    bool isFlythroughShutter = false; ///< the flythrough's shutters count: none was asked for
-    std::string flythroughClip;       ///< of --flythrough clip:NAME
+    bool isFlythroughShutter =
+        false;                  ///< no option sets a shutter, so the flythrough's shutters apply
+    std::string flythroughClip; ///< of --flythrough clip:NAME
     scene::CameraShutter shutter{};
     uint32_t width = 0;  ///< pixels
     uint32_t height = 0; ///< pixels

@@ -4,9 +4,9 @@
 #include "engine/core/check.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
-#include "modules/motion_blur/setting_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace shutter::motion_blur {
@@ -23,6 +23,26 @@ constexpr uint32_t kTrialFrames = 30; ///< a step up that ends within them has f
 constexpr uint32_t kCalmFrames = 4 * kTrialFrames; ///< after a step up: it has not failed
 
 } // namespace
+
+core::SettingRows<BlurBudget> listBudgetRows() {
+    static const std::array<core::SettingRow<BlurBudget>, 1> kRows = {{
+        {"milliseconds",
+         &BlurBudget::milliseconds,
+         "ms",
+         {.lowest = 0,
+          .highest = 1e9,
+          .isLowestValid = false,
+          .isUnlimited = true,
+          .isLogarithmic = true,
+          .sliderLowest = 0.1,
+          .sliderHighest = 100},
+         "GPU time per frame that the blur may take. To keep to it, the blur gives up resolution, "
+         "rays and samples, and in the end itself.",
+         "Budget",
+         "--budget"},
+    }};
+    return kRows;
+}
 
 core::Status validate(const BlurBudget& budget) {
     return core::validateRows(listBudgetRows(), budget, "motion blur: budget.");

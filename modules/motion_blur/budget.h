@@ -23,7 +23,10 @@ struct BlurBudget {
     }
 };
 
-/// One sentence if the budget is out of its range (setting_rows.h).
+/// One row per field of BlurBudget.
+[[nodiscard]] core::SettingRows<BlurBudget> listBudgetRows();
+
+/// One sentence if the budget is out of its range.
 [[nodiscard]] core::Status validate(const BlurBudget& budget);
 
 struct BudgetLevel {

@@ -1,13 +1,91 @@
 // SPDX-License-Identifier: MIT
-// The methods there are.
+// What a method of blurring is, as data and passes. Each lives in a file of methods/, and
+// methods.cpp lists them; nothing else knows a method by name.
 #pragma once
 
-#include "modules/motion_blur/method.h"
+#include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/frame_io.h"
+#include "modules/motion_blur/params.h"
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace shutter::motion_blur {
+
+class BudgetLadder;
+class SharedPasses;
+
+/// Which of the device's ray tiers a method needs.
+enum class RayNeed : uint8_t {
+    None,
+    Any,   ///< any tier: rays at the raster instant (MotionBlurInputs::rays)
+    Query, ///< nested ray queries: rays with times of their own (MotionBlurInputs::timedRays)
+};
+
+/// What MotionBlurSettings::sampleCount counts.
+enum class SampleUnit : uint8_t {
+    Taps,     ///< taps of each gather
+    Instants, ///< instants of the exposure
+    Rays,     ///< rays per pixel
+};
+
+/// Numbers that a frame counted on the GPU, e.g. "rays traced".
+using Counters = std::map<std::string, uint64_t>;
+
+/// The passes of one method. Pipelines are made when a frame first needs them.
+class MethodPasses {
+  public:
+    virtual ~MethodPasses() = default;
+
+    /// Declares the passes of a frame. `params` are resolve()'s, with the frame's response table.
+    [[nodiscard]] virtual MotionBlurOutputs
+    add(graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const MotionBlurSettings& settings,
+        const PassParams& params,
+        SharedPasses& shared) = 0;
+
+    /// Adds what the frame declared last for the slot counted, besides the blocks of SharedPasses;
+    /// the GPU must be done with that frame.
+    virtual void count(uint32_t /*slot*/, Counters& /*counters*/) const {}
+};
+
+struct Method {
+    const char* name;        ///< on the command line, in JSON and reports
+    const char* description; ///< a few words
+    const char* publication; ///< authors, year or title
+    RayNeed rays = RayNeed::None;
+    SampleUnit sampleUnit = SampleUnit::Taps;
+    uint32_t defaultSamples = 15;
+    /// The raster image is an input; false: the method draws a picture of its own.
+    bool readsRaster = true;
+    bool readsSurface = false; ///< normal and entity id are inputs
+    /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced.
+    bool readsCamera = false;
+    bool blursObjects = true;       ///< false: only the camera's own motion is blurred
+    bool countsBlocks = true;       ///< its filters go over SharedPasses' lists of blocks
+    bool usesUniformMotion = false; ///< blocks of uniform motion have a filter of their own
+    uint32_t listBytesPerPixel = 0; ///< of the largest storage buffer, which grows with pixels
+    std::vector<std::string_view> settings{}; ///< fields of MotionBlurSettings that it reads,
+                                              ///< except sampleCount, which each method reads
+    std::vector<std::string_view> views{};    ///< intermediates that it offers
+    /// Turns the settings into `params`: the method's own block, and what it changes of the rest.
+    /// Null: nothing.
+    void (*resolve)(const MotionBlurSettings& settings, PassParams& params) = nullptr;
+    /// Whether rays may find something even where no surface lies behind what moves. Null: never.
+    bool (*alwaysTraces)(const MotionBlurSettings& settings) = nullptr;
+    /// Adds the levels by which the method gives up quality (budget_ladder.h).
+    void (*addBudgetLevels)(BudgetLadder& ladder, const MotionBlurSettings& wanted);
+    /// \param sceneLayout of graph::RayScene::textures; null without rays
+    std::unique_ptr<MethodPasses> (*makePasses
+    )(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
+};
 
 /// In the order in which quality rises.
 [[nodiscard]] std::span<const Method* const> listMethods();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/params.h"
 
-#include "modules/motion_blur/method.h"
+#include "modules/motion_blur/methods.h"
 
 #include <algorithm>
 

@@ -1,9 +1,204 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/settings.h"
 
-#include "modules/motion_blur/setting_rows.h"
+#include <array>
+#include <vector>
 
 namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeWordField;
+using Row = core::SettingRow<MotionBlurSettings>;
+
+constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
+constexpr std::string_view kTraversals[] = {"single", "stepping"};
+constexpr std::string_view kOccluderTests[] = {"none", "velocity"};
+
+std::vector<Row> makeTapRows() {
+    using S = MotionBlurSettings;
+    return {
+        {"sampleCount",
+         &S::sampleCount,
+         "",
+         {.lowest = 1, .highest = 256, .step = 1, .isLogarithmic = true},
+         "Taps of each gather, or rays per pixel. Time is proportional to it; too few show "
+         "as noise.",
+         "Samples"},
+        {"tileSizePx",
+         &S::tileSizePx,
+         "px",
+         {.lowest = 1, .highest = 256, .step = 1},
+         "Side of a tile, and the longest blur. Larger tiles make more pixels gather.",
+         "Tile size"},
+        {"neighbourhoodTiles",
+         &S::neighbourhoodTiles,
+         "tiles",
+         {.lowest = 1, .highest = 15, .step = 2},
+         "Side of the square of tiles whose longest motion is the dominant one. 1 lets "
+         "blur end at tile borders.",
+         "Neighbourhood"},
+        {"jitter",
+         &S::jitter,
+         "",
+         {.lowest = 0, .highest = 1},
+         "Random offset of the taps, as a share of their distance. 0 gives bands instead "
+         "of noise.",
+         "Jitter"},
+        {"softDepthExtent",
+         &S::softDepthExtent,
+         "m",
+         {.lowest = 1e-6,
+          .highest = 1e6,
+          .isLogarithmic = true,
+          .sliderLowest = 1e-4,
+          .sliderHighest = 10},
+         "Depth difference over which foreground and background mix.",
+         "Soft depth"},
+        {"uniformMotionPx",
+         &S::uniformMotionPx,
+         "px",
+         {.lowest = 0, .highest = 16},
+         "Deviation from the dominant motion within which taps read colour only. 0 turns "
+         "the fast path off; higher is faster and less exact.",
+         "Uniform motion"},
+        {"halfResolutionPx",
+         &S::halfResolutionPx,
+         "px",
+         {.lowest = 2,
+          .highest = 1e6,
+          .isUnlimited = true,
+          .isLogarithmic = true,
+          .sliderHighest = 256},
+         "Length of uniform motion from which two pixels along it share a value, which "
+         "halves the taps.",
+         "Half resolution from"},
+        {"maxMotionDepth",
+         &S::maxMotionDepth,
+         "m",
+         {.lowest = 0,
+          .highest = 1e9,
+          .isUnlimited = true,
+          .isLogarithmic = true,
+          .sliderHighest = 10000},
+         "Depth along the view beyond which everything, the sky included, counts as still.",
+         "Deepest motion"},
+        {"foregroundMagnification",
+         &S::foregroundMagnification,
+         "x",
+         {.lowest = 1, .highest = 1000, .isLogarithmic = true},
+         "Factor of the weight of a foreground over a deeper pixel. The paper's 30 makes "
+         "smears opaque; 1 turns it off and is closer to the truth.",
+         "Foreground weight"},
+    };
+}
+
+std::vector<Row> makeRayRows() {
+    using S = MotionBlurSettings;
+    return {
+        {"backgroundMagnification",
+         &S::backgroundMagnification,
+         "x",
+         {.lowest = 1, .highest = 100, .isLogarithmic = true},
+         "Factor of the weight of what rays revealed. 1 turns it off.",
+         "Background weight"},
+        {"edgeThreshold",
+         &S::edgeThreshold,
+         "",
+         {.lowest = 0, .highest = 1},
+         "Edge measure from which a pixel belongs to the ray mask. Higher: fewer rays.",
+         "Edge threshold"},
+        {"rayShare",
+         &S::rayShare,
+         "",
+         {.lowest = 0, .highest = 1},
+         "Share of the masked pixels that trace a ray. Below 1 pixels share rays; below "
+         "1/4 parts of the mask go without.",
+         "Share of rays"},
+        {"objectTest",
+         makeWordField<&S::objectTest>(kObjectTests),
+         "",
+         {},
+         "How a ray knows that it met another object: by its id, or by its luminance as in "
+         "the paper's implementation.",
+         "Object test"},
+        {"revealTraversal",
+         makeWordField<&S::revealTraversal>(kTraversals),
+         "",
+         {},
+         "How a ray passes the object in front: in one traversal, or from hit to hit as in "
+         "the paper's implementation.",
+         "Traversal"},
+        {"recursionLimit",
+         &S::recursionLimit,
+         "hits",
+         {.lowest = 1, .highest = 64, .step = 1},
+         "Most surfaces along a ray, with revealTraversal stepping or objectTest "
+         "luminance.",
+         "Most hits"},
+        {"luminanceThreshold",
+         &S::luminanceThreshold,
+         "",
+         {.lowest = 0,
+          .highest = 1e6,
+          .isLogarithmic = true,
+          .sliderLowest = 1e-4,
+          .sliderHighest = 100},
+         "Smallest linear difference that objectTest luminance takes for another object.",
+         "Luminance threshold"},
+    };
+}
+
+std::vector<Row> makeRivalRows() {
+    using S = MotionBlurSettings;
+    return {
+        {"occluderTest",
+         makeWordField<&S::occluderTest>(kOccluderTests),
+         "",
+         {},
+         "Whether samples that may lie in front are dropped where their own motion does "
+         "not reach the pixel.",
+         "Occluder test"},
+        {"centreBias",
+         &S::centreBias,
+         "",
+         {.lowest = 1, .highest = 1000, .isLogarithmic = true},
+         "Kappa: the higher it is, the less the pixel itself counts.",
+         "Centre bias"},
+        {"speedThresholdPx",
+         &S::speedThresholdPx,
+         "px",
+         {.lowest = 1e-3, .highest = 100, .isLogarithmic = true},
+         "Gamma: half velocity beyond half a pixel from which the second direction is the "
+         "pixel's own.",
+         "Speed threshold"},
+        {"filterLevels",
+         &S::filterLevels,
+         "passes",
+         {.lowest = 0, .highest = 8, .step = 1},
+         "Number of filter passes, each twice as wide as the one before. 0 leaves the "
+         "noise.",
+         "Filter passes"},
+        {"luminanceSigma",
+         &S::luminanceSigma,
+         "deviations",
+         {.lowest = 0.01, .highest = 100, .isLogarithmic = true},
+         "Standard deviations of luminance that count as noise. Higher is smoother.",
+         "Luminance sigma"},
+    };
+}
+
+} // namespace
+
+core::SettingRows<MotionBlurSettings> listSettingRows() {
+    static const std::vector<Row> kRows = [] {
+        std::vector<Row> rows = makeTapRows();
+        for (const std::vector<Row>& more : {makeRayRows(), makeRivalRows()})
+            rows.insert(rows.end(), more.begin(), more.end());
+        return rows;
+    }();
+    return kRows;
+}
 
 core::Status validate(const MotionBlurSettings& settings) {
     if (!settings.method)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 
 #include <cstdint>
 #include <limits>
@@ -31,34 +32,35 @@ enum class OccluderTest : uint8_t {
     Velocity, ///< drops those whose own motion does not reach the pixel (Bevy)
 };
 
-/// Defaults are the publications'. Ranges and units stand in setting_rows.cpp; which method reads
-/// which field, in the method's file; what each costs, in README.md.
+/// Defaults are the publications'. settings.cpp lists ranges and units, each method's file which
+/// fields it reads, and README.md what each costs.
 struct MotionBlurSettings {
     const Method* method = &getDefaultMethod(); ///< methods.h; never null
-    uint32_t tileSizePx = 40;        ///< m; also the longest blur
-    uint32_t neighbourhoodTiles = 3; ///< n, odd; 1 lets blur end at tile borders
-    uint32_t sampleCount = 15;       ///< what it counts: Method::sampleUnit
-    float softDepthExtent = 0.03f;   ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
-    float edgeThreshold = 0.9f;      ///< e; the paper: 0.9 to 0.98; higher: fewer rays
+    uint32_t tileSizePx = 40;                   ///< m; also the longest blur
+    uint32_t neighbourhoodTiles = 3;            ///< n, odd; 1 lets blur end at tile borders
+    uint32_t sampleCount = 15;                  ///< what it counts: Method::sampleUnit
+    float softDepthExtent = 0.03f;              ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
+    float edgeThreshold = 0.9f;                 ///< e; the paper: 0.9 to 0.98; higher: fewer rays
     /// Most surfaces along a ray, the first included, with RevealTraversal::Stepping or
     /// ObjectTest::Luminance.
     uint32_t recursionLimit = 5;
     ObjectTest objectTest = ObjectTest::MeshId;
-    RevealTraversal revealTraversal = RevealTraversal::Single; ///< ObjectTest::Luminance always steps
-    float luminanceThreshold = 0.01f;       ///< smallest difference that ObjectTest::Luminance sees
-    float foregroundMagnification = 30.0f;  ///< of w_f where the target is deeper; 1: off
-    float backgroundMagnification = 3.0f;   ///< of the revealed layer inside the mask; 1: off
-    float jitter = 1.0f;                    ///< of the taps; 0: banding, no noise
+    RevealTraversal revealTraversal =
+        RevealTraversal::Single;           ///< ObjectTest::Luminance always steps
+    float luminanceThreshold = 0.01f;      ///< smallest difference that ObjectTest::Luminance sees
+    float foregroundMagnification = 30.0f; ///< of w_f where the target is deeper; 1: off
+    float backgroundMagnification = 3.0f;  ///< of the revealed layer inside the mask; 1: off
+    float jitter = 1.0f;                   ///< of the taps; 0: banding, no noise
     OccluderTest occluderTest = OccluderTest::None;
-    float centreBias = 40.0f;       ///< kappa (Guertin 2014): divides the pixel's own weight
-    float speedThresholdPx = 1.5f;  ///< gamma (Guertin 2014): half velocity beyond half a pixel at
-                                    ///< which the second direction is the pixel's own
-    uint32_t filterLevels = 5;      ///< passes of the denoiser, each twice as wide as the last
-    float luminanceSigma = 4.0f;    ///< standard deviations that the denoiser takes for noise
-    float uniformMotionPx = 0.5f;   ///< deviation from the dominant motion within which taps of the
-                                    ///< gathers read colour only; 0: never
-    float rayShare = 1.0f;          ///< of the masked pixels that trace; below 1 quads share a ray,
-                                    ///< below 1/4 parts of the mask go without
+    float centreBias = 40.0f;      ///< kappa (Guertin 2014): divides the pixel's own weight
+    float speedThresholdPx = 1.5f; ///< gamma (Guertin 2014): half velocity beyond half a pixel at
+                                   ///< which the second direction is the pixel's own
+    uint32_t filterLevels = 5;     ///< passes of the denoiser, each twice as wide as the last
+    float luminanceSigma = 4.0f;   ///< standard deviations that the denoiser takes for noise
+    float uniformMotionPx = 0.5f;  ///< deviation from the dominant motion within which taps of the
+                                   ///< gathers read colour only; 0: never
+    float rayShare = 1.0f;         ///< of the masked pixels that trace; below 1 quads share a ray,
+                                   ///< below 1/4 parts of the mask go without
     /// Uniform motion from which the gathers work at half of the resolution along it.
     float halfResolutionPx = std::numeric_limits<float>::infinity();
     /// Depth along the view beyond which everything, the sky included, counts as still.
@@ -66,6 +68,9 @@ struct MotionBlurSettings {
 
     bool operator==(const MotionBlurSettings&) const = default;
 };
+
+/// One row per field of MotionBlurSettings, except for `method`.
+[[nodiscard]] core::SettingRows<MotionBlurSettings> listSettingRows();
 
 /// One sentence naming the field where a setting is out of its range.
 [[nodiscard]] core::Status validate(const MotionBlurSettings& settings);

@@ -2,7 +2,7 @@
 // Passes that methods have in common, and the frame around a method whose filters go over blocks.
 #pragma once
 
-#include "modules/motion_blur/method.h"
+#include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/cost_view.h"
 #include "modules/motion_blur/passes/still_pixels.h"

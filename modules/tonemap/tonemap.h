@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gpu/pipeline.h"
+#include "engine/image/image.h"
 #include "engine/render/post_effect.h"
 
 #include <cstdint>
@@ -40,5 +41,11 @@ class Tonemap : public render::PostEffect {
     TonemapSettings mSettings;
     gpu::Pipeline mPipeline;
 };
+
+/// `linear` as a display takes it, by the very functions of the shader (gain, operator, sRGB), not
+/// rounded to eight bits. One channel (grey) or three: CHECKed. Light below 0 counts as 0, infinite
+/// light as white. A pixel with a NaN is NaN in every channel, so that a metric can count it.
+[[nodiscard]] image::Image
+computeDisplayImage(const image::Image& linear, const TonemapSettings& settings);
 
 } // namespace shutter::tonemap

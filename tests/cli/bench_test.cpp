@@ -74,7 +74,7 @@ TEST_F(BenchCommand, ASuiteHasShotsOfItsOwn) {
     );
 }
 
-TEST_F(BenchCommand, MeasuresEveryMethodAndDialAndMakesThePage) {
+TEST_F(BenchCommand, MeasuresEveryMethodAndSampleCountAndMakesThePage) {
     requireDevice();
     if (IsSkipped())
         return;

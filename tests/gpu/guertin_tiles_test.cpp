@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Guertin's dominant motion and variance on the device against the same rules in C++.
-#include "modules/motion_blur/passes/guertin_tiles.h"
+#include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/settings.h"
 #include "shaders/motion_blur/guertin2014.glsl"
 #include "tests/gpu/effect_rig.h"

@@ -5,7 +5,7 @@
 #include "game/play/panel/panel.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/setting_widgets.h"
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 

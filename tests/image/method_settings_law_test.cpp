@@ -3,7 +3,7 @@
 // its picture, and one that it does not list changes no bit, whatever its value.
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"

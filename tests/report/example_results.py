@@ -16,7 +16,8 @@ WIDTH, HEIGHT = 160, 90
 
 SUITES = ("paper", "hard", "scaling", "stability", "demand")
 
-# name, title, publication, dial, default, rays, dials, ms = a + b * dial, psnr = p + g * log2(dial)
+# name, title, publication, sample unit, default, rays, sample counts n, ms = a + b * n,
+# psnr = p + g * log2(n)
 METHODS = [
     ("sharp", "No motion blur", "", "none", None, False, [None], (100, 0), (22.0, 0)),
     ("own_velocity", "Samples along the pixel's own motion", "", "samples", 15, False,
@@ -149,13 +150,13 @@ def passes_of(name, frame):
     return passes
 
 
-def measurement(method, dial, case, index, keep_pictures):
+def measurement(method, samples, case, index, keep_pictures):
     name, _, _, _, default, _, _, (a, b), (p, g) = method
     shift = 1.7 * math.sin(index * 1.9 + len(name) * 2.3) if index else 0.0
-    frame = (a + b * (dial or 0)) * (1 + 0.25 * math.sin(index))
-    psnr = p + g * math.log2(dial or 1) + shift
+    frame = (a + b * (samples or 0)) * (1 + 0.25 * math.sin(index))
+    psnr = p + g * math.log2(samples or 1) + shift
     result = {
-        "method": name, "dial": dial, "isDefault": dial == default, "repeats": 7,
+        "method": name, "samples": samples, "isDefault": samples == default, "repeats": 7,
         "metrics": {"psnr": round(psnr, 3), "ssim": round(1 - 0.9 * 10 ** (-psnr / 18), 5),
                     "flip": round(0.9 * 10 ** (-psnr / 20), 5)},
         "milliseconds": {"frame": quartiles(frame), "effect": quartiles(max(0.0, frame - 95)),
@@ -165,14 +166,14 @@ def measurement(method, dial, case, index, keep_pictures):
     }
     if name == "sharp":
         result["milliseconds"]["effect"] = {"median": 0, "q1": 0, "q3": 0}
-    if keep_pictures and dial == default:
+    if keep_pictures and samples == default:
         stem = f"images/{case}.{name}"
         result["image"], result["errorMap"] = f"{stem}.png", f"{stem}.error.png"
     return result
 
 
 def make_case(name, title, index, methods, keep_pictures):
-    skipped = [{"method": "truth", "dial": 256,
+    skipped = [{"method": "truth", "samples": 256,
                 "reason": "predicted 300 s, above the limit of 60 s"}]
     return {
         "name": name, "title": title,
@@ -183,8 +184,8 @@ def make_case(name, title, index, methods, keep_pictures):
                   "check": {"method": "truth", "samples": 64, "psnr": 46.1}},
         "crops": [{"x": 40, "y": 20, "width": 32, "height": 24, "label": "trailing edge"},
                   {"x": 92, "y": 30, "width": 32, "height": 24, "label": "leading edge"}],
-        "measurements": [measurement(m, dial, name, index, keep_pictures)
-                         for m in methods for dial in m[6] if (m[0], dial) != ("truth", 256)],
+        "measurements": [measurement(m, samples, name, index, keep_pictures)
+                         for m in methods for samples in m[6] if (m[0], samples) != ("truth", 256)],
         "skipped": skipped if any(m[0] == "truth" for m in methods) else [],
     }
 
@@ -196,13 +197,13 @@ def equal_time(case):
     for name in dict.fromkeys(m["method"] for m in case["measurements"]):
         own = [m for m in case["measurements"] if m["method"] == name]
         best = min(own, key=lambda m: abs(math.log(m["milliseconds"]["frame"]["median"] / wanted)))
-        row = {"method": name, "dial": best["dial"], "metrics": best["metrics"],
+        row = {"method": name, "samples": best["samples"], "metrics": best["metrics"],
                "milliseconds": best["milliseconds"]["frame"]["median"]}
         if "image" in best:
             row["image"] = best["image"]
         rows.append(row)
     return {"case": case["name"], "rows": rows,
-            "reference": {"method": "hybrid", "dial": reference["dial"], "milliseconds": wanted}}
+            "reference": {"method": "hybrid", "samples": reference["samples"], "milliseconds": wanted}}
 
 
 def scaling_axis(axis, title, unit, values, labels, exponents):
@@ -294,7 +295,7 @@ def make(suite):
     else:
         cases = []
     results = {
-        "schema": "shutter-bench", "version": 1, "suite": suite,
+        "schema": "shutter-bench", "version": 2, "suite": suite,
         "created": "2026-01-01T00:00:00Z", "complete": suite != "hard",
         "revision": {"git": "abc1234", "dirty": suite == "hard"},
         "machine": {"cpu": "synthetic CPU", "cores": 2, "memoryBytes": 8 << 30,
@@ -308,7 +309,7 @@ def make(suite):
             {"id": "ssim", "name": "SSIM", "unit": "", "better": "higher"},
             {"id": "flip", "name": "FLIP", "unit": "", "better": "lower"},
         ],
-        "methods": [{"name": m[0], "title": m[1], "publication": m[2], "dial": m[3],
+        "methods": [{"name": m[0], "title": m[1], "publication": m[2], "sampleUnit": m[3],
                      "default": m[4], "usesRays": m[5]} for m in methods],
         "headline": {"method": "hybrid", "baseline": "gather"},
         "cases": cases,

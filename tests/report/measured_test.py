@@ -43,12 +43,12 @@ class Measured(unittest.TestCase):
         results = self.measure("--suite", "paper", "--methods", "sharp,gather,hybrid,truth")
         self.validate(results)
         case = results["cases"][0]
-        dials = {m["method"]: [] for m in case["measurements"]}
+        counts = {m["method"]: [] for m in case["measurements"]}
         for m in case["measurements"]:
-            dials[m["method"]].append(m["dial"])
-        self.assertEqual(dials["sharp"], [None])
-        self.assertEqual(dials["hybrid"], [4, 8, 15, 16, 32, 64])
-        self.assertEqual(dials["truth"], [1 << i for i in range(9)])
+            counts[m["method"]].append(m["samples"])
+        self.assertEqual(counts["sharp"], [None])
+        self.assertEqual(counts["hybrid"], [4, 8, 15, 16, 32, 64])
+        self.assertEqual(counts["truth"], [1 << i for i in range(9)])
         self.assertEqual(results["equalTime"][0]["reference"]["method"], "hybrid")
 
     def test_a_hard_case(self):

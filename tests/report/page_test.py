@@ -22,7 +22,7 @@ def find_front(points, higher):
 class Page(PageCase):
     def expected_points(self, case, metric, time="frame"):
         points = {}
-        for m in sorted(case["measurements"], key=lambda m: m["dial"] or 0):
+        for m in sorted(case["measurements"], key=lambda m: m["samples"] or 0):
             points.setdefault(m["method"], []).append(
                 [m["milliseconds"][time]["median"], m["metrics"][metric]])
         return points
@@ -236,9 +236,9 @@ class Page(PageCase):
                      if r["method"] == "truth")
         text = self.find("#lede").text
         ratio = time(best) / time(hybrid)
-        self.assertIn(f"{best['method']}, {best['dial']} rays, reaches "
+        self.assertIn(f"{best['method']}, {best['samples']} rays, reaches "
                       f"{best['metrics']['psnr']:.1f} dB for {ratio:.1f}×", text)
-        self.assertIn("In the time of hybrid, truth traces 1 ray a pixel and reaches "
+        self.assertIn("In the time of hybrid, truth traces 1 ray per pixel and reaches "
                       f"{truth['metrics']['psnr']:.1f} dB", text)
 
     def test_lede_says_where_one_ray_takes_longer_than_there_is_time(self):
@@ -248,7 +248,7 @@ class Page(PageCase):
             row["milliseconds"] = 3.2 * entry["reference"]["milliseconds"]
 
         self.make_page("slow-truth", slow)
-        self.assertIn("Even 1 ray a pixel of truth takes 3.2× the time of hybrid, and reaches ",
+        self.assertIn("Even 1 ray per pixel of truth takes 3.2× the time of hybrid, and reaches ",
                       self.find("#lede").text)
 
     def test_headline_over_many_cases_is_a_median(self):

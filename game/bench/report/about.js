@@ -59,14 +59,14 @@ function makeTruthTable() {
 function makeMethodTable() {
     const rows = results.methods.map((method) => [{content: methodLabel(method.name)},
         method.title, method.publication || "–",
-        method.dial === "none" ? "none" : `${method.dial}, default ${method.default}`,
+        method.sampleUnit === "none" ? "none" : `${method.sampleUnit}, default ${method.default}`,
         method.usesRays ? "yes" : "no"]);
-    return makeTable(["Method", "What it is", "Publication", "Dial", "Rays"], rows);
+    return makeTable(["Method", "What it is", "Publication", "Samples", "Rays"], rows);
 }
 
 function makeSkippedTable() {
     const rows = results.cases.flatMap((c) => (c.skipped ?? []).map((skipped) =>
-        [c.title, {content: methodLabel(skipped.method, skipped.dial)}, skipped.reason]));
+        [c.title, {content: methodLabel(skipped.method, skipped.samples)}, skipped.reason]));
     return rows.length > 0 ? makeTable(["Case", "Measurement", "Why"], rows) : null;
 }
 

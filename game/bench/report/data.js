@@ -87,8 +87,8 @@ function findParetoFront(points, metric) {
 }
 
 /**
- * One row a method at its default dial, over `cases`: medians of time and of every metric, by
- * rising time. A method without a measurement in some of the cases is left out: its median would
+ * One row per method at its default sample count, over `cases`: medians of time and of every
+ * metric, by rising time. A method without a measurement in some of the cases is left out: its median would
  * be of other cases than the rest's.
  */
 function summarize(cases) {
@@ -98,7 +98,7 @@ function summarize(cases) {
         if (found.length === 0 || found.length < cases.length) continue;
         rows.push({
             method,
-            dial: found[0].dial,
+            samples: found[0].samples,
             time: median(found.map((m) => timeOf(m).median)),
             metrics: Object.fromEntries(results.metrics.map((metric) =>
                 [metric.id, median(found.map((m) => metricOf(m, metric)))])),

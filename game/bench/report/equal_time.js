@@ -3,7 +3,7 @@
 
 function makeEqualTimeRow(theCase, reference, row, base) {
     const crop = theCase.crops?.[0];
-    const isReference = row.method === reference.method && row.dial === reference.dial;
+    const isReference = row.method === reference.method && row.samples === reference.samples;
     const cells = results.metrics.flatMap((metric) => {
         const value = metricOf(row, metric);
         const cell = {content: formatMetric(metric, value), class: "n"};
@@ -16,7 +16,7 @@ function makeEqualTimeRow(theCase, reference, row, base) {
         return [cell, {content: text, class: `n ${isReference ? "" : side}`}];
     });
     return [
-        {content: methodLabel(row.method, row.dial), class: isReference ? "reference" : ""},
+        {content: methodLabel(row.method, row.samples), class: isReference ? "reference" : ""},
         {content: formatMs(row.milliseconds), class: "n"},
         {content: formatRatio(row.milliseconds / reference.milliseconds), class: "n soft"},
         ...cells,
@@ -34,7 +34,7 @@ function describeClosest(reference, rows, base) {
     const value = metricOf(closest, metric);
     const gained = gain(metric, value, metricOf(base, metric));
     if (!Number.isFinite(gained)) return "";
-    return ` The best rival is ${nameMeasurement(closest.method, closest.dial)}: ` +
+    return ` The best rival is ${nameMeasurement(closest.method, closest.samples)}: ` +
         `${formatMetric(metric, Math.abs(gained))} ${metric.unit || metric.name} ` +
         `${gained > 0 ? "better" : "worse"} than ${reference.method}.`;
 }
@@ -46,17 +46,17 @@ function drawEqualTime() {
     const {reference} = entry;
     const theCase = chosen.case;
     const base = theCase.measurements.find((m) =>
-        m.method === reference.method && m.dial === reference.dial);
+        m.method === reference.method && m.samples === reference.samples);
     if (!base) throw new Error(`equalTime of ${entry.case}: its reference was not measured`);
     const own = {...reference, metrics: base.metrics, image: base.image};
     const rows = [own, ...entry.rows.filter((row) =>
-        row.method !== reference.method || row.dial !== reference.dial)];
+        row.method !== reference.method || row.samples !== reference.samples)];
     rows.sort((a, b) =>
         gain(chosen.metric, metricOf(b, chosen.metric), metricOf(a, chosen.metric)) || 0);
-    byId("equal-time-note").textContent = `${theCase.title}: every method's dial is set so that ` +
-        `it takes the frame time of ${nameMeasurement(reference.method, reference.dial)}, ` +
-        `${formatMs(reference.milliseconds)} ms, as nearly as the dial allows; best first. A ` +
-        "method without a dial, or that cannot be so slow or so fast, stands with its nearest." +
+    byId("equal-time-note").textContent = `${theCase.title}: every method's sample count is ` +
+        `chosen so that it takes the frame time of ${nameMeasurement(reference.method, reference.samples)}, ` +
+        `${formatMs(reference.milliseconds)} ms, as nearly as sample counts allow; best first. A ` +
+        "method without samples, or that cannot be so slow or so fast, is listed with its nearest." +
         describeClosest(reference, rows, base);
     const columns = ["Method", {content: "ms", class: "n"},
         {content: "of the time", class: "n"},

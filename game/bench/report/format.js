@@ -42,12 +42,12 @@ function describeMetric(metric) {
     return `${name}, ${metric.better} is better`;
 }
 
-function nameDial(methodName, dial) {
-    if (dial === null || dial === undefined) return "";
-    const unit = methodByName.get(methodName)?.dial;
-    if (unit === undefined) return formatNumber(dial, 0);
+function nameSamples(methodName, samples) {
+    if (samples === null || samples === undefined) return "";
+    const unit = methodByName.get(methodName)?.sampleUnit;
+    if (unit === undefined) return formatNumber(samples, 0);
     if (unit === "none") return "";
-    return dial === 1 ? `1 ${unit.replace(/s$/, "")}` : `${formatNumber(dial, 0)} ${unit}`;
+    return samples === 1 ? `1 ${unit.replace(/s$/, "")}` : `${formatNumber(samples, 0)} ${unit}`;
 }
 
 /** "1 case", "12 cases" */
@@ -56,8 +56,8 @@ function countOf(count, noun) {
 }
 
 /** "hybrid, 15 samples" */
-function nameMeasurement(methodName, dial) {
-    const amount = nameDial(methodName, dial);
+function nameMeasurement(methodName, samples) {
+    const amount = nameSamples(methodName, samples);
     return amount ? `${methodName}, ${amount}` : methodName;
 }
 
@@ -95,11 +95,11 @@ function makeTable(columns, rows, attributes = {}) {
     return el("div", {class: "scroll"}, table);
 }
 
-function methodLabel(methodName, dial) {
-    const amount = nameDial(methodName, dial);
+function methodLabel(methodName, samples) {
+    const amount = nameSamples(methodName, samples);
     return el("span", {class: "method", title: methodByName.get(methodName)?.title ?? ""},
         markIcon(methodName), methodName,
-        amount ? el("span", {class: "dial"}, ` ${amount}`) : null);
+        amount ? el("span", {class: "sample-count"}, ` ${amount}`) : null);
 }
 
 function fillSelect(select, options, selected) {

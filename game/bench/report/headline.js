@@ -58,16 +58,16 @@ function writeScalingSentence() {
         `${formatRatio(growth)}${fit}.`;
 }
 
-/** {method, dial, time, value} of all that was measured in the pair's one case, or the medians. */
+/** {method, samples, time, value} of all measurements in the pair's one case, or the medians. */
 function listRivals(pair, metric) {
     if (pair.cases.length > 1) {
         return summarize(pair.cases).map((row) => ({
-            method: row.method.name, dial: row.dial, time: row.time,
+            method: row.method.name, samples: row.samples, time: row.time,
             value: row.metrics[metric.id],
         }));
     }
     return pair.cases[0].measurements.map((m) => ({
-        method: m.method, dial: m.dial, time: m.milliseconds.frame.median,
+        method: m.method, samples: m.samples, time: m.milliseconds.frame.median,
         value: metricOf(m, metric),
     }));
 }
@@ -94,7 +94,7 @@ function writeNextSentence(pair, metric) {
     const reached = Number.isFinite(next.value)
         ? `reaches ${formatShort(metric, next.value)}` : "equals the truth";
     return `The cheapest other method that comes closer, ` +
-        `${nameMeasurement(next.method, next.dial)}, ${reached} for ` +
+        `${nameMeasurement(next.method, next.samples)}, ${reached} for ` +
         `${formatRatio(next.time / time)} the time of ${method}.`;
 }
 
@@ -105,14 +105,14 @@ function writeEqualTimeSentence(metric) {
     if (entries.length === 0 || truthMethods.has("truth")) return "";
     const [{reference, row}] = entries;
     const value = median(entries.map((entry) => metricOf(entry.row, metric)));
-    const dial = nameDial(row.method, median(entries.map((entry) => entry.row.dial)));
+    const amount = nameSamples(row.method, median(entries.map((entry) => entry.row.samples)));
     const ratio = median(entries.map((entry) =>
         entry.row.milliseconds / entry.reference.milliseconds));
     const reached = formatShort(metric, value);
     return ratio > 1.25
-        ? ` Even ${dial} a pixel of truth takes ${formatRatio(ratio)} the time of ` +
+        ? ` Even ${amount} per pixel of truth takes ${formatRatio(ratio)} the time of ` +
             `${reference.method}, and reaches ${reached}.`
-        : ` In the time of ${reference.method}, truth traces ${dial} a pixel and reaches ` +
+        : ` In the time of ${reference.method}, truth traces ${amount} per pixel and reaches ` +
             `${reached}.`;
 }
 
@@ -166,7 +166,7 @@ function drawLadder() {
     if (rows.length < 2 || !metric) return;
     reveal("ladder");
     const many = results.cases.length > 1;
-    byId("ladder-note").textContent = `Each method at its default dial, fastest first` +
+    byId("ladder-note").textContent = `Each method at its default sample count, fastest first` +
         `${many ? `, medians over ${results.cases.length} cases` : ""}. ` +
         `Time on a logarithmic line, ${metric.name} on a linear one; on the Pareto front stand ` +
         "those that no other here beats in both.";
@@ -184,7 +184,7 @@ function drawLadder() {
         {content: `${metric.better} is better`, class: "wide"},
         ...others.map((m) => ({content: m.name, class: "n"})), "Front"];
     const body = rows.map((row) => [
-        {content: methodLabel(row.method.name, row.dial)},
+        {content: methodLabel(row.method.name, row.samples)},
         {content: formatMs(row.time), class: "n"},
         {content: row.time > 0 ? formatRatio(row.time / fastest) : "–", class: "n soft"},
         {content: makeStrip(timeScale(row.time), row.method.name), class: "wide"},

@@ -10,7 +10,7 @@ function drawMatrix() {
     if (results.cases.length < 2 || !metric) return;
     reveal("matrix");
     byId("matrix-note").textContent = `${describeMetric(metric)}; every method at its default ` +
-        "dial. The stronger the colour of a cell, the closer it is to the best of its row, " +
+        "sample count. The stronger the colour of a cell, the closer it is to the best of its row, " +
         "which is framed. What made the truth is judged by itself and takes no part. " +
         "Choose a case by its name to see it in the other sections.";
     const methods = results.methods.filter((method) =>

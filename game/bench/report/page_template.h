@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: MIT
-// Text into a page of HTML: placeholders, and JSON inside a <script> element.
+// What the report's page is put together from: the files embedded in this program, placeholders,
+// JSON inside a <script> element, and bytes as text.
 #pragma once
 
 #include "engine/core/result.h"
 
+#include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace shutter::bench {
+
+/// HTML with the placeholders style, chart, results, pictures and scripts.
+[[nodiscard]] std::string_view getReportPage();
+
+[[nodiscard]] std::string_view getReportStyle();
+
+/// Chart.js with its licence notice; empty where the program was built without it.
+[[nodiscard]] std::string_view getChartJs();
+
+/// The page's own scripts, one after another: they run as one ECMAScript module.
+[[nodiscard]] std::string joinReportScripts();
 
 /// Replaces each `{{name}}` of `page` by its value. What is put in is not searched again, so a
 /// value may hold braces. Error: a placeholder without a value, a value without a placeholder, or
@@ -16,8 +30,11 @@ namespace shutter::bench {
 [[nodiscard]] core::Result<std::string>
 fillPage(std::string_view page, const std::map<std::string, std::string_view>& values);
 
-/// JSON text that means the same and can stand inside a <script> element: it holds no `<`, so it
+/// JSON text with the same meaning that is safe inside a <script> element: it holds no `<`, so it
 /// can neither end the element nor open a comment, and no line separator (U+2028, U+2029).
 [[nodiscard]] std::string escapeForScript(std::string_view json);
+
+/// RFC 4648, section 4: the standard alphabet, padded, without line breaks.
+[[nodiscard]] std::string encodeBase64(std::span<const uint8_t> bytes);
 
 } // namespace shutter::bench

@@ -3,9 +3,7 @@
 
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
-#include "game/bench/report/base64.h"
 #include "game/bench/report/page_template.h"
-#include "game/bench/report/report_sources.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,7 +19,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr const char* kSchema = "shutter-bench";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr uint64_t kMaxResultsBytes = 256ULL << 20;
 constexpr uint64_t kMaxPictureBytes = 64ULL << 20;
 
@@ -42,7 +40,7 @@ core::Status checkResults(const json& results) {
     return {};
 }
 
-/// Every string that stands under "image" or "errorMap", at any depth.
+/// Every string under "image" or "errorMap", at any depth.
 void collectPicturePaths(const json& value, std::set<std::string>& paths) {
     if (value.is_object()) {
         for (const auto& [key, member] : value.items()) {
@@ -106,10 +104,8 @@ core::Status checkReportPageCanBeMade() {
 }
 
 core::Status writeReportPage(const json& results, const fs::path& folder) {
-    if (core::Status possible = checkReportPageCanBeMade(); !possible)
-        return possible;
-    if (core::Status usable = checkResults(results); !usable)
-        return usable;
+    SHUTTER_TRY(checkReportPageCanBeMade());
+    SHUTTER_TRY(checkResults(results));
     const auto pictures = embedPictures(results, folder);
     if (!pictures)
         return pictures.error();

@@ -16,7 +16,7 @@ namespace shutter::bench {
 
 /// Writes folder/index.html, atomically, with every picture that `results` names (PNG files,
 /// relative to `folder`) inside it. Error: no Chart.js, `results` is not of this schema and
-/// version, a picture is missing or is no PNG, or the page cannot be written.
+/// version, a picture is missing or not a PNG, or the page cannot be written.
 [[nodiscard]] core::Status
 writeReportPage(const nlohmann::json& results, const std::filesystem::path& folder);
 

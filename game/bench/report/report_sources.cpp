@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/report/report_sources.h"
-
 #include "game/bench/report/about_js.h"
 #include "game/bench/report/chart_js.h"
 #include "game/bench/report/charts_js.h"
@@ -13,6 +11,7 @@
 #include "game/bench/report/marks_js.h"
 #include "game/bench/report/matrix_js.h"
 #include "game/bench/report/page_html.h"
+#include "game/bench/report/page_template.h"
 #include "game/bench/report/pictures_js.h"
 #include "game/bench/report/scaling_js.h"
 #include "game/bench/report/slider_js.h"

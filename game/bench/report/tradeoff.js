@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Error against time: every measurement of a case, dial points joined, the Pareto front.
+// Error against time: every measurement of a case, with a line through each method's and the Pareto
+// front.
 
 function describeCounters(measurement) {
     return Object.entries(measurement.counters ?? {})
         .map(([name, value]) => `${name}: ${formatNumber(value, 0)}`);
 }
 
-/** Points of one method by rising dial; `omitted` takes the names of those that have no place. */
+/** Points of one method by rising sample count; `omitted` takes the names of those without a place. */
 function collectPoints(theCase, methodName, metric, omitted) {
     const found = theCase.measurements.filter((m) => m.method === methodName);
-    found.sort((a, b) => (a.dial ?? 0) - (b.dial ?? 0));
+    found.sort((a, b) => (a.samples ?? 0) - (b.samples ?? 0));
     const points = [];
     for (const measurement of found) {
         const time = timeOf(measurement);
         const value = metricOf(measurement, metric);
-        const name = nameMeasurement(methodName, measurement.dial);
+        const name = nameMeasurement(methodName, measurement.samples);
         if (!(time.median > 0)) {
             omitted.push(`${name} (no time on a logarithmic axis: ${formatMs(time.median)} ms)`);
         } else if (!Number.isFinite(value)) {
@@ -51,7 +52,7 @@ function makeFrontSet(points, metric) {
 }
 
 const tradeoffTooltip = {
-    title: ([item]) => nameMeasurement(item.raw.measurement.method, item.raw.measurement.dial),
+    title: ([item]) => nameMeasurement(item.raw.measurement.method, item.raw.measurement.samples),
     label: (item) => {
         const {measurement} = item.raw;
         const time = timeOf(measurement);
@@ -126,7 +127,7 @@ function tabulate(measurements) {
     const rows = measurements.map((m) => {
         const {frame, effect} = m.milliseconds;
         return [
-            {content: methodLabel(m.method, m.dial)},
+            {content: methodLabel(m.method, m.samples)},
             {content: formatMs(frame.median), class: "n"},
             {content: `${formatMs(frame.q1)} – ${formatMs(frame.q3)}`, class: "n soft"},
             {content: formatMs(effect.median), class: "n"},
@@ -146,7 +147,7 @@ function drawTradeoff() {
     const {truth} = theCase;
     byId("tradeoff-note").textContent = `${theCase.title}: ${theCase.description} The truth is ` +
         `${nameMeasurement(truth.method, truth.samples)}. A line joins a method's measurements ` +
-        "by its dial; the name stands at its default. Filled markers trace rays. Whiskers are " +
+        "by its sample counts; the name is at its default. Filled markers trace rays. Whiskers are " +
         "quartiles of time; point at a marker for its figures." + (methodsOf(theCase)
             .some((method) => method.name === truth.method)
             ? ` ${truth.method} made the truth, so it is judged by itself: it is hidden until ` +

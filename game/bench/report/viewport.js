@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A picture, whole or a part of it enlarged without smoothing, and the list of pictures of a case.
 
-/** Pictures of a case that are in this file: the truth first, then by method and dial. */
+/** Pictures of a case that are in this file: the truth first, then by method and sample count. */
 function picturesOf(theCase) {
     const list = [];
     const {truth} = theCase;
@@ -16,7 +16,7 @@ function picturesOf(theCase) {
     }
     for (const measurement of theCase.measurements) {
         if (!measurement.image) continue;
-        const label = nameMeasurement(measurement.method, measurement.dial);
+        const label = nameMeasurement(measurement.method, measurement.samples);
         list.push({
             id: label,
             method: measurement.method,

@@ -2,7 +2,7 @@
 // Suites whose pictures are compared with the truth.
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scenes.h"
-#include "game/bench/suites/suites.h"
+#include "game/bench/suites/suite.h"
 
 namespace shutter::bench {
 

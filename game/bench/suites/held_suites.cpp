@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Suites whose figures are held against bounds instead of compared with the truth.
-#include "game/bench/suites/suites.h"
+#include "game/bench/suites/suite.h"
 
 namespace shutter::bench {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "assets/generator/scaling_scenes.h"
 #include "assets/generator/scenes.h"
-#include "game/bench/suites/suites.h"
+#include "game/bench/suites/suite.h"
 
 #include <array>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/suites/suite.h"
 
-#include "game/bench/suites/suites.h"
-
 #include <algorithm>
 #include <array>
 
@@ -30,27 +28,28 @@ std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
     return powers;
 }
 
-/// Positions of a dial, rising; the method's default joins them where it lies among them.
-std::vector<uint32_t> listPositions(const game::MethodInfo& method, uint32_t maxRays) {
+/// Sample counts to measure a method at, rising; its default is one of them if it is not above
+/// them.
+std::vector<uint32_t> listSampleCounts(const game::MethodInfo& method, uint32_t maxRays) {
     if (!method.sampleUnit)
         return {0};
-    std::vector<uint32_t> positions;
+    std::vector<uint32_t> counts;
     switch (*method.sampleUnit) {
     case game::SampleUnit::Taps:
-        positions = listPowersOfTwo(4, 64);
+        counts = listPowersOfTwo(4, 64);
         break;
     case game::SampleUnit::Instants:
-        positions = listPowersOfTwo(2, 64); // its default is the truth itself
+        counts = listPowersOfTwo(2, 64); // its default is the truth itself
         break;
     case game::SampleUnit::Rays:
-        positions = listPowersOfTwo(1, maxRays);
+        counts = listPowersOfTwo(1, maxRays);
         break;
     }
-    if (method.defaultSamples < positions.back())
-        positions.push_back(method.defaultSamples);
-    std::sort(positions.begin(), positions.end());
-    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-    return positions;
+    if (method.defaultSamples < counts.back())
+        counts.push_back(method.defaultSamples);
+    std::sort(counts.begin(), counts.end());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+    return counts;
 }
 
 } // namespace
@@ -86,18 +85,18 @@ Suite makeOwnSuite(const game::ShotArguments& shot) {
     return suite;
 }
 
-std::vector<DialPoint>
+std::vector<SamplePoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays) {
-    std::vector<DialPoint> points;
+    std::vector<SamplePoint> points;
     for (const game::MethodInfo* method : methods)
-        for (uint32_t position : listPositions(*method, maxRays))
-            points.push_back({method, position, position == method->defaultSamples});
+        for (uint32_t count : listSampleCounts(*method, maxRays))
+            points.push_back({method, count, count == method->defaultSamples});
     return points;
 }
 
-std::vector<DialPoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
+std::vector<SamplePoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
     constexpr uint32_t kMostSamples = 4;
-    std::vector<DialPoint> points;
+    std::vector<SamplePoint> points;
     for (const game::MethodInfo* method : methods) {
         const bool isTruth = method->family == game::MethodFamily::Accumulate ||
                              method->family == game::MethodFamily::Truth;

@@ -2,6 +2,7 @@
 // What a benchmark suite consists of, as data.
 #pragma once
 
+#include "assets/generator/gltf_writer.h"
 #include "engine/core/result.h"
 #include "game/options/shot_arguments.h"
 #include "game/shot/methods.h"
@@ -24,7 +25,7 @@ struct Case {
     std::string title;
     std::string description;
     game::ShotArguments shot;
-    std::optional<game::PictureSize> size; ///< that belongs to the case; nothing: the run's
+    std::optional<game::PictureSize> size; ///< empty: the run's size
     /// Writes the scene to a file; empty where `shot.scene` names one that is there.
     std::function<core::Status(const std::filesystem::path&)> writeScene;
 };
@@ -36,7 +37,7 @@ struct ScalingPoint {
     Case shot;
 };
 
-/// What time does when one thing grows.
+/// How time grows with one parameter.
 struct ScalingAxis {
     std::string name; ///< letters, digits, -
     std::string title;
@@ -49,33 +50,48 @@ struct Suite {
     std::vector<Case> cases;                    ///< compared with the truth
     std::vector<ScalingAxis> axes;              ///< timed only
     std::vector<stability::HardCase> hardCases; ///< measured against bounds
-    std::vector<demand::Claim> claims;          ///< of cost, measured against bounds
-    game::PictureSize size{640, 360};           ///< of its pictures, unless another is asked for
+    std::vector<demand::Claim> claims;          ///< about cost, measured against bounds
+    game::PictureSize size{640, 360};           ///< of its pictures, unless --size says otherwise
     uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
-    double limitSeconds = 60.0; ///< dials whose one picture takes longer are skipped
-    uint32_t maxRays = 256;     ///< end of the sweep of methods whose dial is rays
+    double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
+    uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
 };
 
-/// Error: the suites there are.
+/// Error: lists the names of all suites.
 [[nodiscard]] core::Result<Suite> findSuite(std::string_view name);
 
 /// A user's own shot as a suite of one case, swept like `paper`.
 [[nodiscard]] Suite makeOwnSuite(const game::ShotArguments& shot);
 
-/// A method at one position of its dial.
-struct DialPoint {
+/// A method at one of its sample counts.
+struct SamplePoint {
     const game::MethodInfo* method = nullptr;
-    uint32_t samples = 0; ///< 0: the method has no dial
+    uint32_t samples = 0; ///< 0: the method takes none
     bool isDefault = false;
 };
 
-/// Every dial position of the methods, cheap to dear.
-[[nodiscard]] std::vector<DialPoint>
+/// Every sample count that the methods are measured at, the cheapest first.
+[[nodiscard]] std::vector<SamplePoint>
 makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
 
 /// The methods at their defaults; truths with a few samples, since their time is proportional to
 /// them.
-[[nodiscard]] std::vector<DialPoint>
+[[nodiscard]] std::vector<SamplePoint>
 makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
+
+/// Case::writeScene of a generated scene.
+[[nodiscard]] std::function<core::Status(const std::filesystem::path&)>
+makeWriter(std::function<generator::GltfWriter()> build);
+
+/// The paper's shot: a vase that crosses in front of a sofa.
+[[nodiscard]] Suite makePaperSuite();
+/// Twelve shots in which methods are known to fail.
+[[nodiscard]] Suite makeHardSuite();
+/// Resolution, entities, triangles, moving share of the screen, exposure.
+[[nodiscard]] Suite makeScalingSuite();
+/// Hard cases against the bounds that keep them numerically stable.
+[[nodiscard]] Suite makeStabilitySuite();
+/// The cost of a frame against the demands of its scene.
+[[nodiscard]] Suite makeDemandSuite();
 
 } // namespace shutter::bench

@@ -33,7 +33,7 @@ struct Gpu {
     vk::raii::DeviceMemory
     allocate(vk::MemoryRequirements of, vk::MemoryPropertyFlags flags) const {
         const auto types = physical.getMemoryProperties().memoryTypes;
-        uint32_t type = 0; // Vulkan promises one of each kind that is asked for here
+        uint32_t type = 0; // Vulkan guarantees a memory type of each kind needed here
         while (!(of.memoryTypeBits >> type & 1) || (types[type].propertyFlags & flags) != flags)
             ++type;
         return {device, vk::MemoryAllocateInfo(of.size, type)};
@@ -119,7 +119,7 @@ int main() try {
     inputs.color = {*color.image, kDrawn, kCopied};
     inputs.motionDepth = {*motion.image, kDrawn, {}};
     inputs.output = {*output.image, {}, kCopied};
-    constexpr motion_blur::MotionBlurSettings kSettings{&motion_blur::getMethod("gather")};
+    const motion_blur::MotionBlurSettings kSettings{&motion_blur::getMethod("gather")};
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         if (frame >= kInFlight) // (4) is given the number of a frame that the GPU is done with
             (void)gpu.device.waitForFences(*fences[frame - kInFlight], true, UINT64_MAX);

@@ -52,7 +52,7 @@ class DemoStage : public Stage {
                           input.wasClicked(app::MouseButton::Left) ||
                           input.wasPressed(PadButton::A);
         for (uint32_t i = 0; i < frame.time.steps; ++i) {
-            // What was tapped, in a frame without steps even, belongs to one step.
+            // A tap belongs to exactly one step, even if its frame has none.
             DemoControls controls = read;
             controls.switchCamera = mPressed.switchCamera;
             controls.toggleExclusion = mPressed.toggleExclusion;
@@ -70,7 +70,7 @@ class DemoStage : public Stage {
 
   private:
     std::unique_ptr<Demo> mDemo;
-    DemoControls mPressed; ///< and not yet told to a step
+    DemoControls mPressed; ///< since the last step
 };
 
 } // namespace

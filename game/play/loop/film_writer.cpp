@@ -2,8 +2,8 @@
 #include "game/play/loop/film_writer.h"
 
 #include "engine/io/image_file.h"
-#include "game/output/film.h"
 #include "game/output/render_options.h"
+#include "game/output/sequence.h"
 
 #include <system_error>
 
@@ -74,7 +74,7 @@ core::Status FilmWriter::finish() {
     std::error_code ignored;
     for (uint32_t i = 0; i < mCount; ++i)
         fs::remove(frameFile(mPattern, static_cast<int>(i)), ignored);
-    fs::remove(frames.folder, ignored); // unless it holds what is not ours
+    fs::remove(frames.folder, ignored); // fails if it holds other files
     return {};
 }
 

@@ -16,7 +16,7 @@ class FilmWriter {
   public:
     /// \param out NAME%04d.png, .jpg, or .mp4, whose frames go to a folder beside it first
     /// \param ffmpeg the program, for a film; empty: the one on PATH
-    /// \param fps frames a second of the film, above 0
+    /// \param fps frames per second of the film, above 0
     /// Error: ffmpeg is missing, or nothing can be written there.
     [[nodiscard]] static core::Result<std::unique_ptr<FilmWriter>>
     open(const std::filesystem::path& out, const std::filesystem::path& ffmpeg, double fps);

@@ -75,8 +75,7 @@ core::Result<std::filesystem::path> FlythroughRecorder::finish(const std::filesy
         const auto file = folder / fmt::format("flythrough_{:03}.json", i);
         if (std::filesystem::exists(file, ignored))
             continue;
-        if (core::Status written = flythrough::writeFlythrough(file, flight); !written)
-            return written.error();
+        SHUTTER_TRY(flythrough::writeFlythrough(file, flight));
         return file;
     }
     return core::makeError("{} holds {} flythroughs already", folder.string(), kMostFiles - 1);

@@ -11,7 +11,7 @@
 
 namespace shutter::game {
 
-/// Seconds of game time between keys: at 10 keys a second a curve through them is within
+/// Seconds of game time between keys: at 10 keys per second a curve through them is within
 /// millimetres of a hand's flight.
 inline constexpr double kRecordedKeySeconds = 0.1;
 
@@ -33,7 +33,7 @@ class FlythroughRecorder {
     std::optional<flythrough::Flythrough> mFlight;
     ecs::Entity mCamera;                            ///< of the last frame
     double mStartSeconds = 0.0;                     ///< game time of the first key
-    std::optional<flythrough::FlythroughKey> mLast; ///< of the last frame, where it is no key
+    std::optional<flythrough::FlythroughKey> mLast; ///< the last frame's key, if it was not kept
 };
 
 } // namespace shutter::game

@@ -2,14 +2,12 @@
 #include "game/play/loop/play_loop.h"
 
 #include "engine/core/log.h"
-#include "engine/io/image_file.h"
 #include "engine/scene/shutter.h"
-#include "game/options/user_folders.h"
+#include "game/play/loop/hotkeys.h"
 #include "modules/debug_view/debug_view.h"
 
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -18,8 +16,6 @@ namespace shutter::game {
 namespace {
 
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
-/// Of a player without settings: a third of a frame at 20 frames a second.
-constexpr double kFirstBudgetMilliseconds = 16.0;
 /// The divider can be grabbed this far beside it.
 constexpr double kGrabPx = 8.0;
 
@@ -28,6 +24,20 @@ math::uvec2 scaledSize(const math::uvec2& window, double scale) {
         return std::max(static_cast<uint32_t>(std::lround(px * scale)), 1u);
     };
     return {side(window.x), side(window.y)};
+}
+
+/// What either the panel or the keyboard wishes for; the keyboard's speed wins.
+PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
+    PanelWishes both;
+    both.save = panel.save || keys.save;
+    both.load = panel.load || keys.load;
+    both.togglePause = panel.togglePause || keys.togglePause;
+    both.singleStep = panel.singleStep || keys.singleStep;
+    both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
+    both.toggleFullScreen = panel.toggleFullScreen || keys.toggleFullScreen;
+    both.quit = panel.quit || keys.quit;
+    both.speed = keys.speed ? keys.speed : panel.speed;
+    return both;
 }
 
 } // namespace
@@ -40,85 +50,35 @@ PlayLoop::~PlayLoop() {
 
 void PlayLoop::releaseDrawing() {
     mRenderer.reset();
-    mUi.reset();
-    mSwapchain.reset(); // before the window that it shows on
+    mScreen.releaseDrawing();
 }
 
 core::Result<std::unique_ptr<PlayLoop>> PlayLoop::open(const PlayOptions& options) {
     std::unique_ptr<PlayLoop> loop(new PlayLoop(options));
     using Step = core::Status (PlayLoop::*)();
-    for (const Step step :
-         {&PlayLoop::openSettings,
-          &PlayLoop::openFilm,
-          &PlayLoop::openDevice,
-          &PlayLoop::openStage})
-        if (core::Status done = (loop.get()->*step)(); !done)
-            return done.error();
+    for (const Step step : {&PlayLoop::openScript, &PlayLoop::openScreen, &PlayLoop::openStage})
+        SHUTTER_TRY((loop.get()->*step)());
     return loop;
 }
 
-core::Status PlayLoop::openSettings() {
+core::Status PlayLoop::openScript() {
     if (!mOptions.script.empty()) {
         auto script = app::readInputScript(mOptions.script);
         if (!script)
             return script.error();
         mScript.emplace(std::move(script).value());
     }
-    // What a script shows depends on nothing that a person left behind.
-    const bool isOwn = mOptions.settings.empty() && !mScript;
-    mSettingsFile = isOwn ? findSettingsFile() : mOptions.settings;
-    std::error_code ignored;
-    if (!mSettingsFile.empty() && (!isOwn || std::filesystem::exists(mSettingsFile, ignored))) {
-        auto loaded = loadPlaySettings(mSettingsFile);
-        if (!loaded && !isOwn)
-            return loaded.error();
-        if (!loaded)
-            refuseSettings(loaded.error().message);
-        else
-            mSettings = std::move(loaded).value();
-    }
-    // A person's first session keeps its rate; scripts and films depend on no clock.
-    if (isOwn && mOptions.film.empty() && !std::filesystem::exists(mSettingsFile, ignored))
-        mSettings.budget.milliseconds = kFirstBudgetMilliseconds;
-    if (mOptions.method)
-        mSettings.method = *mOptions.method;
-    if (mOptions.vsync)
-        mSettings.vsync = *mOptions.vsync;
-    if (!mOptions.film.empty() && mOptions.settings.empty())
-        mSettings.showPanel = false;
-    return {};
+    auto settings = mKeeper.open(mOptions, mScript.has_value(), mMessage);
+    if (!settings)
+        return settings.error();
+    mSettings = std::move(settings).value();
+    return mFiles.open(mOptions, mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps);
 }
 
-core::Status PlayLoop::openDevice() {
-    const ShotOptions& shot = mOptions.shot;
-    gpu::DeviceOptions wanted = mOptions.device;
-    wanted.cacheFolder = findCacheFolder();
-    mHeadlessSize = {shot.width, shot.height};
-    if (mOptions.hasWindow) {
-        auto window = app::Window::open({"Shutter", shot.width, shot.height});
-        if (!window)
-            return core::makeError("{}; --no-window does without", window.error().message);
-        mWindow = std::move(window).value();
-        wanted.surfaceExtensions = mWindow->surfaceExtensions();
-    }
-    auto device = gpu::Device::create(wanted);
-    if (!device)
-        return device.error();
-    mDevice = std::move(device).value();
-    if (mWindow) {
-        auto surface = mWindow->createSurface(mDevice->instance());
-        if (!surface)
-            return surface.error();
-        const math::uvec2 size = mWindow->framebufferSize();
-        auto swapchain =
-            gpu::Swapchain::create(*mDevice, surface.value(), {size.x, size.y, mSettings.vsync});
-        if (!swapchain)
-            return swapchain.error();
-        mSwapchain = std::move(swapchain).value();
-    }
-    mUi = std::make_unique<app::Ui>(*mDevice);
+core::Status PlayLoop::openScreen() {
+    SHUTTER_TRY(mScreen.open(mOptions, mSettings.vsync));
     for (const MethodInfo& method : listMethods())
-        if (canRun(method, *mDevice))
+        if (canRun(method, mScreen.device()))
             mMethods.emplace_back(method.name);
     for (const debug_view::ViewInfo& view : debug_view::listViews())
         mViews.emplace_back(view.name);
@@ -138,9 +98,8 @@ core::Status PlayLoop::openStage() {
             return demo.error();
         mStage = makeDemoStage(std::move(demo).value());
     }
-    mRenderer = std::make_unique<PlayRenderer>(*mDevice, mStage->world().assets);
-    if (mWindow)
-        mWindow->setTitle("Shutter: " + mStage->title());
+    mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
+    mScreen.setTitle("Shutter: " + mStage->title());
     return {};
 }
 
@@ -151,7 +110,7 @@ void PlayLoop::replaceMissingMethods() {
         mMessage = fmt::format(
             "method {} needs rays, which {} cannot trace: gather instead",
             *method,
-            mDevice->info().name
+            mScreen.device().info().name
         );
         core::logWarning("{}", mMessage);
         *method = "gather";
@@ -160,54 +119,33 @@ void PlayLoop::replaceMissingMethods() {
 
 core::Status PlayLoop::run() {
     while (!mQuit)
-        if (core::Status done = advance(); !done)
-            return done;
+        SHUTTER_TRY(advance());
     return finish();
-}
-
-core::Status PlayLoop::openFilm() {
-    if (mOptions.film.empty())
-        return {};
-    const double fps = mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps;
-    auto film = FilmWriter::open(mOptions.film, mOptions.ffmpeg, fps);
-    if (!film)
-        return film.error();
-    mFilm = std::move(film).value();
-    return {};
 }
 
 core::Status PlayLoop::finish() {
     mRenderer->finishAll();
-    if (core::Status taken = takePictures(); !taken)
-        return taken;
-    if (mFilm)
-        if (core::Status made = mFilm->finish(); !made)
-            return made;
+    SHUTTER_TRY(mFiles.takePictures(*mRenderer));
+    SHUTTER_TRY(mFiles.finish());
     if (mRecorder.isRecording())
         toggleRecording();
-    if (!mOptions.stats.empty()) {
-        const math::uvec2 size = windowSize();
-        SessionFacts facts{mStage->title(), mDevice->info().name, mSettings.method, size};
-        facts.score = mStage->score();
-        facts.isOver = mStage->isOver();
-        releaseDrawing(); // validation looks at that, too
-        facts.validationMessages = mDevice->validationMessageCount();
-        if (core::Status written = mRecord.write(mOptions.stats, facts); !written)
-            return written;
-    }
+    SHUTTER_TRY(writeRecord());
     releaseDrawing();
-    if (const uint32_t messages = mDevice->validationMessageCount(); messages > 0)
+    if (const uint32_t messages = mScreen.device().validationMessageCount(); messages > 0)
         return core::makeError("{} Vulkan validation messages", messages);
     return {};
 }
 
-math::uvec2 PlayLoop::windowSize() const {
-    return mWindow ? mWindow->framebufferSize() : mHeadlessSize;
-}
-
-app::InputCollector& PlayLoop::collector() {
-    // What a window hears besides, an absent gamepad too, must not mix with a script.
-    return mScript || !mWindow ? mInput : mWindow->input();
+core::Status PlayLoop::writeRecord() {
+    if (mOptions.stats.empty())
+        return {};
+    SessionFacts facts{
+        mStage->title(), mScreen.device().info().name, mSettings.method, mScreen.size()};
+    facts.score = mStage->score();
+    facts.isOver = mStage->isOver();
+    releaseDrawing(); // validation watches that, too
+    facts.validationMessages = mScreen.device().validationMessageCount();
+    return mRecord.write(mOptions.stats, facts);
 }
 
 double PlayLoop::measureFrame() {
@@ -222,85 +160,59 @@ double PlayLoop::measureFrame() {
     if (mScript)
         return mScript->frameSeconds();
     // Nobody waits for a film, and nobody looks where there is no window.
-    return mFilm || !mWindow ? 1.0 / mOptions.fps : seconds;
+    return mFiles.isFilming() || !mScreen.hasWindow() ? 1.0 / mOptions.fps : seconds;
 }
 
 core::Status PlayLoop::advance() {
-    const math::uvec2 size = windowSize();
+    const math::uvec2 size = mScreen.size();
     const bool hidden = size.x == 0 || size.y == 0;
-    if (mWindow)
-        mWindow->poll(hidden && !mScript);
+    mScreen.poll(hidden && !mScript);
     applyScript();
-    mQuit = mQuit || (mWindow && mWindow->closeRequested());
+    mQuit = mQuit || mScreen.closeRequested();
     const double wallSeconds = measureFrame();
-    app::InputState input = collector().take();
+    app::InputState input = mScreen.collector(mScript.has_value()).take();
     if (hidden) { // the game rests with it
         if (mScript)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         return {};
     }
-    PanelWishes wishes;
-    drawPanel(input, wallSeconds, wishes);
-    grant(wishes);
+    apply(drawPanel(input, wallSeconds));
     input = filterInput(input);
     mTime = mClock.advance(wallSeconds);
     mStage->advance(input, {mTime, wallSeconds, double(size.y), mClock.isPaused()});
-    if (core::Status drawn = drawPicture(mTime.duration); !drawn)
-        return drawn;
+    SHUTTER_TRY(drawPicture(mTime.duration));
     if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
-    return takePictures();
+    return mFiles.takePictures(*mRenderer);
 }
 
 void PlayLoop::applyScript() {
     if (!mScript)
         return;
-    const math::uvec2 size = glm::max(windowSize(), math::uvec2(1u));
-    for (const app::ScriptEvent& event : mScript->takeFrame(collector(), size)) {
+    const math::uvec2 size = glm::max(mScreen.size(), math::uvec2(1u));
+    for (const app::ScriptEvent& event : mScript->takeFrame(mScreen.collector(true), size)) {
         if (const auto* resize = std::get_if<app::ResizeEvent>(&event.what)) {
-            mHeadlessSize = resize->size;
-            if (mWindow)
-                mWindow->resize(resize->size.x, resize->size.y);
+            mScreen.resize(resize->size);
         } else if (const auto* action = std::get_if<app::WindowAction>(&event.what)) {
-            applyWindowAction(*action);
+            mQuit = mQuit || *action == app::WindowAction::Quit;
+            mScreen.apply(*action);
         } else if (const auto* shot = std::get_if<app::ScreenshotEvent>(&event.what)) {
-            mScreenshots.push_back(shot->file);
+            mFiles.addScreenshot(shot->file);
         }
     }
     if (mScript->isOver())
         mQuit = true;
 }
 
-void PlayLoop::applyWindowAction(app::WindowAction action) {
-    if (action == app::WindowAction::Quit)
-        mQuit = true;
-    if (!mWindow)
-        return;
-    switch (action) {
-    case app::WindowAction::Minimise:
-        mWindow->minimise();
-        break;
-    case app::WindowAction::Restore:
-        mWindow->restore();
-        break;
-    case app::WindowAction::FullScreen:
-    case app::WindowAction::Windowed:
-        mWindow->setFullScreen(action == app::WindowAction::FullScreen);
-        break;
-    case app::WindowAction::Quit:
-        break;
-    }
-}
-
 app::InputState PlayLoop::filterInput(const app::InputState& input) {
     dragDivider(input);
     app::InputState left = input;
-    if (mUi->wantsPointer() || mDraggingDivider) {
+    if (mScreen.ui().wantsPointer() || mDraggingDivider) {
         left.buttons.reset();
         left.clicked.reset();
         left.wheel = 0.0;
     }
-    if (mUi->wantsKeys()) {
+    if (mScreen.ui().wantsKeys()) {
         left.down.reset();
         left.pressed.reset();
     }
@@ -308,9 +220,9 @@ app::InputState PlayLoop::filterInput(const app::InputState& input) {
 }
 
 void PlayLoop::dragDivider(const app::InputState& input) {
-    const double width = std::max(windowSize().x, 1u);
+    const double width = std::max(mScreen.size().x, 1u);
     const double atPx = mSettings.dividerShare * width;
-    const bool grabs = mSettings.split && !mUi->wantsPointer() &&
+    const bool grabs = mSettings.split && !mScreen.ui().wantsPointer() &&
                        input.wasClicked(app::MouseButton::Left) &&
                        std::abs(input.pointerPx.x - atPx) <= kGrabPx;
     mDraggingDivider =
@@ -319,43 +231,38 @@ void PlayLoop::dragDivider(const app::InputState& input) {
         mSettings.dividerShare = std::clamp(input.pointerPx.x / width, 0.0, 1.0);
 }
 
-void PlayLoop::drawPanel(const app::InputState& input, double wallSeconds, PanelWishes& wishes) {
-    const math::uvec2 size = windowSize();
-    mUi->begin(input, size, mWindow ? mWindow->contentScale() : 1.0, wallSeconds);
-    const std::vector<HudLine> hud = mStage->hud();
+PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
     PanelFacts facts;
     facts.title = mStage->title();
     facts.hud = hud;
     facts.message = mMessage;
-    if (!mFilm) { // times differ from one session to the next, a film's pictures do not
+    if (!mFiles.isFilming()) { // times differ between sessions, a film's pictures must not
         facts.right = mRenderer->statistics(PlaySide::Right);
         facts.left = mSettings.split ? mRenderer->statistics(PlaySide::Left) : nullptr;
         facts.frameMilliseconds = mRecord.meanMilliseconds();
     }
-    facts.pictureSize = scaledSize(size, mSettings.resolutionScale);
+    facts.pictureSize = scaledSize(mScreen.size(), mSettings.resolutionScale);
     facts.exposure = mExposure;
     facts.paused = mClock.isPaused();
     facts.speed = mClock.speed();
     facts.recording = mRecorder.isRecording();
     facts.methods = mMethods;
     facts.views = mViews;
-    wishes = mPanel.draw(facts, mSettings);
-    mUi->end();
-    if (mUi->wantsKeys())
-        return;
-    PanelWishes keys = applyHotkeys(input, {mMethods, mViews}, mClock.speed(), mSettings);
-    wishes.save = wishes.save || keys.save;
-    wishes.load = wishes.load || keys.load;
-    wishes.togglePause = wishes.togglePause || keys.togglePause;
-    wishes.singleStep = wishes.singleStep || keys.singleStep;
-    wishes.toggleRecording = wishes.toggleRecording || keys.toggleRecording;
-    wishes.toggleFullScreen = wishes.toggleFullScreen || keys.toggleFullScreen;
-    wishes.quit = wishes.quit || keys.quit;
-    if (keys.speed)
-        wishes.speed = keys.speed;
+    return facts;
 }
 
-void PlayLoop::grant(const PanelWishes& wishes) {
+PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
+    app::Ui& ui = mScreen.ui();
+    ui.begin(input, mScreen.size(), mScreen.contentScale(), wallSeconds);
+    const std::vector<HudLine> hud = mStage->hud();
+    const PanelWishes wishes = mPanel.draw(describeSession(hud), mSettings);
+    ui.end();
+    if (ui.wantsKeys())
+        return wishes;
+    return join(wishes, applyHotkeys(input, {mMethods, mViews}, mClock.speed(), mSettings));
+}
+
+void PlayLoop::apply(const PanelWishes& wishes) {
     mQuit = mQuit || wishes.quit;
     if (wishes.togglePause)
         mClock.setPaused(!mClock.isPaused());
@@ -365,12 +272,15 @@ void PlayLoop::grant(const PanelWishes& wishes) {
         mClock.setPaused(true);
         mClock.stepOnce(kSingleStepSeconds);
     }
-    if (wishes.toggleFullScreen && mWindow)
-        mWindow->setFullScreen(!mWindow->isFullScreen());
+    if (wishes.toggleFullScreen)
+        mScreen.toggleFullScreen();
     if (wishes.save)
-        saveSettings();
-    if (wishes.load)
-        loadSettings();
+        mMessage = mKeeper.save(mSettings);
+    if (wishes.load) {
+        if (std::string message = mKeeper.load(mSettings); !message.empty())
+            mMessage = std::move(message);
+        replaceMissingMethods();
+    }
     if (wishes.toggleRecording)
         toggleRecording();
 }
@@ -384,51 +294,6 @@ void PlayLoop::toggleRecording() {
     const auto file = mRecorder.finish(".");
     mMessage = file ? "recorded " + file.value().string() : file.error().message;
     core::logInfo("{}", mMessage);
-}
-
-void PlayLoop::saveSettings() {
-    if (mSettingsFile.empty()) {
-        mMessage = "settings are kept nowhere: there is no home folder, or a script plays";
-        return;
-    }
-    std::error_code ignored;
-    if (mOptions.settings.empty())
-        std::filesystem::create_directories(mSettingsFile.parent_path(), ignored);
-    if (mSettingsRefused) {
-        mMessage =
-            mSettingsFile.string() + " is not written over: it was refused and holds a mistake";
-        return;
-    }
-    const core::Status saved = savePlaySettings(mSettingsFile, mSettings);
-    mMessage = saved ? "saved " + mSettingsFile.string() : saved.error().message;
-}
-
-void PlayLoop::refuseSettings(const std::string& why) {
-    mSettingsRefused = true;
-    mMessage = why;
-    core::logWarning("{}", why);
-}
-
-void PlayLoop::loadSettings() {
-    if (mSettingsFile.empty())
-        return;
-    auto loaded = loadPlaySettings(mSettingsFile);
-    if (!loaded) {
-        refuseSettings(loaded.error().message);
-        return;
-    }
-    mMessage = "loaded " + mSettingsFile.string();
-    mSettingsRefused = false;
-    mSettings = std::move(loaded).value();
-    replaceMissingMethods();
-}
-
-bool PlayLoop::fitSwapchain(const math::uvec2& size) {
-    const gpu::SwapchainDesc& now = mSwapchain->desc();
-    if (now.width == size.x && now.height == size.y && now.vsync == mSettings.vsync)
-        return true;
-    mRenderer->finishAll();
-    return mSwapchain->resize({size.x, size.y, mSettings.vsync});
 }
 
 void PlayLoop::chooseExposure(double duration) {
@@ -446,83 +311,57 @@ void PlayLoop::chooseExposure(double duration) {
 }
 
 core::Status PlayLoop::drawPicture(double duration) {
-    math::uvec2 size = windowSize();
+    math::uvec2 size = mScreen.size();
     if (size.x == 0 || size.y == 0)
         return {};
     mRenderer->makeRoom(mSettings);
+    const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
-    if (mSwapchain) {
-        if (fitSwapchain(size))
-            shown = mSwapchain->acquire();
-        if (!shown) { // between two sizes, or out of sight
-            mRenderer->finishAll();
-            mSwapchain->resize({size.x, size.y, mSettings.vsync});
+    if (swapchain) {
+        shown = mScreen.acquire(size, mSettings.vsync, *mRenderer);
+        if (!shown)
             return {};
-        }
-        size = {mSwapchain->desc().width, mSwapchain->desc().height};
+        size = {swapchain->desc().width, swapchain->desc().height};
     }
-    scene::World& world = mStage->world();
-    const ecs::Entity camera = mStage->camera();
     chooseExposure(duration);
-    mRecorder.addFrame(world, camera, mExposure.raster);
-    const math::uvec2 drawn = scaledSize(size, mSettings.resolutionScale);
+    mRecorder.addFrame(mStage->world(), mStage->camera(), mExposure.raster);
+    PlayPicture picture = makePicture(size);
+    if (shown) {
+        picture.window.image = shown->image;
+        picture.semaphores = shown->semaphores;
+    }
+    if (picture.readBack && swapchain && !swapchain->canBeRead())
+        return core::makeError("this display's pictures cannot be read: no film, no screenshots");
+    SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, mSettings));
+    if (shown)
+        mScreen.present(*shown, mSettings.vsync, *mRenderer);
+    notePicture();
+    return {};
+}
+
+PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
+    const math::uvec2 drawn = scaledSize(sizePx, mSettings.resolutionScale);
     const DemoLook look = mStage->look();
     PlayPicture picture;
-    picture.view.camera = camera;
+    picture.view.camera = mStage->camera();
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
-    picture.window.size = size;
-    picture.window.overlay = mUi.get();
+    picture.window.size = sizePx;
+    picture.window.overlay = &mScreen.ui();
     picture.wantReasons = mSettings.showPanel;
-    if (shown) {
-        picture.window.image = shown->image;
-        picture.semaphores = shown->semaphores;
-    }
-    picture.readBack = mFilm || !mScreenshots.empty();
-    if (picture.readBack && mSwapchain && !mSwapchain->canBeRead())
-        return core::makeError("this display's pictures cannot be read: no film, no screenshots");
-    if (core::Status done = mRenderer->draw(world, picture, mSettings); !done)
-        return done;
-    if (shown && !mSwapchain->present(*shown)) {
-        mRenderer->finishAll();
-        mSwapchain->resize({size.x, size.y, mSettings.vsync});
-    }
-    // One read-back serves all files of the frame; empty names end a picture's list.
-    for (const auto& file : std::exchange(mScreenshots, {}))
-        mWantedFiles.push_back(file);
-    if (picture.readBack)
-        mWantedFiles.emplace_back();
+    picture.readBack = mFiles.wantsPicture();
+    return picture;
+}
+
+void PlayLoop::notePicture() {
+    mFiles.notePicture();
     mHasDrawn = true;
     mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))
         mRecord.addStatistics(*statistics);
-    return {};
-}
-
-core::Status PlayLoop::takePictures() {
-    while (const auto picture = mRenderer->takePicture()) {
-        image::Image opaque(picture->width, picture->height, 3);
-        for (size_t i = 0; i < size_t(picture->width) * picture->height; ++i)
-            std::copy_n(&picture->pixels[4 * i], 3, &opaque.pixels[3 * i]);
-        if (core::Status written = writePicture(opaque); !written)
-            return written;
-    }
-    return {};
-}
-
-core::Status PlayLoop::writePicture(const image::Image& picture) {
-    while (!mWantedFiles.empty()) {
-        const std::filesystem::path file = std::move(mWantedFiles.front());
-        mWantedFiles.pop_front();
-        if (file.empty())
-            break;
-        if (core::Status written = io::writeImage(file, picture); !written)
-            return written;
-    }
-    return mFilm ? mFilm->add(picture) : core::Status();
 }
 
 } // namespace shutter::game

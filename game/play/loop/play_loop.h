@@ -4,20 +4,15 @@
 
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
-#include "engine/app/ui.h"
-#include "engine/app/window.h"
-#include "engine/gpu/swapchain.h"
-#include "game/play/loop/film_writer.h"
 #include "game/play/loop/flythrough_recorder.h"
-#include "game/play/loop/hotkeys.h"
-#include "game/play/loop/play_options.h"
+#include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"
-#include "game/play/loop/play_renderer.h"
+#include "game/play/loop/play_screen.h"
+#include "game/play/loop/settings_keeper.h"
 #include "game/play/loop/stage.h"
 #include "game/play/panel/panel.h"
 
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +22,8 @@ namespace shutter::game {
 
 class PlayLoop {
   public:
-    /// Opens what is asked for: settings, script, window, device, stage.
+    /// Opens what the options name: script, settings, film, window, device, stage. `options` must
+    /// outlive the loop.
     [[nodiscard]] static core::Result<std::unique_ptr<PlayLoop>> open(const PlayOptions& options);
     ~PlayLoop();
     PlayLoop(const PlayLoop&) = delete;
@@ -40,68 +36,55 @@ class PlayLoop {
     using Clock = std::chrono::steady_clock;
 
     explicit PlayLoop(const PlayOptions& options);
-    core::Status openSettings();
-    core::Status openDevice();
+    core::Status openScript();
+    core::Status openScreen();
     core::Status openStage();
-    core::Status openFilm();
 
     /// One turn of the loop.
     core::Status advance();
-    /// Wall seconds since the turn before; a script's own.
+    /// Seconds of wall time since the turn before; a script's and a film's own.
     double measureFrame();
     void applyScript();
-    void applyWindowAction(app::WindowAction action);
-    /// What is left for the stage of the player's input.
+    /// The player's input without what the user interface and the divider take.
     app::InputState filterInput(const app::InputState& input);
     void dragDivider(const app::InputState& input);
-    void drawPanel(const app::InputState& input, double wallSeconds, PanelWishes& wishes);
-    void grant(const PanelWishes& wishes);
+    PanelWishes drawPanel(const app::InputState& input, double wallSeconds);
+    [[nodiscard]] PanelFacts describeSession(const std::vector<HudLine>& hud) const;
+    void apply(const PanelWishes& wishes);
     core::Status drawPicture(double duration);
-    core::Status takePictures();
-    /// False where the window has no area to draw on now.
-    bool fitSwapchain(const math::uvec2& size);
-    [[nodiscard]] math::uvec2 windowSize() const;
-    void loadSettings();
-    void saveSettings();
-    void refuseSettings(const std::string& why);
-    void releaseDrawing();
-    [[nodiscard]] app::InputCollector& collector();
+    [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
+    /// Records that a picture was submitted.
+    void notePicture();
     void toggleRecording();
     core::Status finish();
-    /// Of the time now, for a frame that takes `duration` of game time.
+    core::Status writeRecord();
+    /// Destroys what draws, before what it draws with.
+    void releaseDrawing();
+    /// Sets the exposure of a frame that ends now and takes `duration` seconds of game time.
     void chooseExposure(double duration);
-    core::Status writePicture(const image::Image& picture);
     void replaceMissingMethods();
 
     const PlayOptions& mOptions;
     Clock::time_point mStart;
     PlaySettings mSettings;
-    std::filesystem::path mSettingsFile; ///< empty: nowhere to keep them
+    SettingsKeeper mKeeper;
     std::optional<app::ScriptPlayer> mScript;
-    std::unique_ptr<app::Window> mWindow;
-    app::InputCollector mInput; ///< a script's, and without a window
-    std::unique_ptr<gpu::Device> mDevice;
-    std::unique_ptr<gpu::Swapchain> mSwapchain;
+    PlayScreen mScreen;
     std::unique_ptr<Stage> mStage;
     std::unique_ptr<PlayRenderer> mRenderer;
-    std::unique_ptr<app::Ui> mUi;
+    PictureFiles mFiles;
     Panel mPanel;
     app::StepClock mClock{kDemoStepSeconds};
     std::vector<std::string> mMethods; ///< that the device can run
     std::vector<std::string> mViews;
     std::string mMessage;
-    math::uvec2 mHeadlessSize{1u};
-    std::deque<std::filesystem::path> mWantedFiles;  ///< of pictures that are read back, in order
-    std::vector<std::filesystem::path> mScreenshots; ///< of the next picture
     app::FrameTime mTime;
     scene::ExposureInterval mExposure;
     std::optional<Clock::time_point> mLastTurn;
     PlayRecord mRecord;
     FlythroughRecorder mRecorder;
-    std::unique_ptr<FilmWriter> mFilm;
     bool mDraggingDivider = false;
-    bool mHasDrawn = false;        ///< in the last turn
-    bool mSettingsRefused = false; ///< the file is there and wrong
+    bool mHasDrawn = false; ///< in the last turn
     bool mQuit = false;
 };
 

@@ -3,8 +3,8 @@
 
 #include "engine/io/image_file.h"
 #include "game/demos/demo.h"
+#include "game/options/folders.h"
 #include "game/options/option_rows.h"
-#include "game/play/loop/asset_folder.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,9 +22,9 @@ constexpr uint32_t kMaxFrames = 1'000'000;
 constexpr double kDefaultFps = 30.0;
 
 constexpr std::array kShotRows = {
-    makeRow<&ShotArguments::background>("--background", "of a scene: R,G,B linear"),
-    makeRow<&ShotArguments::ambient>("--ambient", "of a scene: uniform light, R,G,B"),
-    makeRow<&ShotArguments::size>("--size", "WxH of the window; default 960x540"),
+    makeRow<&ShotArguments::background>("--background", "background of a scene, linear R,G,B"),
+    makeRow<&ShotArguments::ambient>("--ambient", "uniform light of a scene, R,G,B"),
+    makeRow<&ShotArguments::size>("--size", "window size WxH; default 960x540"),
 };
 
 bool isDemo(const std::string& name) {
@@ -63,18 +63,24 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option(
         "scene", a.shot.scene, "a demo (" + listDemoNames() + ") or a glTF scene; default: rally"
     );
-    command.add_option("--camera", a.shot.camera, "of a scene: name or index");
-    command.add_option("--flythrough", a.shot.flythrough, "of a scene: JSON file, or clip:NAME");
-    command.add_option("--clip", a.shot.clips, "of a scene (repeatable), or none; default: all");
-    command.add_flag("--loop,!--no-loop", a.shot.loop, "of a scene: clips start again (default)");
+    command.add_option("--camera", a.shot.camera, "camera of a scene, by name or index");
+    command.add_option(
+        "--flythrough", a.shot.flythrough, "fly through a scene along a JSON file or clip:NAME"
+    );
+    command.add_option(
+        "--clip", a.shot.clips, "clip of a scene to play (repeatable), or none; default: all"
+    );
+    command.add_flag(
+        "--loop,!--no-loop", a.shot.loop, "restart the clips of a scene when they end (default)"
+    );
     defineRows(command, OptionRows<ShotArguments>(kShotRows), a.shot);
     command.add_option(
-        "--method", a.method, "see `shutter info --methods`; default: the settings'"
+        "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
     addParsedOption(
         command,
         "--vsync",
-        "on or off; default: the settings'",
+        "wait for the display: on or off; default: as in the settings",
         [&a](const std::string& text) -> core::Status {
             const auto on = parseSwitch(text);
             if (!on)
@@ -83,16 +89,20 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
             return {};
         }
     );
-    command.add_option("--settings", a.settings, "JSON file; default: the player's own");
-    command.add_option("--script", a.script, "JSON file of input: plays unattended");
-    command.add_option("--film", a.film, "every picture: .png or .jpg with %04d, or an .mp4");
+    command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
+    command.add_option("--script", a.script, "play unattended from a JSON file of input");
+    command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
     command.add_option(
-        "--fps", a.shot.fps, "of --film and --no-window without a script; default 30"
+        "--fps",
+        a.shot.fps,
+        "frames per second of --film and --no-window without a script; default 30"
     );
-    command.add_option("--ffmpeg", a.ffmpeg, "program that makes an .mp4; default: on PATH");
-    command.add_option("--frames", a.frames, "end after as many frames")
+    command.add_option("--ffmpeg", a.ffmpeg, "program that encodes .mp4; default: the one on PATH");
+    command.add_option("--frames", a.frames, "end after this many frames")
         ->check(CLI::Range(1u, kMaxFrames));
-    command.add_option("--stats", a.stats, "frame times, score and more as JSON, at the end");
+    command.add_option(
+        "--stats", a.stats, "write frame times, score and more to a JSON file at the end"
+    );
     command.add_option("--assets", a.assets, "folder of the demos' scenes");
     command.add_flag(
         "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
@@ -114,8 +124,7 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         return makeError(
             "--camera, --flythrough and --clip belong to a scene, {} is a demo", options.demo
         );
-    if (core::Status flies = loadFlythrough(shot, options.shot); !flies)
-        return flies.error();
+    SHUTTER_TRY(loadFlythrough(shot, options.shot));
     options.fps = shot.fps.value_or(kDefaultFps);
     options.device = arguments.device;
     options.ffmpeg = arguments.ffmpeg;
@@ -125,8 +134,7 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         options.method = arguments.method;
     }
     options.vsync = arguments.vsync;
-    if (core::Status film = interpretFilm(arguments, options); !film)
-        return film.error();
+    SHUTTER_TRY(interpretFilm(arguments, options));
     options.script = arguments.script;
     options.settings = arguments.settings;
     options.assets =

@@ -85,8 +85,7 @@ core::Status PlayRenderer::draw(
             return left.error();
         mLeftView.setView(settings.view);
         left.value().ending = {&mTonemap, &mLeftView, &mKept};
-        if (core::Status drawn = mDrawer.submit(world, left.value()); !drawn)
-            return drawn;
+        SHUTTER_TRY(mDrawer.submit(world, left.value()));
         window.left = mKept.image();
         window.dividerShare = settings.dividerShare;
     }

@@ -29,7 +29,7 @@ struct PlayPicture {
     bool wantReasons = false;         ///< of the work and passes too, for the panel
 };
 
-/// One a world's assets.
+/// Each world's assets need a renderer of their own.
 class PlayRenderer {
   public:
     PlayRenderer(gpu::Device& device, const scene::Assets& assets);
@@ -37,7 +37,7 @@ class PlayRenderer {
     PlayRenderer& operator=(const PlayRenderer&) = delete;
 
     /// Finishes frames until one more may be submitted. To be called before each draw() and before
-    /// an image of the window is asked for.
+    /// an image of the window is acquired.
     void makeRoom(const PlaySettings& settings);
 
     /// Submits the frames of one picture, with a split both sides'. `method` fields must name
@@ -48,7 +48,8 @@ class PlayRenderer {
     /// Finishes all that was submitted.
     void finishAll();
 
-    /// Of the last finished picture of that side, summed over its frames; null before the first.
+    /// Statistics of the last finished picture of that side, summed over its frames; null before
+    /// the first.
     [[nodiscard]] const render::FrameStatistics* statistics(PlaySide side) const;
 
     /// The window's picture that was read back and finished first, in display encoding.

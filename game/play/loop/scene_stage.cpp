@@ -41,7 +41,7 @@ class SceneStage : public Stage {
             mFlythrough = options.flythrough;
             mFlythroughCamera = shot.camera;
         }
-        // A camera that was asked for is where one begins.
+        // The session begins at the camera that an option names.
         if (!options.camera.empty() || options.flythrough || !options.flythroughClip.empty())
             mChosen = static_cast<size_t>(
                 std::find(mSceneCameras.begin(), mSceneCameras.end(), shot.camera) -

@@ -49,7 +49,7 @@ class Stage {
     /// True at the end of a game.
     [[nodiscard]] virtual bool isOver() const { return false; }
 
-    /// Of a game; nothing else has one.
+    /// The score of a game; only games have one.
     [[nodiscard]] virtual std::optional<int> score() const { return std::nullopt; }
 };
 

@@ -13,9 +13,9 @@ namespace shutter::game {
 
 namespace {
 
-/// Exposures reach no further back.
+/// Longest time that an exposure reaches back.
 constexpr double kWaySeconds = 0.5;
-/// Of the distance, metres a second at which flying starts.
+/// Speed at which flying starts, metres per second for each metre of distance.
 constexpr double kFlyShare = 0.5;
 
 math::Transform placementAt(const scene::World& world, ecs::Entity entity, double seconds) {

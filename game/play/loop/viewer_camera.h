@@ -13,7 +13,7 @@ enum class ViewerMode : uint8_t { Orbit, Fly };
 
 class ViewerCamera {
   public:
-    /// Makes its entity, a copy of `like` where it stands at `seconds`.
+    /// Creates its entity as a copy of `like`, placed where that is at `seconds`.
     /// \param distance of what is looked at, metres, above 0
     ViewerCamera(scene::World& world, ecs::Entity like, double distance, double seconds);
 
@@ -21,7 +21,7 @@ class ViewerCamera {
 
     [[nodiscard]] ViewerMode mode() const { return mMode; }
 
-    /// Goes on from where it stands.
+    /// Continues from where it is.
     void setMode(ViewerMode mode);
     /// Stands there; the way before it is forgotten. \param placement in world space
     void jumpTo(const math::Transform& placement);

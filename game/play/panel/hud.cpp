@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "game/play/panel/hud.h"
-
-#include "game/shot/pass_groups.h"
+#include "game/play/panel/panel_sections.h"
+#include "game/shot/methods.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/check.h"
 #include "game/play/panel/panel_sections.h"
-#include "game/play/panel/play_rows.h"
+#include "game/play/panel/play_settings.h"
 #include "game/play/panel/setting_widgets.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 #include "game/play/panel/panel.h"
 
 #include "engine/core/check.h"
-#include "game/play/panel/hud.h"
 #include "game/play/panel/panel_sections.h"
 
 #include <algorithm>

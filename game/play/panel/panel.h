@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a player sees over the picture: head-up display and panel. Made of settings and statistics,
-// leaves changed settings and wishes.
+// What a player sees over the picture: head-up display and panel. They show settings and statistics
+// and return changed settings and wishes.
 #pragma once
 
 #include "engine/app/ui.h"
@@ -21,7 +21,7 @@ struct PanelFacts {
     std::span<const HudLine> hud; ///< of a demo
     std::string message;          ///< one line, e.g. what could not be done; empty: none
     /// The last finished frame's; null: none yet. Passes and work say why they ran where the frame
-    /// was asked for reasons (FrameRequest::wantReasons).
+    /// was drawn with FrameRequest::wantReasons.
     const render::FrameStatistics* right = nullptr;
     const render::FrameStatistics* left = nullptr; ///< of a split; null: no split
     double frameMilliseconds = 0.0;   ///< wall time of a frame, mean of the last second's
@@ -34,7 +34,7 @@ struct PanelFacts {
     std::span<const std::string> views;   ///< intermediates that can be shown
 };
 
-/// What the player asked for by the panel.
+/// What the player wants, as clicked on the panel or typed.
 struct PanelWishes {
     bool save = false;
     bool load = false;

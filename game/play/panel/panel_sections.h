@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts of the panel, each the inside of a header that unfolds.
+// The parts of what a player sees: the head-up display, and the sections of the panel, each of
+// which is drawn inside a header that unfolds.
 #pragma once
 
 #include "game/play/panel/panel.h"
@@ -11,7 +12,7 @@
 namespace shutter::game {
 
 /// Names of MotionBlurSettings that the method reads, its count of samples too unless that is
-/// PlaySettings::denoisedRays. Empty for what is no method of modules/motion_blur.
+/// PlaySettings::denoisedRays. Empty for methods outside modules/motion_blur.
 [[nodiscard]] std::vector<std::string_view> listReadSettings(const MethodInfo& method);
 
 void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes);
@@ -22,5 +23,19 @@ void drawShutterSection(const PanelFacts& facts, PlaySettings& settings);
 void drawReducedMotionSection(PlaySettings& settings);
 void drawTimeSection(const PassHistory& history, const PlaySettings& settings);
 void drawReasonSection(const PanelFacts& facts);
+
+/// Pixels that the lines at the right edge and at the bottom take, where no panel should lie.
+struct HudSpace {
+    float top = 0.0f;
+    float bottom = 0.0f;
+};
+
+/// Declared behind all windows of the current ImGui context.
+HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
+
+/// "motion blur 12.3 ms (19 % of the frame)".
+[[nodiscard]] std::string describeBlurCost(
+    const std::string& method, const render::FrameStatistics& statistics, double frameMilliseconds
+);
 
 } // namespace shutter::game

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 #include "engine/scene/components.h"
 #include "game/shot/methods.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -16,7 +18,7 @@
 namespace shutter::game {
 
 /// The shutter of a new player: half of the frame open, as film has it, and never longer than at 24
-/// frames a second, so that a slow machine does not smear.
+/// frames per second, so that a slow machine does not smear.
 [[nodiscard]] scene::CameraShutter makePlayShutter();
 
 /// The blur of a new player: the preset "balanced".
@@ -32,13 +34,13 @@ struct PlaySettings {
         makePlayBlur(); ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
     scene::CameraShutter shutter = makePlayShutter();
-    /// Of the blur by the camera's own motion, [0, 1]: for players whom it makes sick. 0 leaves the
-    /// blur of what moves in the world alone.
+    /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
+    /// sick. At 0 only what moves in the world blurs.
     double cameraBlurScale = 1.0;
-    uint32_t instants = 16;       ///< of `accumulate`, a frame, [1, 256]
-    uint32_t rays = 4;            ///< a pixel and frame, of `truth`, [1, 256]
-    uint32_t denoisedRays = 1;    ///< a pixel and frame, of `denoised`, whose blur.sampleCount they
-                                  ///< are, [1, 256]
+    uint32_t instants = 16;       ///< instants per frame of `accumulate`, [1, 256]
+    uint32_t rays = 4;            ///< rays per pixel and frame of `truth`, [1, 256]
+    uint32_t denoisedRays = 1;    ///< rays per pixel and frame of `denoised`, in place of
+                                  ///< blur.sampleCount, [1, 256]
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     bool showPanel = true;
@@ -78,5 +80,12 @@ savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings
 
 /// The shutter as the camera gets it: reduced motion applied.
 [[nodiscard]] scene::CameraShutter makeShutter(const PlaySettings& settings);
+
+/// Longest name of an intermediate, bytes.
+inline constexpr size_t kMaxViewBytes = 64;
+
+/// One row per field of PlaySettings, except for names (method, leftMethod, view) and for structs
+/// that have rows of their own.
+[[nodiscard]] core::SettingRows<PlaySettings> listPlayRows();
 
 } // namespace shutter::game

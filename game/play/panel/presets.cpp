@@ -2,7 +2,7 @@
 // README.md, "Presets", says what each costs.
 #include "engine/core/setting_row.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 
 namespace shutter::game {
 
@@ -20,8 +20,8 @@ MotionBlurSettings makePerformance() {
     return blur;
 }
 
-/// The paper's but for the foreground's magnification, without which pictures are nearer to the
-/// truth.
+/// The paper's settings without the magnification of the foreground: pictures are closer to the
+/// truth that way.
 MotionBlurSettings makeBalanced() {
     MotionBlurSettings blur;
     blur.foregroundMagnification = 1.0f;

@@ -14,7 +14,7 @@ double orElse(double value, double fallback) {
     return std::isnan(value) ? fallback : value;
 }
 
-/// Of the slider; what may be unlimited has no highest value to show.
+/// The slider's range in words; a setting that may be unlimited has no highest value to show.
 std::string describeShortly(const core::NumberRange& range) {
     if (range.isUnlimited)
         return fmt::format("from {:g}", range.lowest);
@@ -86,7 +86,7 @@ bool slide(const core::NumberRange& range, const char* unit, double& value) {
     return true;
 }
 
-/// Without a limit there is no number to slide.
+/// An unlimited setting has no number to slide.
 void showUnlimited() {
     ImGui::BeginDisabled();
     ImGui::SetNextItemWidth(-std::numeric_limits<float>::min());
@@ -156,7 +156,7 @@ WidgetEvent drawNumber(const WidgetLook& look, const core::NumberRange& range, d
         ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
     }
     if (std::isfinite(chosen)) {
-        // Text that a player types may be no number.
+        // Text that a player types may not be a number.
         if (slide(range, look.unit, chosen) && !std::isnan(chosen)) {
             chosen = snapToRange(range, chosen);
             changed = true;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/setting_row.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 
 #include <cstdint>
 #include <span>
@@ -23,15 +23,15 @@ struct WidgetLook {
 enum class WidgetEvent : uint8_t {
     None,
     Changed,
-    Reset, ///< a click with the right button asked for the default
+    Reset, ///< a right click: back to the default
 };
 
-/// Begins a table of rows. False where it is out of sight: no rows then, and no endRows().
+/// Begins a table of rows. False if it is out of sight: then call neither rows nor endRows().
 [[nodiscard]] bool beginRows(const char* id);
 void endRows();
 
-/// The value, where it changed, lies in the range: what a player types beyond it is clamped, and
-/// what is no number is dropped.
+/// A changed value lies in the range: what a player types beyond it is clamped, and text that is
+/// not a number is dropped.
 [[nodiscard]] WidgetEvent
 drawNumber(const WidgetLook& look, const core::NumberRange& range, double& value);
 [[nodiscard]] WidgetEvent

@@ -2,9 +2,9 @@
 // Settings as JSON, read and written row by row.
 #include "engine/json/json_rows.h"
 #include "engine/scene/shutter.h"
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,9 +2,9 @@
 // The JSON schema of the settings file, made of the rows that read and write it.
 #include "engine/core/setting_row.h"
 #include "engine/scene/shutter.h"
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 #include "shaders/common/shutter_response_shared.h"
 
 #include <nlohmann/json.hpp>

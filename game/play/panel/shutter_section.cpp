@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/shutter.h"
 #include "game/play/panel/panel_sections.h"
-#include "game/play/panel/play_rows.h"
+#include "game/play/panel/play_settings.h"
 #include "game/play/panel/setting_widgets.h"
 
 #include <algorithm>

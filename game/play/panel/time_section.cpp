@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/panel/panel_sections.h"
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +62,7 @@ struct Band {
     ImU32 color = 0;
 };
 
-/// From the bottom up: the blur stands on what is drawn without it.
+/// From the bottom up: the blur is stacked on what is drawn without it.
 std::vector<Band> listBands(const PassHistory& history, const MethodInfo& method) {
     std::vector<Band> bands;
     for (const PassGroup group : kGroups)
@@ -121,7 +121,7 @@ struct Graph {
     }
 };
 
-/// One column of rectangles a frame; those lower than half a pixel join the next.
+/// One column of rectangles per frame; those lower than half a pixel join the next.
 void drawColumns(const Graph& graph, const PassHistory& history, std::span<const Band> bands) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float step = graph.size.x / static_cast<float>(PassHistory::kFrames);

@@ -131,8 +131,7 @@ core::Status EmbeddedMotionBlur::checkMethod(
     if (method.readsSurface)
         for (const auto& [name, image] :
              {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
-            if (core::Status given = checkImage(name, *image); !given)
-                return given;
+            SHUTTER_TRY(checkImage(name, *image));
     if (method.rays == RayNeed::None && !method.readsCamera)
         return {};
     if (inputs.rays.frameConstants == 0)
@@ -166,14 +165,10 @@ core::Status EmbeddedMotionBlur::check(
         );
     if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
         return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
-    if (core::Status given = checkImage("color", inputs.color); !given)
-        return given;
-    if (core::Status given = checkImage("motionDepth", inputs.motionDepth); !given)
-        return given;
-    if (core::Status distinct = checkDistinct(inputs); !distinct)
-        return distinct;
-    if (core::Status valid = validate(settings); !valid)
-        return valid;
+    SHUTTER_TRY(checkImage("color", inputs.color));
+    SHUTTER_TRY(checkImage("motionDepth", inputs.motionDepth));
+    SHUTTER_TRY(checkDistinct(inputs));
+    SHUTTER_TRY(validate(settings));
     return checkMethod(inputs, settings);
 }
 
@@ -184,8 +179,7 @@ core::Status EmbeddedMotionBlur::record(
     const MotionBlurSettings& settings
 ) {
     try {
-        if (core::Status fits = check(commands, frame, inputs, settings); !fits)
-            return fits;
+        SHUTTER_TRY(check(commands, frame, inputs, settings));
         markDone(frame);
         return recordInto(*mSlots[frame], commands, inputs, settings);
     } catch (const gpu::DeviceError& error) {

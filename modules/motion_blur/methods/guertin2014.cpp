@@ -4,7 +4,7 @@
 
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/passes/filter.h"
-#include "modules/motion_blur/passes/guertin_tiles.h"
+#include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/shared_passes.h"
 #include "shaders/motion_blur/guertin2014_shared.h"
 
@@ -64,9 +64,8 @@ const Method kGuertin2014 = {
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             params.marginPx = measureTileJitter(settings);
-            params.setMethod(
-                shader::Guertin2014Params{settings.centreBias, settings.speedThresholdPx}
-            );
+            params.setMethod(shader::Guertin2014Params{
+                settings.centreBias, settings.speedThresholdPx});
         },
     .addBudgetLevels = addSampleLevels,
     .makePasses = [](gpu::Device& device, VkDescriptorSetLayout) -> std::unique_ptr<MethodPasses> {

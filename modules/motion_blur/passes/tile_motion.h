@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Dominant motion of each tile's neighbourhood (McGuire 2012, section 3.1: TileMax, NeighborMax),
-// and what the neighbourhood asks of the filters (block_class.glsl).
+// The tiles of a frame: dominant motion of each one's neighbourhood (McGuire 2012, section 3.1:
+// TileMax, NeighborMax), what the neighbourhood demands of the filters (block_class.glsl), and how
+// much directions vary in it (Guertin 2014).
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -25,17 +26,33 @@ class TileMotion {
     explicit TileMotion(gpu::Device& device);
 
     TileMotionOutputs
-    add(graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
-    ) const;
+    add(graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params) const;
 
   private:
-    TileMaxOutputs addTileMax(
-        graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params
-    ) const;
+    TileMaxOutputs
+    addTileMax(graph::Graph& graph, graph::ImageHandle motionDepth, const PassParams& params) const;
 
     VkSampler mSampler;
     gpu::LazyPipeline mTileMax;
     gpu::LazyPipeline mNeighbourMax;
+};
+
+struct GuertinTilesOutputs {
+    graph::ImageHandle dominant; ///< RG32F: longest motion among the neighbours that reach the tile
+    graph::ImageHandle variance; ///< R32F, [0, 1]: how much directions around it differ
+};
+
+class GuertinTiles {
+  public:
+    explicit GuertinTiles(gpu::Device& device);
+
+    /// \param tiles TileMotion's: the longest motion of each tile
+    [[nodiscard]] GuertinTilesOutputs
+    add(graph::Graph& graph, graph::ImageHandle tiles, const PassParams& params) const;
+
+  private:
+    VkSampler mSampler;
+    gpu::LazyPipeline mPipeline;
 };
 
 } // namespace shutter::motion_blur

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/demand/figures.h"
 
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <fmt/format.h>
 

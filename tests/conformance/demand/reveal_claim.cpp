@@ -111,16 +111,12 @@ core::Result<Findings> measureReveal(gpu::Device& device, const DemandOptions& o
         );
     findings.checks.push_back(checkLine("the reveal's distance from a line", findings.curves[0]));
     // About 24 px at 1280x720 in both, everywhere alike or from 0 in the middle.
-    if (core::Status added = addEmptyMask(
+    SHUTTER_TRY(addEmptyMask(
             findings, device, options, "a sheet that slides", {.velocity = {9.7, 0, 0}}
-        );
-        !added)
-        return added.error();
-    if (core::Status added = addEmptyMask(
+        ));
+    SHUTTER_TRY(addEmptyMask(
             findings, device, options, "a sheet that turns", {.angularVelocity = {0, 0, 2.25}}
-        );
-        !added)
-        return added.error();
+        ));
     return findings;
 }
 

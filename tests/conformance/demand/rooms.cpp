@@ -29,8 +29,7 @@ core::Result<Findings> measureRooms(
         return core::makeError("{} traces no rays", device.info().name);
     Findings findings;
     for (const Room& room : listRooms())
-        if (core::Status added = add(findings, device, options, room); !added)
-            return added.error();
+        SHUTTER_TRY(add(findings, device, options, room));
     return findings;
 }
 

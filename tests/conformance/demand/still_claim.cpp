@@ -157,9 +157,7 @@ core::Result<Findings> measureStill(gpu::Device& device, const DemandOptions& op
         if (!stage)
             return stage.error();
         for (const auto add : {addParts, addTime})
-            if (core::Status added = add(findings, device, *stage.value(), options, scene.why);
-                !added)
-                return added.error();
+            SHUTTER_TRY(add(findings, device, *stage.value(), options, scene.why));
     }
     return findings;
 }

@@ -84,9 +84,7 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
         .method = std::string(method), .settings = std::move(settings)});
     if (!options)
         return options.error();
-    if (core::Status able = game::PictureDrawer::check(device, options.value(), width, height);
-        !able)
-        return able.error();
+    SHUTTER_TRY(game::PictureDrawer::check(device, options.value(), width, height));
     return std::unique_ptr<Subject>(
         new Subject(device, stage, std::move(shot).value(), std::move(options).value())
     );

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/stability/filter_rig.h"
 
-#include "engine/image/half_float.h"
+#include "engine/image/image.h"
 #include "tests/kit/graph_rig.h"
 
 #include <optional>

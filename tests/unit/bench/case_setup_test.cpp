@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/case_setup.h"
+#include "game/bench/case_stage.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>

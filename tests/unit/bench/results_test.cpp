@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/cost.h"
 #include "game/bench/results.h"
 
 #include <fmt/format.h>
@@ -11,7 +10,7 @@ namespace shutter::bench {
 
 namespace {
 
-DialPoint pointOf(const char* method, uint32_t samples) {
+SamplePoint pointOf(const char* method, uint32_t samples) {
     const game::MethodInfo* info = game::findMethod(method).value();
     return {info, samples, samples == info->defaultSamples};
 }
@@ -33,11 +32,11 @@ Record makeRecord(double gatherMs, double psnr) {
 }
 
 std::string nameImage(const nlohmann::json& row) {
-    return fmt::format("{}-{}.png", row.at("method").get<std::string>(), row.at("dial").dump());
+    return fmt::format("{}-{}.png", row.at("method").get<std::string>(), row.at("samples").dump());
 }
 
 nlohmann::json describeThree() {
-    const std::vector<DialPoint> sweep{
+    const std::vector<SamplePoint> sweep{
         pointOf("hybrid", 15), pointOf("gather", 4), pointOf("gather", 15), pointOf("gather", 64)};
     CaseResult result;
     result.records["hybrid/15"] = makeRecord(4.0, 30.0);
@@ -76,32 +75,32 @@ TEST(Results, AMeasurementHoldsMediansAndQuartiles) {
     EXPECT_TRUE(hybrid.at("isDefault"));
 }
 
-TEST(Results, EqualTimeTakesTheDialThatIsNearestInTime) {
+TEST(Results, EqualTimeTakesTheSampleCountThatIsNearestInTime) {
     // hybrid 18 ms; gather 12, 14 and 28 ms.
     const nlohmann::json equal = compareAtEqualTime(describeThree(), "hybrid", nameImage);
     ASSERT_EQ(equal.at("rows").size(), 1u);
-    EXPECT_EQ(equal.at("rows").at(0).at("dial"), 15);
+    EXPECT_EQ(equal.at("rows").at(0).at("samples"), 15);
     EXPECT_EQ(equal.at("rows").at(0).at("image"), "gather-15.png");
     EXPECT_EQ(equal.at("reference").at("milliseconds"), 18.0);
 }
 
 TEST(Results, OnlyDefaultsCarryPictures) {
     for (const nlohmann::json& row : describeThree().at("measurements"))
-        EXPECT_EQ(row.contains("image"), row.at("isDefault").get<bool>()) << row.at("dial");
+        EXPECT_EQ(row.contains("image"), row.at("isDefault").get<bool>()) << row.at("samples");
 }
 
-TEST(Results, AMethodWithoutADialHasNull) {
+TEST(Results, AMethodWithoutSamplesHasNull) {
     CaseResult result;
     result.records["sharp/0"] = makeRecord(0.0, 20.0);
     const nlohmann::json described = describeCase({}, {pointOf("sharp", 0)}, result, {});
-    EXPECT_TRUE(described.at("measurements").at(0).at("dial").is_null());
+    EXPECT_TRUE(described.at("measurements").at(0).at("samples").is_null());
 }
 
 TEST(Results, WithoutTheReferenceThereIsNoEqualTime) {
     EXPECT_TRUE(compareAtEqualTime(describeThree(), "truth", nameImage).is_null());
 }
 
-TEST(Results, EqualPicturesHaveANullPsnrAndSkippedDialsTheirReason) {
+TEST(Results, EqualPicturesHaveANullPsnrAndSkippedSampleCountsTheirReason) {
     CaseResult result;
     result.records["hybrid/15"] = makeRecord(4.0, std::numeric_limits<double>::infinity());
     result.records["gather/15"].skipped = "predicted 90 s";

@@ -58,13 +58,13 @@ TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
     std::vector<const game::MethodInfo*> methods;
     for (const game::MethodInfo& method : game::listMethods())
         methods.push_back(&method);
-    const std::vector<DialPoint> sweep = makeSweep(methods, 256);
+    const std::vector<SamplePoint> sweep = makeSweep(methods, 256);
     for (size_t i = 1; i < sweep.size(); ++i)
         if (sweep[i].method == sweep[i - 1].method) {
             EXPECT_LT(sweep[i - 1].samples, sweep[i].samples) << sweep[i].method->name;
         }
     for (const game::MethodInfo* method : methods) {
-        const auto isDefault = [&](const DialPoint& point) {
+        const auto isDefault = [&](const SamplePoint& point) {
             return point.method == method && point.isDefault;
         };
         const auto count = std::count_if(sweep.begin(), sweep.end(), isDefault);

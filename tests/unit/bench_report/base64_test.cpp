@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/uri.h"
-#include "game/bench/report/base64.h"
+#include "game/bench/report/page_template.h"
 
 #include <gtest/gtest.h>
 

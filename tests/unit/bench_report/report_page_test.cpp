@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
-#include "game/bench/report/base64.h"
+#include "game/bench/report/page_template.h"
 #include "game/bench/report/report_page.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::span<const uint8_t> bytesOf(std::string_view text) {
 json makeResults() {
     return {
         {"schema", "shutter-bench"},
-        {"version", 1},
+        {"version", 2},
         {"metrics", json::array()},
         {"methods", json::array()},
         {"cases", {{{"truth", {{"image", "images/truth.png"}}}}}}};
@@ -114,8 +114,8 @@ TEST_F(ReportPage, RefusesOtherSchemasAndVersions) {
     EXPECT_TRUE(contains(refusal(results), "schema 'shutter-bench'"));
     EXPECT_TRUE(contains(refusal(json::array()), "schema 'shutter-bench'"));
     results = makeResults();
-    results["version"] = 2;
-    EXPECT_TRUE(contains(refusal(results), "version 2"));
+    results["version"] = 1;
+    EXPECT_TRUE(contains(refusal(results), "version 1"));
     results.erase("version");
     EXPECT_TRUE(contains(refusal(results), "version null"));
     results = makeResults();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/demos/chase_camera.h"
 #include "game/demos/rally_car.h"
 #include "game/demos/rally_posts.h"
 #include "game/demos/rally_track.h"

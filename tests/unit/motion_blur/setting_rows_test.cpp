@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/setting_rows.h"
 #include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/settings.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/params.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 #include "shaders/motion_blur/hybrid_shared.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +58,10 @@ TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
         EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.5f);
     }
     for (const Method* method :
-         {&getMethod("own_velocity"), &getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("jimenez2014")}) {
+         {&getMethod("own_velocity"),
+          &getMethod("mcguire2012"),
+          &getMethod("guertin2014"),
+          &getMethod("jimenez2014")}) {
         settings.method = method;
         EXPECT_EQ(resolve(settings, 8, 8, 1.0).uniformMotionPx, 0.0f);
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
 #include "game/options/render_arguments.h"
-#include "game/shot/flight.h"
 #include "game/shot/shot.h"
 #include "tests/unit/options/command_words.h"
 

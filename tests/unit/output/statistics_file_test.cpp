@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/output/statistics_file.h"
+#include "game/output/extra_files.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>

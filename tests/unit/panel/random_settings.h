@@ -3,9 +3,8 @@
 #pragma once
 
 #include "engine/scene/shutter.h"
-#include "game/play/panel/play_rows.h"
 #include "game/play/panel/play_settings.h"
-#include "modules/motion_blur/setting_rows.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/shot/pass_groups.h"
+#include "game/shot/methods.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/tonemap/display.h"
+#include "modules/tonemap/tonemap.h"
 #include "shaders/tonemap/tonemap.glsl"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
+// The files that are written besides the pictures: intermediates (--aov) and statistics (--stats).
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/gpu/device_select.h"
 #include "engine/image/image.h"
+#include "engine/render/renderer.h"
+#include "game/output/render_options.h"
 
 #include <filesystem>
 #include <string>
@@ -26,6 +30,19 @@ selectChannels(const image::Image& image, const std::vector<Channel>& channels);
 /// Writes an intermediate with the channels that mean something, named.
 [[nodiscard]] core::Status writeIntermediate(
     const std::filesystem::path& path, const std::string& aov, const image::Image& image
+);
+
+struct PictureStatistics {
+    double seconds = 0.0;
+    render::FrameStatistics frame;
+};
+
+/// --stats: schema in README.md, "Statistics".
+[[nodiscard]] core::Status writeStatistics(
+    const std::filesystem::path& path,
+    const RenderOptions& options,
+    const gpu::DeviceInfo& device,
+    const std::vector<PictureStatistics>& pictures
 );
 
 } // namespace shutter::game

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/play_screen.h"
+
+#include "game/options/folders.h"
+
+#include <utility>
+
+namespace shutter::game {
+
+PlayScreen::~PlayScreen() {
+    releaseDrawing();
+}
+
+void PlayScreen::releaseDrawing() {
+    mUi.reset();
+    mSwapchain.reset(); // before the window that it shows on
+}
+
+core::Status PlayScreen::open(const PlayOptions& options, bool vsync) {
+    const ShotOptions& shot = options.shot;
+    gpu::DeviceOptions wanted = options.device;
+    wanted.cacheFolder = findCacheFolder();
+    mHeadlessSize = {shot.width, shot.height};
+    if (options.hasWindow) {
+        auto window = app::Window::open({"Shutter", shot.width, shot.height});
+        if (!window)
+            return core::makeError("{}; --no-window does without", window.error().message);
+        mWindow = std::move(window).value();
+        wanted.surfaceExtensions = mWindow->surfaceExtensions();
+    }
+    auto device = gpu::Device::create(wanted);
+    if (!device)
+        return device.error();
+    mDevice = std::move(device).value();
+    if (mWindow)
+        SHUTTER_TRY(openSwapchain(vsync));
+    mUi = std::make_unique<app::Ui>(*mDevice);
+    return {};
+}
+
+core::Status PlayScreen::openSwapchain(bool vsync) {
+    auto surface = mWindow->createSurface(mDevice->instance());
+    if (!surface)
+        return surface.error();
+    const math::uvec2 size = mWindow->framebufferSize();
+    auto swapchain = gpu::Swapchain::create(*mDevice, surface.value(), {size.x, size.y, vsync});
+    if (!swapchain)
+        return swapchain.error();
+    mSwapchain = std::move(swapchain).value();
+    return {};
+}
+
+math::uvec2 PlayScreen::size() const {
+    return mWindow ? mWindow->framebufferSize() : mHeadlessSize;
+}
+
+double PlayScreen::contentScale() const {
+    return mWindow ? mWindow->contentScale() : 1.0;
+}
+
+app::InputCollector& PlayScreen::collector(bool isScripted) {
+    return isScripted || !mWindow ? mInput : mWindow->input();
+}
+
+void PlayScreen::poll(bool wait) {
+    if (mWindow)
+        mWindow->poll(wait);
+}
+
+bool PlayScreen::closeRequested() const {
+    return mWindow && mWindow->closeRequested();
+}
+
+void PlayScreen::setTitle(const std::string& title) {
+    if (mWindow)
+        mWindow->setTitle(title);
+}
+
+void PlayScreen::resize(const math::uvec2& size) {
+    mHeadlessSize = size;
+    if (mWindow)
+        mWindow->resize(size.x, size.y);
+}
+
+void PlayScreen::apply(app::WindowAction action) {
+    if (!mWindow)
+        return;
+    switch (action) {
+    case app::WindowAction::Minimise:
+        mWindow->minimise();
+        break;
+    case app::WindowAction::Restore:
+        mWindow->restore();
+        break;
+    case app::WindowAction::FullScreen:
+    case app::WindowAction::Windowed:
+        mWindow->setFullScreen(action == app::WindowAction::FullScreen);
+        break;
+    case app::WindowAction::Quit:
+        break;
+    }
+}
+
+void PlayScreen::toggleFullScreen() {
+    if (mWindow)
+        mWindow->setFullScreen(!mWindow->isFullScreen());
+}
+
+bool PlayScreen::fitSwapchain(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
+    const gpu::SwapchainDesc& now = mSwapchain->desc();
+    if (now.width == sizePx.x && now.height == sizePx.y && now.vsync == vsync)
+        return true;
+    renderer.finishAll();
+    return mSwapchain->resize({sizePx.x, sizePx.y, vsync});
+}
+
+std::optional<gpu::SwapchainImage>
+PlayScreen::acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
+    std::optional<gpu::SwapchainImage> image;
+    if (fitSwapchain(sizePx, vsync, renderer))
+        image = mSwapchain->acquire();
+    if (!image) { // between two sizes, or out of sight
+        renderer.finishAll();
+        mSwapchain->resize({sizePx.x, sizePx.y, vsync});
+    }
+    return image;
+}
+
+void PlayScreen::present(const gpu::SwapchainImage& image, bool vsync, PlayRenderer& renderer) {
+    if (mSwapchain->present(image))
+        return;
+    const gpu::SwapchainDesc& now = mSwapchain->desc();
+    renderer.finishAll();
+    mSwapchain->resize({now.width, now.height, vsync});
+}
+
+} // namespace shutter::game

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "game/play/loop/settings_keeper.h"
+
+#include "engine/core/log.h"
+#include "game/options/folders.h"
+
+#include <system_error>
+#include <utility>
+
+namespace shutter::game {
+
+namespace {
+
+/// For a player without settings: a third of a frame at 20 frames per second.
+constexpr double kFirstBudgetMilliseconds = 16.0;
+
+void applyOptions(const PlayOptions& options, PlaySettings& settings) {
+    if (options.method)
+        settings.method = *options.method;
+    if (options.vsync)
+        settings.vsync = *options.vsync;
+    if (!options.film.empty() && options.settings.empty())
+        settings.showPanel = false;
+}
+
+} // namespace
+
+core::Result<PlaySettings>
+SettingsKeeper::open(const PlayOptions& options, bool isScripted, std::string& message) {
+    PlaySettings settings;
+    mIsOwn = options.settings.empty();
+    // What a script shows must not depend on what a person left behind.
+    const bool isPersons = mIsOwn && !isScripted;
+    mFile = isPersons ? findSettingsFile() : options.settings;
+    std::error_code ignored;
+    if (!mFile.empty() && (!isPersons || std::filesystem::exists(mFile, ignored))) {
+        auto loaded = loadPlaySettings(mFile);
+        if (!loaded && !isPersons)
+            return loaded.error();
+        if (!loaded)
+            message = refuse(loaded.error().message);
+        else
+            settings = std::move(loaded).value();
+    }
+    // The budget keeps up a person's frame rate in the first session; scripts and films depend on
+    // no clock.
+    if (isPersons && options.film.empty() && !std::filesystem::exists(mFile, ignored))
+        settings.budget.milliseconds = kFirstBudgetMilliseconds;
+    applyOptions(options, settings);
+    return settings;
+}
+
+std::string SettingsKeeper::save(const PlaySettings& settings) const {
+    if (mFile.empty())
+        return "settings are kept nowhere: there is no home folder, or a script plays";
+    std::error_code ignored;
+    if (mIsOwn)
+        std::filesystem::create_directories(mFile.parent_path(), ignored);
+    if (mIsRefused)
+        return mFile.string() + " is not written over: it was refused and holds a mistake";
+    const core::Status saved = savePlaySettings(mFile, settings);
+    return saved ? "saved " + mFile.string() : saved.error().message;
+}
+
+std::string SettingsKeeper::load(PlaySettings& settings) {
+    if (mFile.empty())
+        return {};
+    auto loaded = loadPlaySettings(mFile);
+    if (!loaded)
+        return refuse(loaded.error().message);
+    mIsRefused = false;
+    settings = std::move(loaded).value();
+    return "loaded " + mFile.string();
+}
+
+std::string SettingsKeeper::refuse(const std::string& why) {
+    mIsRefused = true;
+    core::logWarning("{}", why);
+    return why;
+}
+
+} // namespace shutter::game
