@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_stage.h"
 
-#include "engine/image/image.h"
 #include "engine/gltf/gltf_loader.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/image/image.h"
 #include "engine/core/result.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"

@@ -65,7 +65,7 @@ const std::vector<Row> kGameRows = {
     {"output", {"shot"}},
     {"options", {"shot", "output"}},
     {"demos", {}},
-    {"play/panel", {"shot"}},
+    {"play/panel", {"shot", "demos"}},
     {"play/loop", {"shot", "output", "options", "demos", "play/panel"}},
     {"bench/report", {}},
     {"bench/suites", {"shot", "options", "tests/conformance"}},

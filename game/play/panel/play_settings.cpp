@@ -3,8 +3,8 @@
 
 #include "engine/core/check.h"
 #include "engine/scene/shutter.h"
-#include "modules/motion_blur/settings.h"
 #include "modules/motion_blur/budget.h"
+#include "modules/motion_blur/settings.h"
 
 #include <algorithm>
 
