@@ -7,6 +7,7 @@
 #include "engine/io/uri.h"
 
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <new>
 #include <string_view>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sys/stat.h>
+#include <utility>
 
 namespace shutter::cli {
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <utility>
 
 namespace shutter::test {
@@ -35,6 +37,21 @@ gpu::Pipeline makeScalePipeline(gpu::Device& device) {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
     return gpu::Pipeline(device, desc);
+}
+
+image::Image makePicture(uint32_t width, uint32_t height, float value) {
+    image::Image picture(width, height, 4);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), value);
+    return picture;
+}
+
+image::Image makeNoise(uint32_t width, uint32_t height) {
+    image::Image picture(width, height, 4);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    for (float& value : picture.pixels)
+        value = image::roundToHalf(unit(random));
+    return picture;
 }
 
 } // namespace shutter::test

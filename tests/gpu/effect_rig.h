@@ -28,4 +28,9 @@ struct EffectRig {
 /// dispatch, pushed AccumulateParams.
 [[nodiscard]] gpu::Pipeline makeScalePipeline(gpu::Device& device);
 
+/// One value in all four channels.
+[[nodiscard]] image::Image makePicture(uint32_t width, uint32_t height, float value);
+/// Half floats, so that a colour image holds the picture itself.
+[[nodiscard]] image::Image makeNoise(uint32_t width, uint32_t height);
+
 } // namespace shutter::test

@@ -4,8 +4,8 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/gpu/embedding_host.h"
 #include "tests/kit/scene_builder.h"
-#include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
 #include <glm/gtc/packing.hpp>
@@ -28,24 +28,17 @@ using motion_blur::HostImage;
 using motion_blur::HostInputs;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
+using test::gather;
+using test::HostFrame;
+using test::kCopied;
+using test::kNothing;
+using test::kSampled;
+using test::kWritten;
+using test::makeImage;
+using test::moveOn;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
-
-constexpr graph::OutsideUse kSampled{
-    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-constexpr graph::OutsideUse kCopied{
-    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-    VK_ACCESS_2_TRANSFER_READ_BIT};
-constexpr graph::OutsideUse kWritten{
-    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-    VK_ACCESS_2_TRANSFER_WRITE_BIT};
-constexpr graph::OutsideUse kNothing{
-    VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
 
 VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
     VkImageCopy region{};
@@ -53,39 +46,6 @@ VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
     region.dstSubresource = region.srcSubresource;
     region.extent = {width, height, 1};
     return region;
-}
-
-void moveOn(
-    VkCommandBuffer commands,
-    VkImage image,
-    const graph::OutsideUse& before,
-    const graph::OutsideUse& after
-) {
-    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    barrier.srcStageMask = before.stages;
-    barrier.srcAccessMask = before.access;
-    barrier.dstStageMask = after.stages;
-    barrier.dstAccessMask = after.access;
-    barrier.oldLayout = before.layout;
-    barrier.newLayout = after.layout;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = 1;
-    dependency.pImageMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
-}
-
-gpu::Image
-makeImage(gpu::Device& device, const char* name, VkFormat format, uint32_t width, uint32_t height) {
-    return {
-        device,
-        name,
-        {width,
-         height,
-         format,
-         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-             VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
 }
 
 /// A picture in half floats that is copied to where the CPU reads it.
@@ -242,23 +202,8 @@ void build(test::SceneBuilder& scene) {
     );
 }
 
-class Foreign : public test::GpuTest {
+class EmbeddedPictures : public test::EmbeddedTest {
   protected:
-    static HostDevice describeHost() {
-        HostDevice host;
-        host.physical = device().physical();
-        host.device = device().handle();
-        host.queueFamily = device().queueFamily();
-        host.hasDebugUtils = true;
-        return host;
-    }
-
-    static std::unique_ptr<EmbeddedMotionBlur> create(const HostDevice& host) {
-        auto blur = EmbeddedMotionBlur::create(host);
-        EXPECT_TRUE(blur.ok()) << blur.error().message;
-        return blur.ok() ? std::move(blur).value() : nullptr;
-    }
-
     /// Draws a frame with the host's blur before the plugin's, which must be the same.
     static void expectSameAsPlugin(HostDevice host, std::span<const Method* const> methods) {
         test::SceneBuilder scene;
@@ -299,7 +244,7 @@ class Foreign : public test::GpuTest {
     }
 };
 
-TEST_F(Foreign, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
+TEST_F(EmbeddedPictures, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
     std::vector<const Method*> methods;
     for (const Method* method : motion_blur::listMethods())
         if (!method->readsCamera && method->rays == motion_blur::RayNeed::None)
@@ -307,7 +252,7 @@ TEST_F(Foreign, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
     expectSameAsPlugin(describeHost(), methods);
 }
 
-TEST_F(Foreign, HybridGivesTheBitsOfThePlugin) {
+TEST_F(EmbeddedPictures, HybridGivesTheBitsOfThePlugin) {
     if (!device().hasRays())
         GTEST_SKIP() << "the device traces no rays";
     HostDevice host = describeHost();
@@ -315,48 +260,8 @@ TEST_F(Foreign, HybridGivesTheBitsOfThePlugin) {
     expectSameAsPlugin(host, std::array{&getMethod("hybrid")});
 }
 
-/// Pictures of the host that are cleared in each frame, and a command buffer of its own.
-struct HostFrame {
-    HostFrame(gpu::Device& device, uint32_t w, uint32_t h)
-        : width(w), height(h),
-          color(makeImage(device, "color", VK_FORMAT_R16G16B16A16_SFLOAT, w, h)),
-          motionDepth(makeImage(device, "motion", VK_FORMAT_R32G32B32A32_SFLOAT, w, h)),
-          output(makeImage(device, "output", VK_FORMAT_R16G16B16A16_SFLOAT, w, h)) {}
-
-    [[nodiscard]] HostInputs inputs() const {
-        HostInputs in;
-        in.width = width;
-        in.height = height;
-        in.color = {color.handle(), kWritten, kSampled};
-        in.motionDepth = {motionDepth.handle(), kWritten, kSampled};
-        in.output = {output.handle(), kNothing, kCopied};
-        return in;
-    }
-
-    void recordClears(VkCommandBuffer commands) const {
-        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        for (const gpu::Image* image : {&color, &motionDepth}) {
-            moveOn(commands, image->handle(), kNothing, kWritten);
-            const VkClearColorValue value{{3.0f, 2.0f, 1.0f, 1.0f}};
-            vkCmdClearColorImage(commands, image->handle(), kWritten.layout, &value, 1, &all);
-        }
-    }
-
-    uint32_t width;
-    uint32_t height;
-    gpu::Image color;
-    gpu::Image motionDepth;
-    gpu::Image output;
-};
-
-MotionBlurSettings gather() {
-    MotionBlurSettings settings;
-    settings.method = &getMethod("gather");
-    return settings;
-}
-
 // Validation finds whatever is destroyed or overwritten while a frame is in flight.
-TEST_F(Foreign, FramesInFlightMayChangeTheirSize) {
+TEST_F(EmbeddedPictures, FramesInFlightMayChangeTheirSize) {
     const auto blur = create(describeHost());
     ASSERT_TRUE(blur);
     std::array<gpu::Frame, 2> frames{gpu::Frame(device()), gpu::Frame(device())};
@@ -379,7 +284,7 @@ TEST_F(Foreign, FramesInFlightMayChangeTheirSize) {
     EXPECT_EQ(last, small) << "what the large pictures needed is gone";
 }
 
-TEST_F(Foreign, WhatResizingLeftOverGoesWhenItsFramesAreDone) {
+TEST_F(EmbeddedPictures, WhatResizingLeftOverGoesWhenItsFramesAreDone) {
     HostDevice description = describeHost();
     description.framesInFlight = 3;
     const auto blur = create(description);
@@ -403,126 +308,6 @@ TEST_F(Foreign, WhatResizingLeftOverGoesWhenItsFramesAreDone) {
     blur->markDone(1);
     draw(0, 40);
     EXPECT_LE(blur->living().images, 2 * one.images);
-}
-
-void expectRefusal(const core::Status& status, const std::string& part) {
-    ASSERT_FALSE(status.ok()) << "expected: " << part;
-    EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
-}
-
-class ForeignRefusals : public Foreign {
-  protected:
-    void SetUp() override {
-        Foreign::SetUp();
-        if (IsSkipped() || HasFatalFailure())
-            return;
-        mBlur = create(describeHost());
-        mHost.emplace(device(), 40, 24);
-        mFrame.emplace(device());
-        inputs = mHost->inputs();
-        settings = gather();
-    }
-
-    void TearDown() override {
-        mFrame.reset();
-        mHost.reset();
-        mBlur.reset();
-        Foreign::TearDown();
-    }
-
-    core::Status record(uint32_t frame = 0) {
-        mFrame->begin();
-        mHost->recordClears(mFrame->commands());
-        const core::Status status = mBlur->record(mFrame->commands(), frame, inputs, settings);
-        mFrame->submit();
-        mFrame->wait();
-        return status;
-    }
-
-    HostInputs inputs;
-    MotionBlurSettings settings;
-    std::unique_ptr<EmbeddedMotionBlur> mBlur;
-    std::optional<HostFrame> mHost;
-    std::optional<gpu::Frame> mFrame;
-};
-
-TEST_F(ForeignRefusals, EachBadInputIsNamed) {
-    const HostInputs good = inputs;
-    ASSERT_TRUE(record().ok());
-    expectRefusal(record(2), "frame is 2, framesInFlight 2");
-    expectRefusal(mBlur->record(VK_NULL_HANDLE, 0, inputs, settings), "command buffer is null");
-    const auto refuse = [&](auto&& change, const std::string& part) {
-        inputs = good;
-        change();
-        expectRefusal(record(), part);
-    };
-    refuse([&] { inputs.width = 0; }, "the size is 0 x 24");
-    refuse([&] { inputs.height = 32769; }, "the size is 40 x 32769");
-    refuse([&] { inputs.rasterTime = -0.1; }, "rasterTime is -0.1");
-    refuse(
-        [&] { inputs.rasterTime = std::numeric_limits<double>::quiet_NaN(); }, "rasterTime is nan"
-    );
-    refuse([&] { inputs.color.image = VK_NULL_HANDLE; }, "color.image is null");
-    refuse([&] { inputs.motionDepth.image = VK_NULL_HANDLE; }, "motionDepth.image is null");
-    refuse(
-        [&] { inputs.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; },
-        "color.before.layout is undefined"
-    );
-    refuse([&] { inputs.output.image = inputs.color.image; }, "leave output.image null");
-    refuse(
-        [&] { inputs.motionDepth.image = inputs.color.image; }, "motionDepth.image is color.image"
-    );
-    inputs = good;
-    EXPECT_TRUE(record().ok());
-}
-
-TEST_F(ForeignRefusals, EachMethodThatCannotRunIsNamed) {
-    settings.sampleCount = 0;
-    expectRefusal(record(), "sampleCount");
-    settings = gather();
-    settings.method = &getMethod("denoised");
-    expectRefusal(record(), "denoised");
-    settings.method = &getMethod("hybrid");
-    expectRefusal(record(), "the method hybrid needs rays");
-}
-
-TEST_F(ForeignRefusals, EachBadHostIsNamed) {
-    const auto refuse = [](auto&& change, const std::string& part) {
-        HostDevice host = describeHost();
-        change(host);
-        const auto made = EmbeddedMotionBlur::create(host);
-        ASSERT_FALSE(made.ok()) << "expected: " << part;
-        EXPECT_NE(made.error().message.find(part), std::string::npos) << made.error().message;
-    };
-    refuse([](HostDevice& host) { host.physical = VK_NULL_HANDLE; }, "physical is null");
-    refuse([](HostDevice& host) { host.device = VK_NULL_HANDLE; }, "device is null");
-    refuse([](HostDevice& host) { host.framesInFlight = 0; }, "framesInFlight is 0");
-    refuse([](HostDevice& host) { host.framesInFlight = 65; }, "framesInFlight is 65");
-    refuse([](HostDevice& host) { host.queueFamily = 99; }, "queueFamily 99");
-    refuse([](HostDevice& host) { host.rayTier = gpu::RayTier::RayQuery; }, "sceneLayout is null");
-}
-
-TEST_F(ForeignRefusals, RaysWithoutTheirTablesAreNamed) {
-    if (!device().hasRays())
-        GTEST_SKIP() << "the device traces no rays";
-    test::SceneBuilder scene;
-    render::Renderer renderer(device(), scene.world.assets);
-    HostDevice host = describeHost();
-    host.rayTier = device().info().rayTier;
-    host.sceneLayout = renderer.scene().textureLayout();
-    mBlur = create(host);
-    settings.method = &getMethod("hybrid");
-    expectRefusal(record(), "normal.image is null");
-    inputs.normal = {mHost->output.handle(), kSampled, kSampled};
-    inputs.output = {};
-    expectRefusal(record(), "entityId.image is null");
-    const gpu::Image entityId = makeImage(device(), "entity id", VK_FORMAT_R32_UINT, 40, 24);
-    inputs.entityId = {entityId.handle(), kSampled, kSampled};
-    expectRefusal(record(), "rays.frameConstants is 0");
-    inputs.rays.frameConstants = 4096;
-    // Nothing looks at it: it is refused for what it lacks.
-    inputs.rays.tlas = reinterpret_cast<VkAccelerationStructureKHR>(uintptr_t{1});
-    expectRefusal(record(), "rays.tlasBuffer is null");
 }
 
 } // namespace

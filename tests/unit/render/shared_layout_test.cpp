@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +21,7 @@
 #include <regex>
 #include <string>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace shutter::shader {

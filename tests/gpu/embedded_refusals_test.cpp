@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// What a host hands in wrongly is refused by one sentence that names it.
+#include "engine/gpu/frame.h"
+#include "engine/render/renderer.h"
+#include "tests/gpu/embedding_host.h"
+#include "tests/kit/scene_builder.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace shutter {
+namespace {
+
+using motion_blur::EmbeddedMotionBlur;
+using motion_blur::getMethod;
+using motion_blur::HostDevice;
+using motion_blur::HostInputs;
+using motion_blur::MotionBlurSettings;
+using test::gather;
+using test::HostFrame;
+using test::kSampled;
+using test::makeImage;
+
+void expectRefusal(const core::Status& status, const std::string& part) {
+    ASSERT_FALSE(status.ok()) << "expected: " << part;
+    EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
+}
+
+class EmbeddedRefusals : public test::EmbeddedTest {
+  protected:
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        mBlur = create(describeHost());
+        mHost.emplace(device(), 40, 24);
+        mFrame.emplace(device());
+        inputs = mHost->inputs();
+        settings = gather();
+    }
+
+    void TearDown() override {
+        mFrame.reset();
+        mHost.reset();
+        mBlur.reset();
+        EmbeddedTest::TearDown();
+    }
+
+    core::Status record(uint32_t frame = 0) {
+        mFrame->begin();
+        mHost->recordClears(mFrame->commands());
+        const core::Status status = mBlur->record(mFrame->commands(), frame, inputs, settings);
+        mFrame->submit();
+        mFrame->wait();
+        return status;
+    }
+
+    HostInputs inputs;
+    MotionBlurSettings settings;
+    std::unique_ptr<EmbeddedMotionBlur> mBlur;
+    std::optional<HostFrame> mHost;
+    std::optional<gpu::Frame> mFrame;
+};
+
+TEST_F(EmbeddedRefusals, EachBadInputIsNamed) {
+    const HostInputs good = inputs;
+    ASSERT_TRUE(record().ok());
+    expectRefusal(record(2), "frame is 2, framesInFlight 2");
+    expectRefusal(mBlur->record(VK_NULL_HANDLE, 0, inputs, settings), "command buffer is null");
+    const auto refuse = [&](auto&& change, const std::string& part) {
+        inputs = good;
+        change();
+        expectRefusal(record(), part);
+    };
+    refuse([&] { inputs.width = 0; }, "the size is 0 x 24");
+    refuse([&] { inputs.height = 32769; }, "the size is 40 x 32769");
+    refuse([&] { inputs.rasterTime = -0.1; }, "rasterTime is -0.1");
+    refuse(
+        [&] { inputs.rasterTime = std::numeric_limits<double>::quiet_NaN(); }, "rasterTime is nan"
+    );
+    refuse([&] { inputs.color.image = VK_NULL_HANDLE; }, "color.image is null");
+    refuse([&] { inputs.motionDepth.image = VK_NULL_HANDLE; }, "motionDepth.image is null");
+    refuse(
+        [&] { inputs.color.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; },
+        "color.before.layout is undefined"
+    );
+    refuse([&] { inputs.output.image = inputs.color.image; }, "leave output.image null");
+    refuse(
+        [&] { inputs.motionDepth.image = inputs.color.image; }, "motionDepth.image is color.image"
+    );
+    inputs = good;
+    EXPECT_TRUE(record().ok());
+}
+
+TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
+    settings.sampleCount = 0;
+    expectRefusal(record(), "sampleCount");
+    settings = gather();
+    settings.method = &getMethod("denoised");
+    expectRefusal(record(), "denoised");
+    settings.method = &getMethod("hybrid");
+    expectRefusal(record(), "the method hybrid needs rays");
+}
+
+TEST_F(EmbeddedRefusals, EachBadHostIsNamed) {
+    const auto refuse = [](auto&& change, const std::string& part) {
+        HostDevice host = describeHost();
+        change(host);
+        const auto made = EmbeddedMotionBlur::create(host);
+        ASSERT_FALSE(made.ok()) << "expected: " << part;
+        EXPECT_NE(made.error().message.find(part), std::string::npos) << made.error().message;
+    };
+    refuse([](HostDevice& host) { host.physical = VK_NULL_HANDLE; }, "physical is null");
+    refuse([](HostDevice& host) { host.device = VK_NULL_HANDLE; }, "device is null");
+    refuse([](HostDevice& host) { host.framesInFlight = 0; }, "framesInFlight is 0");
+    refuse([](HostDevice& host) { host.framesInFlight = 65; }, "framesInFlight is 65");
+    refuse([](HostDevice& host) { host.queueFamily = 99; }, "queueFamily 99");
+    refuse([](HostDevice& host) { host.rayTier = gpu::RayTier::RayQuery; }, "sceneLayout is null");
+}
+
+TEST_F(EmbeddedRefusals, RaysWithoutTheirTablesAreNamed) {
+    if (!device().hasRays())
+        GTEST_SKIP() << "the device traces no rays";
+    test::SceneBuilder scene;
+    render::Renderer renderer(device(), scene.world.assets);
+    HostDevice host = describeHost();
+    host.rayTier = device().info().rayTier;
+    host.sceneLayout = renderer.scene().textureLayout();
+    mBlur = create(host);
+    settings.method = &getMethod("hybrid");
+    expectRefusal(record(), "normal.image is null");
+    inputs.normal = {mHost->output.handle(), kSampled, kSampled};
+    inputs.output = {};
+    expectRefusal(record(), "entityId.image is null");
+    const gpu::Image entityId = makeImage(device(), "entity id", VK_FORMAT_R32_UINT, 40, 24);
+    inputs.entityId = {entityId.handle(), kSampled, kSampled};
+    expectRefusal(record(), "rays.frameConstants is 0");
+    inputs.rays.frameConstants = 4096;
+    // Nothing looks at it: it is refused for what it lacks.
+    inputs.rays.tlas = reinterpret_cast<VkAccelerationStructureKHR>(uintptr_t{1});
+    expectRefusal(record(), "rays.tlasBuffer is null");
+}
+
+} // namespace
+} // namespace shutter
