@@ -47,7 +47,7 @@ def check_lengths():
 
 def check_installed(prefix):
     for file in ("bin/shutter", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
-                 "include/shutter/modules/motion_blur/foreign/embedded_motion_blur.h",
+                 "include/shutter/modules/motion_blur/embedding/embedded_motion_blur.h",
                  "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
         if not (prefix / file).is_file():
             fail(f"{file} is not installed")
