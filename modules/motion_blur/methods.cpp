@@ -8,6 +8,7 @@
 namespace shutter::motion_blur {
 
 // Each is defined in methods/, in the file of its name.
+extern const Method kRosado2007;
 extern const Method kOwnVelocity;
 extern const Method kMcGuire2012;
 extern const Method kGuertin2014;
@@ -22,6 +23,7 @@ const Method& getDefaultMethod() {
 
 std::span<const Method* const> listMethods() {
     static const std::array kMethods{
+        &kRosado2007,
         &kOwnVelocity,
         &kMcGuire2012,
         &kGuertin2014,
