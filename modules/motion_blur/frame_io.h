@@ -2,9 +2,9 @@
 // What a frame gives to the effect and gets from it.
 //
 // Conventions: colours are linear HDR, at most 65000. `motion` is a pixel's displacement in pixels
-// (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the sky
-// too. `depth` is metres along the view direction, kSkyDepth (1e9) where nothing is. The entity id is
-// the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
+// (right, down) from shutter open to close, without temporal jitter; a camera rotation moves the
+// sky too. `depth` is metres along the view direction, kSkyDepth (1e9) where nothing is. The entity
+// id is the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
 #pragma once
 
 #include "engine/graph/ray_scene.h"
@@ -25,7 +25,7 @@ struct MotionBlurInputs {
     graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for methods that read the surface
     graph::ImageHandle entityId;    ///< R32_UINT; for methods that read the surface
     double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
-    glm::uvec2 response{0u}; ///< address of shader::ResponseTable (shutter_response_shared.h); 0: box
+    glm::uvec2 response{0u};        ///< address of shader::ResponseTable; 0: a box
     /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves
     /// and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;

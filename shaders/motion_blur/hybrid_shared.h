@@ -14,12 +14,12 @@ SHUTTER_CONST uint kFlagSteppingReveal = 2u; // the reveal steps from surface to
 
 struct HybridParams {
     GatherParams gather;
-    float edgeThreshold;      // [0, 1]
-    float rayShare;           // of the masked pixels that trace, [0, 1]
+    float edgeThreshold; // [0, 1]
+    float rayShare;      // of the masked pixels that trace, [0, 1]
     float luminanceThreshold;
     uint recursionLimit;
-    uvec2 frame;              // address of the scene's FrameConstants
-    uint flags;               // kFlag...
+    uvec2 frame; // address of the scene's FrameConstants
+    uint flags;  // kFlag...
     uint padding0;
 };
 

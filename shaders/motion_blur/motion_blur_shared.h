@@ -20,15 +20,15 @@ struct MotionBlurParams {
     uvec2 sizePx;
     uvec2 tileCount;
     uint tileSizePx;
-    int neighbourRadius;    // tiles to each side
+    int neighbourRadius; // tiles to each side
     uint sampleCount;
-    float softDepthExtent;  // metres
-    float rasterTime;       // of the exposure, [0, 1]
-    float jitter;           // of the taps, share of their distance, [0, 1]
-    float maxMotionDepth;   // metres; deeper pixels count as still; infinity: none do
-    float marginPx;         // beyond a block whose tiles its pixels may look up
-    uvec2 response;         // address of the shutter's ResponseTable; 0: a box
-    float uniformMotionPx;  // deviation that still counts as uniform motion; 0: none does
+    float softDepthExtent; // metres
+    float rasterTime;      // of the exposure, [0, 1]
+    float jitter;          // of the taps, share of their distance, [0, 1]
+    float maxMotionDepth;  // metres; deeper pixels count as still; infinity: none do
+    float marginPx;        // beyond a block whose tiles its pixels may look up
+    uvec2 response;        // address of the shutter's ResponseTable; 0: a box
+    float uniformMotionPx; // deviation that still counts as uniform motion; 0: none does
     float padding0;
 };
 
@@ -52,8 +52,8 @@ struct DispatchArguments {
     uint groupsZ;
 };
 
-/// Head of a buffer of lists; room for every block of the picture follows for each list. An entry is
-/// x | y << 16, in blocks.
+/// Head of a buffer of lists; room for every block of the picture follows for each list. An entry
+/// is x | y << 16, in blocks.
 struct BlockHeader {
     uint uniformCount;
     uint mixedCount;
@@ -70,8 +70,8 @@ struct TileHeader {
     uint padding2;
 };
 
-/// In an entry of the list of masked pixels: what is revealed there is taken for the masked pixels of
-/// its quad, too, the first of which it is. Pictures are at most 32768 pixels high.
+/// In an entry of the list of masked pixels: what is revealed there is taken for the masked pixels
+/// of its quad, too, the first of which it is. Pictures are at most 32768 pixels high.
 SHUTTER_CONST uint kQuadFlag = 0x80000000u;
 
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.

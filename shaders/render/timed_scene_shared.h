@@ -23,7 +23,7 @@ struct TimedRow {
                               // then meshScene is the address of uvec2[], a top level for each two
                               // keys, and the geometries' Vertex[] hold one key's vertices behind
                               // the other's
-    float handedness; // -1 where a mirrored skeleton turns the winding round, else 1
+    float handedness;         // -1 where a mirrored skeleton turns the winding round, else 1
 };
 
 struct TimedConstants {
@@ -34,7 +34,7 @@ struct TimedConstants {
     uvec2 boxes;      // address of uint[]: row of the entity table of each moving box
     uvec2 cameraKeys; // address of MotionKey[]: eyeFromView; rigid but for x and y, which a lens
                       // that zooms scales by how much wider it sees than at the raster instant
-    uvec2 lights; // address of LightRow[]: all lights at the first key, then at the next, ...
+    uvec2 lights;     // address of LightRow[]: all lights at the first key, then at the next, ...
     uint cameraKeyCount;
     uint lightKeyCount;
     uint lightCount;

@@ -42,8 +42,8 @@ struct HostImage {
     graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
 };
 
-/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of RayNeed::Any
-/// fills those tables.
+/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
+/// RayNeed::Any fills those tables.
 struct HostRays {
     /// Custom index of an instance: its mesh id. Null: nothing but sky lies behind what moves.
     VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;

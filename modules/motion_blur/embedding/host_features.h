@@ -17,7 +17,8 @@ namespace shutter::motion_blur {
 /// more with rays, see the constructor).
 class HostFeatures {
   public:
-    /// \param rays how rays shall be traced, for methods of RayNeed::Any; None: methods without rays
+    /// \param rays how rays shall be traced, for methods of RayNeed::Any; None: methods without
+    /// rays
     explicit HostFeatures(gpu::RayTier rays = gpu::RayTier::None);
     HostFeatures(const HostFeatures&) = delete;
     HostFeatures& operator=(const HostFeatures&) = delete;

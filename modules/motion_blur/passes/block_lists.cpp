@@ -87,10 +87,7 @@ BlockSorter::BlockSorter(gpu::Device& device)
 }
 
 SortedBlocks BlockSorter::add(
-    graph::Graph& graph,
-    const TileMotionOutputs& tiles,
-    const PassParams& params,
-    bool forMask
+    graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask
 ) const {
     const glm::uvec2 extent = countBlocks(params);
     const VkDeviceSize blockCount = VkDeviceSize(extent.x) * extent.y;
@@ -126,17 +123,15 @@ SortedBlocks BlockSorter::add(
                 bindings.buffer(resources.buffer(pair->blocks))
                     .buffer(resources.buffer(pair->arguments));
             dispatchPixels(
-                context, (forMask ? mSortForMask : mSort).get(), bindings, params, extent);
+                context, (forMask ? mSortForMask : mSort).get(), bindings, params, extent
+            );
         }
     );
     return pass.sorted;
 }
 
 void BlockSorter::addCounters(
-    graph::Graph& graph,
-    const SortedBlocks& sorted,
-    const PassParams& params,
-    uint32_t slot
+    graph::Graph& graph, const SortedBlocks& sorted, const PassParams& params, uint32_t slot
 ) {
     struct Data {
         std::array<graph::BufferHandle, 2> blocks;

@@ -7,8 +7,8 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/tile_motion.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/tile_motion.h"
 
 #include <array>
 #include <cstdint>
@@ -43,18 +43,13 @@ class BlockSorter {
 
     /// \param forMask blocks that may have masked pixels go to the candidates
     SortedBlocks
-    add(graph::Graph& graph,
-        const TileMotionOutputs& tiles,
-        const PassParams& params,
-        bool forMask) const;
+    add(graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask
+    ) const;
 
     /// Reads the lists' lengths back, once all passes that append are declared.
     /// \param slot of the frames in flight, below gpu::kMaxFramesInFlight
     void addCounters(
-        graph::Graph& graph,
-        const SortedBlocks& sorted,
-        const PassParams& params,
-        uint32_t slot = 0
+        graph::Graph& graph, const SortedBlocks& sorted, const PassParams& params, uint32_t slot = 0
     );
 
     /// Of the frame declared last for the slot, once the GPU is done with it; before the first

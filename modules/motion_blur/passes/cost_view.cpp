@@ -44,9 +44,7 @@ graph::ImageHandle addCleared(graph::Graph& graph, const PassParams& params) {
 } // namespace
 
 CostView::CostView(gpu::Device& device)
-    : mUniform(
-          device, shader::kUniformList, {"cost, uniform", motion_blur_cost_view_comp, 1, {1}}
-      ),
+    : mUniform(device, shader::kUniformList, {"cost, uniform", motion_blur_cost_view_comp, 1, {1}}),
       mMixed(device, shader::kMixedList, {"cost, mixed", motion_blur_cost_view_comp, 1, {2}}),
       mCandidates(
           device, shader::kCandidateList, {"cost, candidates", motion_blur_cost_view_comp, 1, {2}}

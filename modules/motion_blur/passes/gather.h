@@ -5,8 +5,8 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/filter.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/filter.h"
 
 #include <optional>
 

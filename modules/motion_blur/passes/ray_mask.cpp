@@ -136,8 +136,7 @@ graph::ImageHandle RayMask::addEdgeView(
         graph::ImageHandle edge;
     };
 
-    const gpu::LazyPipeline& pipeline =
-        inputs.measureEverywhere ? mEdgeViewEverywhere : mEdgeView;
+    const gpu::LazyPipeline& pipeline = inputs.measureEverywhere ? mEdgeViewEverywhere : mEdgeView;
     const Data& pass = graph.addPass<Data>(
         "edge view",
         graph::PassKind::Compute,
@@ -164,10 +163,7 @@ graph::ImageHandle RayMask::addEdgeView(
 }
 
 RayMask::Edges RayMask::addEdges(
-    graph::Graph& graph,
-    const RayMaskInputs& inputs,
-    const Edges& cleared,
-    const PassParams& params
+    graph::Graph& graph, const RayMaskInputs& inputs, const Edges& cleared, const PassParams& params
 ) const {
     struct Data {
         std::array<graph::ImageHandle, 3> in;
@@ -197,16 +193,20 @@ RayMask::Edges RayMask::addEdges(
                 .storage(resources.image(data.out.blocks))
                 .buffer(resources.buffer(data.candidates.blocks));
             dispatchList(
-                context, mEdge.get(), bindings, params, data.candidates.arguments, shader::kCandidateList
+                context,
+                mEdge.get(),
+                bindings,
+                params,
+                data.candidates.arguments,
+                shader::kCandidateList
             );
         }
     );
     return pass.out;
 }
 
-RayMaskOutputs RayMask::add(
-    graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
-) const {
+RayMaskOutputs
+RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const {
     const Cleared cleared = addClear(graph, params);
     const Edges edges = addEdges(graph, inputs, {cleared.images[0], cleared.images[1]}, params);
 

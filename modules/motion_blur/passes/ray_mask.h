@@ -5,8 +5,8 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/block_lists.h"
 
 namespace shutter::motion_blur {
 
@@ -32,8 +32,7 @@ class RayMask {
   public:
     explicit RayMask(gpu::Device& device);
     RayMaskOutputs
-    add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
-    ) const;
+    add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
 
   private:
     struct Edges {
@@ -41,9 +40,8 @@ class RayMask {
         graph::ImageHandle blocks; ///< R8, one texel a block: an edge lies within a block's length
     };
 
-    graph::ImageHandle addEdgeView(
-        graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params
-    ) const;
+    graph::ImageHandle
+    addEdgeView(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
     Edges addEdges(
         graph::Graph& graph,
         const RayMaskInputs& inputs,

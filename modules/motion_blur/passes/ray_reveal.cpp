@@ -147,9 +147,8 @@ void RayReveal::launch(
     tracer.trace(context.commands, params.sizePx.x, params.sizePx.y);
 }
 
-RayRevealOutputs RayReveal::add(
-    graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params
-) {
+RayRevealOutputs
+RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params) {
     using graph::Access;
     const auto create = [&](const char* name, graph::ImageHandle like) {
         return graph.createImage(name, graph.describeImage(like));

@@ -21,8 +21,8 @@ struct RayRevealInputs {
     graph::ImageHandle mask;       ///< of RayMask
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
-    graph::RayScene rays; ///< no TLAS: nothing but sky is found
-    uint32_t slot = 0; ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    graph::RayScene rays;          ///< no TLAS: nothing but sky is found
+    uint32_t slot = 0;             ///< of the frames in flight, below gpu::kMaxFramesInFlight
 };
 
 /// Written at masked pixels only.

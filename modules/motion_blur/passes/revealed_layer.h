@@ -5,9 +5,9 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
-#include "modules/motion_blur/params.h"
 
 namespace shutter::motion_blur {
 
@@ -30,16 +30,12 @@ class RevealedLayerPasses {
 
     /// RG32F, one texel a tile; written where a tile has masked pixels.
     [[nodiscard]] graph::ImageHandle addDominant(
-        graph::Graph& graph,
-        const RevealedLayerInputs& inputs,
-        const PassParams& params
+        graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
     ) const;
 
     /// Drawn only if they are read.
     [[nodiscard]] RevealedViews addViews(
-        graph::Graph& graph,
-        const RevealedLayerInputs& inputs,
-        const PassParams& params
+        graph::Graph& graph, const RevealedLayerInputs& inputs, const PassParams& params
     ) const;
 
   private:

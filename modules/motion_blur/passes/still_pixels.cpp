@@ -46,7 +46,9 @@ StillPixels::StillPixels(gpu::Device& device)
       ),
       mMixed(device, shader::kMixedList, {"write mixed blocks", motion_blur_copy_blocks_comp, 1}),
       mCandidates(
-          device, shader::kCandidateList, {"write candidate blocks", motion_blur_copy_blocks_comp, 1}
+          device,
+          shader::kCandidateList,
+          {"write candidate blocks", motion_blur_copy_blocks_comp, 1}
       ) {}
 
 graph::ImageHandle StillPixels::begin(

@@ -49,7 +49,9 @@ StochasticRaysOutputs StochasticRays::add(
             bindings.accelerationStructure(rays.tlas)
                 .storage(context.resources.image(data.color))
                 .storage(context.resources.image(data.motionDepth));
-            dispatchPixels(context, mPipeline.get(), bindings, params, params.sizePx, rays.textures);
+            dispatchPixels(
+                context, mPipeline.get(), bindings, params, params.sizePx, rays.textures
+            );
         }
     );
 }

@@ -20,8 +20,7 @@ class StochasticRays {
 
     /// Traces params.sampleCount rays a pixel; `params` needs the addresses of `rays`.
     [[nodiscard]] StochasticRaysOutputs
-    add(graph::Graph& graph, const graph::TimedRays& rays, const PassParams& params
-    ) const;
+    add(graph::Graph& graph, const graph::TimedRays& rays, const PassParams& params) const;
 
   private:
     gpu::LazyPipeline mPipeline;

@@ -81,7 +81,6 @@ Drive drive(
     return result;
 }
 
-
 } // namespace
 
 TEST(Budget, RungsStartWithWhatWasAskedForAndEndWithNothing) {
@@ -155,7 +154,8 @@ TEST(Budget, WhatFitsIsLeftAlone) {
 }
 
 TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {
-    for (const Method* method : {&getMethod("hybrid"), &getMethod("gather"), &getMethod("jimenez2014")})
+    for (const Method* method :
+         {&getMethod("hybrid"), &getMethod("gather"), &getMethod("jimenez2014")})
         for (const double budget : {3.0, 6.0, 9.0, 12.0, 15.0, 20.0, 30.0, 40.0, 60.0}) {
             BudgetController controller({budget}, settingsOf(method));
             drive(controller, {}, 400);
