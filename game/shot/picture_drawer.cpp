@@ -123,14 +123,21 @@ PictureDrawer::prepare(const scene::World& world, const PictureRequest& request)
     if (countSteps(request.method) == 0)
         return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
     PictureRequest prepared = request;
-    if (!std::isfinite(view.exposure.shutter.maxBlurPercent))
-        return prepared;
-    finishUntil(0); // measuring draws frames of its own
-    auto cap = mRenderer.measureMotionCap(world, view);
-    if (!cap)
-        return cap.error();
-    prepared.frame.view.exposure.cap = std::move(cap).value();
+    if (!prepared.cap) {
+        auto cap = measureCap(world, view);
+        if (!cap)
+            return cap.error();
+        prepared.cap = std::move(cap).value();
+    }
+    prepared.frame.view.exposure.cap = *prepared.cap;
     return prepared;
+}
+
+core::Result<scene::MotionCap>
+PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
+    if (std::isfinite(view.exposure.shutter.maxBlurPercent))
+        finishUntil(0); // measuring draws frames of its own
+    return mRenderer.measureMotionCap(world, view);
 }
 
 std::vector<uint32_t>

@@ -24,8 +24,9 @@
 namespace shutter::game {
 
 struct PictureRequest {
-    /// The exposure's cap is measured by the drawer.
     render::FrameRequest frame;
+    /// The exposure's cap; nothing: the drawer measures it (measureCap).
+    std::optional<scene::MotionCap> cap{};
     MethodOptions method;
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                                       ///< accumulate, truth
@@ -82,6 +83,11 @@ class PictureDrawer {
 
     /// How often draw() calls onStep: frames of accumulate, rays per pixel of truth, else 1.
     [[nodiscard]] static uint32_t countSteps(const MethodOptions& method);
+
+    /// What the view's shutter caps, for pictures that share a view. Finishes all frames if there
+    /// is a cap to measure.
+    [[nodiscard]] core::Result<scene::MotionCap>
+    measureCap(const scene::World& world, const extract::ViewRequest& view);
 
     /// Draws a picture and waits for it; none may be unfinished (CHECKed).
     /// \param checkpoints truth only; other methods draw none

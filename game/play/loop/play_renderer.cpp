@@ -78,12 +78,17 @@ core::Status PlayRenderer::draw(
     frame.wantReasons = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
+    // Both sides of a split share the view, so one measurement serves.
+    const auto cap = mDrawer.measureCap(world, frame.view);
+    if (!cap)
+        return cap.error();
     app::WindowTarget window = picture.window;
     if (settings.split) {
         auto left = makeRequest(PlaySide::Left, frame, settings);
         if (!left)
             return left.error();
         mLeftView.setView(settings.view);
+        left.value().cap = cap.value();
         left.value().ending = {&mTonemap, &mLeftView, &mKept};
         SHUTTER_TRY(mDrawer.submit(world, left.value()));
         window.left = mKept.image();
@@ -96,6 +101,7 @@ core::Status PlayRenderer::draw(
         return right.error();
     mRightView.setView(settings.view);
     mWindow.setTarget(window);
+    right.value().cap = cap.value();
     right.value().ending = {&mTonemap, &mRightView, &mWindow};
     core::Status drawn = mDrawer.submit(world, right.value());
     takeFinished();
