@@ -40,6 +40,10 @@ struct BenchArguments {
     bool reportOnly = false;
 };
 
+constexpr auto kSizeRow = game::makeRow<&BenchArguments::size>(
+    "--size", "picture size WxH; default 640x360, for demand 1280x720"
+);
+
 std::atomic<bool> sStopped = false;
 
 /// The first Ctrl-C ends the run after the picture being drawn; the second at once.
@@ -240,18 +244,7 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     command->add_flag(
         "--report-only", arguments->reportOnly, "only make the page from results.json"
     );
-    game::addParsedOption(
-        *command,
-        "--size",
-        "picture size WxH; default 640x360, for demand 1280x720",
-        [arguments](const std::string& text) -> core::Status {
-            const auto size = game::parseSize(text);
-            if (!size)
-                return size.error();
-            arguments->size = size.value();
-            return {};
-        }
-    );
+    kSizeRow.define(*command, kSizeRow, *arguments);
     game::defineDeviceOptions(*command, arguments->device);
     std::vector<CLI::Option*> shotOptions;
     const std::vector<CLI::Option*> before = command->get_options();

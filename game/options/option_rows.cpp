@@ -24,7 +24,7 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
     return parts;
 }
 
-core::Result<PictureSize> parseSize(const std::string& text) {
+core::Status parseOption(const std::string& text, PictureSize& parsed) {
     static const std::regex kPattern("([0-9]{1,6})x([0-9]{1,6})");
     std::smatch match;
     if (!std::regex_match(text, match, kPattern))
@@ -33,10 +33,11 @@ core::Result<PictureSize> parseSize(const std::string& text) {
         static_cast<uint32_t>(std::stoul(match[1])), static_cast<uint32_t>(std::stoul(match[2]))};
     if (size.width < 1 || size.height < 1 || size.width > kMaxSize || size.height > kMaxSize)
         return makeError("{} must lie between 1x1 and {}x{}", text, kMaxSize, kMaxSize);
-    return size;
+    parsed = size;
+    return {};
 }
 
-core::Result<math::vec3> parseColor(const std::string& text) {
+core::Status parseOption(const std::string& text, math::vec3& parsed) {
     const auto parts = splitAt(text, ',');
     if (parts.size() != 3)
         return makeError("'{}' is not R,G,B", text);
@@ -47,13 +48,15 @@ core::Result<math::vec3> parseColor(const std::string& text) {
             return makeError("'{}' is not R,G,B of numbers in [0, {}]", text, shader::kMaxColor);
         color[i] = static_cast<float>(*value);
     }
-    return color;
+    parsed = color;
+    return {};
 }
 
-core::Result<bool> parseSwitch(const std::string& text) {
+core::Status parseOption(const std::string& text, bool& isOn) {
     if (text != "on" && text != "off")
         return makeError("'{}' is not on or off", text);
-    return text == "on";
+    isOn = text == "on";
+    return {};
 }
 
 std::string describeOption(const PictureSize& size) {

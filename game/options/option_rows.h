@@ -75,22 +75,37 @@ addParsedOption(CLI::App& command, const char* name, const std::string& help, Pa
     );
 }
 
-[[nodiscard]] core::Result<PictureSize> parseSize(const std::string& text);
+/// "1280x720".
+[[nodiscard]] core::Status parseOption(const std::string& text, PictureSize& size);
 /// "R,G,B", each 0 or more.
-[[nodiscard]] core::Result<math::vec3> parseColor(const std::string& text);
+[[nodiscard]] core::Status parseOption(const std::string& text, math::vec3& color);
 /// "on" or "off".
-[[nodiscard]] core::Result<bool> parseSwitch(const std::string& text);
+[[nodiscard]] core::Status parseOption(const std::string& text, bool& isOn);
+
+/// Types that have a parser of ours; CLI11 parses the others.
+template <class T>
+concept ParsedOption = requires(const std::string& text, T& value) {
+    parseOption(text, value);
+};
+
+template <ParsedOption T>
+[[nodiscard]] core::Status parseOption(const std::string& text, std::optional<T>& value) {
+    T parsed{};
+    SHUTTER_TRY(parseOption(text, parsed));
+    value = parsed;
+    return {};
+}
 
 [[nodiscard]] std::string describeOption(const PictureSize& size);
 [[nodiscard]] std::string describeOption(const math::vec3& color);
 [[nodiscard]] std::string describeOption(const std::vector<std::string>& words);
 
-template <class T> [[nodiscard]] std::string describeOption(const std::optional<T>& value) {
-    return value ? fmt::format("{}", *value) : std::string("none");
-}
-
 template <class T> [[nodiscard]] std::string describeOption(const T& value) {
     return fmt::format("{}", value);
+}
+
+template <class T> [[nodiscard]] std::string describeOption(const std::optional<T>& value) {
+    return value ? describeOption(*value) : std::string("none");
 }
 
 /// The class that a pointer to member points into, and the member's type.
@@ -110,21 +125,11 @@ CLI::Option* defineMember(
 ) {
     using Value = typename MemberOf<decltype(member)>::Value;
     Value& target = arguments.*member;
-    const auto store = [&target](auto parsed) -> core::Status {
-        if (!parsed)
-            return parsed.error();
-        target = std::move(parsed).value();
-        return {};
-    };
     if constexpr (std::same_as<Value, bool>)
         return command.add_flag(row.name, target, row.help);
-    else if constexpr (std::same_as<Value, PictureSize>)
-        return addParsedOption(command, row.name, row.help, [store](const std::string& text) {
-            return store(parseSize(text));
-        });
-    else if constexpr (std::same_as<Value, math::vec3>)
-        return addParsedOption(command, row.name, row.help, [store](const std::string& text) {
-            return store(parseColor(text));
+    else if constexpr (requires { parseOption(std::string(), target); })
+        return addParsedOption(command, row.name, row.help, [&target](const std::string& text) {
+            return parseOption(text, target);
         });
     else
         return command.add_option(row.name, target, row.help);
@@ -189,11 +194,7 @@ void defineSettingOptions(
             typed.insert(row.option);
             if (!isOn)
                 return core::parseValue(row, text, owner);
-            const auto on = parseSwitch(text);
-            if (!on)
-                return on.error();
-            owner.** isOn = on.value();
-            return {};
+            return parseOption(text, owner.**isOn);
         };
         addParsedOption(
             command,

@@ -199,8 +199,9 @@ std::string describe(const ShotArguments& arguments) {
           OptionRows<A>(kTonemapRows),
           OptionRows<A>(kFrameRows)})
         text += describeRows(rows, arguments);
-    return text + scene::describe(arguments.shutter.shutter) +
-           (arguments.shutter.isTyped("--shutter-angle") ? " by angle" : "");
+    // What the options mean together; wrong ones are refused before a picture is drawn.
+    const auto shutter = interpretShutter(arguments.shutter);
+    return text + scene::describe(shutter ? shutter.value() : arguments.shutter.shutter);
 }
 
 } // namespace shutter::game

@@ -27,6 +27,10 @@ constexpr std::array kShotRows = {
     makeRow<&ShotArguments::size>("--size", "window size WxH; default 960x540"),
 };
 
+constexpr auto kVsyncRow = makeRow<&PlayArguments::vsync>(
+    "--vsync", "wait for the display: on or off; default: as in the settings"
+);
+
 bool isDemo(const std::string& name) {
     const auto demos = listDemos();
     return std::any_of(demos.begin(), demos.end(), [&](const DemoInfo& demo) {
@@ -77,18 +81,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
-    addParsedOption(
-        command,
-        "--vsync",
-        "wait for the display: on or off; default: as in the settings",
-        [&a](const std::string& text) -> core::Status {
-            const auto on = parseSwitch(text);
-            if (!on)
-                return on.error();
-            a.vsync = on.value();
-            return {};
-        }
-    );
+    kVsyncRow.define(command, kVsyncRow, a);
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
     command.add_option("--script", a.script, "play unattended from a JSON file of input");
     command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
