@@ -21,7 +21,7 @@ constexpr uint32_t kPathIntervals = 16;
 /// Boxes grow by this much of their largest coordinate: rounding of keys and of the ray's way into
 /// object space must not leave a surface outside of its box.
 constexpr double kBoxGrowth = 1.0e-5;
-/// Of a triangle between two keys: its box, its place in an acceleration structure, and scratch.
+/// Memory per triangle between two keys: its box, its share of a BLAS, and scratch.
 constexpr uint64_t kBytesPerBox = 24 + 200;
 /// Deviation of a light's place, of the length of its way, and of its direction, radians.
 constexpr double kLightTolerance = 1.0e-3;
@@ -74,7 +74,7 @@ class Builder {
                std::tan(mMotion.cameraYFov(mRequest.exposure.rasterTime) / 2.0);
     }
 
-    /// Of the view as the raster instant's lens sees it: what that lens has at the picture's border
+    /// Eye space seen through the raster instant's lens: what that lens has at the picture's border
     /// is at the border at s.
     dmat4 eyeFromViewAt(double s) const {
         dmat4 eye = toEye(viewAt(s));

@@ -11,7 +11,7 @@ namespace shutter::gpu {
 
 namespace {
 
-/// Of a structure's place in a buffer (VkAccelerationStructureCreateInfoKHR::offset).
+/// Required alignment of a structure in its buffer (VkAccelerationStructureCreateInfoKHR::offset).
 constexpr VkDeviceSize kStructureAlignment = 256;
 
 /// What the size of a structure follows from.

@@ -40,7 +40,7 @@ struct Explanation {
     core::Decision decision;
 };
 
-/// Of the effect or work of that name; null where nothing was decided about it.
+/// The decision about the effect or work of that name; null if there was none.
 [[nodiscard]] const core::Decision*
 findDecision(std::span<const Explanation> explanations, const std::string& subject);
 

@@ -67,7 +67,7 @@ double yFovAt(const World& world, ecs::Entity camera, double seconds) {
     SHUTTER_CHECK(!lens->keys.empty(), "a lens without keys");
     const KeyPlace place = findKeyPlace(lens->keys, lens->ease, seconds);
     const double from = lens->keys[place.key].yFov;
-    // Of the key before, so that a lens that rests changes no bit.
+    // Relative to the key before, so that a lens at rest changes no bit.
     const double ratio =
         interpolateAtPlace<double>(lens->keys, lens->interpolation, place, [&](size_t key) {
             return std::log(std::tan(lens->keys[key].yFov / 2.0) / std::tan(from / 2.0));

@@ -11,7 +11,7 @@ namespace shutter::scene {
 
 namespace {
 
-/// Of a trapezoid's flanks and top: shorter ones would be of no length in single precision.
+/// Shortest flank and top of a trapezoid: shorter ones have no length in single precision.
 constexpr double kShortestShare = 1.0e-6;
 
 /// A corner of the piecewise linear response.

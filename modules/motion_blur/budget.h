@@ -59,8 +59,9 @@ class BudgetController {
 
     [[nodiscard]] size_t levelCount() const { return mLevels.size(); }
 
-    /// A frame's time. \param level it was drawn with; frames of other levels than the current one
-    /// came late and are passed over, as are times that are no number
+    /// Takes a frame's time. NaN is ignored.
+    /// \param level with which it was drawn; a frame of another level than the current one is late
+    /// and ignored
     void observe(size_t level, double milliseconds);
 
   private:

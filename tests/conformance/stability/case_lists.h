@@ -8,7 +8,7 @@
 
 namespace shutter::stability {
 
-/// Synthetic G-buffers: motion that is none, tiny, huge, no number; weights; bright colours.
+/// Synthetic G-buffers: motion that is zero, tiny, huge, NaN; weights; bright colours.
 [[nodiscard]] std::vector<HardCase> listMotionCases();
 /// Changes too small to see: no pixel may jump.
 [[nodiscard]] std::vector<HardCase> listContinuityCases();

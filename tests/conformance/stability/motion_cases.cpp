@@ -268,7 +268,7 @@ std::vector<HardCase> listMotionCases() {
          "Motion longer than the screen",
          "Random motions up to the longest that is stored, 32768 pixels.",
          measureHuge},
-        {"NanMotion", "NaN motion", "A seventh of all motions are no number.", measureNan},
+        {"NanMotion", "NaN motion", "A seventh of all motions is NaN.", measureNan},
         {"InfiniteMotion",
          "Infinite motion",
          "A seventh of all motions are infinite, or so long that their length is.",

@@ -354,7 +354,7 @@ std::vector<HardCase> listSurfaceCases() {
         ),
         makeSceneCase(
             "SingularMatrices",
-            "Singular matrices and such as are no numbers",
+            "Singular matrices and such as hold NaN",
             "Rank one, rank zero, NaN, infinity and 1e300 beside a sound mover.",
             buildSingular,
             kBefore
