@@ -147,7 +147,9 @@ TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharp) {
         // Jimenez's filter fades still pixels over one tap's distance wherever motion reaches.
         // The filter of denoised takes texture for noise in each tile that motion crosses: below
         // 0.1 on one processor, 0.111 on another, since rounding decides which rays hit.
-        const double tolerance = method == "jimenez2014" ? 0.03 : method == "denoised" ? 0.15 : 4e-3;
+        const double tolerance = method == "jimenez2014" ? 0.03
+                                 : method == "denoised"  ? 0.15
+                                                         : 4e-3;
         EXPECT_LT(test::computeMaxDifferenceWhere(blurred, sharp.color, isInside), tolerance)
             << method;
         EXPECT_GT(test::computeMaxDifferenceWhere(blurred, sharp.color, isElsewhere), 0.1)

@@ -34,9 +34,7 @@ bool hasBlurPass(const render::FrameResult& result) {
     return std::any_of(
         result.statistics.passes.begin(),
         result.statistics.passes.end(),
-        [](const gpu::PassTime& pass) {
-            return pass.name.find("tile max") != std::string::npos || pass.name == "own velocity";
-        }
+        [](const auto& pass) { return pass.owner == render::PassOwner::Effect; }
     );
 }
 
