@@ -120,7 +120,7 @@ struct RowChanges {
 
 struct ExtractedFrame {
     std::vector<shader::EntityRow> entities;
-    /// Of the rows that move in the picture: EntityRow::motion counts through the two.
+    /// Rows that move in the picture; EntityRow::motion indexes the two lists as one.
     std::vector<shader::EntityMotion> stillMotions; ///< ... while they stand still in the world
     std::vector<shader::EntityMotion> movingMotions;
     RowChanges changes; ///< of `entities`
@@ -133,8 +133,9 @@ struct ExtractedFrame {
     /// moves; except for EntityRow::instanceMask, which rows that stand still in the world have
     /// only if the camera moves.
     uint64_t stillRevision = 0;
-    std::vector<uint32_t> entityMeshes;     ///< one per row: index into Assets::meshes
-    std::vector<ecs::Entity> entityHandles; ///< one per row: its entity
+    std::vector<math::dmat4> worldFromObject; ///< one per row of its own: at the raster instant
+    std::vector<uint32_t> entityMeshes;       ///< one per row: index into Assets::meshes
+    std::vector<ecs::Entity> entityHandles;   ///< one per row: its entity
     /// Entities whose mesh is skinned or morphed, in the order of their rows. Their rows of the
     /// frame's geometry table stand behind the scene's own, one entity's behind the other's.
     std::vector<DeformedEntity> deformed;

@@ -87,6 +87,7 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
 
 void FrameExtractor::clear() {
     mFrame.entities.clear();
+    mFrame.worldFromObject.clear();
     mFrame.stillMotions.clear();
     mFrame.movingMotions.clear();
     mFrame.movingRows.clear();
@@ -163,6 +164,7 @@ void FrameExtractor::list(const Frame& frame, ecs::Entity entity, uint32_t mesh)
         mFrame.deformed.emplace_back();
     }
     mFrame.entities.push_back(entry);
+    mFrame.worldFromObject.push_back(posed->poses.raster);
     mFrame.entityMeshes.push_back(mesh);
     mFrame.entityHandles.push_back(entity);
     if (moving)
@@ -297,6 +299,7 @@ void FrameExtractor::place(const Frame& frame, uint32_t index, Posed posed) {
     Row& row = mRows[index];
     shader::EntityRow& entry = mFrame.entities[index];
     const uint32_t mesh = mFrame.entityMeshes[index];
+    mFrame.worldFromObject[index] = posed.poses.raster;
     const bool shapeChanges = posed.shape && posed.shape->changes;
     const bool deformedMirrored = posed.shape && posed.shape->mirrored;
     PlacedEntity placed = placeEntity(

@@ -21,14 +21,6 @@ using math::dvec4;
 
 static_assert(sizeof(ViewMatrices) == (4 * 16 + 3) * sizeof(double), "compared by its bytes");
 
-dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
-    if (camera.kind == scene::CameraKind::Perspective)
-        return math::clipFromViewPerspective(yFov, aspect, camera.near);
-    return math::clipFromViewOrthographic(
-        camera.yMag * aspect, camera.yMag, camera.near, camera.far
-    );
-}
-
 DeformationTimes findPoseTimes(const ViewRequest& request) {
     if (request.instant)
         return {*request.instant, *request.instant, *request.instant};
@@ -71,6 +63,14 @@ bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
 }
 
 } // namespace
+
+dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
+    if (camera.kind == scene::CameraKind::Perspective)
+        return math::clipFromViewPerspective(yFov, aspect, camera.near);
+    return math::clipFromViewOrthographic(
+        camera.yMag * aspect, camera.yMag, camera.near, camera.far
+    );
+}
 
 bool isDrawable(const math::dmat4& matrix) {
     const double determinant = glm::determinant(math::dmat3(matrix));

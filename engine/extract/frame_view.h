@@ -24,6 +24,9 @@ namespace shutter::extract {
 [[nodiscard]] shader::LightRow
 makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
+/// Clip space from view space.
+[[nodiscard]] math::dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect);
+
 /// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
 /// equal bytes give equal rows.
 struct ViewMatrices {

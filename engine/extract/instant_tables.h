@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Where the surfaces that a raster image holds are seen at other instants of the exposure, on the
+// CPU: of this frame's raster and of the last one's. Exact for whatever moves rigidly, along any
+// path and before any camera; what deforms is left to motion vectors.
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/math/math.h"
+#include "engine/scene/world.h"
+#include "shaders/render/instant_motion_shared.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shutter::extract {
+
+/// What a raster image was drawn of: enough to find its surfaces again in the frame after.
+struct RasterRecord {
+    double seconds = 0.0;
+    ecs::Entity camera;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    math::dmat4 pictureFromWorld{1.0}; ///< picture space (instant_motion_shared.h)
+    std::vector<ecs::Entity> entities; ///< one per row of the entity table
+    std::vector<math::dmat4> worldFromObject;
+    std::vector<bool> deforms; ///< the row's shape changes during the exposure
+};
+
+/// Of one raster.
+struct LayerTables {
+    std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
+    std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
+    /// What stands still in the world is where the raster has it, at every instant.
+    bool isStill = false;
+};
+
+struct InstantTables {
+    LayerTables raster;
+    std::optional<LayerTables> last; ///< nothing: the last raster says nothing about this frame
+    std::vector<float> times;        ///< shutter time of each instant, [0, 1]
+    bool isPerspective = true;
+    RasterRecord record; ///< of this frame's raster, for the frame after
+};
+
+/// Instants are the middles of equal shares of the light, by the shutter's response.
+/// \param instantCount above 0
+/// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
+/// same camera, in the same size and without a cut in between; of what has appeared, was teleported
+/// or deforms, nothing counts
+[[nodiscard]] InstantTables computeInstantTables(
+    const scene::World& world,
+    const ViewRequest& view,
+    const ExtractedFrame& frame,
+    uint32_t instantCount,
+    const RasterRecord* last
+);
+
+} // namespace shutter::extract

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Where the surfaces that a raster image holds are seen at other instants of the exposure. A mover
+// is a rigid body with a motion of its own; all that stands still in the world is one, the sky
+// another.
+//
+// Picture space at a time is (x q, y q, depth, 1): x, y pixels from the top left corner, depth
+// metres along the view direction, q the depth (perspective) or 1 (orthographic). Rigid motion, the
+// camera's and a zooming lens' included, is an affine map from the picture space of one time to
+// another's.
+#ifndef SHUTTER_INSTANT_MOTION_SHARED_H
+#define SHUTTER_INSTANT_MOTION_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// One mover at one instant: rows of 3x4 matrices. All 0: it is nowhere to be seen at the instant.
+struct InstantMotion {
+    vec4 rasterFromInstant[3];
+    vec4 instantFromRaster[3];
+};
+
+/// What one raster holds of the exposure.
+struct LayerMotion {
+    uvec2 movers;  // address of uint[]: by row of the raster's entity table, and one for the sky
+    uvec2 motions; // address of InstantMotion[]: for each mover one per instant
+    uint rowCount; // of the entity table
+    uint isStill;  // 1: what stands still in the world is where the raster has it, at all instants
+};
+
+/// What a frame's own raster and the one of the frame before hold.
+struct InstantMotions {
+    LayerMotion raster;
+    LayerMotion last;
+    uvec2 times;        // address of float[]: shutter time of each instant
+    uint isPerspective; // 1: the camera is; 0: orthographic
+    uint padding0;
+};
+
+/// In the table of movers, by row of the raster's entity table; the sky follows the last row.
+SHUTTER_CONST uint kWorldMover = 0u; // stands still in the world
+SHUTTER_CONST uint kSkyMover = 1u;
+/// Its shape changes: its pixels' motion vectors say where it is.
+SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;
+/// What the raster holds of it says nothing about the exposure.
+SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::InstantMotion) == 96);
+static_assert(sizeof(shutter::shader::LayerMotion) == 24);
+static_assert(sizeof(shutter::shader::InstantMotions) == 64);
+#endif
+
+#endif

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+// Where the surfaces of a raster are seen at other instants: held against projecting the same point
+// of the entity anew; and when the last raster says nothing.
+#include "engine/extract/frame_view.h"
+#include "engine/extract/instant_tables.h"
+#include "engine/math/transform.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "tests/unit/extract/extraction_fixture.h"
+
+namespace shutter::extract {
+namespace {
+
+using math::dvec3;
+using math::dvec4;
+using math::vec3;
+using math::vec4;
+
+constexpr uint32_t kInstants = 5;
+constexpr double kFrameSeconds = 0.25;
+constexpr double kExposureSeconds = 0.125;
+
+/// What a pixel shows: its place and its depth.
+struct Seen {
+    math::dvec2 at{0.0};
+    double depth = 0.0;
+};
+
+class InstantTablesTest : public Extraction {
+  protected:
+    InstantTablesTest() { setTime(1.0); }
+
+    void setTime(double seconds) {
+        scene::CameraShutter shutter;
+        shutter.exposureSeconds = kExposureSeconds;
+        request.exposure = scene::computeExposure(shutter, seconds, kFrameSeconds);
+    }
+
+    /// A camera that goes and turns.
+    void moveCamera() {
+        world.registry.add(camera, scene::LinearVelocity{{0.3, -0.1, 0.4}});
+        world.registry.add(camera, scene::AngularVelocity{{0.1, 0.2, 0.3}});
+    }
+
+    ecs::Entity addTumbler() {
+        const ecs::Entity tumbler = addBox({0.5, 0.2, -8.0});
+        world.registry.add(tumbler, scene::LinearVelocity{{1.0, 0.5, 1.5}});
+        world.registry.add(tumbler, scene::AngularVelocity{{2.0, 3.0, 1.0}});
+        return tumbler;
+    }
+
+    InstantTables compute(const RasterRecord* last = nullptr) {
+        return computeInstantTables(world, request, extract(), kInstants, last);
+    }
+
+    /// The tables of the frame at 1 s, after one at 1 s - kFrameSeconds.
+    InstantTables computeSecondFrame() {
+        setTime(1.0 - kFrameSeconds);
+        const RasterRecord last = compute().record;
+        setTime(1.0);
+        return compute(&last);
+    }
+
+    /// Where the request's picture of shutter time s has a point of an entity's own space.
+    Seen project(ecs::Entity entity, const dvec3& point, double s) const {
+        const scene::ExposureMotion motion(world, camera, request.exposure);
+        const math::dmat4 view = glm::inverse(computeWorldFromView(motion.worldFromCamera(s)));
+        const dvec4 inView = view * motion.worldFromObject(entity, s) * dvec4(point, 1.0);
+        const auto& lens = world.registry.get<scene::Camera>(camera);
+        const double aspect = double(request.width) / request.height;
+        const dvec4 clip = makeProjection(lens, motion.cameraYFov(s), aspect) * inView;
+        const math::dvec2 size(request.width, request.height);
+        return {(math::dvec2(clip) / clip.w * 0.5 + 0.5) * size, -inView.z};
+    }
+
+    static vec3 apply(const vec4 (&rows)[3], const Seen& seen, bool perspective) {
+        const float q = perspective ? float(seen.depth) : 1.0f;
+        const vec4 point(vec3(vec2Of(seen) * q, float(seen.depth)), 1.0f);
+        const vec3 moved(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
+        return perspective ? vec3(moved.x / moved.z, moved.y / moved.z, moved.z) : moved;
+    }
+
+    static math::vec2 vec2Of(const Seen& seen) { return math::vec2(seen.at); }
+
+    static float dot(const vec4& a, const vec4& b) { return glm::dot(a, b); }
+
+    /// Both maps of a mover take what one picture shows to where the other does.
+    void expectMaps(
+        const LayerTables& layer,
+        uint32_t row,
+        const Seen& raster,
+        ecs::Entity entity,
+        const dvec3& point
+    ) {
+        const bool perspective =
+            world.registry.get<scene::Camera>(camera).kind == scene::CameraKind::Perspective;
+        for (uint32_t i = 0; i < kInstants; ++i) {
+            const auto& motion = layer.motions.at(layer.movers.at(row) * kInstants + i);
+            const Seen seen = project(entity, point, (i + 0.5) / kInstants);
+            const vec3 there = apply(motion.instantFromRaster, raster, perspective);
+            EXPECT_NEAR(there.x, seen.at.x, 2e-3) << i;
+            EXPECT_NEAR(there.y, seen.at.y, 2e-3) << i;
+            EXPECT_NEAR(there.z, seen.depth, 1e-4) << i;
+            const vec3 back = apply(motion.rasterFromInstant, seen, perspective);
+            EXPECT_NEAR(back.x, raster.at.x, 2e-3) << i;
+            EXPECT_NEAR(back.y, raster.at.y, 2e-3) << i;
+        }
+    }
+};
+
+TEST_F(InstantTablesTest, ATumblingMoverIsFoundWhereItIsProjectedAnew) {
+    moveCamera();
+    const ecs::Entity tumbler = addTumbler();
+    const dvec3 corner(0.9, -0.7, 0.3);
+    expectMaps(compute().raster, 0, project(tumbler, corner, 1.0), tumbler, corner);
+}
+
+TEST_F(InstantTablesTest, SoItIsUnderAnOrthographicCamera) {
+    auto& lens = world.registry.get<scene::Camera>(camera);
+    lens.kind = scene::CameraKind::Orthographic;
+    lens.yMag = 3.0;
+    moveCamera();
+    const ecs::Entity tumbler = addTumbler();
+    const dvec3 corner(0.9, -0.7, 0.3);
+    const InstantTables tables = compute();
+    EXPECT_FALSE(tables.isPerspective);
+    expectMaps(tables.raster, 0, project(tumbler, corner, 1.0), tumbler, corner);
+}
+
+TEST_F(InstantTablesTest, WhatStandsStillBeforeAMovingCameraIsOneMover) {
+    moveCamera();
+    const ecs::Entity first = addBox({0.0, 0.0, -8.0});
+    addBox({2.0, 0.0, -9.0});
+    const InstantTables tables = compute();
+    EXPECT_EQ(tables.raster.movers.at(0), shader::kWorldMover);
+    EXPECT_EQ(tables.raster.movers.at(1), shader::kWorldMover);
+    EXPECT_EQ(tables.raster.movers.at(2), shader::kSkyMover);
+    EXPECT_FALSE(tables.raster.isStill);
+    const dvec3 corner(0.5, 0.5, 0.5);
+    expectMaps(tables.raster, 0, project(first, corner, 1.0), first, corner);
+}
+
+TEST_F(InstantTablesTest, BeforeACameraThatStandsStillBothLayersAreStill) {
+    addTumbler();
+    const InstantTables tables = computeSecondFrame();
+    EXPECT_TRUE(tables.raster.isStill);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_TRUE(tables.last->isStill);
+}
+
+TEST_F(InstantTablesTest, TheLastRasterShowsWhereItsSurfacesAreNow) {
+    moveCamera();
+    const ecs::Entity tumbler = addTumbler();
+    const ecs::Entity wall = addBox({0.0, 0.0, -20.0});
+    const dvec3 corner(0.9, -0.7, 0.3);
+    setTime(1.0 - kFrameSeconds);
+    const Seen tumblerThen = project(tumbler, corner, 1.0);
+    const Seen wallThen = project(wall, corner, 1.0);
+    const InstantTables tables = computeSecondFrame();
+    ASSERT_TRUE(tables.last.has_value());
+    expectMaps(*tables.last, 0, tumblerThen, tumbler, corner);
+    expectMaps(*tables.last, 1, wallThen, wall, corner);
+    EXPECT_EQ(tables.last->movers.at(1), shader::kWorldMover);
+}
+
+TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {
+    const ecs::Entity first = addTumbler();
+    const ecs::Entity second = addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    scene::despawn(world, first);
+    setTime(1.0);
+    const InstantTables tables = compute(&last);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kNoMover);
+    const dvec3 corner(0.9, -0.7, 0.3);
+    setTime(1.0 - kFrameSeconds);
+    const Seen then = project(second, corner, 1.0);
+    setTime(1.0);
+    expectMaps(*tables.last, 1, then, second, corner);
+}
+
+TEST_F(InstantTablesTest, WhatWasTeleportedHasNoPast) {
+    const ecs::Entity tumbler = addTumbler();
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    math::Transform elsewhere;
+    elsewhere.translation = {1.0, 1.0, -6.0};
+    scene::teleport(world, tumbler, elsewhere, 0.9);
+    setTime(1.0);
+    const InstantTables tables = compute(&last);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kNoMover);
+    EXPECT_LT(tables.last->movers.at(1), shader::kDeformedMover);
+}
+
+TEST_F(InstantTablesTest, AfterACutTheLastRasterSaysNothing) {
+    moveCamera();
+    addTumbler();
+    EXPECT_TRUE(computeSecondFrame().last.has_value());
+    scene::cut(world, camera, 0.8);
+    EXPECT_FALSE(computeSecondFrame().last.has_value());
+}
+
+TEST_F(InstantTablesTest, ARasterOfMoreThanOneFrameAgoSaysNothing) {
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    RasterRecord last = compute().record;
+    setTime(1.0);
+    EXPECT_TRUE(compute(&last).last.has_value());
+    last.seconds -= kFrameSeconds;
+    EXPECT_FALSE(compute(&last).last.has_value());
+}
+
+TEST_F(InstantTablesTest, AnotherCameraOrSizeHasNoLastRaster) {
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    setTime(1.0);
+    request.width = 201;
+    EXPECT_FALSE(compute(&last).last.has_value());
+    request.width = 200;
+    EXPECT_TRUE(compute(&last).last.has_value());
+    request.camera = addCamera({});
+    EXPECT_FALSE(compute(&last).last.has_value());
+}
+
+TEST_F(InstantTablesTest, InstantsFollowTheResponse) {
+    addTumbler();
+    request.exposure.shutter.response.shape = scene::ResponseShape::Triangle;
+    const InstantTables tables = compute();
+    ASSERT_EQ(tables.times.size(), kInstants);
+    for (uint32_t i = 0; i < kInstants; ++i)
+        EXPECT_FLOAT_EQ(
+            tables.times[i],
+            float(scene::invertResponse(request.exposure.shutter.response, (i + 0.5) / kInstants))
+        );
+}
+
+} // namespace
+} // namespace shutter::extract
