@@ -3,12 +3,14 @@
 // declares passes. The renderer knows no effect by name.
 #pragma once
 
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/graph.h"
 #include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
+#include "engine/scene/world.h"
 
 #include <cstdint>
 #include <map>
@@ -58,6 +60,9 @@ class Intermediates {
 
 struct PostContext {
     graph::Graph& graph;
+    const scene::World& world;
+    const extract::ViewRequest& view;
+    const extract::ExtractedFrame& frame;
     const ViewFacts& facts;
     const GBuffer& gbuffer;
     const graph::RayScene* rays;       ///< null where no effect asked for rays

@@ -208,7 +208,7 @@ core::Status Renderer::submitFrame(
     slot.readback.reset();
     graph::Graph graph;
     pending.tickets = declareFrame(
-        slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer
+        slot, graph, world, request, facts, frame, moving ? &*moving : nullptr, running, explainer
     );
     statistics.measures["entity table ms"] = mTableMilliseconds;
     statistics.measures["TLAS ms"] = mTlasMilliseconds;
@@ -339,6 +339,7 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
 Renderer::Tickets Renderer::declareFrame(
     Slot& slot,
     graph::Graph& graph,
+    const scene::World& world,
     const FrameRequest& request,
     const ViewFacts& facts,
     extract::ExtractedFrame& frame,
@@ -394,6 +395,9 @@ Renderer::Tickets Renderer::declareFrame(
     publishGBuffer(gbuffer, intermediates);
     PostContext context{
         graph,
+        world,
+        request.view,
+        frame,
         facts,
         gbuffer,
         running.rays.run ? &rays : nullptr,

@@ -168,6 +168,7 @@ class Renderer {
     Tickets declareFrame(
         Slot& slot,
         graph::Graph& graph,
+        const scene::World& world,
         const FrameRequest& request,
         const ViewFacts& facts,
         extract::ExtractedFrame& frame,
@@ -215,7 +216,7 @@ class Renderer {
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;
     IdleCounter mBlasIdle;
-    // Of the frame declared last, for statistics.
+    // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;
     double mTlasMilliseconds = 0.0;

@@ -23,7 +23,20 @@ graph::Plan run(GraphRig& rig) {
 
 EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height)
     : context{
-          rig.graph, facts, gbuffer, nullptr, nullptr, color, {}, intermediates, 0, 0, explainer} {
+          rig.graph,
+          world,
+          view,
+          frame,
+          facts,
+          gbuffer,
+          nullptr,
+          nullptr,
+          color,
+          {},
+          intermediates,
+          0,
+          0,
+          explainer} {
     facts.width = width;
     facts.height = height;
     facts.displayWanted = true;

@@ -17,6 +17,9 @@ graph::Plan run(GraphRig& rig);
 struct EffectRig {
     EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height);
 
+    scene::World world;
+    extract::ViewRequest view;
+    extract::ExtractedFrame frame;
     render::ViewFacts facts;
     render::GBuffer gbuffer;
     render::Intermediates intermediates{{}};
