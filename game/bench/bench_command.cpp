@@ -164,6 +164,8 @@ Status measureSuite(
     std::signal(SIGINT, stopOnInterrupt);
     RunOptions options;
     options.suite = std::move(suite);
+    for (Case& one : options.suite.cases)
+        one.shot.unlit = one.shot.unlit || arguments.shot.unlit;
     options.methods = std::move(methods);
     options.shot = std::move(shot);
     options.measure.repeats = arguments.repeats.value_or(options.suite.repeats);
@@ -250,7 +252,9 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     const std::vector<CLI::Option*> before = command->get_options();
     game::defineShotOptions(*command, arguments->shot);
     for (CLI::Option* option : command->get_options())
-        if (std::find(before.begin(), before.end(), option) == before.end())
+        // How a suite's shots are lit is the only thing that is left open.
+        if (option->get_name() != "--unlit" &&
+            std::find(before.begin(), before.end(), option) == before.end())
             shotOptions.push_back(option->group("Shot (with a SCENE)"));
     command->callback([arguments, shotOptions, &exitStatus] {
         for (const CLI::Option* option : shotOptions)

@@ -6,6 +6,15 @@
 
 namespace shutter::bench {
 
+namespace {
+
+/// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
+double findFilmRate(double exposureSeconds) {
+    return 0.5 / exposureSeconds;
+}
+
+} // namespace
+
 Suite makePaperSuite() {
     Case vase;
     vase.name = "vase";
@@ -15,6 +24,7 @@ Suite makePaperSuite() {
         "the paper compares methods. Motion 38 by 14 px at 1280x720.";
     vase.shot.camera = "main";
     vase.shot.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
+    vase.shot.fps = findFilmRate(generator::kExposureSeconds);
     vase.writeScene = makeWriter(&generator::buildVaseScene);
     Suite suite;
     suite.name = "paper";
@@ -37,6 +47,7 @@ Suite makeHardSuite() {
         shot.shot.camera = from.camera;
         shot.shot.time = from.timeSeconds;
         shot.shot.shutter = game::makeShutterArguments(from.exposureSeconds, from.phase);
+        shot.shot.fps = findFilmRate(from.exposureSeconds);
         shot.shot.background = from.background;
         shot.writeScene = makeWriter(from.build);
         suite.cases.push_back(std::move(shot));
