@@ -19,8 +19,9 @@ constexpr double kSecondsAPoint = 8.0;
 
 /// Frames or rays of one picture.
 uint64_t stepsOf(const SamplePoint& point) {
-    const game::MethodInfo& method = *point.method;
-    const bool drawsOneFrame = !method.sampleUnit || *method.sampleUnit == game::SampleUnit::Taps;
+    const game::MethodFamily family = point.method->family;
+    const bool drawsOneFrame =
+        family == game::MethodFamily::Sharp || family == game::MethodFamily::MotionBlur;
     return drawsOneFrame ? 1 : point.samples;
 }
 

@@ -56,6 +56,20 @@ core::Status checkRays(const gpu::Device& device, const MethodInfo& method) {
     );
 }
 
+bool usesFrameBefore(const MethodOptions& method) {
+    const motion_blur::MotionBlurSettings& settings = method.motionBlur;
+    return method.method->family == MethodFamily::MotionBlur &&
+           settings.method->readsInstantMotions && settings.history;
+}
+
+/// Whether `drawn` shows the frame before `view`'s.
+bool isFrameBefore(const extract::ViewRequest& drawn, const extract::ViewRequest& view) {
+    const double age = view.exposure.raster - drawn.exposure.raster;
+    const double frame = view.exposure.frameSeconds;
+    return drawn.camera == view.camera && drawn.width == view.width &&
+           drawn.height == view.height && std::abs(age - frame) <= 1.0e-3 * frame;
+}
+
 /// With fewer rays a mover that few of them met yet looks like none.
 constexpr uint32_t kLeastRaysToStop = 16;
 
@@ -233,6 +247,32 @@ core::Status PictureDrawer::submitPart(
 }
 
 core::Status
+PictureDrawer::submitFrameBefore(const scene::World& world, const PictureRequest& request) {
+    const extract::ViewRequest& view = request.frame.view;
+    const std::optional<extract::ViewRequest> drawn =
+        std::exchange(mSlots[request.slot].drawn, std::nullopt);
+    if (!usesFrameBefore(request.method))
+        return {};
+    mSlots[request.slot].drawn = view;
+    if (!request.drawsFrameBefore || (drawn && isFrameBefore(*drawn, view)))
+        return {};
+    render::FrameRequest before;
+    before.view = view;
+    before.view.exposure = scene::computeExposure(
+        view.exposure.shutter,
+        view.exposure.raster - view.exposure.frameSeconds,
+        view.exposure.frameSeconds
+    );
+    before.wantColor = false;
+    return submitFrame(
+        world,
+        before,
+        {prepareEffect(request, {})},
+        {.slot = request.slot, .isFirst = false, .isLast = false, .isBefore = true}
+    );
+}
+
+core::Status
 PictureDrawer::submitIntermediates(const scene::World& world, const PictureRequest& request) {
     if (request.method.method->family != MethodFamily::Accumulate ||
         request.frame.intermediates.empty())
@@ -249,6 +289,7 @@ core::Status PictureDrawer::submit(const scene::World& world, const PictureReque
     if (!prepared)
         return prepared.error();
     const PictureRequest& request = prepared.value();
+    SHUTTER_TRY(submitFrameBefore(world, request));
     Part part{.total = countSteps(request.method)};
     for (const uint32_t count : planParts(request, {})) {
         part.count = count;
@@ -276,6 +317,7 @@ core::Result<render::FrameResult> PictureDrawer::draw(
     };
     if (request.method.method->family == MethodFamily::Truth)
         return drawTruth(world, request, step, checkpoints);
+    SHUTTER_TRY(submitFrameBefore(world, request));
     Part part{.total = countSteps(request.method)};
     for (; part.done < part.total; ++part.done) {
         part.isShown = part.done + 1 == part.total;
@@ -337,6 +379,8 @@ void PictureDrawer::finishOldest() {
     const Label label = mLabels.front();
     mLabels.pop_front();
     render::FrameResult drawn = mRenderer.finishFrame();
+    if (label.isBefore)
+        return;
     render::FrameResult& result = mSlots[label.slot].result;
     if (label.isFirst)
         result = {};

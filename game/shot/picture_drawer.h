@@ -31,6 +31,9 @@ struct PictureRequest {
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                                       ///< accumulate, truth
     uint32_t raysPerFrame = 0; ///< truth: most rays per pixel of one frame; 0: as the device bears
+    /// The frame before is drawn first for a method that looks things up in it, unless it is what
+    /// the slot drew last.
+    bool drawsFrameBefore = true;
     /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
     /// finished.
     std::vector<render::PostEffect*> ending;
@@ -115,6 +118,7 @@ class PictureDrawer {
         std::unique_ptr<truth::Truth> truth;
         truth::TruthSettings truthSettings;
         render::FrameResult result;
+        std::optional<extract::ViewRequest> drawn; ///< last, by a method that looks it up
     };
 
     /// One frame of a picture.
@@ -132,6 +136,7 @@ class PictureDrawer {
         bool isShown = true;
         bool isLast = true;
         bool isIntermediates = false; ///< drawn for the picture's intermediates alone
+        bool isBefore = false; ///< the frame before the picture's, drawn for what the effect keeps
     };
 
     [[nodiscard]] core::Result<PictureRequest>
@@ -140,6 +145,8 @@ class PictureDrawer {
     planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const;
     [[nodiscard]] core::Status
     submitPart(const scene::World& world, const PictureRequest& request, const Part& part);
+    [[nodiscard]] core::Status
+    submitFrameBefore(const scene::World& world, const PictureRequest& request);
     [[nodiscard]] core::Status
     submitIntermediates(const scene::World& world, const PictureRequest& request);
     [[nodiscard]] core::Status submitFrame(

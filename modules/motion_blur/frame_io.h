@@ -7,6 +7,7 @@
 // id is the row of the entity table, 0xFFFFFFFF where nothing is. All images have one size.
 #pragma once
 
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/ray_scene.h"
 #include "engine/graph/types.h"
 
@@ -19,6 +20,15 @@
 
 namespace shutter::motion_blur {
 
+/// Where the surfaces of this frame's raster, and of the one before, are seen at each instant of
+/// the exposure.
+struct InstantMotions {
+    VkDeviceAddress table = 0; ///< shader::InstantMotions (render/instant_motion_shared.h)
+    uint32_t instantCount = 0; ///< MotionBlurSettings::sampleCount
+    bool hasLast = false;      ///< of the raster that the call before was given with keepsRaster
+    bool keepsRaster = true;   ///< for the next call
+};
+
 struct MotionBlurInputs {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
@@ -29,7 +39,8 @@ struct MotionBlurInputs {
     /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves
     /// and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;
-    std::optional<graph::TimedRays> timedRays; ///< for methods of RayNeed::Query (CHECKed)
+    std::optional<graph::TimedRays> timedRays;    ///< for methods of RayNeed::Query (CHECKed)
+    std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.

@@ -15,6 +15,8 @@ extern const Method kGuertin2014;
 extern const Method kJimenez2014;
 extern const Method kGather;
 extern const Method kHybrid;
+extern const Method kResolved;
+extern const Method kAdaptive;
 extern const Method kDenoised;
 
 const Method& getDefaultMethod() {
@@ -30,6 +32,8 @@ std::span<const Method* const> listMethods() {
         &kJimenez2014,
         &kGather,
         &kHybrid,
+        &kResolved,
+        &kAdaptive,
         &kDenoised};
     return kMethods;
 }

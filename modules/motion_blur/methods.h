@@ -68,13 +68,20 @@ struct Method {
     bool readsSurface = false; ///< normal and entity id are inputs
     /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced.
     bool readsCamera = false;
-    bool blursObjects = true;       ///< false: only the camera's own motion is blurred
-    bool countsBlocks = true;       ///< its filters go over SharedPasses' lists of blocks
-    bool usesUniformMotion = false; ///< blocks of uniform motion have a filter of their own
-    uint32_t listBytesPerPixel = 0; ///< of the largest storage buffer, which grows with pixels
+    bool readsInstantMotions = false; ///< MotionBlurInputs::instantMotions is an input
+    bool blursObjects = true;         ///< false: only the camera's own motion is blurred
+    bool countsBlocks = true;         ///< its filters go over SharedPasses' lists of blocks
+    bool usesUniformMotion = false;   ///< blocks of uniform motion have a filter of their own
+    uint32_t listBytesPerPixel = 0;   ///< of the largest storage buffer, which grows with pixels
     std::vector<std::string_view> settings{}; ///< fields of MotionBlurSettings that it reads,
                                               ///< except sampleCount, which each method reads
     std::vector<std::string_view> views{};    ///< intermediates that it offers
+
+    /// Nothing but the images of the raster is an input.
+    [[nodiscard]] bool readsImagesOnly() const {
+        return rays == RayNeed::None && !readsCamera && !readsInstantMotions;
+    }
+
     /// Turns the settings into `params`: the method's own block, and what it changes of the rest.
     /// Null: nothing.
     void (*resolve)(const MotionBlurSettings& settings, PassParams& params) = nullptr;

@@ -48,6 +48,11 @@ MotionBlurOutputs MotionBlur::add(
         "the method {} needs frame constants",
         method.name
     );
+    SHUTTER_CHECK(
+        !method.readsInstantMotions || inputs.instantMotions,
+        "the method {} needs the motion to each instant",
+        method.name
+    );
     const graph::TransientImageDesc& size = graph.describeImage(inputs.color);
     PassParams params = resolve(settings, size.width, size.height, inputs.rasterTime);
     params.response = inputs.response;

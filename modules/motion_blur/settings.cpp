@@ -149,6 +149,31 @@ std::vector<Row> makeRayRows() {
     };
 }
 
+std::vector<Row> makeLookUpRows() {
+    using S = MotionBlurSettings;
+    return {
+        {"history",
+         &S::history,
+         "",
+         {},
+         "Whether what this frame hides is looked up in the last frame. Off saves memory and "
+         "leaves gaps behind what moves.",
+         "Last frame"},
+        {"raysPerPixel",
+         &S::raysPerPixel,
+         "rays",
+         {.lowest = 0,
+          .highest = 256,
+          .isUnlimited = true,
+          .isLogarithmic = true,
+          .sliderLowest = 0.01,
+          .sliderHighest = 16},
+         "Most rays for samples that no frame holds, on average over the picture. 0 traces none; "
+         "unlimited traces every sample of what moves.",
+         "Rays per pixel"},
+    };
+}
+
 std::vector<Row> makeRivalRows() {
     using S = MotionBlurSettings;
     return {
@@ -193,7 +218,7 @@ std::vector<Row> makeRivalRows() {
 core::SettingRows<MotionBlurSettings> listSettingRows() {
     static const std::vector<Row> kRows = [] {
         std::vector<Row> rows = makeTapRows();
-        for (const std::vector<Row>& more : {makeRayRows(), makeRivalRows()})
+        for (const std::vector<Row>& more : {makeRayRows(), makeLookUpRows(), makeRivalRows()})
             rows.insert(rows.end(), more.begin(), more.end());
         return rows;
     }();

@@ -63,6 +63,10 @@ struct MotionBlurSettings {
                                    ///< below 1/4 parts of the mask go without
     /// Uniform motion from which the gathers work at half of the resolution along it.
     float halfResolutionPx = std::numeric_limits<float>::infinity();
+    bool history = true; ///< the last frame's raster is looked up, too
+    /// Most rays for samples that no layer holds: on average over the picture. Infinity: as many as
+    /// it takes to trace every sample of what moves.
+    float raysPerPixel = 0.1f;
     /// Depth along the view beyond which everything, the sky included, counts as still.
     float maxMotionDepth = std::numeric_limits<float>::infinity();
 

@@ -226,7 +226,8 @@ TEST_F(Cli, InfoNeedsToKnowWhatAbout) {
 TEST_F(Cli, InfoListsTheMethodsOnePerLineAsErrorsNameThem) {
     std::string names = expectSuccess({"info", "--methods"}).out;
     ASSERT_TRUE(
-        names.starts_with("sharp\n") && names.ends_with("\nhybrid\ndenoised\naccumulate\ntruth\n")
+        names.starts_with("sharp\n") &&
+        names.ends_with("\nhybrid\nresolved\nadaptive\ndenoised\naccumulate\ntruth\n")
     ) << names;
     names.pop_back();
     for (size_t at = 0; (at = names.find('\n', at)) != std::string::npos;)

@@ -76,8 +76,7 @@ class Effect {
 std::vector<const Method*> listBlockMethods() {
     std::vector<const Method*> methods;
     for (const Method* method : motion_blur::listMethods())
-        if (method->countsBlocks && !method->readsCamera &&
-            method->rays == motion_blur::RayNeed::None)
+        if (method->countsBlocks && method->readsImagesOnly())
             methods.push_back(method);
     return methods;
 }

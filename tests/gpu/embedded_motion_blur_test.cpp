@@ -247,7 +247,7 @@ class EmbeddedPictures : public test::EmbeddedTest {
 TEST_F(EmbeddedPictures, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
     std::vector<const Method*> methods;
     for (const Method* method : motion_blur::listMethods())
-        if (!method->readsCamera && method->rays == motion_blur::RayNeed::None)
+        if (method->readsImagesOnly())
             methods.push_back(method);
     expectSameAsPlugin(describeHost(), methods);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures that share a view share the measurement of its cap.
+// Pictures that share a view share the measurement of its cap; a method that looks at the frame
+// before gets it, whether a sequence drew it or not.
 #include "game/shot/picture_drawer.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
@@ -11,39 +12,75 @@
 namespace shutter {
 namespace {
 
-class PictureDrawerTest : public test::GpuTest {};
+class PictureDrawerTest : public test::GpuTest {
+  protected:
+    PictureDrawerTest() {
+        mScene.setPerspective(0.9);
+        mScene.add(
+            test::makeBox({0.8, 0.8, 0.8}, mScene.addWaves()),
+            {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
+        );
+        mScene.add(test::makeQuad(6, 4, mScene.addWaves()), {.position = {0, 0, -5}});
+        mOptions.width = 40;
+        mOptions.height = 30;
+    }
 
-TEST_F(PictureDrawerTest, ACapThatIsGivenIsNotMeasuredAgain) {
-    test::SceneBuilder scene;
-    scene.setPerspective(0.9);
-    scene.add(
-        test::makeBox({0.8, 0.8, 0.8}, scene.addColor({0.9f, 0.2f, 0.1f})),
-        {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
-    );
-    scene.world.registry.add(
-        scene.camera,
-        scene::CameraShutter{
-            .exposureSeconds = 1.0, .phase = scene::ShutterPhase::Centre, .maxBlurPercent = 90.0}
-    );
-    const game::Shot shot{std::move(scene.world), scene.camera};
-    game::ShotOptions options;
-    options.width = 40;
-    options.height = 30;
-    render::Renderer renderer(device(), shot.world.assets);
-    game::PictureDrawer drawer(device(), renderer);
-    const auto draw = [&](const char* method, std::optional<scene::MotionCap> cap) {
+    /// What is drawn from now on.
+    void useShutter(const scene::CameraShutter& shutter) {
+        mScene.world.registry.add(mScene.camera, shutter);
+        mShot.world = std::move(mScene.world);
+        mShot.camera = mScene.camera;
+        mRenderer.emplace(device(), mShot.world.assets);
+    }
+
+    image::Image draw(
+        game::PictureDrawer& drawer,
+        const char* method,
+        double seconds = 0.0,
+        std::optional<scene::MotionCap> cap = {}
+    ) {
         game::PictureRequest picture = game::makePicture(
-            shot, options, game::makeMethod(*game::findMethod(method).value()), 0.0
+            mShot, mOptions, game::makeMethod(*game::findMethod(method).value()), seconds
         );
         picture.cap = std::move(cap);
-        auto drawn = drawer.draw(shot.world, picture);
+        auto drawn = drawer.draw(mShot.world, picture);
         EXPECT_TRUE(drawn.ok());
         return drawn ? std::move(drawn.value().color) : image::Image();
-    };
-    const image::Image sharp = draw("sharp", {});
-    EXPECT_FALSE(test::sameBits(draw("gather", {}), sharp)) << "the measured cap leaves motion";
-    EXPECT_TRUE(test::sameBits(draw("gather", scene::MotionCap{.camera = 0.0, .movers = {}}), sharp)
+    }
+
+    test::SceneBuilder mScene;
+    game::Shot mShot;
+    game::ShotOptions mOptions;
+    std::optional<render::Renderer> mRenderer;
+};
+
+TEST_F(PictureDrawerTest, ACapThatIsGivenIsNotMeasuredAgain) {
+    useShutter(
+        {.exposureSeconds = 1.0, .phase = scene::ShutterPhase::Centre, .maxBlurPercent = 90.0}
     );
+    game::PictureDrawer drawer(device(), *mRenderer);
+    const image::Image sharp = draw(drawer, "sharp");
+    EXPECT_FALSE(test::sameBits(draw(drawer, "gather"), sharp)) << "the measured cap leaves motion";
+    const scene::MotionCap none{.camera = 0.0, .movers = {}};
+    EXPECT_TRUE(test::sameBits(draw(drawer, "gather", 0.0, none), sharp));
+}
+
+TEST_F(PictureDrawerTest, AFrameOfASequenceIsTheFrameDrawnAlone) {
+    useShutter({.exposureSeconds = 1.0 / 30.0});
+    game::PictureDrawer inSequence(device(), *mRenderer);
+    image::Image last;
+    for (const int frame : {0, 1, 2})
+        last = draw(inSequence, "resolved", frame * mOptions.frameSeconds);
+    game::PictureDrawer alone(device(), *mRenderer);
+    EXPECT_TRUE(test::sameBits(draw(alone, "resolved", 2 * mOptions.frameSeconds), last));
+    // Drawn again, after it: the frame before is not what was drawn last.
+    EXPECT_TRUE(test::sameBits(draw(alone, "resolved", 2 * mOptions.frameSeconds), last));
+    // Another method in between leaves nothing that could be taken for a frame before.
+    EXPECT_FALSE(test::sameBits(draw(inSequence, "gather", 3 * mOptions.frameSeconds), last));
+    EXPECT_TRUE(test::sameBits(
+        draw(inSequence, "resolved", 4 * mOptions.frameSeconds),
+        draw(alone, "resolved", 4 * mOptions.frameSeconds)
+    ));
 }
 
 } // namespace

@@ -66,9 +66,20 @@ class Drawer {
 
     image::Image draw(const MotionBlurSettings& settings) {
         mBlur.configure(settings, {});
+        // The frame before is there for the methods that look things up in it.
+        if (settings.method->readsInstantMotions)
+            (void)drawAt(-kFrameSeconds);
+        return drawAt(0.0);
+    }
+
+  private:
+    static constexpr double kFrameSeconds = 0.5;
+
+    image::Image drawAt(double seconds) {
         render::FrameRequest request;
         request.view.camera = mScene.camera;
-        request.view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, 0.0);
+        request.view.exposure =
+            scene::computeExposure({0.5, scene::ShutterPhase::Centre}, seconds, kFrameSeconds);
         request.view.width = 320;
         request.view.height = 96;
         render::PostEffect* effects[] = {&mBlur};
@@ -77,7 +88,6 @@ class Drawer {
         return drawn ? std::move(drawn.value().color) : image::Image();
     }
 
-  private:
     const test::SceneBuilder& mScene;
     render::Renderer mRenderer;
     motion_blur::MotionBlurPlugin mBlur;
@@ -103,6 +113,11 @@ std::vector<MotionBlurSettings> varyRow(const Row& row, const MotionBlurSettings
     if (const auto* words = std::get_if<core::WordField<MotionBlurSettings>>(&row.field)) {
         for (size_t word = 0; word < words->words.size(); ++word)
             words->set(varied.emplace_back(base), word);
+        return varied;
+    }
+    if (std::holds_alternative<bool MotionBlurSettings::*>(row.field)) {
+        auto& flag = varied.emplace_back(base).*std::get<bool MotionBlurSettings::*>(row.field);
+        flag = !flag;
         return varied;
     }
     for (const double value : {row.range.lowest, 4.0, 0.25, 7.0, row.range.highest}) {

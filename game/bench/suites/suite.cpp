@@ -39,7 +39,7 @@ std::vector<uint32_t> listSampleCounts(const game::MethodInfo& method, uint32_t 
         counts = listPowersOfTwo(4, 64);
         break;
     case game::SampleUnit::Instants:
-        counts = listPowersOfTwo(2, 64); // its default is the truth itself
+        counts = listPowersOfTwo(2, 64); // the default of one is the truth itself
         break;
     case game::SampleUnit::Rays:
         counts = listPowersOfTwo(1, maxRays);

@@ -124,6 +124,11 @@ core::Status EmbeddedMotionBlur::checkMethod(
             "motion blur: the method {} reads no raster image; it is not for hosts that have one",
             method.name
         );
+    if (method.readsInstantMotions)
+        return makeError(
+            "motion blur: the method {} needs the motion to each instant, which hosts cannot give",
+            method.name
+        );
     if (method.rays != RayNeed::None && !mHasRays)
         return makeError(
             "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name

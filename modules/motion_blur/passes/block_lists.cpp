@@ -36,6 +36,14 @@ BlockLists createLists(graph::Graph& graph, const char* name, VkDeviceSize words
         )};
 }
 
+SortedBlocks createSorted(graph::Graph& graph, const PassParams& params, bool forMask) {
+    const glm::uvec2 extent = countBlocks(params);
+    const VkDeviceSize blockCount = VkDeviceSize(extent.x) * extent.y;
+    return {
+        createLists(graph, "blocks", shader::kListCount * blockCount, shader::kListCount),
+        createLists(graph, "candidate blocks", forMask ? 2 * blockCount : 0, 1)};
+}
+
 struct ClearData {
     SortedBlocks sorted;
 };
@@ -69,7 +77,7 @@ void addClear(graph::Graph& graph, SortedBlocks& sorted) {
     sorted = cleared.sorted;
 }
 
-/// Of one slot: the lists', the candidates'.
+/// Headers of one slot: the lists' and the candidates'.
 constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
 
 } // namespace
@@ -86,14 +94,17 @@ BlockSorter::BlockSorter(gpu::Device& device)
     std::memset(mHeaders.mapped(), 0, mHeaders.bytes());
 }
 
+SortedBlocks BlockSorter::addEmpty(graph::Graph& graph, const PassParams& params) const {
+    SortedBlocks sorted = createSorted(graph, params, false);
+    addClear(graph, sorted);
+    return sorted;
+}
+
 SortedBlocks BlockSorter::add(
     graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask
 ) const {
     const glm::uvec2 extent = countBlocks(params);
-    const VkDeviceSize blockCount = VkDeviceSize(extent.x) * extent.y;
-    SortedBlocks sorted{
-        createLists(graph, "blocks", shader::kListCount * blockCount, shader::kListCount),
-        createLists(graph, "candidate blocks", forMask ? 2 * blockCount : 0, 1)};
+    SortedBlocks sorted = createSorted(graph, params, forMask);
     addClear(graph, sorted);
 
     struct Data {

@@ -41,6 +41,9 @@ class BlockSorter {
   public:
     explicit BlockSorter(gpu::Device& device);
 
+    /// Empty lists, for passes that sort otherwise.
+    [[nodiscard]] SortedBlocks addEmpty(graph::Graph& graph, const PassParams& params) const;
+
     /// \param forMask blocks that may have masked pixels go to the candidates
     SortedBlocks
     add(graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask

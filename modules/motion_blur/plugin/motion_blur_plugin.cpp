@@ -29,7 +29,8 @@ MotionBlurPlugin::MotionBlurPlugin(
     const MotionBlurSettings& settings,
     const BlurBudget& budget
 )
-    : mWanted(settings), mBudget(budget, settings), mEffect(device, scene.textureLayout()) {}
+    : mWanted(settings), mBudget(budget, settings), mInstantMotions(device),
+      mEffect(device, scene.textureLayout()) {}
 
 void MotionBlurPlugin::configure(const MotionBlurSettings& settings, const BlurBudget& budget) {
     if (settings != mWanted || budget.milliseconds != mBudget.budget().milliseconds)
@@ -81,6 +82,17 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         inputs.rays = graph::RayScene{.frameConstants = context.frameConstants};
     if (context.timedRays)
         inputs.timedRays = *context.timedRays;
+    if (settings().method->readsInstantMotions)
+        inputs.instantMotions = mInstantMotions.update(
+            context.world,
+            context.view,
+            context.frame,
+            settings().sampleCount,
+            settings().history,
+            context.slot
+        );
+    else
+        mInstantMotions.forget();
     mDrawnLevels.at(context.slot) = mBudget.level();
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());

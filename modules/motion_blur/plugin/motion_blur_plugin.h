@@ -6,6 +6,7 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/motion_blur.h"
+#include "modules/motion_blur/plugin/instant_motion_buffers.h"
 
 #include <array>
 #include <cstddef>
@@ -46,6 +47,7 @@ class MotionBlurPlugin : public render::PostEffect {
     MotionBlurSettings mWanted;
     BudgetController mBudget;
     std::array<size_t, gpu::kMaxFramesInFlight> mDrawnLevels{}; ///< of the budget, by slot
+    InstantMotionBuffers mInstantMotions;
     MotionBlur mEffect;
 };
 

@@ -24,7 +24,7 @@ void GBuffer::setMotion(uint32_t x, uint32_t y, float right, float down, float d
 std::vector<const motion_blur::Method*> listFilters() {
     std::vector<const motion_blur::Method*> filters;
     for (const motion_blur::Method* method : motion_blur::listMethods())
-        if (!method->readsCamera && method->rays == motion_blur::RayNeed::None)
+        if (method->readsImagesOnly())
             filters.push_back(method);
     return filters;
 }

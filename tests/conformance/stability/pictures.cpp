@@ -32,6 +32,9 @@ Range findInputs(const Image& sharp, const FrameResult& frame) {
         return range;
     }
     range.add(sharp);
+    const auto last = frame.intermediates.find("last");
+    if (last != frame.intermediates.end())
+        range.add(last->second);
     const auto revealed = frame.intermediates.find("reveal");
     if (revealed != frame.intermediates.end())
         range.add(revealed->second);

@@ -69,7 +69,7 @@ TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
         };
         const auto count = std::count_if(sweep.begin(), sweep.end(), isDefault);
         // The truth's own default is what the others are compared with.
-        EXPECT_EQ(count, method->sampleUnit == game::SampleUnit::Instants ? 0 : 1) << method->name;
+        EXPECT_EQ(count, method->family == game::MethodFamily::Accumulate ? 0 : 1) << method->name;
     }
 }
 

@@ -162,7 +162,9 @@ TEST_F(RenderOptionsTest, PhasesHaveTheirNames) {
 TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     for (const char* name : {"", "Hybrid", "nosuch"})
         refuse("--method", Words{"--method=" + wordOf(name)});
-    refuse("gather, hybrid, denoised, accumulate, truth", Words{"--method=nosuch"});
+    refuse(
+        "gather, hybrid, resolved, adaptive, denoised, accumulate, truth", Words{"--method=nosuch"}
+    );
 }
 
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
@@ -266,8 +268,8 @@ TEST_F(RenderOptionsTest, ASettingOfAnotherMethodIsRefused) {
         const char* foreign =
             method.name == std::string("own_velocity") ? "tileSizePx=20" : "occluderTest=none";
         refuse(method.name, Words{"--method=" + wordOf(method.name), "--set=" + wordOf(foreign)});
-        const bool jitters = blurs && method.blur != &motion_blur::getMethod("denoised");
-        if (jitters)
+        const auto& settings = blurs ? method.blur->settings : std::vector<std::string_view>{};
+        if (std::find(settings.begin(), settings.end(), "jitter") != settings.end())
             accept(Words{"--method=" + wordOf(method.name), "--set=jitter=0.5"});
         else
             refuse("--set 'jitter'", Words{"--method=" + wordOf(method.name), "--set=jitter=0.5"});

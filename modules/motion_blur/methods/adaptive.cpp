@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// `resolved`, and rays where what was looked up is missing or uncertain: the dial from a post
+// effect to the truth.
+#include "spirv/motion_blur/adaptive.comp.h"
+
+#include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/budget_ladder.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/shared_passes.h"
+
+#include <cmath>
+
+namespace shutter::motion_blur {
+
+extern const Method kAdaptive;
+
+namespace {
+
+using graph::Access;
+
+class AdaptivePasses : public MethodPasses {
+  public:
+    AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
+        : mSampler(device.nearestSampler()), mLookUp(device, true), mTrace(device, [sceneLayout] {
+              std::vector<VkDescriptorType> bindings = listSearchBindings();
+              bindings.push_back(kBuffer);
+              bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+              gpu::ComputePipelineDesc desc =
+                  describePass("trace samples", motion_blur_adaptive_comp, std::move(bindings));
+              desc.interface.sceneLayout = sceneLayout;
+              return desc;
+          }()) {}
+
+    MotionBlurOutputs
+    add(graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const MotionBlurSettings& settings,
+        const PassParams& params,
+        SharedPasses& shared) override;
+
+    void count(uint32_t slot, Counters& counters) const override { mLookUp.count(slot, counters); }
+
+  private:
+    void addTrace(
+        graph::Graph& graph,
+        const graph::TimedRays& rays,
+        LookUpOutputs& found,
+        const PassParams& params
+    ) const;
+
+    VkSampler mSampler;
+    LookUp mLookUp;
+    gpu::LazyPipeline mTrace;
+};
+
+uint32_t countRays(float perPixel, glm::uvec2 sizePx) {
+    const double rays = double(perPixel) * sizePx.x * sizePx.y;
+    return rays < double(shader::kNoRayLimit) ? static_cast<uint32_t>(rays) : shader::kNoRayLimit;
+}
+
+MotionBlurOutputs AdaptivePasses::add(
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    const MotionBlurSettings& settings,
+    const PassParams& common,
+    SharedPasses& shared
+) {
+    PassParams params = common;
+    shader::ResolvedParams own{};
+    own.motions = gpu::splitAddress(inputs.instantMotions->table);
+    own.rayLimit = countRays(settings.raysPerPixel, params.sizePx);
+    own.frame = gpu::splitAddress(inputs.timedRays->frameConstants);
+    own.timed = gpu::splitAddress(inputs.timedRays->timedConstants);
+    params.setMethod(own);
+    LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
+    addTrace(graph, *inputs.timedRays, found, params);
+    mLookUp.readCounters(graph, found.search.counters, inputs.slot);
+    MotionBlurOutputs outputs;
+    outputs.color = shared.stillPixels.end(
+        graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
+    );
+    if (found.search.hasLast)
+        outputs.views = {{"last", found.layers.last.color}};
+    return outputs;
+}
+
+void AdaptivePasses::addTrace(
+    graph::Graph& graph,
+    const graph::TimedRays& rays,
+    LookUpOutputs& found,
+    const PassParams& params
+) const {
+    struct Data {
+        SearchResources search;
+        ListedPixels listed;
+        graph::ImageHandle picture;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "trace samples",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            for (const graph::BufferHandle structure : {rays.tlasBuffer, rays.boxesBuffer})
+                if (structure.isValid())
+                    builder.read(structure, Access::AccelerationRead);
+            if (rays.deformedBuffer.isValid())
+                builder.read(rays.deformedBuffer, Access::ShaderRead);
+            data.search = found.search;
+            data.search.use(builder);
+            data.listed = {
+                builder.read(found.listed.pixels, Access::StorageRead),
+                builder.read(found.listed.arguments, Access::IndirectRead)};
+            data.picture = builder.write(found.picture, Access::StorageWrite);
+        },
+        [this, tlas = rays.tlas, textures = rays.textures, params](
+            const Data& data, graph::PassContext& context
+        ) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = data.search.bind(resources, mSampler, data.picture);
+            bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
+            context.frame.bind(mTrace.get(), bindings, &params, sizeof(params), textures);
+            vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
+        }
+    );
+    found.search.counters = pass.search.counters;
+    found.picture = pass.picture;
+}
+
+void addAdaptiveLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
+    ladder.changeMethod("resolved", "all rays", wanted.sampleCount, 0.5);
+    ladder.reduceSamplesInSteps(wanted.sampleCount, 0.5);
+}
+
+} // namespace
+
+const Method kAdaptive = {
+    .name = "adaptive",
+    .description = "resolved, and rays for what the rasters do not hold",
+    .publication = "this project",
+    .rays = RayNeed::Query,
+    .sampleUnit = SampleUnit::Instants,
+    .defaultSamples = 15,
+    .readsSurface = true,
+    .readsInstantMotions = true,
+    .settings = {"history", "raysPerPixel"},
+    .views = {"last"},
+    .addBudgetLevels = addAdaptiveLevels,
+    .makePasses = [](gpu::Device& device,
+                     VkDescriptorSetLayout sceneLayout) -> std::unique_ptr<MethodPasses> {
+        return std::make_unique<AdaptivePasses>(device, sceneLayout);
+    },
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What each pixel saw at each instant, looked up by the entities' own motion in this frame's raster
+// and the last one's.
+#include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/budget_ladder.h"
+#include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/shared_passes.h"
+
+namespace shutter::motion_blur {
+
+extern const Method kResolved;
+
+namespace {
+
+class ResolvedPasses : public MethodPasses {
+  public:
+    explicit ResolvedPasses(gpu::Device& device) : mLookUp(device, false) {}
+
+    MotionBlurOutputs
+    add(graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const MotionBlurSettings& /*settings*/,
+        const PassParams& common,
+        SharedPasses& shared) override {
+        PassParams params = common;
+        shader::ResolvedParams own{};
+        own.motions = gpu::splitAddress(inputs.instantMotions->table);
+        params.setMethod(own);
+        const LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
+        mLookUp.readCounters(graph, found.search.counters, inputs.slot);
+        MotionBlurOutputs outputs;
+        outputs.color = shared.stillPixels.end(
+            graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
+        );
+        if (found.search.hasLast)
+            outputs.views = {{"last", found.layers.last.color}};
+        return outputs;
+    }
+
+    void count(uint32_t slot, Counters& counters) const override { mLookUp.count(slot, counters); }
+
+  private:
+    LookUp mLookUp;
+};
+
+} // namespace
+
+const Method kResolved = {
+    .name = "resolved",
+    .description = "what each pixel saw at each instant, looked up by the entities' motion",
+    .publication = "this project",
+    .sampleUnit = SampleUnit::Instants,
+    .defaultSamples = 15,
+    .readsSurface = true,
+    .readsInstantMotions = true,
+    .settings = {"history"},
+    .views = {"last"},
+    .addBudgetLevels = addSampleLevels,
+    .makePasses = [](gpu::Device& device, VkDescriptorSetLayout) -> std::unique_ptr<MethodPasses> {
+        return std::make_unique<ResolvedPasses>(device);
+    },
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/candidate_lists.h"
+
+#include "spirv/motion_blur/resolved_candidates.comp.h"
+
+#include "modules/motion_blur/passes/dispatch.h"
+#include "shaders/motion_blur/resolved_shared.h"
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+gpu::ComputePipelineDesc describeList(LayerIndex layer) {
+    gpu::ComputePipelineDesc desc = describePass(
+        layer == LayerIndex::Raster ? "list candidates" : "list candidates, last frame",
+        motion_blur_resolved_candidates_comp,
+        {kSampled, kSampled, kBuffer, kBuffer}
+    );
+    desc.specialization = {static_cast<uint32_t>(layer)};
+    return desc;
+}
+
+graph::BufferHandle addClear(graph::Graph& graph, graph::BufferHandle lists) {
+    struct Data {
+        graph::BufferHandle lists;
+    };
+
+    return graph
+        .addPass<Data>(
+            "clear candidates",
+            graph::PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.lists = builder.write(lists, Access::TransferWrite);
+            },
+            [](const Data& data, graph::PassContext& context) {
+                vkCmdFillBuffer(
+                    context.commands,
+                    context.resources.buffer(data.lists),
+                    0,
+                    VK_WHOLE_SIZE,
+                    0xFFFFFFFFu
+                );
+            }
+        )
+        .lists;
+}
+
+} // namespace
+
+CandidateLists::CandidateLists(gpu::Device& device)
+    : mSampler(device.nearestSampler()), mRaster(device, describeList(LayerIndex::Raster)),
+      mLast(device, describeList(LayerIndex::Last)) {}
+
+CandidateOutputs CandidateLists::add(
+    graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params
+) const {
+    const glm::uvec2 tiles =
+        (params.sizePx + shader::kCandidateTilePx - 1u) / shader::kCandidateTilePx;
+    const VkDeviceSize bytes =
+        VkDeviceSize(tiles.x) * tiles.y * shader::kCandidatesPerTile * sizeof(shader::Candidate);
+    const graph::BufferHandle lists =
+        addClear(graph, graph.createBuffer("candidates", {bytes, kListUsage}));
+    return graph.addPass<CandidateOutputs>(
+        layer == LayerIndex::Raster ? "list candidates" : "list candidates, last frame",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, CandidateOutputs& data) {
+            builder.read(inputs.surface, Access::SampledCompute);
+            builder.read(inputs.motionDepth, Access::SampledCompute);
+            data.candidates = builder.write(lists, Access::StorageWrite);
+            data.counters = builder.write(inputs.counters, Access::StorageWrite);
+        },
+        [this, inputs, layer, params, tiles](
+            const CandidateOutputs& data, graph::PassContext& context
+        ) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings;
+            bindings.sampled(resources.view(inputs.surface), mSampler)
+                .sampled(resources.view(inputs.motionDepth), mSampler)
+                .buffer(resources.buffer(data.candidates))
+                .buffer(resources.buffer(data.counters));
+            const gpu::LazyPipeline& pipeline = layer == LayerIndex::Raster ? mRaster : mLast;
+            context.frame.bind(pipeline.get(), bindings, &params, sizeof(params));
+            vkCmdDispatch(context.commands, tiles.x, tiles.y, 1);
+        }
+    );
+}
+
+} // namespace shutter::motion_blur

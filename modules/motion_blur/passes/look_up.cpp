@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/look_up.h"
+
+#include "spirv/motion_blur/resolved.comp.h"
+#include "spirv/motion_blur/resolved_blocks.comp.h"
+
+#include "engine/core/check.h"
+#include "modules/motion_blur/passes/dispatch.h"
+
+#include <cstring>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
+    std::vector<VkDescriptorType> bindings = listSearchBindings();
+    bindings.insert(bindings.end(), 3, kBuffer);
+    gpu::ComputePipelineDesc desc =
+        describePass("resolve", motion_blur_resolved_comp, std::move(bindings));
+    desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u};
+    return desc;
+}
+
+struct ClearData {
+    graph::BufferHandle counters;
+    ListedPixels listed;
+};
+
+/// Counters of 0 and, where pixels are listed, a list of none.
+ClearData addClear(graph::Graph& graph, const PassParams& params, bool listsPixels) {
+    const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
+    ClearData cleared;
+    cleared.counters = graph.createBuffer(
+        "resolved counters", {sizeof(shader::ResolvedCounters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
+    );
+    if (listsPixels)
+        cleared.listed = {
+            graph.createBuffer("listed pixels", {pixels * sizeof(glm::uvec2), kListUsage}),
+            graph.createBuffer(
+                "listed pixel arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
+            )};
+    return graph.addPass<ClearData>(
+        "clear resolved counters",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, ClearData& data) {
+            data.counters = builder.write(cleared.counters, Access::TransferWrite);
+            data.listed.pixels = cleared.listed.pixels; // the counters know how many there are
+            if (listsPixels)
+                data.listed.arguments =
+                    builder.write(cleared.listed.arguments, Access::TransferWrite);
+        },
+        [](const ClearData& data, graph::PassContext& context) {
+            const shader::ResolvedCounters none{};
+            clearList(context, data.counters, &none, sizeof(none));
+            if (data.listed.arguments.isValid())
+                clearArguments(context, data.listed.arguments, 1);
+        }
+    );
+}
+
+} // namespace
+
+std::vector<VkDescriptorType> listSearchBindings() {
+    return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer, kBuffer, kBuffer};
+}
+
+void SearchResources::use(graph::PassBuilder& builder) {
+    for (size_t i = 0; i < images.size(); ++i)
+        if (i < 3 || hasLast) // else the last two are the first two again
+            builder.read(images[i], Access::SampledCompute);
+    builder.read(rasterCandidates, Access::StorageRead);
+    if (hasLast)
+        builder.read(lastCandidates, Access::StorageRead);
+    counters = builder.write(counters, Access::StorageWrite);
+}
+
+gpu::BindingList SearchResources::bind(
+    const graph::PassResources& resources, VkSampler sampler, graph::ImageHandle target
+) const {
+    gpu::BindingList bindings;
+    for (const graph::ImageHandle image : images)
+        bindings.sampled(resources.view(image), sampler);
+    bindings.storage(resources.image(target));
+    for (const graph::BufferHandle buffer : {rasterCandidates, lastCandidates, counters})
+        bindings.buffer(resources.buffer(buffer));
+    return bindings;
+}
+
+LookUp::LookUp(gpu::Device& device, bool listsPixels)
+    : mListsPixels(listsPixels), mSampler(device.nearestSampler()), mLayers(device),
+      mCandidates(device), mBlocks(
+                               device,
+                               describePass(
+                                   "list moving blocks",
+                                   motion_blur_resolved_blocks_comp,
+                                   {kBuffer, kBuffer, kBuffer, kBuffer}
+                               )
+                           ),
+      mResolve(device, describeResolve(listsPixels)),
+      mRead(
+          device,
+          "resolved counters",
+          gpu::kMaxFramesInFlight * sizeof(shader::ResolvedCounters),
+          0,
+          gpu::MemoryUse::Readback
+      ) {
+    std::memset(mRead.mapped(), 0, mRead.bytes());
+}
+
+LookUpOutputs LookUp::add(
+    graph::Graph& graph, const MotionBlurInputs& inputs, PassParams& params, SharedPasses& shared
+) {
+    const InstantMotions& motions = *inputs.instantMotions;
+    SHUTTER_CHECK_EQ(motions.instantCount, params.sampleCount);
+    const bool hasLast = motions.hasLast && mLayers.holds(params.sizePx);
+    auto own = params.getMethod<shader::ResolvedParams>();
+    own.hasLast = hasLast ? 1 : 0;
+    params.setMethod(own);
+    LookUpOutputs outputs;
+    outputs.layers = mLayers.add(graph, inputs, params, hasLast, motions.keepsRaster);
+    const SurfaceLayer& raster = outputs.layers.raster;
+    const SurfaceLayer& last = hasLast ? outputs.layers.last : raster;
+    const ClearData cleared = addClear(graph, params, mListsPixels);
+    outputs.listed = cleared.listed;
+    SearchResources& search = outputs.search;
+    search.images = {raster.color, inputs.motionDepth, raster.surface, last.color, last.surface};
+    search.hasLast = hasLast;
+    search.counters = cleared.counters;
+    const auto list = [&](const SurfaceLayer& layer, LayerIndex index) {
+        const CandidateOutputs listed = mCandidates.add(
+            graph, {layer.surface, inputs.motionDepth, search.counters}, index, params
+        );
+        search.counters = listed.counters;
+        return listed.candidates;
+    };
+    search.rasterCandidates = search.lastCandidates = list(raster, LayerIndex::Raster);
+    if (hasLast)
+        search.lastCandidates = list(last, LayerIndex::Last);
+    outputs.blocks = addBlocks(graph, search, shared.sorter.addEmpty(graph, params), params);
+    shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
+    outputs.picture =
+        shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
+    addResolve(graph, outputs, params);
+    return outputs;
+}
+
+SortedBlocks LookUp::addBlocks(
+    graph::Graph& graph,
+    const SearchResources& search,
+    const SortedBlocks& empty,
+    const PassParams& params
+) const {
+    return graph.addPass<SortedBlocks>(
+        "list moving blocks",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, SortedBlocks& data) {
+            builder.read(search.rasterCandidates, Access::StorageRead);
+            if (search.hasLast)
+                builder.read(search.lastCandidates, Access::StorageRead);
+            data = empty;
+            data.lists.blocks = builder.write(empty.lists.blocks, Access::StorageWrite);
+            data.lists.arguments = builder.write(empty.lists.arguments, Access::StorageWrite);
+        },
+        [this, search, params](const SortedBlocks& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings;
+            for (const graph::BufferHandle buffer :
+                 {search.rasterCandidates,
+                  search.lastCandidates,
+                  data.lists.blocks,
+                  data.lists.arguments})
+                bindings.buffer(resources.buffer(buffer));
+            dispatchPixels(context, mBlocks.get(), bindings, params, countBlocks(params));
+        }
+    );
+}
+
+void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params)
+    const {
+    struct Data {
+        SearchResources search;
+        BlockLists blocks;
+        ListedPixels listed;
+        graph::ImageHandle picture;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "resolve",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.search = outputs.search;
+            data.search.use(builder);
+            data.blocks = {
+                builder.read(outputs.blocks.lists.blocks, Access::StorageRead),
+                builder.read(outputs.blocks.lists.arguments, Access::IndirectRead)};
+            if (mListsPixels)
+                data.listed = {
+                    builder.write(outputs.listed.pixels, Access::StorageWrite),
+                    builder.write(outputs.listed.arguments, Access::StorageWrite)};
+            data.picture = builder.write(outputs.picture, Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = data.search.bind(resources, mSampler, data.picture);
+            bindings.buffer(resources.buffer(data.blocks.blocks));
+            // Bindings that the specialised shader does not use are some buffer all the same.
+            const bool isListed = data.listed.pixels.isValid();
+            for (const graph::BufferHandle buffer : {data.listed.pixels, data.listed.arguments})
+                bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));
+            dispatchList(
+                context, mResolve.get(), bindings, params, data.blocks.arguments, shader::kMixedList
+            );
+        }
+    );
+    outputs.search.counters = pass.search.counters;
+    outputs.listed = pass.listed;
+    outputs.picture = pass.picture;
+}
+
+void LookUp::readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const {
+    struct Data {
+        graph::BufferHandle source;
+        graph::BufferHandle target;
+    };
+
+    const auto target = graph.importBuffer("resolved counters read", mRead.handle(), mRead.bytes());
+    graph.addPass<Data>(
+        "read resolved counters",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.source = builder.read(counters, Access::TransferRead);
+            data.target = builder.write(target, Access::TransferWrite);
+            graph.markOutput(data.target);
+        },
+        [slot](const Data& data, graph::PassContext& context) {
+            constexpr VkDeviceSize kBytes = sizeof(shader::ResolvedCounters);
+            const VkBufferCopy region{0, slot * kBytes, kBytes};
+            vkCmdCopyBuffer(
+                context.commands,
+                context.resources.buffer(data.source),
+                context.resources.buffer(data.target),
+                1,
+                &region
+            );
+        }
+    );
+}
+
+void LookUp::count(uint32_t slot, Counters& counters) const {
+    shader::ResolvedCounters counted;
+    std::memcpy(
+        &counted, static_cast<const char*>(mRead.mapped()) + slot * sizeof(counted), sizeof(counted)
+    );
+    counters["unresolved samples"] = counted.unresolved;
+    counters["samples from the last frame"] = counted.fromLast;
+    counters["candidates dropped"] = counted.overflown;
+    counters["history bytes"] = mLayers.keptBytes();
+    if (!mListsPixels)
+        return;
+    counters["rays traced"] = counted.rays;
+    uint64_t edges = 0;
+    for (uint32_t i = shader::kFirstEdgeClass; i <= shader::kLastEdgeClass; ++i)
+        edges += counted.classes[i];
+    counters["samples at edges"] = edges;
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What each pixel saw at each instant, looked up by the entities' own motion in this frame's raster
+// and in the last one's.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/candidate_lists.h"
+#include "modules/motion_blur/passes/surface_layers.h"
+#include "modules/motion_blur/shared_passes.h"
+#include "shaders/motion_blur/resolved_shared.h"
+
+#include <array>
+#include <cstdint>
+
+namespace shutter::motion_blur {
+
+/// What the search for a sample reads and counts into: bindings 0 to 8 of resolved_search.glsl, of
+/// which binding 5 is the picture.
+struct SearchResources {
+    std::array<graph::ImageHandle, 5> images;
+    bool hasLast = false;
+    graph::BufferHandle rasterCandidates;
+    graph::BufferHandle lastCandidates; ///< rasterCandidates where there is no last frame
+    graph::BufferHandle counters;       ///< shader::ResolvedCounters
+
+    /// Declares the reads; the counters are written.
+    void use(graph::PassBuilder& builder);
+    [[nodiscard]] gpu::BindingList
+    bind(const graph::PassResources& resources, VkSampler sampler, graph::ImageHandle target) const;
+};
+
+/// Pixels that have samples for rays.
+struct ListedPixels {
+    graph::BufferHandle pixels; ///< x | y << 16, classes (resolved_shared.h)
+    graph::BufferHandle arguments;
+};
+
+struct LookUpOutputs {
+    SearchResources search;
+    SortedBlocks blocks;
+    ListedPixels listed;        ///< invalid unless pixels were listed
+    graph::ImageHandle picture; ///< with all blocks that move written
+    SurfaceLayersOutputs layers;
+};
+
+class LookUp {
+  public:
+    LookUp(gpu::Device& device, bool listsPixels);
+
+    /// \param params with shader::ResolvedParams, `hasLast` not set
+    /// \return params with it, too
+    [[nodiscard]] LookUpOutputs
+    add(graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        PassParams& params,
+        SharedPasses& shared);
+
+    /// Copies the counters for the CPU, after the last pass that counts.
+    void readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const;
+
+    void count(uint32_t slot, Counters& counters) const;
+
+  private:
+    [[nodiscard]] SortedBlocks addBlocks(
+        graph::Graph& graph,
+        const SearchResources& search,
+        const SortedBlocks& empty,
+        const PassParams& params
+    ) const;
+    void addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params) const;
+
+    bool mListsPixels;
+    VkSampler mSampler;
+    SurfaceLayers mLayers;
+    CandidateLists mCandidates;
+    gpu::LazyPipeline mBlocks;
+    gpu::LazyPipeline mResolve;
+    gpu::Buffer mRead; ///< shader::ResolvedCounters by slot
+};
+
+/// Bindings 0 to 8 of a pipeline that searches.
+[[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What each pixel saw at each instant of the exposure, looked up in this frame's raster and, where
+// that holds nothing of it, in the last frame's.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/resolved_shared.h"
+#include "motion_blur/motion_blur_shared.h"
+
+layout(constant_id = 1) const bool kFindsEdges = false; // pixels are listed for rays
+
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    ResolvedParams method;
+};
+
+#include "motion_blur/resolved_search.glsl"
+
+#define SHUTTER_BLOCK_LIST_BINDING 9
+#include "motion_blur/block_list.glsl"
+
+layout(binding = 10, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 11, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+
+/// For the pass that traces: the pixel and which classes its samples have.
+void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {
+    uint classes = 0u;
+    for (uint i = 0u; i < kSampleClasses; ++i) {
+        if (counts[i] == 0u) continue;
+        classes |= 1u << i;
+        atomicAdd(uCounters.classes[i], counts[i]);
+    }
+    uint index = atomicAdd(uCounters.listedPixels, 1u);
+    uListed[index] = uvec2(uint(pixel.x) | uint(pixel.y) << 16, classes);
+    uint group = index / kRevealThreads;
+    atomicMax(uListArguments.groupsX, min(group + 1u, kListRow));
+    if (index % (kRevealThreads * kListRow) == 0u) atomicAdd(uListArguments.groupsY, 1u);
+}
+
+void main() {
+    ivec2 pixel;
+    if (!findPixel(params.sizePx, pixel)) return;
+    PixelSearch search = beginSearch(pixel);
+    uint counts[kSampleClasses];
+    for (uint i = 0u; i < kSampleClasses; ++i) counts[i] = 0u;
+    vec3 sum = vec3(0.0f);
+    uint found = 0u;
+    uint guessed = 0u;
+    uint fromLast = 0u;
+    for (uint instant = 0u; instant < params.sampleCount; ++instant) {
+        Doubt doubt = kNoDoubt;
+        Seen seen = searchInstant(search, instant, doubt);
+        vec3 color = vec3(0.0f);
+        if (seen.isFound) {
+            color = colorOf(seen);
+            fromLast += seen.layer == kLastLayer ? 1u : 0u;
+            ++found;
+        } else if (doubt.hasBeside) {
+            color = fetchColor(kRasterLayer, doubt.beside);
+            ++guessed;
+        }
+        sum += color;
+        if (kFindsEdges) ++counts[classify(seen, color, doubt)];
+    }
+    if (fromLast > 0u) atomicAdd(uCounters.fromLast, fromLast);
+    if (found < params.sampleCount) atomicAdd(uCounters.unresolved, params.sampleCount - found);
+    // What nothing is known of counts as what the pixel saw else.
+    uint known = found + guessed;
+    vec3 color = known > 0u ? sum / float(known) : fetchColor(kRasterLayer, pixel);
+    imageStore(uBlurred, pixel, vec4(color, 1.0f));
+    if (kFindsEdges) listPixel(pixel, counts);
+}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Where a layer's surfaces are at an instant of the exposure (render/instant_motion_shared.h). A
+// layer is a raster image: this frame's or the last one's.
+#ifndef SHUTTER_RESOLVED_GLSL
+#define SHUTTER_RESOLVED_GLSL
+
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference_uvec2 : require
+#extension GL_EXT_scalar_block_layout : require
+
+#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/resolved_shared.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InstantMotionsRef {
+    InstantMotions value;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MoverTable {
+    uint movers[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer InstantMotionTable {
+    InstantMotion motions[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer InstantTable {
+    float times[];
+};
+
+const uint kRasterLayer = 0u;
+const uint kLastLayer = 1u;
+
+LayerMotion getLayer(InstantMotionsRef motions, uint index) {
+    LayerMotion layer = motions.value.raster;
+    if (index == kLastLayer) layer = motions.value.last;
+    return layer;
+}
+
+/// Shutter time of an instant.
+float timeOf(InstantMotionsRef motions, uint instant) {
+    return InstantTable(motions.value.times).times[instant];
+}
+
+uint findMover(LayerMotion layer, uint key) {
+    if (key == kSkyKey) return kSkyMover;
+    return key < layer.rowCount ? MoverTable(layer.movers).movers[key] : kNoMover;
+}
+
+bool isStillMover(LayerMotion layer, uint mover) {
+    return layer.isStill != 0u && (mover == kWorldMover || mover == kSkyMover);
+}
+
+/// Picture space. \param perspective 1 or 0
+vec4 pictureSpace(vec2 at, float depth, bool perspective) {
+    return vec4(at * (perspective ? depth : 1.0f), depth, 1.0f);
+}
+
+vec3 transformRows(vec4 rows[3], vec4 point) {
+    return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
+}
+
+/// A direction has no place: its depth is 1 and it is not displaced.
+float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; }
+
+/// Nearest depth that counts as in front of a perspective camera, metres.
+const float kLeastDepth = 1.0e-6f;
+
+vec2 projectPicture(vec3 point, bool perspective) {
+    return perspective ? point.xy / max(point.z, kLeastDepth) : point.xy;
+}
+
+uint instantBit(uint instant, uint count) {
+    return 1u << (count <= 32u ? instant : instant * 32u / count);
+}
+
+#endif

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Which entities of a layer each tile of the picture may see during the exposure, and between which
+// depths. A group takes a tile of the layer: it lists the entities in it with their extents, then
+// finds for each and each instant where that box is seen, and enters it in the lists of the tiles
+// there.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/resolved.glsl"
+
+layout(constant_id = 0) const uint kLayer = kRasterLayer;
+
+layout(local_size_x = kCandidateTilePx, local_size_y = kCandidateTilePx) in;
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    ResolvedParams method;
+};
+layout(binding = 0) uniform sampler2D uSurface;
+layout(binding = 1) uniform sampler2D uMotionDepth; // of this frame's raster
+layout(binding = 2, scalar) buffer Candidates { Candidate uCandidates[]; };
+layout(binding = 3, scalar) buffer Counters { ResolvedCounters uCounters; };
+
+// What the group found in its tile.
+shared uint sKeys[kCandidatesPerTile];
+shared uint sNearest[kCandidatesPerTile];
+shared uint sFarthest[kCandidatesPerTile];
+shared int sLowX[kCandidatesPerTile];
+shared int sLowY[kCandidatesPerTile];
+shared int sHighX[kCandidatesPerTile];
+shared int sHighY[kCandidatesPerTile];
+// Of a deformed entity: bounds of its motion, 1/16 pixels.
+shared int sMotionLowX[kCandidatesPerTile];
+shared int sMotionLowY[kCandidatesPerTile];
+shared int sMotionHighX[kCandidatesPerTile];
+shared int sMotionHighY[kCandidatesPerTile];
+
+const float kMotionSteps = 16.0f;
+/// Beyond the box: half a pixel to its border, one for what is interpolated, and some for rounding.
+const float kMarginPx = 2.0f;
+
+uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
+
+void note(uint slot, ivec2 pixel, float depth, vec2 motion) {
+    atomicMin(sNearest[slot], floatBitsToUint(depth));
+    atomicMax(sFarthest[slot], floatBitsToUint(depth));
+    atomicMin(sLowX[slot], pixel.x);
+    atomicMin(sLowY[slot], pixel.y);
+    atomicMax(sHighX[slot], pixel.x);
+    atomicMax(sHighY[slot], pixel.y);
+    ivec2 low = ivec2(floor(motion * kMotionSteps));
+    ivec2 high = ivec2(ceil(motion * kMotionSteps));
+    atomicMin(sMotionLowX[slot], low.x);
+    atomicMin(sMotionLowY[slot], low.y);
+    atomicMax(sMotionHighX[slot], high.x);
+    atomicMax(sMotionHighY[slot], high.y);
+}
+
+void listPixel(LayerMotion layer, ivec2 pixel) {
+    vec2 surface = texelFetch(uSurface, pixel, 0).xy;
+    uint key = uint(surface.y);
+    uint mover = findMover(layer, key);
+    if (mover == kNoMover || isStillMover(layer, mover)) return;
+    vec2 motion = mover == kDeformedMover ? texelFetch(uMotionDepth, pixel, 0).xy : vec2(0.0f);
+    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+        uint held = atomicCompSwap(sKeys[slot], kNoKey, key);
+        if (held == kNoKey || held == key) {
+            note(slot, pixel, depthOfKey(key, max(surface.x, 0.0f)), motion);
+            return;
+        }
+    }
+    atomicAdd(uCounters.overflown, 1u);
+}
+
+void enter(uint tile, uint key, vec2 depths, uint bits) {
+    uint first = tile * kCandidatesPerTile;
+    for (uint slot = first; slot < first + kCandidatesPerTile; ++slot) {
+        uint held = uCandidates[slot].key;
+        if (held == kNoKey) held = atomicCompSwap(uCandidates[slot].key, kNoKey, key);
+        if (held != kNoKey && held != key) continue;
+        atomicMin(uCandidates[slot].nearest, floatBitsToUint(max(depths.x, 0.0f)));
+        atomicMin(uCandidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f)));
+        atomicAnd(uCandidates[slot].instantsInverted, ~bits);
+        return;
+    }
+    atomicAdd(uCounters.overflown, 1u);
+}
+
+void enterBox(uint key, vec2 low, vec2 high, vec2 depths, uint bits) {
+    vec2 size = vec2(params.sizePx);
+    if (any(lessThan(high + kMarginPx, vec2(0.0f))) || any(greaterThan(low - kMarginPx, size)))
+        return;
+    uvec2 tiles = countTiles();
+    vec2 lowTile = clamp(low - kMarginPx, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
+    vec2 highTile = clamp(high + kMarginPx, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
+    uvec2 from = min(uvec2(lowTile), tiles - 1u);
+    uvec2 to = min(uvec2(highTile), tiles - 1u);
+    for (uint y = from.y; y <= to.y; ++y)
+        for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, depths, bits);
+}
+
+void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool perspective) {
+    InstantMotion motion =
+        InstantMotionTable(layer.motions).motions[mover * params.sampleCount + instant];
+    if (motion.instantFromRaster[2] == vec4(0.0f)) return;
+    vec2 low = vec2(1.0e9f);
+    vec2 high = vec2(-1.0e9f);
+    vec2 depths = vec2(3.0e38f, 0.0f);
+    bool isInFront = false;
+    for (uint corner = 0u; corner < 8u; ++corner) {
+        vec2 at = vec2(
+            (corner & 1u) != 0u ? float(sHighX[slot] + 1) : float(sLowX[slot]),
+            (corner & 2u) != 0u ? float(sHighY[slot] + 1) : float(sLowY[slot])
+        );
+        float depth = uintBitsToFloat((corner & 4u) != 0u ? sFarthest[slot] : sNearest[slot]);
+        vec3 seen = transformRows(motion.instantFromRaster, pictureSpace(at, depth, perspective));
+        vec2 place = clamp(projectPicture(seen, perspective), -1.0e8f, 1.0e8f);
+        low = min(low, place);
+        high = max(high, place);
+        depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
+        isInFront = isInFront || seen.z > 0.0f || !perspective;
+    }
+    if (!isInFront) return;
+    enterBox(sKeys[slot], low, high, depths, instantBit(instant, params.sampleCount));
+}
+
+void enterDeformed(uint slot, uint instant) {
+    float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
+    vec2 a = vec2(sMotionLowX[slot], sMotionLowY[slot]) / kMotionSteps * time;
+    vec2 b = vec2(sMotionHighX[slot], sMotionHighY[slot]) / kMotionSteps * time;
+    vec2 low = vec2(sLowX[slot], sLowY[slot]) + min(a, b);
+    vec2 high = vec2(sHighX[slot] + 1, sHighY[slot] + 1) + max(a, b);
+    vec2 depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
+    enterBox(sKeys[slot], low, high, depths, instantBit(instant, params.sampleCount));
+}
+
+void main() {
+    uint thread = gl_LocalInvocationIndex;
+    if (thread < kCandidatesPerTile) {
+        sKeys[thread] = kNoKey;
+        sNearest[thread] = 0xFFFFFFFFu;
+        sFarthest[thread] = 0u;
+        sLowX[thread] = sLowY[thread] = sMotionLowX[thread] = sMotionLowY[thread] = 0x7FFFFFFF;
+        sHighX[thread] = sHighY[thread] = sMotionHighX[thread] = sMotionHighY[thread] = -0x7FFFFFFF;
+    }
+    barrier();
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    LayerMotion layer = getLayer(motions, kLayer);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(uvec2(pixel), params.sizePx))) listPixel(layer, pixel);
+    barrier();
+    bool perspective = motions.value.isPerspective != 0u;
+    const uint kThreads = kCandidateTilePx * kCandidateTilePx;
+    for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
+        uint slot = pair / params.sampleCount;
+        if (sKeys[slot] == kNoKey) break;
+        uint instant = pair - slot * params.sampleCount;
+        uint mover = findMover(layer, sKeys[slot]);
+        // What is in the tile now must be looked at, even if at no instant it is.
+        if (kLayer == kRasterLayer && instant == 0u)
+            enter(
+                gl_WorkGroupID.y * countTiles().x + gl_WorkGroupID.x, sKeys[slot],
+                vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot])), 0u
+            );
+        if (mover == kDeformedMover)
+            enterDeformed(slot, instant);
+        else
+            enterRigid(layer, slot, mover, instant, perspective);
+    }
+}

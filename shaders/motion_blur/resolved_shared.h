@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What the passes of `resolved` and their shaders agree on.
+#ifndef SHUTTER_RESOLVED_SHARED_H
+#define SHUTTER_RESOLVED_SHARED_H
+
+#include "render/instant_motion_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// Pixels along the side of a tile that has a list of candidates: two blocks.
+SHUTTER_CONST uint kCandidateTilePx = 16u;
+/// Most entities that a tile's list holds.
+SHUTTER_CONST uint kCandidatesPerTile = 32u;
+
+/// Key of the sky; entities have the row of the entity table, which stays below.
+SHUTTER_CONST uint kSkyKey = 0xFFFFFFu;
+SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
+
+/// An entity that a tile may see during the exposure. Every field of an unused one has all bits
+/// set.
+struct Candidate {
+    uint key;              // row of its raster's entity table, or kSkyKey
+    uint nearest;          // bits of its least depth in the tile at any instant, metres
+    uint farthestInverted; // inverted bits of the largest
+    uint instantsInverted; // a bit each for 32 equal parts of the exposure; 0: in the tile then
+};
+
+/// Samples that rays may replace, by the harm that leaving them does: what no layer explains, then
+/// edges within a pixel by the colours on both sides, then the rest.
+SHUTTER_CONST uint kUnresolvedClass = 0u;
+SHUTTER_CONST uint kFirstEdgeClass =
+    1u; // colours that differ by a half and more; half of that; ...
+SHUTTER_CONST uint kLastEdgeClass = 7u;
+SHUTTER_CONST uint kOtherClass = 8u;
+SHUTTER_CONST uint kSampleClasses = 9u;
+
+SHUTTER_CONST uint kNoRayLimit = 0xFFFFFFFFu;
+
+struct ResolvedParams {
+    uvec2 motions; // address of InstantMotions
+    uint hasLast;  // 1: the last frame's raster is a layer
+    uint rayLimit; // of the frame; kNoRayLimit: none
+    uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
+    uvec2 timed;
+};
+
+/// What a frame counted.
+struct ResolvedCounters {
+    uint unresolved; // instants of pixels that no layer explains
+    uint fromLast;   // instants of pixels that the last frame's raster explains
+    uint overflown;  // candidates that found no place in a tile's list
+    uint rays;       // traced
+    uint classes[kSampleClasses];
+    uint listedPixels; // entries of the list of pixels that rays may go to
+    uint padding0;
+    uint padding1;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::Candidate) == 16);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
+static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
+#endif
+
+#endif

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// What a pixel saw, looked up: near the truth where this frame or the last one holds it, and honest
+// about where neither does.
+#include "engine/image/metrics.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+namespace shutter {
+namespace {
+
+using math::dvec3;
+
+class Resolved : public test::GpuTest {
+  protected:
+    /// A textured wall, a post before it and a box that passes between them.
+    static test::SceneBuilder makeScene(const test::Placement& camera = {}) {
+        test::SceneBuilder scene;
+        scene.setPerspective(0.9);
+        scene.moveCamera(camera);
+        const scene::AssetIndex waves = scene.addTextured(scene.addWaveTexture(), true);
+        scene.add(test::makeQuad(8, 6, waves), {.position = {0, 0, -5}});
+        scene.add(test::makeBox({0.15, 3, 0.1}, waves), {.position = {0.4, 0, -2}});
+        scene.add(
+            test::makeBox({0.8, 0.6, 0.5}, scene.addWaves()),
+            {.position = {-0.3, 0, -3}, .velocity = {12.0, 2.0, 0.0}}
+        );
+        return scene;
+    }
+
+    static test::Shot shotOf(std::string_view method) {
+        return {
+            .method = method,
+            .width = 192,
+            .height = 128,
+            .exposureSeconds = 1.0 / 48.0,
+            .phase = scene::ShutterPhase::End,
+            .instants = 15};
+    }
+
+    double compareWithTruth(const test::SceneBuilder& scene, const test::Shot& shot) {
+        const auto truth = test::renderOnce(device(), scene, shotOf("accumulate"));
+        return image::computePsnr(test::renderOnce(device(), scene, shot).color, truth.color);
+    }
+};
+
+TEST_F(Resolved, AMoverBetweenAPostAndAWallIsNearTheTruth) {
+    const test::SceneBuilder scene = makeScene();
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 38.0);
+    EXPECT_LT(compareWithTruth(scene, shotOf("gather")), 32.0) << "the shot is hard";
+}
+
+TEST_F(Resolved, SoItIsUnderACameraThatMovesAndTurns) {
+    const test::SceneBuilder scene =
+        makeScene({.velocity = {1.0, 0.3, -2.0}, .angularVelocity = {0.2, 1.5, 0.6}});
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 32.0);
+    EXPECT_LT(compareWithTruth(scene, shotOf("gather")), 31.0) << "the shot is hard";
+}
+
+TEST_F(Resolved, TheLastFrameHoldsWhatThisOneHides) {
+    const test::SceneBuilder scene = makeScene();
+    test::Shot without = shotOf("resolved");
+    without.settings.history = false;
+    const auto alone = test::renderOnce(device(), scene, without);
+    const auto both = test::renderOnce(device(), scene, shotOf("resolved"));
+    EXPECT_EQ(alone.statistics.counters.at("history bytes"), 0u);
+    EXPECT_EQ(alone.statistics.counters.at("samples from the last frame"), 0u);
+    EXPECT_GT(both.statistics.counters.at("samples from the last frame"), 0u);
+    // Two rasters in turns, each of a half-float colour and two floats per pixel.
+    EXPECT_EQ(both.statistics.counters.at("history bytes"), 2u * 192u * 128u * 16u);
+    EXPECT_LT(
+        both.statistics.counters.at("unresolved samples"),
+        alone.statistics.counters.at("unresolved samples") / 4
+    );
+}
+
+TEST_F(Resolved, NothingIsDroppedFromTheListsOfASmallScene) {
+    const auto drawn = test::renderOnce(device(), makeScene(), shotOf("resolved"));
+    EXPECT_EQ(drawn.statistics.counters.at("candidates dropped"), 0u);
+}
+
+TEST_F(Resolved, MoreEntitiesThanATileListsAreCounted) {
+    test::SceneBuilder scene;
+    scene.setPixelView(64);
+    const scene::AssetIndex color = scene.addColor(math::vec3(1.0f));
+    const scene::AssetIndex mesh = scene.addMesh({test::makeQuad(1, 1, color)});
+    // One a pixel of a block of 8 x 8: twice as many as a tile has room for.
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            scene.add(mesh, {.position = {x + 0.5, y + 0.5, -10}, .velocity = {0, 48.0 * 3, 0}});
+    test::Shot shot = shotOf("resolved");
+    shot.width = shot.height = 64;
+    const auto drawn = test::renderOnce(device(), scene, shot);
+    EXPECT_GT(drawn.statistics.counters.at("candidates dropped"), 0u);
+    EXPECT_TRUE(test::allFinite(drawn.color));
+}
+
+} // namespace
+} // namespace shutter
