@@ -8,8 +8,6 @@
 
 namespace shutter::generator {
 
-using glm::mix;
-
 Picture meadow() {
     return paint(256, 256, [](vec2 uv) {
         const bool dark = glm::fract(uv.x * 2.0f) < 0.5f;
