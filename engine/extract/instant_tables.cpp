@@ -22,7 +22,7 @@ using math::dvec3;
 using math::dvec4;
 
 constexpr uint32_t kNoRow = 0xFFFFFFFFu;
-/// Of a frame's duration: times of frames are rounded.
+/// Share of a frame's duration within which two times are the same: frame times are rounded.
 constexpr double kFrameSlack = 1.0e-3;
 
 /// Picture space from view space.

@@ -28,7 +28,7 @@ struct RasterRecord {
     std::vector<bool> deforms; ///< the row's shape changes during the exposure
 };
 
-/// Of one raster.
+/// What one raster holds of the exposure.
 struct LayerTables {
     std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
     std::vector<shader::InstantMotion> motions; ///< for each mover one per instant

@@ -28,7 +28,7 @@ shared int sLowX[kCandidatesPerTile];
 shared int sLowY[kCandidatesPerTile];
 shared int sHighX[kCandidatesPerTile];
 shared int sHighY[kCandidatesPerTile];
-// Of a deformed entity: bounds of its motion, 1/16 pixels.
+// Bounds of a deformed entity's motion, in sixteenths of a pixel.
 shared int sMotionLowX[kCandidatesPerTile];
 shared int sMotionLowY[kCandidatesPerTile];
 shared int sMotionHighX[kCandidatesPerTile];

@@ -146,7 +146,7 @@ TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharp) {
         // A step of the half floats, and what a texel's filter makes of places 1e-4 px apart;
         // Jimenez's filter fades still pixels over one tap's distance wherever motion reaches.
         // The filter of denoised takes texture for noise in each tile that motion crosses: below
-        // 0.1 on one processor, 0.111 on another, since rounding decides which rays hit.
+        // 0.1 on one processor, 0.111 on another, and the cause is not known yet.
         const double tolerance = method == "jimenez2014" ? 0.03
                                  : method == "denoised"  ? 0.15
                                                          : 4e-3;
