@@ -57,7 +57,7 @@ TEST_F(MirrorLaw, AMirroredSceneMakesTheMirroredPicture) {
             expectTapsAwayFromTexelBorders(scene::computeExposure({1.0, phase}, 0.0).rasterTime);
             Shot shot{.method = method, .phase = phase, .background = math::vec3(0.05f)};
             shot.settings.jitter = 0.0f;
-            shot.settings.raysPerPixel = 0.0f; // which samples get them depends on the pixel
+            shot.settings.raysPerPixel = 0.0f;  // which samples get them depends on the pixel
             shot.settings.tileSizePx = kTilePx; // 96 and 64 are multiples
             const auto direct = stage.render(shot);
             const auto across = mirroredStage.render(shot);
