@@ -28,8 +28,6 @@ namespace {
 using glm::ivec2;
 using glm::vec2;
 using image::Image;
-using motion_blur::getMethod;
-using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
 using test::makePicture;
 

@@ -202,7 +202,7 @@ class Maker {
 
 std::unique_ptr<RandomFrame> makeRandomFrame(uint32_t seed) {
     auto frame = std::make_unique<RandomFrame>();
-    Maker(*frame, seed);
+    const Maker filled(*frame, seed);
     return frame;
 }
 

@@ -13,7 +13,6 @@ namespace {
 
 using accumulate::PixelModel;
 using test::SceneBuilder;
-using test::Shot;
 using test::Stage;
 
 class AccumulateLaw : public test::GpuTest {};

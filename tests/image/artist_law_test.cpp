@@ -14,7 +14,6 @@ namespace shutter {
 namespace {
 
 using test::SceneBuilder;
-using test::Shot;
 using test::Stage;
 
 /// One control turned: on the camera's shutter, or on the mover.

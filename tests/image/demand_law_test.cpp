@@ -18,7 +18,6 @@ using motion_blur::MotionBlurPlugin;
 using motion_blur::MotionBlurSettings;
 using test::SceneBuilder;
 using test::Shot;
-using test::Stage;
 
 class DemandLaw : public test::GpuTest {};
 

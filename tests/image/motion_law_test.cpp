@@ -19,7 +19,6 @@ using math::dvec4;
 using scene::ShutterPhase;
 using test::Placement;
 using test::SceneBuilder;
-using test::Shot;
 using test::Stage;
 
 constexpr uint32_t kWidth = 96;

@@ -14,7 +14,6 @@ namespace shutter {
 namespace {
 
 using test::SceneBuilder;
-using test::Shot;
 using test::Stage;
 
 class ZoomLaw : public test::GpuTest {

@@ -93,7 +93,7 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
 Subject::Subject(
     gpu::Device& device, const Stage& stage, game::ShotOptions shot, game::MethodOptions method
 )
-    : mStage(stage), mShot(std::move(shot)), mMethod(std::move(method)),
+    : mStage(stage), mShot(std::move(shot)), mMethod(method),
       mRenderer(device, stage.shot.world.assets), mTonemap(device, mShot.tonemap),
       mDrawer(device, mRenderer), mSeconds(mShot.frameTimes.front()) {}
 
