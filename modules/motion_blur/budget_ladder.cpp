@@ -85,6 +85,14 @@ uint32_t shareOfSamples(uint32_t samples, double share) {
     return std::max(kLeastSamples, static_cast<uint32_t>(std::lround(samples * share)));
 }
 
+void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost) {
+    ladder.reduceSamples(shareOfSamples(wanted.sampleCount, 0.8), 0.85 * cost);
+    ladder.reduceSamples(shareOfSamples(wanted.sampleCount, 0.6), 0.7 * cost);
+    constexpr uint32_t kTaps = 15;
+    ladder.changeMethod("gather", "the background's own look", kTaps, 0.25 * cost);
+    ladder.reduceSamplesInSteps(kTaps, 0.25 * cost);
+}
+
 void addSampleLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
     ladder.reduceSamplesInSteps(wanted.sampleCount, 1.0);
 }

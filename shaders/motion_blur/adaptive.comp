@@ -37,6 +37,35 @@ bool isTraced(ivec2 pixel, uint instant, float share) {
     return share >= 1.0f || unitFloat(hashPixel(uvec2(pixel), instant, 0u)) < share;
 }
 
+/// What is known of a pixel's samples.
+struct Mean {
+    vec3 sum;
+    uint known;
+};
+
+/// Adds those of 32 instants that are not traced. \return those that are, a bit each
+uint addGuesses(
+    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Mean mean
+) {
+    uint traced = 0u;
+    for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
+        Doubt doubt = kNoDoubt;
+        Seen seen = searchInstant(search, first + i, doubt);
+        vec3 color = vec3(0.0f);
+        if (seen.isFound)
+            color = colorOf(seen);
+        else if (doubt.hasBeside)
+            color = fetchColor(kRasterLayer, doubt.beside);
+        if (isTraced(pixel, first + i, shares[classify(seen, color, doubt)])) {
+            traced |= 1u << i;
+        } else if (seen.isFound || doubt.hasBeside) {
+            mean.sum += color;
+            ++mean.known;
+        }
+    }
+    return traced;
+}
+
 void main() {
     uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
                  gl_LocalInvocationIndex;
@@ -51,31 +80,23 @@ void main() {
     ivec2 pixel = ivec2(entry.x & 0xFFFFu, entry.x >> 16);
     PixelSearch search = beginSearch(pixel);
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    vec3 sum = vec3(0.0f);
-    uint known = 0u;
+    Mean mean = Mean(vec3(0.0f), 0u);
     uint rays = 0u;
-    for (uint instant = 0u; instant < params.sampleCount; ++instant) {
-        Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, instant, doubt);
-        vec3 color = vec3(0.0f);
-        if (seen.isFound)
-            color = colorOf(seen);
-        else if (doubt.hasBeside)
-            color = fetchColor(kRasterLayer, doubt.beside);
-        if (isTraced(pixel, instant, shares[classify(seen, color, doubt)])) {
-            DistributedSample traced = traceDistributed(
+    for (uint first = 0u; first < params.sampleCount; first += 32u) {
+        // Which samples first, then the rays: threads side by side trace at the same time, although
+        // not the same instants.
+        uint traced = addGuesses(search, pixel, first, shares, mean);
+        for (; traced != 0u; traced &= traced - 1u) {
+            DistributedSample ray = traceDistributed(
                 uScene, FrameRef(method.frame), TimedRef(method.timed), search.x,
-                timeOf(motions, instant)
+                timeOf(motions, first + uint(findLSB(traced)))
             );
-            color = storableColor(traced.radiance);
+            mean.sum += storableColor(ray.radiance);
+            ++mean.known;
             ++rays;
-        } else if (!seen.isFound && !doubt.hasBeside) {
-            continue;
         }
-        sum += color;
-        ++known;
     }
     if (rays == 0u) return;
     atomicAdd(uCounters.rays, rays);
-    imageStore(uBlurred, pixel, vec4(sum / float(known), 1.0f));
+    imageStore(uBlurred, pixel, vec4(mean.sum / float(mean.known), 1.0f));
 }

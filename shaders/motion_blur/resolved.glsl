@@ -66,8 +66,11 @@ vec2 projectPicture(vec3 point, bool perspective) {
     return perspective ? point.xy / max(point.z, kLeastDepth) : point.xy;
 }
 
-uint instantBit(uint instant, uint count) {
-    return 1u << (count <= 32u ? instant : instant * 32u / count);
+/// Part of the exposure that an instant belongs to.
+uint partOf(uint instant, uint count) {
+    return count <= kExposureParts ? instant : instant * kExposureParts / count;
 }
+
+uint partBit(uint instant, uint count) { return 1u << partOf(instant, count); }
 
 #endif

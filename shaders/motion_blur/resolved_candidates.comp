@@ -10,14 +10,16 @@
 
 layout(constant_id = 0) const uint kLayer = kRasterLayer;
 
-layout(local_size_x = kCandidateTilePx, local_size_y = kCandidateTilePx) in;
+// Each thread takes several of the tile's pixels: on software devices a thread that waits at a barrier
+// is expensive.
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
 };
 layout(binding = 0) uniform sampler2D uSurface;
 layout(binding = 1) uniform sampler2D uMotionDepth; // of this frame's raster
-layout(binding = 2, scalar) buffer Candidates { Candidate uCandidates[]; };
+layout(binding = 2, scalar) buffer Candidates { TileCandidates uTiles[]; };
 layout(binding = 3, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 // What the group found in its tile.
@@ -56,11 +58,12 @@ void note(uint slot, ivec2 pixel, float depth, vec2 motion) {
 }
 
 void listPixel(LayerMotion layer, ivec2 pixel) {
-    vec2 surface = texelFetch(uSurface, pixel, 0).xy;
+    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx); // texelFetch is slow on software devices
+    vec2 surface = textureLod(uSurface, uv, 0.0f).xy;
     uint key = uint(surface.y);
     uint mover = findMover(layer, key);
     if (mover == kNoMover || isStillMover(layer, mover)) return;
-    vec2 motion = mover == kDeformedMover ? texelFetch(uMotionDepth, pixel, 0).xy : vec2(0.0f);
+    vec2 motion = mover == kDeformedMover ? textureLod(uMotionDepth, uv, 0.0f).xy : vec2(0.0f);
     for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
         uint held = atomicCompSwap(sKeys[slot], kNoKey, key);
         if (held == kNoKey || held == key) {
@@ -72,14 +75,15 @@ void listPixel(LayerMotion layer, ivec2 pixel) {
 }
 
 void enter(uint tile, uint key, vec2 depths, uint bits) {
-    uint first = tile * kCandidatesPerTile;
-    for (uint slot = first; slot < first + kCandidatesPerTile; ++slot) {
-        uint held = uCandidates[slot].key;
-        if (held == kNoKey) held = atomicCompSwap(uCandidates[slot].key, kNoKey, key);
+    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+        uint held = uTiles[tile].candidates[slot].key;
+        if (held == kNoKey) held = atomicCompSwap(uTiles[tile].candidates[slot].key, kNoKey, key);
         if (held != kNoKey && held != key) continue;
-        atomicMin(uCandidates[slot].nearest, floatBitsToUint(max(depths.x, 0.0f)));
-        atomicMin(uCandidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f)));
-        atomicAnd(uCandidates[slot].instantsInverted, ~bits);
+        atomicMin(uTiles[tile].candidates[slot].nearest, floatBitsToUint(max(depths.x, 0.0f)));
+        atomicMin(
+            uTiles[tile].candidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f))
+        );
+        atomicAnd(uTiles[tile].candidates[slot].partsInverted, ~bits);
         return;
     }
     atomicAdd(uCounters.overflown, 1u);
@@ -120,7 +124,7 @@ void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool per
         isInFront = isInFront || seen.z > 0.0f || !perspective;
     }
     if (!isInFront) return;
-    enterBox(sKeys[slot], low, high, depths, instantBit(instant, params.sampleCount));
+    enterBox(sKeys[slot], low, high, depths, partBit(instant, params.sampleCount));
 }
 
 void enterDeformed(uint slot, uint instant) {
@@ -130,7 +134,7 @@ void enterDeformed(uint slot, uint instant) {
     vec2 low = vec2(sLowX[slot], sLowY[slot]) + min(a, b);
     vec2 high = vec2(sHighX[slot] + 1, sHighY[slot] + 1) + max(a, b);
     vec2 depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
-    enterBox(sKeys[slot], low, high, depths, instantBit(instant, params.sampleCount));
+    enterBox(sKeys[slot], low, high, depths, partBit(instant, params.sampleCount));
 }
 
 void main() {
@@ -145,11 +149,15 @@ void main() {
     barrier();
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (all(lessThan(uvec2(pixel), params.sizePx))) listPixel(layer, pixel);
+    uvec2 origin = gl_WorkGroupID.xy * kCandidateTilePx + gl_LocalInvocationID.xy;
+    for (uint y = 0u; y < kCandidateTilePx; y += kGroupSize)
+        for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
+            uvec2 pixel = origin + uvec2(x, y);
+            if (all(lessThan(pixel, params.sizePx))) listPixel(layer, ivec2(pixel));
+        }
     barrier();
     bool perspective = motions.value.isPerspective != 0u;
-    const uint kThreads = kCandidateTilePx * kCandidateTilePx;
+    const uint kThreads = kGroupSize * kGroupSize;
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;
         if (sKeys[slot] == kNoKey) break;

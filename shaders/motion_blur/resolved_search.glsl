@@ -13,8 +13,8 @@ layout(binding = 2) uniform sampler2D uSurface;
 layout(binding = 3) uniform sampler2D uLastColor;
 layout(binding = 4) uniform sampler2D uLastSurface;
 layout(binding = 5, rgba16f) uniform writeonly image2D uBlurred;
-layout(binding = 6, scalar) readonly buffer RasterCandidates { Candidate uRasterCandidates[]; };
-layout(binding = 7, scalar) readonly buffer LastCandidates { Candidate uLastCandidates[]; };
+layout(binding = 6, scalar) readonly buffer RasterCandidates { TileCandidates uRasterTiles[]; };
+layout(binding = 7, scalar) readonly buffer LastCandidates { TileCandidates uLastTiles[]; };
 layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Fixed-point steps of a search.
@@ -23,6 +23,11 @@ const uint kSteps = 4u;
 const float kTolerancePx = 1.0f;
 /// Within which a step has arrived.
 const float kArrivedPx = 0.125f;
+/// Spread of an entity's places by depth from which its depth is interpolated between pixels.
+const float kInterpolatedSpreadPx = 0.5f;
+/// How much less harm than a border between entities a border within one does, where colours are
+/// interpolated.
+const float kInnerShare = 0.25f;
 /// Depth of the sky: behind everything.
 const float kFarthest = 3.0e38f;
 /// Places that the way between the nearest and the farthest depth is searched from, at most.
@@ -44,8 +49,7 @@ struct Doubt {
     // if it were seen: the nearest that is known of what came into sight.
     bool hasBeside;
     ivec2 beside; // in this frame's raster
-    // Edges run through the pixel: bounds of the colours on their other sides. Bounds, since the
-    // entities of a tile are met in any order.
+    // Edges run through the pixel, or colours are interpolated: bounds of the colours beside.
     bool hasEdge;
     vec3 leastAcross;
     vec3 greatestAcross;
@@ -54,13 +58,15 @@ struct Doubt {
 const Doubt kNoDoubt = Doubt(false, ivec2(0), false, vec3(kMaxColor), vec3(0.0f));
 
 vec2 fetchSurface(uint layer, ivec2 at) {
-    return layer == kRasterLayer ? texelFetch(uSurface, at, 0).xy
-                                 : texelFetch(uLastSurface, at, 0).xy;
+    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
+    return layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
+                                 : textureLod(uLastSurface, uv, 0.0f).xy;
 }
 
 vec3 fetchColor(uint layer, ivec2 at) {
-    return layer == kRasterLayer ? texelFetch(uColor, at, 0).rgb
-                                 : texelFetch(uLastColor, at, 0).rgb;
+    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
+    return layer == kRasterLayer ? textureLod(uColor, uv, 0.0f).rgb
+                                 : textureLod(uLastColor, uv, 0.0f).rgb;
 }
 
 bool isInside(vec2 at) {
@@ -69,52 +75,63 @@ bool isInside(vec2 at) {
 
 ivec2 keepInside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(params.sizePx) - 1); }
 
-/// The four pixels around a place and their bilinear weights.
+/// The four pixels around a place in the order of textureGather, and their bilinear weights.
 struct Footprint {
-    ivec2 corner;
-    vec2 share;
+    ivec2 corner; // the upper left one
+    vec4 weights;
 };
 
 Footprint footprintOf(vec2 at) {
     vec2 corner = floor(at - 0.5f);
-    return Footprint(ivec2(corner), at - 0.5f - corner);
+    vec2 share = at - 0.5f - corner;
+    vec4 weights = vec4(1.0f - share.x, share.x, share.x, 1.0f - share.x) *
+                   vec4(share.y, share.y, 1.0f - share.y, 1.0f - share.y);
+    return Footprint(ivec2(corner), weights);
 }
 
 ivec2 texelOf(Footprint footprint, uint i) {
-    return keepInside(footprint.corner + ivec2(i & 1u, i >> 1u));
+    return keepInside(footprint.corner + ivec2(i == 1u || i == 2u ? 1 : 0, i < 2u ? 1 : 0));
 }
 
-float weightOf(Footprint footprint, uint i) {
-    return ((i & 1u) != 0u ? footprint.share.x : 1.0f - footprint.share.x) *
-           ((i & 2u) != 0u ? footprint.share.y : 1.0f - footprint.share.y);
+/// Where the four pixels meet: whatever the precision of the sampler, it gathers these.
+vec2 gatherPlace(Footprint footprint) {
+    return vec2(footprint.corner + 1) / vec2(params.sizePx);
 }
 
-/// Bilinear among the pixels of the entity, one of which holds the place. The inverse depths of a
-/// plane are linear in the picture.
-float interpolateDepth(uint layer, uint key, vec2 at) {
+vec4 gatherDepths(uint layer, Footprint footprint) {
+    vec2 uv = gatherPlace(footprint);
+    return layer == kRasterLayer ? textureGather(uSurface, uv, 0)
+                                 : textureGather(uLastSurface, uv, 0);
+}
+
+/// \return whether each of the pixels is of the entity
+bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
+    vec2 uv = gatherPlace(footprint);
+    vec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
+                                      : textureGather(uLastSurface, uv, 1);
+    return equal(keys, vec4(float(key)));
+}
+
+/// Bilinear among the pixels of the entity, one of which holds the place. What is linear in the
+/// picture of a plane is its depth before an orthographic camera, the inverse before a perspective
+/// one.
+float interpolateDepth(uint layer, uint key, vec2 at, bool perspective) {
     Footprint footprint = footprintOf(at);
-    float sum = 0.0f;
-    float weights = 0.0f;
-    for (uint i = 0u; i < 4u; ++i) {
-        vec2 surface = fetchSurface(layer, texelOf(footprint, i));
-        if (uint(surface.y) != key) continue;
-        float weight = weightOf(footprint, i);
-        sum += weight / surface.x;
-        weights += weight;
-    }
-    return weights / sum;
+    vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, footprint));
+    vec4 depths = gatherDepths(layer, footprint);
+    float sum = dot(weights, vec4(1.0f));
+    return perspective ? sum / dot(weights, 1.0f / depths) : dot(weights, depths) / sum;
 }
 
 vec3 interpolateColor(Seen seen) {
     Footprint footprint = footprintOf(seen.at);
+    bvec4 matches = gatherMatches(seen.layer, seen.key, footprint);
     vec3 sum = vec3(0.0f);
     float weights = 0.0f;
     for (uint i = 0u; i < 4u; ++i) {
-        ivec2 texel = texelOf(footprint, i);
-        if (uint(fetchSurface(seen.layer, texel).y) != seen.key) continue;
-        float weight = weightOf(footprint, i);
-        sum += weight * fetchColor(seen.layer, texel);
-        weights += weight;
+        if (!matches[i]) continue;
+        sum += footprint.weights[i] * fetchColor(seen.layer, texelOf(footprint, i));
+        weights += footprint.weights[i];
     }
     return weights > 0.0f ? sum / weights : fetchColor(seen.layer, ivec2(seen.at));
 }
@@ -145,43 +162,53 @@ void noteMiss(uint layer, uint key, vec2 at, uint hiding, inout Doubt doubt) {
     }
     if (!kFindsEdges) return;
     Footprint footprint = footprintOf(at);
-    for (uint i = 0u; i < 4u; ++i) {
-        ivec2 texel = texelOf(footprint, i);
-        if (uint(fetchSurface(layer, texel).y) == key) addEdge(fetchColor(layer, texel), doubt);
-    }
+    bvec4 matches = gatherMatches(layer, key, footprint);
+    for (uint i = 0u; i < 4u; ++i)
+        if (matches[i]) addEdge(fetchColor(layer, texelOf(footprint, i)), doubt);
 }
 
-/// Another entity within the footprint of what was found.
-void noteEdge(Seen seen, inout Doubt doubt) {
+/// Another entity within the footprint of what was found, or other colours of the same one.
+void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     if (fract(seen.at) == vec2(0.5f)) return;
     Footprint footprint = footprintOf(seen.at);
+    bvec4 matches = gatherMatches(seen.layer, seen.key, footprint);
     for (uint i = 0u; i < 4u; ++i) {
-        ivec2 texel = texelOf(footprint, i);
-        if (uint(fetchSurface(seen.layer, texel).y) != seen.key)
-            addEdge(fetchColor(seen.layer, texel), doubt);
+        vec3 beside = fetchColor(seen.layer, texelOf(footprint, i));
+        addEdge(matches[i] ? mix(color, beside, kInnerShare) : beside, doubt);
     }
 }
 
 /// Looks for the place in the layer of what the pixel sees of an entity, from a guess at its depth.
-void searchRigid(
-    uint layer, uint key, InstantMotion motion, bool perspective, vec2 x, float depth, uint hiding,
-    inout Seen best, inout Doubt doubt
+/// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
+/// depth matters
+/// \return whether it was found
+bool searchRigid(
+    uint layer, uint key, InstantMotion motion, bool perspective, vec2 x, float depth,
+    float spreadPx, uint hiding, inout Seen best, inout Doubt doubt
 ) {
     vec2 at = projectPicture(
         transformRows(motion.rasterFromInstant, pictureSpace(x, depth, perspective)), perspective
     );
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
-        if (!isInside(at)) return;
+        if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
-        if (uint(fetchSurface(layer, texel).y) != key) {
+        vec2 surface = fetchSurface(layer, texel);
+        if (uint(surface.y) != key) {
             noteMiss(layer, key, at, hiding, doubt);
-            return;
+            return false;
         }
+        float layerDepth =
+            spreadPx > kInterpolatedSpreadPx ? interpolateDepth(layer, key, at, perspective)
+                                             : surface.x;
         float instantDepth = dot(
             motion.instantFromRaster[2],
-            pictureSpace(at, depthOfKey(key, interpolateDepth(layer, key, at)), perspective)
+            pictureSpace(at, depthOfKey(key, layerDepth), perspective)
         );
-        if (perspective && instantDepth < kLeastDepth) return;
+        if (perspective && instantDepth < kLeastDepth) return false;
+        if (spreadPx < kArrivedPx) {
+            keepNearer(best, layer, key, at, key == kSkyKey ? kFarthest : instantDepth);
+            return true;
+        }
         vec2 next = projectPicture(
             transformRows(motion.rasterFromInstant, pictureSpace(x, instantDepth, perspective)),
             perspective
@@ -189,14 +216,15 @@ void searchRigid(
         float way = distance(next, at);
         at = next;
         if (way > kArrivedPx && step_ + 1u < kSteps) continue;
-        if (way > kTolerancePx || !isInside(at)) return;
+        if (way > kTolerancePx || !isInside(at)) return false;
         if (ivec2(at) != texel && uint(fetchSurface(layer, ivec2(at)).y) != key) {
             noteMiss(layer, key, at, hiding, doubt);
-            return;
+            return false;
         }
         keepNearer(best, layer, key, at, key == kSkyKey ? kFarthest : instantDepth);
-        return;
+        return true;
     }
+    return false;
 }
 
 void searchDepths(
@@ -220,9 +248,11 @@ void searchDepths(
         float depth = perspective && nearest > 0.0f
                           ? 1.0f / mix(1.0f / nearest, 1.0f / farthest, share)
                           : mix(nearest, farthest, share);
-        searchRigid(
-            layer, candidate.key, motion, perspective, x, depth, hiding, best, doubt
-        );
+        // From near to far: the first place found is, as a rule, the one that hides the others.
+        if (searchRigid(
+                layer, candidate.key, motion, perspective, x, depth, way, hiding, best, doubt
+            ))
+            return;
     }
 }
 
@@ -254,13 +284,23 @@ void searchDeformed(
 /// What the searches of one pixel share.
 struct PixelSearch {
     vec2 x;
-    uint firstCandidate; // of its tile
-    uint hiding;         // key of what this frame's raster has at the pixel
+    uint tile;
+    uint hiding; // key of what this frame's raster has at the pixel
     LayerMotion raster;
     LayerMotion last;
     Seen still; // what stands still there, at all instants
     Seen lastStill;
 };
+
+Candidate getCandidate(uint layer, uint tile, uint slot) {
+    if (layer == kLastLayer) return uLastTiles[tile].candidates[slot];
+    return uRasterTiles[tile].candidates[slot];
+}
+
+/// A bit for each candidate that the tile may see in that part of the exposure.
+uint getPart(uint layer, uint tile, uint part) {
+    return layer == kLastLayer ? uLastTiles[tile].parts[part] : uRasterTiles[tile].parts[part];
+}
 
 void searchLayer(
     uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Seen best,
@@ -268,17 +308,14 @@ void searchLayer(
 ) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     bool perspective = motions.value.isPerspective != 0u;
-    uint bit = instantBit(instant, params.sampleCount);
-    uint first = pixel.firstCandidate;
-    for (uint slot = first; slot < first + kCandidatesPerTile; ++slot) {
-        Candidate candidate = uRasterCandidates[slot];
-        if (index == kLastLayer) candidate = uLastCandidates[slot];
-        if (candidate.key == kNoKey) break;
-        if ((~candidate.instantsInverted & bit) == 0u) continue;
-        // Where edges count, what lies behind is searched too, in whatever order it is listed.
-        if (!kFindsEdges && best.isFound && candidate.key != kSkyKey &&
-            uintBitsToFloat(candidate.nearest) > best.depth)
-            continue;
+    uint slots = getPart(index, pixel.tile, partOf(instant, params.sampleCount));
+    while (slots != 0u) {
+        Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
+        slots &= slots - 1u;
+        // The rest lies behind what was found. It counts all the same where edges do.
+        if (!kFindsEdges && best.isFound &&
+            (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
+            break;
         uint mover = findMover(layer, candidate.key);
         if (mover == kDeformedMover)
             searchDeformed(
@@ -309,7 +346,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     uvec2 tile = uvec2(pixel) / kCandidateTilePx;
     PixelSearch search;
     search.x = vec2(pixel) + 0.5f;
-    search.firstCandidate = (tile.y * tiles.x + tile.x) * kCandidatesPerTile;
+    search.tile = tile.y * tiles.x + tile.x;
     search.raster = getLayer(motions, kRasterLayer);
     search.last = getLayer(motions, kLastLayer);
     search.still = findStill(kRasterLayer, search.raster, pixel);
@@ -333,12 +370,13 @@ Seen searchInstant(PixelSearch pixel, uint instant, inout Doubt doubt) {
 /// How much harm it may do not to trace the sample.
 uint classify(Seen seen, vec3 color, Doubt doubt) {
     if (!seen.isFound) return kUnresolvedClass;
-    noteEdge(seen, doubt);
+    noteEdge(seen, color, doubt);
     if (!doubt.hasEdge) return kOtherClass;
     vec3 gap = max(abs(doubt.leastAcross - color), abs(doubt.greatestAcross - color));
     float harm = min(max(gap.x, max(gap.y, gap.z)), 1.0f);
     uint halvings = uint(max(-log2(max(harm, 1.0e-6f)), 0.0f));
-    return min(kFirstEdgeClass + halvings, kLastEdgeClass);
+    uint edgeClass = kFirstEdgeClass + halvings;
+    return edgeClass <= kLastEdgeClass ? edgeClass : kOtherClass;
 }
 
 #endif

@@ -16,17 +16,26 @@ SHUTTER_CONST uint kCandidatesPerTile = 32u;
 SHUTTER_CONST uint kSkyKey = 0xFFFFFFu;
 SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
 
+/// Parts of the exposure that a tile's candidates are told apart by.
+SHUTTER_CONST uint kExposureParts = 32u;
+
 /// An entity that a tile may see during the exposure. Every field of an unused one has all bits
 /// set.
 struct Candidate {
     uint key;              // row of its raster's entity table, or kSkyKey
     uint nearest;          // bits of its least depth in the tile at any instant, metres
     uint farthestInverted; // inverted bits of the largest
-    uint instantsInverted; // a bit each for 32 equal parts of the exposure; 0: in the tile then
+    uint partsInverted;    // a bit for each part of the exposure; 0: in the tile then
+};
+
+struct TileCandidates {
+    Candidate candidates[kCandidatesPerTile]; // nearest first once they are sorted
+    uint parts[kExposureParts];               // once they are sorted: a bit for each candidate
 };
 
 /// Samples that rays may replace, by the harm that leaving them does: what no layer explains, then
-/// edges within a pixel by the colours on both sides, then the rest.
+/// edges within a pixel by the colours on both sides (within one entity, where colours are
+/// interpolated, by a share of their contrast), then the rest.
 SHUTTER_CONST uint kUnresolvedClass = 0u;
 SHUTTER_CONST uint kFirstEdgeClass =
     1u; // colours that differ by a half and more; half of that; ...
@@ -60,6 +69,7 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::Candidate) == 16);
+static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif

@@ -76,14 +76,7 @@ MotionBlurOutputs AdaptivePasses::add(
     params.setMethod(own);
     LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
     addTrace(graph, *inputs.timedRays, found, params);
-    mLookUp.readCounters(graph, found.search.counters, inputs.slot);
-    MotionBlurOutputs outputs;
-    outputs.color = shared.stillPixels.end(
-        graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
-    );
-    if (found.search.hasLast)
-        outputs.views = {{"last", found.layers.last.color}};
-    return outputs;
+    return mLookUp.end(graph, inputs, found, params, shared);
 }
 
 void AdaptivePasses::addTrace(
@@ -129,8 +122,8 @@ void AdaptivePasses::addTrace(
 }
 
 void addAdaptiveLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted) {
-    ladder.changeMethod("resolved", "all rays", wanted.sampleCount, 0.5);
-    ladder.reduceSamplesInSteps(wanted.sampleCount, 0.5);
+    ladder.changeMethod("resolved", "all rays", wanted.sampleCount, 0.3);
+    addLookUpLevels(ladder, wanted, 0.3);
 }
 
 } // namespace

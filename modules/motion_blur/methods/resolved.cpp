@@ -28,14 +28,7 @@ class ResolvedPasses : public MethodPasses {
         own.motions = gpu::splitAddress(inputs.instantMotions->table);
         params.setMethod(own);
         const LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
-        mLookUp.readCounters(graph, found.search.counters, inputs.slot);
-        MotionBlurOutputs outputs;
-        outputs.color = shared.stillPixels.end(
-            graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
-        );
-        if (found.search.hasLast)
-            outputs.views = {{"last", found.layers.last.color}};
-        return outputs;
+        return mLookUp.end(graph, inputs, found, params, shared);
     }
 
     void count(uint32_t slot, Counters& counters) const override { mLookUp.count(slot, counters); }
@@ -56,7 +49,8 @@ const Method kResolved = {
     .readsInstantMotions = true,
     .settings = {"history"},
     .views = {"last"},
-    .addBudgetLevels = addSampleLevels,
+    .addBudgetLevels = [](BudgetLadder& ladder, const MotionBlurSettings& wanted
+                       ) { addLookUpLevels(ladder, wanted, 1.0); },
     .makePasses = [](gpu::Device& device, VkDescriptorSetLayout) -> std::unique_ptr<MethodPasses> {
         return std::make_unique<ResolvedPasses>(device);
     },

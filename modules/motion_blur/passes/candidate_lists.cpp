@@ -56,10 +56,8 @@ CandidateLists::CandidateLists(gpu::Device& device)
 CandidateOutputs CandidateLists::add(
     graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params
 ) const {
-    const glm::uvec2 tiles =
-        (params.sizePx + shader::kCandidateTilePx - 1u) / shader::kCandidateTilePx;
-    const VkDeviceSize bytes =
-        VkDeviceSize(tiles.x) * tiles.y * shader::kCandidatesPerTile * sizeof(shader::Candidate);
+    const glm::uvec2 tiles = countCandidateTiles(params);
+    const VkDeviceSize bytes = VkDeviceSize(tiles.x) * tiles.y * sizeof(shader::TileCandidates);
     const graph::BufferHandle lists =
         addClear(graph, graph.createBuffer("candidates", {bytes, kListUsage}));
     return graph.addPass<CandidateOutputs>(

@@ -5,6 +5,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
+#include "shaders/motion_blur/resolved_shared.h"
 
 namespace shutter::motion_blur {
 
@@ -18,9 +19,14 @@ struct CandidateInputs {
 };
 
 struct CandidateOutputs {
-    graph::BufferHandle candidates; ///< shader::Candidate[tile][kCandidatesPerTile]
+    graph::BufferHandle candidates; ///< shader::TileCandidates[tile], not sorted
     graph::BufferHandle counters;
 };
+
+/// Tiles that have a list, across and down.
+[[nodiscard]] inline glm::uvec2 countCandidateTiles(const PassParams& params) {
+    return (params.sizePx + shader::kCandidateTilePx - 1u) / shader::kCandidateTilePx;
+}
 
 class CandidateLists {
   public:

@@ -63,6 +63,24 @@ inline void dispatchList(
     return (params.sizePx + shader::kGroupSize - 1u) / shader::kGroupSize;
 }
 
+/// In a transfer pass: copies an image to one of the same size and format.
+inline void copyWhole(graph::PassContext& context, graph::ImageHandle from, graph::ImageHandle to) {
+    const gpu::Image& source = context.resources.image(from);
+    VkImageCopy region{};
+    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.dstSubresource = region.srcSubresource;
+    region.extent = {source.desc().width, source.desc().height, 1};
+    vkCmdCopyImage(
+        context.commands,
+        source.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+        context.resources.image(to).handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+        1,
+        &region
+    );
+}
+
 /// In a transfer pass: writes the head of a list.
 inline void
 clearList(graph::PassContext& context, graph::BufferHandle list, const void* header, size_t bytes) {

@@ -2,7 +2,7 @@
 #include "modules/motion_blur/passes/look_up.h"
 
 #include "spirv/motion_blur/resolved.comp.h"
-#include "spirv/motion_blur/resolved_blocks.comp.h"
+#include "spirv/motion_blur/resolved_sort.comp.h"
 
 #include "engine/core/check.h"
 #include "modules/motion_blur/passes/dispatch.h"
@@ -91,11 +91,11 @@ gpu::BindingList SearchResources::bind(
 
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mSampler(device.nearestSampler()), mLayers(device),
-      mCandidates(device), mBlocks(
+      mCandidates(device), mSort(
                                device,
                                describePass(
-                                   "list moving blocks",
-                                   motion_blur_resolved_blocks_comp,
+                                   "sort candidates",
+                                   motion_blur_resolved_sort_comp,
                                    {kBuffer, kBuffer, kBuffer, kBuffer}
                                )
                            ),
@@ -139,7 +139,7 @@ LookUpOutputs LookUp::add(
     search.rasterCandidates = search.lastCandidates = list(raster, LayerIndex::Raster);
     if (hasLast)
         search.lastCandidates = list(last, LayerIndex::Last);
-    outputs.blocks = addBlocks(graph, search, shared.sorter.addEmpty(graph, params), params);
+    addSort(graph, outputs, shared.sorter.addEmpty(graph, params), params);
     shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
     outputs.picture =
         shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
@@ -147,35 +147,44 @@ LookUpOutputs LookUp::add(
     return outputs;
 }
 
-SortedBlocks LookUp::addBlocks(
-    graph::Graph& graph,
-    const SearchResources& search,
-    const SortedBlocks& empty,
-    const PassParams& params
+void LookUp::addSort(
+    graph::Graph& graph, LookUpOutputs& outputs, const SortedBlocks& empty, const PassParams& params
 ) const {
-    return graph.addPass<SortedBlocks>(
-        "list moving blocks",
+    struct Data {
+        graph::BufferHandle rasterCandidates;
+        graph::BufferHandle lastCandidates;
+        SortedBlocks blocks;
+    };
+
+    SearchResources& search = outputs.search;
+    const Data& pass = graph.addPass<Data>(
+        "sort candidates",
         graph::PassKind::Compute,
-        [&](graph::PassBuilder& builder, SortedBlocks& data) {
-            builder.read(search.rasterCandidates, Access::StorageRead);
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.rasterCandidates = data.lastCandidates =
+                builder.write(search.rasterCandidates, Access::StorageWrite);
             if (search.hasLast)
-                builder.read(search.lastCandidates, Access::StorageRead);
-            data = empty;
-            data.lists.blocks = builder.write(empty.lists.blocks, Access::StorageWrite);
-            data.lists.arguments = builder.write(empty.lists.arguments, Access::StorageWrite);
+                data.lastCandidates = builder.write(search.lastCandidates, Access::StorageWrite);
+            data.blocks = empty;
+            data.blocks.lists.blocks = builder.write(empty.lists.blocks, Access::StorageWrite);
+            data.blocks.lists.arguments =
+                builder.write(empty.lists.arguments, Access::StorageWrite);
         },
-        [this, search, params](const SortedBlocks& data, graph::PassContext& context) {
+        [this, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings;
             for (const graph::BufferHandle buffer :
-                 {search.rasterCandidates,
-                  search.lastCandidates,
-                  data.lists.blocks,
-                  data.lists.arguments})
+                 {data.rasterCandidates,
+                  data.lastCandidates,
+                  data.blocks.lists.blocks,
+                  data.blocks.lists.arguments})
                 bindings.buffer(resources.buffer(buffer));
-            dispatchPixels(context, mBlocks.get(), bindings, params, countBlocks(params));
+            dispatchPixels(context, mSort.get(), bindings, params, countCandidateTiles(params));
         }
     );
+    search.rasterCandidates = pass.rasterCandidates;
+    search.lastCandidates = pass.lastCandidates;
+    outputs.blocks = pass.blocks;
 }
 
 void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params)
@@ -218,6 +227,23 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
     outputs.search.counters = pass.search.counters;
     outputs.listed = pass.listed;
     outputs.picture = pass.picture;
+}
+
+MotionBlurOutputs LookUp::end(
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    const LookUpOutputs& found,
+    const PassParams& params,
+    SharedPasses& shared
+) const {
+    readCounters(graph, found.search.counters, inputs.slot);
+    MotionBlurOutputs outputs;
+    outputs.color = shared.stillPixels.end(
+        graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
+    );
+    if (found.search.hasLast)
+        outputs.views = {{"last", found.layers.last.color}};
+    return outputs;
 }
 
 void LookUp::readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const {
@@ -264,7 +290,7 @@ void LookUp::count(uint32_t slot, Counters& counters) const {
     uint64_t edges = 0;
     for (uint32_t i = shader::kFirstEdgeClass; i <= shader::kLastEdgeClass; ++i)
         edges += counted.classes[i];
-    counters["samples at edges"] = edges;
+    counters["uncertain samples"] = edges;
 }
 
 } // namespace shutter::motion_blur

@@ -57,15 +57,23 @@ class LookUp {
         PassParams& params,
         SharedPasses& shared);
 
-    /// Copies the counters for the CPU, after the last pass that counts.
-    void readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const;
+    /// What the method returns, after its last pass: adds what stands still to the picture, and
+    /// copies the counters for the CPU.
+    [[nodiscard]] MotionBlurOutputs
+    end(graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        const LookUpOutputs& found,
+        const PassParams& params,
+        SharedPasses& shared) const;
 
     void count(uint32_t slot, Counters& counters) const;
 
   private:
-    [[nodiscard]] SortedBlocks addBlocks(
+    void readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const;
+    /// Nearest first, and lists the blocks with candidates.
+    void addSort(
         graph::Graph& graph,
-        const SearchResources& search,
+        LookUpOutputs& outputs,
         const SortedBlocks& empty,
         const PassParams& params
     ) const;
@@ -75,7 +83,7 @@ class LookUp {
     VkSampler mSampler;
     SurfaceLayers mLayers;
     CandidateLists mCandidates;
-    gpu::LazyPipeline mBlocks;
+    gpu::LazyPipeline mSort;
     gpu::LazyPipeline mResolve;
     gpu::Buffer mRead; ///< shader::ResolvedCounters by slot
 };

@@ -4,6 +4,7 @@
 #include "spirv/motion_blur/copy_blocks.comp.h"
 
 #include "engine/graph/execute.h"
+#include "modules/motion_blur/passes/dispatch.h"
 
 #include <array>
 
@@ -12,22 +13,6 @@ namespace shutter::motion_blur {
 namespace {
 
 using graph::Access;
-
-void copyWhole(VkCommandBuffer commands, const gpu::Image& source, const gpu::Image& target) {
-    VkImageCopy region{};
-    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.dstSubresource = region.srcSubresource;
-    region.extent = {source.desc().width, source.desc().height, 1};
-    vkCmdCopyImage(
-        commands,
-        source.handle(),
-        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-        target.handle(),
-        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-        1,
-        &region
-    );
-}
 
 } // namespace
 
@@ -73,11 +58,7 @@ graph::ImageHandle StillPixels::begin(
             data.target = builder.write(target, Access::TransferWrite);
         },
         [](const Data& data, graph::PassContext& context) {
-            copyWhole(
-                context.commands,
-                context.resources.image(data.source),
-                context.resources.image(data.target)
-            );
+            copyWhole(context, data.source, data.target);
         }
     );
     return pass.target;

@@ -15,14 +15,27 @@ constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_SFLOAT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
-gpu::ComputePipelineDesc describePack(bool keep) {
-    gpu::ComputePipelineDesc desc = describePass(
-        keep ? "pack and keep surface" : "pack surface",
-        motion_blur_resolved_surface_comp,
-        {kSampled, kSampled, kSampled, kStorage, kStorage}
-    );
-    desc.specialization = {keep ? 1u : 0u};
-    return desc;
+/// Copies the colour as it is before the blur.
+graph::ImageHandle
+addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle kept) {
+    struct Data {
+        graph::ImageHandle source;
+        graph::ImageHandle target;
+    };
+
+    return graph
+        .addPass<Data>(
+            "keep colour",
+            graph::PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.source = builder.read(color, Access::TransferRead);
+                data.target = builder.write(kept, Access::TransferWrite);
+            },
+            [](const Data& data, graph::PassContext& context) {
+                copyWhole(context, data.source, data.target);
+            }
+        )
+        .target;
 }
 
 bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
@@ -32,8 +45,13 @@ bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
 } // namespace
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
-    : mDevice(device), mSampler(device.nearestSampler()), mPack(device, describePack(false)),
-      mPackAndKeep(device, describePack(true)) {}
+    : mDevice(device), mSampler(device.nearestSampler()),
+      mPack(
+          device,
+          describePass(
+              "pack surface", motion_blur_resolved_surface_comp, {kSampled, kSampled, kStorage}
+          )
+      ) {}
 
 bool SurfaceLayers::holds(glm::uvec2 sizePx) const {
     const Kept& kept = mKept.at(mNewest);
@@ -56,10 +74,11 @@ void SurfaceLayers::resize(Kept& kept, glm::uvec2 sizePx) {
     gpu::ImageDesc desc;
     desc.width = sizePx.x;
     desc.height = sizePx.y;
-    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
     desc.format = kColorFormat;
     kept.color = gpu::Image(mDevice, "kept colour", desc);
+    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     desc.format = kSurfaceFormat;
     kept.surface = gpu::Image(mDevice, "kept surface", desc);
 }
@@ -82,47 +101,55 @@ SurfaceLayersOutputs SurfaceLayers::add(
     outputs.raster.color = inputs.color;
     if (wantLast)
         outputs.last = importKept(graph, mKept.at(mNewest), kKeptLayout);
-    SurfaceLayer target;
     if (keep) {
         mNewest = 1 - mNewest;
         Kept& kept = mKept.at(mNewest);
         resize(kept, params.sizePx);
         kept.hasContents = true;
-        target = importKept(graph, kept, VK_IMAGE_LAYOUT_UNDEFINED);
+        const SurfaceLayer target = importKept(graph, kept, VK_IMAGE_LAYOUT_UNDEFINED);
+        graph.markOutput(addKeepColor(graph, inputs.color, target.color));
+        outputs.raster.surface = addPack(graph, inputs, target.surface, params);
+        graph.markOutput(outputs.raster.surface);
     } else {
         // What was kept is a frame older from now on.
         mKept.at(mNewest).hasContents = false;
-        target = {
-            graph.createImage("no kept colour", {1, 1, kColorFormat}),
-            graph.createImage("surface", {params.sizePx.x, params.sizePx.y, kSurfaceFormat})};
-    }
-    const SurfaceLayer& packed = graph.addPass<SurfaceLayer>(
-        keep ? "pack and keep surface" : "pack surface",
-        graph::PassKind::Compute,
-        [&](graph::PassBuilder& builder, SurfaceLayer& data) {
-            builder.read(inputs.color, Access::SampledCompute);
-            builder.read(inputs.motionDepth, Access::SampledCompute);
-            builder.read(inputs.entityId, Access::SampledCompute);
-            data.surface = builder.write(target.surface, Access::StorageWrite);
-            data.color = builder.write(target.color, Access::StorageWrite);
-        },
-        [this, keep, inputs, params](const SurfaceLayer& data, graph::PassContext& context) {
-            const graph::PassResources& resources = context.resources;
-            gpu::BindingList bindings;
-            for (const graph::ImageHandle image :
-                 {inputs.color, inputs.motionDepth, inputs.entityId})
-                bindings.sampled(resources.view(image), mSampler);
-            bindings.storage(resources.image(data.surface)).storage(resources.image(data.color));
-            const gpu::LazyPipeline& pipeline = keep ? mPackAndKeep : mPack;
-            dispatchPixels(context, pipeline.get(), bindings, params, params.sizePx);
-        }
-    );
-    outputs.raster.surface = packed.surface;
-    if (keep) {
-        graph.markOutput(packed.surface);
-        graph.markOutput(packed.color);
+        const glm::uvec2 size = params.sizePx;
+        outputs.raster.surface = addPack(
+            graph, inputs, graph.createImage("surface", {size.x, size.y, kSurfaceFormat}), params
+        );
     }
     return outputs;
+}
+
+graph::ImageHandle SurfaceLayers::addPack(
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    graph::ImageHandle target,
+    const PassParams& params
+) const {
+    struct Data {
+        graph::ImageHandle surface;
+    };
+
+    return graph
+        .addPass<Data>(
+            "pack surface",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                builder.read(inputs.motionDepth, Access::SampledCompute);
+                builder.read(inputs.entityId, Access::SampledCompute);
+                data.surface = builder.write(target, Access::StorageWrite);
+            },
+            [this, inputs, params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                gpu::BindingList bindings;
+                bindings.sampled(resources.view(inputs.motionDepth), mSampler)
+                    .sampled(resources.view(inputs.entityId), mSampler)
+                    .storage(resources.image(data.surface));
+                dispatchPixels(context, mPack.get(), bindings, params, params.sizePx);
+            }
+        )
+        .surface;
 }
 
 } // namespace shutter::motion_blur

@@ -52,11 +52,16 @@ class SurfaceLayers {
 
     static SurfaceLayer importKept(graph::Graph& graph, const Kept& kept, VkImageLayout layout);
     void resize(Kept& kept, glm::uvec2 sizePx);
+    [[nodiscard]] graph::ImageHandle addPack(
+        graph::Graph& graph,
+        const MotionBlurInputs& inputs,
+        graph::ImageHandle target,
+        const PassParams& params
+    ) const;
 
     gpu::Device& mDevice;
     VkSampler mSampler;
     gpu::LazyPipeline mPack;
-    gpu::LazyPipeline mPackAndKeep;
     std::array<Kept, 2> mKept; ///< in turns: one is read while the other is written
     uint32_t mNewest = 0;      ///< of mKept
 };

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Sorts each tile's candidates, nearest first, and lists the picture's blocks that something moves in:
+// those whose tile has a candidate. A thread a tile.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/resolved.glsl"
+
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    ResolvedParams method;
+};
+layout(binding = 0, scalar) buffer RasterCandidates { TileCandidates uRaster[]; };
+layout(binding = 1, scalar) buffer LastCandidates { TileCandidates uLast[]; };
+layout(binding = 2, scalar) buffer BlockLists {
+    BlockHeader header;
+    uint entries[];
+} uBlocks;
+layout(binding = 3, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
+
+Candidate getCandidate(uint layer, uint tile, uint slot) {
+    if (layer == kLastLayer) return uLast[tile].candidates[slot];
+    return uRaster[tile].candidates[slot];
+}
+
+void setCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
+    if (layer == kLastLayer)
+        uLast[tile].candidates[slot] = candidate;
+    else
+        uRaster[tile].candidates[slot] = candidate;
+}
+
+void setPart(uint layer, uint tile, uint part, uint bits) {
+    if (layer == kLastLayer)
+        uLast[tile].parts[part] = bits;
+    else
+        uRaster[tile].parts[part] = bits;
+}
+
+/// In the order of searching: the sky is behind everything, and equals have one order.
+bool isBefore(Candidate a, Candidate b) {
+    uint depthA = a.key == kSkyKey ? kNoKey : a.nearest;
+    uint depthB = b.key == kSkyKey ? kNoKey : b.nearest;
+    return depthA < depthB || (depthA == depthB && a.key < b.key);
+}
+
+/// \return how many there are
+uint sortCandidates(uint layer, uint tile) {
+    uint end = 0u;
+    for (; end < kCandidatesPerTile; ++end) {
+        Candidate moved = getCandidate(layer, tile, end);
+        if (moved.key == kNoKey) break;
+        uint slot = end;
+        for (; slot > 0u; --slot) {
+            Candidate before = getCandidate(layer, tile, slot - 1u);
+            if (!isBefore(moved, before)) break;
+            setCandidate(layer, tile, slot, before);
+        }
+        if (slot != end) setCandidate(layer, tile, slot, moved);
+    }
+    return end;
+}
+
+void listParts(uint layer, uint tile, uint count) {
+    for (uint part = 0u; part < min(params.sampleCount, kExposureParts); ++part) {
+        uint bits = 0u;
+        for (uint slot = 0u; slot < count; ++slot) {
+            uint parts = ~getCandidate(layer, tile, slot).partsInverted;
+            bits |= (parts >> part & 1u) << slot;
+        }
+        setPart(layer, tile, part, bits);
+    }
+}
+
+/// \return whether there are any
+bool prepareTile(uint layer, uint tile) {
+    uint count = sortCandidates(layer, tile);
+    listParts(layer, tile, count);
+    return count > 0u;
+}
+
+void listBlock(uvec2 block, uvec2 blocks) {
+    if (any(greaterThanEqual(block, blocks))) return;
+    uint index = atomicAdd(uBlocks.header.mixedCount, 1u);
+    uBlocks.entries[kMixedList * blocks.x * blocks.y + index] = block.x | block.y << 16;
+    atomicMax(uArguments[kMixedList].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uArguments[kMixedList].groupsY, 1u);
+}
+
+void main() {
+    uvec2 tile = gl_GlobalInvocationID.xy;
+    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    if (any(greaterThanEqual(tile, tiles))) return;
+    uint index = tile.y * tiles.x + tile.x;
+    bool moves = prepareTile(kRasterLayer, index);
+    if (method.hasLast != 0u) moves = prepareTile(kLastLayer, index) || moves;
+    if (!moves) return;
+    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
+    const uint kBlocks = kCandidateTilePx / kGroupSize;
+    for (uint y = 0u; y < kBlocks; ++y)
+        for (uint x = 0u; x < kBlocks; ++x) listBlock(tile * kBlocks + uvec2(x, y), blocks);
+}
