@@ -318,6 +318,7 @@ core::Result<render::FrameResult> PictureDrawer::draw(
     if (request.method.method->family == MethodFamily::Truth)
         return drawTruth(world, request, step, checkpoints);
     SHUTTER_TRY(submitFrameBefore(world, request));
+    finishUntil(0); // else its time would be counted with the frame's
     Part part{.total = countSteps(request.method)};
     for (; part.done < part.total; ++part.done) {
         part.isShown = part.done + 1 == part.total;
