@@ -85,7 +85,8 @@ TEST(Results, EqualTimeTakesTheSampleCountThatIsNearestInTime) {
 }
 
 TEST(Results, OnlyDefaultsCarryPictures) {
-    for (const nlohmann::json& row : describeThree().at("measurements"))
+    const nlohmann::json described = describeThree();
+    for (const nlohmann::json& row : described.at("measurements"))
         EXPECT_EQ(row.contains("image"), row.at("isDefault").get<bool>()) << row.at("samples");
 }
 
