@@ -18,7 +18,7 @@ class App;
 namespace shutter::game {
 
 struct MethodArguments {
-    std::string method = "hybrid";
+    std::string method = "resolved";
     uint32_t samples = 0; ///< 0: the method's own number
     std::optional<double> error;
     std::vector<std::string> settings; ///< NAME=VALUE

@@ -181,7 +181,7 @@ TEST_F(CliRender, StatisticsAreJsonWithTheDocumentedKeys) {
           "repeat",
           "pictures"})
         EXPECT_TRUE(json.contains(key)) << key;
-    EXPECT_EQ(json.at("method"), "hybrid");
+    EXPECT_EQ(json.at("method"), "resolved");
     EXPECT_EQ(json.at("width"), 64);
     EXPECT_EQ(json.at("repeat"), 2);
     ASSERT_EQ(json.at("pictures").size(), 1u);

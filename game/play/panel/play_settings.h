@@ -25,7 +25,7 @@ namespace shutter::game {
 [[nodiscard]] motion_blur::MotionBlurSettings makePlayBlur();
 
 struct PlaySettings {
-    std::string method = "hybrid";    ///< of the picture, right of a split; a name of listMethods()
+    std::string method = "resolved";  ///< of the picture, right of a split; a name of listMethods()
     std::string leftMethod = "sharp"; ///< left of a split
     bool split = false;
     double dividerShare = 0.5; ///< of the window's width, [0, 1]

@@ -66,7 +66,7 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_FALSE(options.shot.isSequence);
     EXPECT_DOUBLE_EQ(options.shot.shutter.exposureSeconds, 1.0 / 60.0);
     EXPECT_EQ(options.shot.shutter.phase, scene::ShutterPhase::End);
-    EXPECT_STREQ(options.method.method->name, "hybrid");
+    EXPECT_STREQ(options.method.method->name, "resolved");
     EXPECT_EQ(options.method.samples, 15u);
     EXPECT_EQ(options.shot.pixel, extract::PixelModel::Centre);
     EXPECT_EQ(options.shot.background, math::vec3(0.18f));
