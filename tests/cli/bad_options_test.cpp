@@ -63,14 +63,18 @@ TEST_F(Cli, ANameThatIsNoneOfAListIsRefused) {
         {"--aov", "nosuch"},
         {"--aov", "motion,nosuch"},
         {"--set", "nosuch=1"},
-        {"--set", "objectTest=nosuch"},
-        {"--set", "revealTraversal=nosuch"},
         {"--rays", "nosuch"},
         {"--background", "nosuch"},
         {"--ambient", "nosuch"},
         {"--frames", "nosuch"}};
     for (const auto& [option, value] : bad)
         expectRefusal(renderVase({"--out", "a.png", option, value}), kUsage, {option, "nosuch"});
+    for (const char* setting : {"objectTest=nosuch", "revealTraversal=nosuch"})
+        expectRefusal(
+            renderVase({"--out", "a.png", "--method", "hybrid", "--set", setting}),
+            kUsage,
+            {"--set", "nosuch"}
+        );
 }
 
 TEST_F(Cli, WhatIsNoNumberIsRefused) {

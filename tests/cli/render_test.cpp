@@ -113,7 +113,7 @@ TEST_F(CliRender, NoSamplesMeansTheMethodsOwnNumber) {
 }
 
 TEST_F(CliRender, AllIntermediatesLieBesideThePicture) {
-    expectSuccess(renderVase({"--out", "a.png", "--aov", "all"}));
+    expectSuccess(renderVase({"--method", "hybrid", "--out", "a.png", "--aov", "all"}));
     const std::set<std::string> expected = {
         "a.png",
         "a.depth.exr",
@@ -159,7 +159,9 @@ TEST_F(CliRender, EveryMethodGivesTheIntermediatesItHas) {
 }
 
 TEST_F(CliRender, AnIntermediateOfABlurThatDidNotRunIsSaidToBeMissing) {
-    const Outcome outcome = run(renderVase({"--exposure", "0", "--out", "a.png", "--aov", "mask"}));
+    const Outcome outcome =
+        run(renderVase({"--method", "hybrid", "--exposure", "0", "--out", "a.png", "--aov", "mask"})
+        );
     EXPECT_EQ(outcome.status, 0);
     EXPECT_NE(outcome.err.find("--aov mask"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("the exposure is 0"), std::string::npos) << outcome.err;
@@ -192,8 +194,7 @@ TEST_F(CliRender, StatisticsAreJsonWithTheDocumentedKeys) {
     for (const auto& pass : picture.at("passes"))
         sum += pass.at("gpu_ms").get<double>();
     EXPECT_NEAR(picture.at("gpu_ms").get<double>(), sum, 1e-9);
-    EXPECT_GT(picture.at("counters").at("pixels masked").get<int>(), 0);
-    EXPECT_GT(picture.at("counters").at("rays traced").get<int>(), 0);
+    EXPECT_TRUE(picture.at("counters").contains("unresolved samples"));
     EXPECT_TRUE(picture.at("decisions").at("motion blur").get<std::string>().starts_with("ran: "));
 }
 
@@ -239,12 +240,13 @@ TEST_F(CliRender, APictureOfOnePixelIsDrawnByEveryMethod) {
 
 TEST_F(CliRender, TheRenderGraphIsPrintedWhereAskedFor) {
     const std::string out = expectSuccess(renderVase({"--out", "a.png", "--dump-graph"})).out;
-    for (const char* pass : {"G-buffer", "tile max", "tone map"})
+    for (const char* pass : {"G-buffer", "resolve", "tone map"})
         EXPECT_NE(out.find(pass), std::string::npos) << pass;
 }
 
 TEST_F(CliRender, EveryEffectAndPassIsExplainedWhereAskedFor) {
-    const std::string ran = expectSuccess(renderVase({"--out", "a.png", "--explain"})).out;
+    const std::string ran =
+        expectSuccess(renderVase({"--method", "hybrid", "--out", "a.png", "--explain"})).out;
     for (const char* line :
          {"effect  motion blur",
           "ran, because something in the picture moves during the exposure",
@@ -257,7 +259,10 @@ TEST_F(CliRender, EveryEffectAndPassIsExplainedWhereAskedFor) {
         EXPECT_NE(ran.find(line), std::string::npos) << line << "\n" << ran;
 
     const std::string still =
-        expectSuccess(renderVase({"--out", "a.png", "--explain", "--exposure", "0"})).out;
+        expectSuccess(
+            renderVase({"--method", "hybrid", "--out", "a.png", "--explain", "--exposure", "0"})
+        )
+            .out;
     EXPECT_NE(still.find("skipped, because the exposure is 0"), std::string::npos) << still;
     EXPECT_NE(still.find("skipped, because no effect that runs traces any"), std::string::npos);
     EXPECT_EQ(still.find("tile max"), std::string::npos) << still;

@@ -176,7 +176,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--response", {"--response", "triangle"}},
         {"--samples", {"--samples", "3"}},
         {"--seed", {"--seed", "3"}},
-        {"--set", {"--set", "tileSizePx=8"}},
+        {"--set", {"--set", "history=false"}},
         {"--shutter-angle", {"--shutter-angle", "90"}},
         {"--shutter-mode", {"--shutter-mode", "angle"}},
         {"--size", {"--size", "8x8"}},

@@ -209,6 +209,7 @@ TEST_F(RenderOptionsTest, AnErrorToStopAtIsAboveZeroAndTruths) {
 
 TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
     const motion_blur::MotionBlurSettings settings = accept(Words{
+                                                                "--method=hybrid",
                                                                 "--set=tileSizePx=20",
                                                                 "--set=neighbourhoodTiles=5",
                                                                 "--set=recursionLimit=9",
@@ -233,11 +234,12 @@ TEST_F(RenderOptionsTest, EverySettingCanBeSet) {
     EXPECT_EQ(settings.objectTest, motion_blur::ObjectTest::Luminance);
     EXPECT_EQ(settings.revealTraversal, motion_blur::RevealTraversal::Stepping);
     EXPECT_EQ(
-        accept(Words{"--set=revealTraversal=single"}).method.motionBlur.revealTraversal,
+        accept(Words{"--method=hybrid", "--set=revealTraversal=single"})
+            .method.motionBlur.revealTraversal,
         motion_blur::RevealTraversal::Single
     );
     EXPECT_EQ(
-        accept(Words{"--set=objectTest=mesh_id"}).method.motionBlur.objectTest,
+        accept(Words{"--method=hybrid", "--set=objectTest=mesh_id"}).method.motionBlur.objectTest,
         motion_blur::ObjectTest::MeshId
     );
 }
