@@ -20,7 +20,7 @@ extern const Method kAdaptive;
 extern const Method kDenoised;
 
 const Method& getDefaultMethod() {
-    return kHybrid;
+    return kGather;
 }
 
 std::span<const Method* const> listMethods() {

@@ -7,20 +7,21 @@
 
 namespace shutter::motion_blur {
 
-float measureTileJitter(const MotionBlurSettings& settings) {
-    return 0.25f * static_cast<float>(settings.tileSizePx) * settings.jitter;
+float measureTileJitter(const PassParams& params) {
+    return 0.25f * static_cast<float>(params.tileSizePx) * params.jitter;
 }
 
 PassParams
 resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime) {
     PassParams params{};
-    const uint32_t tile = settings.tileSizePx;
+    const uint32_t tile = chooseTileSize(settings, height);
     params.sizePx = {width, height};
     params.tileCount = {(width + tile - 1) / tile, (height + tile - 1) / tile};
     params.tileSizePx = tile;
     params.neighbourRadius = static_cast<int32_t>(settings.neighbourhoodTiles / 2);
     params.sampleCount = settings.sampleCount;
     params.softDepthExtent = settings.softDepthExtent;
+    params.softDepthShare = settings.softDepthShare;
     params.rasterTime = static_cast<float>(std::clamp(rasterTime, 0.0, 1.0));
     params.jitter = settings.jitter;
     params.maxMotionDepth = settings.maxMotionDepth;

@@ -36,7 +36,7 @@ struct PassParams : shader::MotionBlurParams {
 static_assert(sizeof(PassParams) == 128, "the push constants that every device has");
 
 /// How far tileJitter() (taps.glsl) moves the look-up of a tile at most, pixels.
-[[nodiscard]] float measureTileJitter(const MotionBlurSettings& settings);
+[[nodiscard]] float measureTileJitter(const PassParams& params);
 
 /// What the settings are to the shaders of their method. Pure.
 /// \param rasterTime raster instant in the exposure, clamped to [0, 1]

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/settings.h"
 
+#include "modules/motion_blur/methods.h"
+
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -13,6 +16,7 @@ using Row = core::SettingRow<MotionBlurSettings>;
 
 constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
 constexpr std::string_view kTraversals[] = {"single", "stepping"};
+constexpr std::string_view kMaskTests[] = {"paper", "relative"};
 constexpr std::string_view kOccluderTests[] = {"none", "velocity"};
 
 std::vector<Row> makeTapRows() {
@@ -28,8 +32,9 @@ std::vector<Row> makeTapRows() {
         {"tileSizePx",
          &S::tileSizePx,
          "px",
-         {.lowest = 1, .highest = 256, .step = 1},
-         "Side of a tile, and the longest blur. Larger tiles make more pixels gather.",
+         {.lowest = 0, .highest = 256, .step = 1},
+         "Side of a tile, and the longest blur. Larger tiles make more pixels gather. 0 is a "
+         "twelfth of the picture's height, at least 40.",
          "Tile size"},
         {"neighbourhoodTiles",
          &S::neighbourhoodTiles,
@@ -48,13 +53,19 @@ std::vector<Row> makeTapRows() {
         {"softDepthExtent",
          &S::softDepthExtent,
          "m",
-         {.lowest = 1e-6,
+         {.lowest = 0,
           .highest = 1e6,
           .isLogarithmic = true,
           .sliderLowest = 1e-4,
           .sliderHighest = 10},
-         "Depth difference over which foreground and background mix.",
+         "Depth difference over which foreground and background mix. The paper: 0.005 to 0.03.",
          "Soft depth"},
+        {"softDepthShare",
+         &S::softDepthShare,
+         "",
+         {.lowest = 0, .highest = 1},
+         "Share of the depth that is added to softDepthExtent, which suits scenes of any scale.",
+         "Soft depth share"},
         {"uniformMotionPx",
          &S::uniformMotionPx,
          "px",
@@ -100,7 +111,7 @@ std::vector<Row> makeRayRows() {
          &S::backgroundMagnification,
          "x",
          {.lowest = 1, .highest = 100, .isLogarithmic = true},
-         "Factor of the weight of what rays revealed. 1 turns it off.",
+         "Factor of the weight of what rays revealed. The paper: 3. 1 turns it off.",
          "Background weight"},
         {"edgeThreshold",
          &S::edgeThreshold,
@@ -108,6 +119,13 @@ std::vector<Row> makeRayRows() {
          {.lowest = 0, .highest = 1},
          "Edge measure from which a pixel belongs to the ray mask. Higher: fewer rays.",
          "Edge threshold"},
+        {"maskTest",
+         makeWordField<&S::maskTest>(kMaskTests),
+         "",
+         {},
+         "Which moving pixels near a silhouette trace rays: as in the paper, or only those that "
+         "move against what lies behind them.",
+         "Mask test"},
         {"rayShare",
          &S::rayShare,
          "",
@@ -223,6 +241,22 @@ core::SettingRows<MotionBlurSettings> listSettingRows() {
         return rows;
     }();
     return kRows;
+}
+
+MotionBlurSettings paperSettings() {
+    MotionBlurSettings settings;
+    settings.method = &getMethod("hybrid");
+    settings.tileSizePx = 40;
+    settings.softDepthExtent = 0.03f;
+    settings.softDepthShare = 0.0f;
+    settings.foregroundMagnification = 30.0f;
+    settings.backgroundMagnification = 3.0f;
+    settings.maskTest = MaskTest::Paper;
+    return settings;
+}
+
+uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height) {
+    return settings.tileSizePx > 0 ? settings.tileSizePx : std::clamp(height / 12u, 40u, 256u);
 }
 
 core::Status validate(const MotionBlurSettings& settings) {

@@ -11,7 +11,8 @@ namespace shutter::motion_blur {
 
 struct Method;
 
-/// What settings are for until another method is chosen.
+/// What settings are for until another method is chosen: one that needs no more than a host without
+/// rays has.
 [[nodiscard]] const Method& getDefaultMethod();
 
 /// How the reveal knows that it met another object.
@@ -26,31 +27,39 @@ enum class RevealTraversal : uint8_t {
     Stepping, ///< from hit to hit (the paper's implementation), up to recursionLimit
 };
 
+/// Which moving pixels near a silhouette belong to the ray mask.
+enum class MaskTest : uint8_t {
+    Paper,    ///< all whose motion meets one before something deeper (the paper)
+    Relative, ///< of these only such as move against what lies behind, and none that is behind
+};
+
 /// What own velocity does with samples of what may be in front.
 enum class OccluderTest : uint8_t {
     None,     ///< takes them all (three.js, Babylon.js)
     Velocity, ///< drops those whose own motion does not reach the pixel (Bevy)
 };
 
-/// Defaults are the publications'. settings.cpp lists ranges and units, each method's file which
-/// fields it reads, and README.md what each costs.
+/// Defaults are what measures best; paperSettings() are the publication's. settings.cpp lists
+/// ranges and units, each method's file which fields it reads, and README.md what each costs.
 struct MotionBlurSettings {
     const Method* method = &getDefaultMethod(); ///< methods.h; never null
-    uint32_t tileSizePx = 40;                   ///< m; also the longest blur
+    uint32_t tileSizePx = 0;                    ///< m; also the longest blur; 0: chooseTileSize()
     uint32_t neighbourhoodTiles = 3;            ///< n, odd; 1 lets blur end at tile borders
     uint32_t sampleCount = 15;                  ///< what it counts: Method::sampleUnit
-    float softDepthExtent = 0.03f;              ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
+    float softDepthExtent = 0.0f;               ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
+    float softDepthShare = 0.01f;               ///< of the depth, added to softDepthExtent
     float edgeThreshold = 0.9f;                 ///< e; the paper: 0.9 to 0.98; higher: fewer rays
     /// Most surfaces along a ray, the first included, with RevealTraversal::Stepping or
     /// ObjectTest::Luminance.
     uint32_t recursionLimit = 5;
     ObjectTest objectTest = ObjectTest::MeshId;
     RevealTraversal revealTraversal =
-        RevealTraversal::Single;           ///< ObjectTest::Luminance always steps
-    float luminanceThreshold = 0.01f;      ///< smallest difference that ObjectTest::Luminance sees
-    float foregroundMagnification = 30.0f; ///< of w_f where the target is deeper; 1: off
-    float backgroundMagnification = 3.0f;  ///< of the revealed layer inside the mask; 1: off
-    float jitter = 1.0f;                   ///< of the taps; 0: banding, no noise
+        RevealTraversal::Single;      ///< ObjectTest::Luminance always steps
+    float luminanceThreshold = 0.01f; ///< smallest difference that ObjectTest::Luminance sees
+    MaskTest maskTest = MaskTest::Relative;
+    float foregroundMagnification = 1.0f; ///< of w_f where the target is deeper; 1: off
+    float backgroundMagnification = 2.0f; ///< of the revealed layer inside the mask; 1: off
+    float jitter = 1.0f;                  ///< of the taps; 0: banding, no noise
     OccluderTest occluderTest = OccluderTest::None;
     float centreBias = 40.0f;      ///< kappa (Guertin 2014): divides the pixel's own weight
     float speedThresholdPx = 1.5f; ///< gamma (Guertin 2014): half velocity beyond half a pixel at
@@ -72,6 +81,15 @@ struct MotionBlurSettings {
 
     bool operator==(const MotionBlurSettings&) const = default;
 };
+
+/// Method `hybrid` with the numbers of the publication. Rays tell objects apart by id, which the
+/// paper names as future work; its authors' implementation has ObjectTest::Luminance,
+/// RevealTraversal::Stepping and no fast path (uniformMotionPx 0).
+[[nodiscard]] MotionBlurSettings paperSettings();
+
+/// tileSizePx, or where that is 0 a twelfth of the picture's height, from the paper's 40 up to 256:
+/// the longest blur is then the same share of the picture at every resolution above 480 lines.
+[[nodiscard]] uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height);
 
 /// One row per field of MotionBlurSettings, except for `method`.
 [[nodiscard]] core::SettingRows<MotionBlurSettings> listSettingRows();

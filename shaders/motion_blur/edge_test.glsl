@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // First two tests of the ray mask. A moving pixel is a candidate when its place one motion away
-// belongs to another mesh and lies deeper; a candidate is an edge when the 5x5 Sobel says so. Before
-// it: `params`, `method` (HybridParams), and textures uMotionDepth, uNormal and uEntityId.
+// belongs to another mesh and lies deeper, and, with kFlagRelativeMask, moves otherwise; a candidate
+// is an edge when the 5x5 Sobel says so. Before it: `params`, `method` (HybridParams), and textures uMotionDepth, uNormal and uEntityId.
 #ifndef SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 #define SHUTTER_MOTION_BLUR_EDGE_TEST_GLSL
 
@@ -10,12 +10,19 @@
 
 vec2 uvAt(vec2 positionPx) { return positionPx / vec2(params.sizePx); }
 
-bool revealsAt(vec2 centre, vec2 offset, float depth, uint entityId) {
+/// \param target motion, no longer than a tile, and depth
+bool revealsAt(vec2 centre, vec2 offset, vec3 target, uint entityId) {
     if (length(offset) < kStillPx) return false;
     // Beyond the picture the last pixel in it is the best guess.
     vec2 next = clamp(centre + offset, vec2(0.5f), vec2(params.sizePx) - 0.5f);
-    return textureLod(uEntityId, uvAt(next), 0.0f).x != entityId &&
-           textureLod(uMotionDepth, uvAt(next), 0.0f).z - depth > params.softDepthExtent;
+    if (textureLod(uEntityId, uvAt(next), 0.0f).x == entityId) return false;
+    vec3 behind = textureLod(uMotionDepth, uvAt(next), 0.0f).xyz;
+    if (!(behind.z - target.z >
+          softExtent(target.z, params.softDepthExtent, params.softDepthShare)))
+        return false;
+    if ((method.flags & kFlagRelativeMask) == 0u) return true;
+    vec2 motion = limitMotion(behind, float(params.tileSizePx), params.maxMotionDepth);
+    return length(motion - target.xy) >= kStillPx;
 }
 
 bool isCandidate(vec2 centre) {
@@ -23,8 +30,9 @@ bool isCandidate(vec2 centre) {
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
     if (length(motion) < kStillPx) return false;
     uint entityId = textureLod(uEntityId, uvAt(centre), 0.0f).x;
-    return revealsAt(centre, motion * params.rasterTime, target.z, entityId) ||
-           revealsAt(centre, motion * (params.rasterTime - 1.0f), target.z, entityId);
+    vec3 moving = vec3(motion, target.z);
+    return revealsAt(centre, motion * params.rasterTime, moving, entityId) ||
+           revealsAt(centre, motion * (params.rasterTime - 1.0f), moving, entityId);
 }
 
 /// Normal and depth; clamped to the border by the sampler.

@@ -32,7 +32,7 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
             smearRatio(1.0f, speed * params.rasterTime),
             smearRatio(1.0f, speed * (1.0f - params.rasterTime))
         ),
-        1.0f / params.softDepthExtent
+        1.0f / softExtent(motionDepth.z, params.softDepthExtent, params.softDepthShare)
     );
 }
 

@@ -33,6 +33,7 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (2.0f * interleavedGradientNoise(floor(centre)) - 1.0f) * params.jitter *
                    guertinJitter(params.sampleCount);
+    float soft = softExtent(target.z, params.softDepthExtent, params.softDepthShare);
     float side = 1.0f;
     for (uint i = 0u; i < params.sampleCount; ++i) {
         bool isSecond = isSecondDirection(i, variance);
@@ -49,7 +50,7 @@ vec3 gather(vec2 dominant, float variance, vec3 target, vec2 centre) {
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);
         vec2 tapMotion = limitMotion(tap.xyz, float(params.tileSizePx), params.maxMotionDepth);
         float tapWeight = guertinWeight(
-            (target.z - tap.z) / params.softDepthExtent, length(offset),
+            (target.z - tap.z) / soft, length(offset),
             smearReach(offset, tapMotion, params.rasterTime),
             smearReach(offset, target.xy, params.rasterTime), alignment(second, direction),
             alignment(tapMotion, direction)

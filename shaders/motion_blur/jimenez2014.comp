@@ -25,7 +25,8 @@ struct Tap {
 };
 
 /// \param target motion, no longer than a tile, and depth
-Tap takeTap(vec2 centre, vec2 offset, vec3 target, float pixelsToTaps) {
+/// \param soft SOFT_Z_EXTENT at the target
+Tap takeTap(vec2 centre, vec2 offset, vec3 target, float soft, float pixelsToTaps) {
     vec2 uv = (centre + offset) / vec2(params.sizePx);
     vec4 motionDepth = textureLod(uMotionDepth, uv, 0.0f);
     vec2 motion = limitMotion(motionDepth.xyz, float(params.tileSizePx), params.maxMotionDepth);
@@ -34,7 +35,7 @@ Tap takeTap(vec2 centre, vec2 offset, vec3 target, float pixelsToTaps) {
     tap.depth = motionDepth.z;
     tap.speed = length(motion);
     tap.weight = jimenezWeight(
-        (target.z - tap.depth) / params.softDepthExtent, length(offset) * pixelsToTaps,
+        (target.z - tap.depth) / soft, length(offset) * pixelsToTaps,
         smearReach(offset, motion, params.rasterTime) * pixelsToTaps,
         smearReach(offset, target.xy, params.rasterTime) * pixelsToTaps
     );
@@ -46,6 +47,7 @@ vec3 gather(vec2 dominant, vec3 target, vec2 centre) {
     uint count = 2u * pairs;
     float pixelsToTaps = float(count) / length(dominant);
     float offset = mix(0.5f, interleavedGradientNoise(floor(centre)), params.jitter);
+    float soft = softExtent(target.z, params.softDepthExtent, params.softDepthShare);
     vec3 sum = vec3(0.0f);
     float weight = 0.0f;
     for (uint i = 0u; i < pairs; ++i) {
@@ -56,8 +58,8 @@ vec3 gather(vec2 dominant, vec3 target, vec2 centre) {
         float nearPosition = tapPosition(count - 1u - far, offset, count, params.rasterTime);
         farPosition = warpTapAt(params.response, farPosition, params.rasterTime);
         nearPosition = warpTapAt(params.response, nearPosition, params.rasterTime);
-        Tap first = takeTap(centre, dominant * farPosition, target, pixelsToTaps);
-        Tap second = takeTap(centre, dominant * nearPosition, target, pixelsToTaps);
+        Tap first = takeTap(centre, dominant * farPosition, target, soft, pixelsToTaps);
+        Tap second = takeTap(centre, dominant * nearPosition, target, soft, pixelsToTaps);
         vec2 weights = mirrorWeights(
             vec2(first.weight, second.weight), vec2(first.depth, second.depth),
             vec2(first.speed, second.speed)

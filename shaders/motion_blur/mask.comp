@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Third test of the ray mask, the range check: a moving pixel is masked when any sample along its
-// motion is an edge. Lists masked pixels for the reveal, and blocks and tiles that have some for the
+// motion is an edge; with kFlagRelativeMask an edge in front of it does not count, since what hides
+// there is the pixel itself. Lists masked pixels for the reveal, and blocks and tiles that have some for the
 // gather of the revealed layer.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -36,6 +37,7 @@ layout(binding = 9, scalar) buffer Tiles {
     uint words[]; // listed tiles, then a flag for each tile of the picture
 } uTiles;
 layout(binding = 10, scalar) buffer TileArguments { DispatchArguments uTileArguments[2]; };
+layout(binding = 11) uniform usampler2D uEntityId;
 
 /// Edges of a silhouette are two pixels wide (half the Sobel window): steps of at most one and a
 /// half cannot jump over one.
@@ -55,13 +57,24 @@ bool meetsEdgeBlock(vec2 centre, vec2 offset, float range) {
     return false;
 }
 
-bool meetsEdge(vec2 centre, vec2 offset) {
+/// Whether the edge belongs to what the pixel shows or lies no nearer.
+bool mayReveal(vec2 edgeUv, vec2 centreUv, float depth) {
+    if (textureLod(uEntityId, edgeUv, 0.0f).x == textureLod(uEntityId, centreUv, 0.0f).x)
+        return true;
+    float soft = softExtent(depth, params.softDepthExtent, params.softDepthShare);
+    return textureLod(uMotionDepth, edgeUv, 0.0f).z > depth - soft;
+}
+
+bool meetsEdge(vec2 centre, vec2 offset, float depth) {
     float range = length(offset);
     if (!meetsEdgeBlock(centre, offset, range)) return false;
+    bool isRelative = (method.flags & kFlagRelativeMask) != 0u;
     uint steps = uint(ceil(range / kStepPx));
     for (uint i = 0u; i <= steps; ++i) {
-        vec2 at = centre + offset * (float(i) / float(max(steps, 1u)));
-        if (textureLod(uEdge, at / vec2(params.sizePx), 0.0f).x > 0.5f) return true;
+        vec2 uv = (centre + offset * (float(i) / float(max(steps, 1u)))) / vec2(params.sizePx);
+        if (textureLod(uEdge, uv, 0.0f).x > 0.5f &&
+            (!isRelative || mayReveal(uv, centre / vec2(params.sizePx), depth)))
+            return true;
     }
     return false;
 }
@@ -72,8 +85,10 @@ bool isMasked(ivec2 pixel) {
     vec2 motion = limitMotion(target, float(params.tileSizePx), params.maxMotionDepth);
     if (length(motion) < kStillPx) return false;
     // A side that is not exposed holds only the pixel itself, which the other has looked at.
-    if (params.rasterTime > 0.0f && meetsEdge(centre, motion * params.rasterTime)) return true;
-    return params.rasterTime < 1.0f && meetsEdge(centre, motion * (params.rasterTime - 1.0f));
+    if (params.rasterTime > 0.0f && meetsEdge(centre, motion * params.rasterTime, target.z))
+        return true;
+    return params.rasterTime < 1.0f &&
+           meetsEdge(centre, motion * (params.rasterTime - 1.0f), target.z);
 }
 
 void listTile(uvec2 tile) {

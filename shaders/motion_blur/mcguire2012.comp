@@ -24,6 +24,7 @@ vec3 gather(vec2 dominant, vec2 centre) {
     float weight = centreWeight(0.5f * length(targetMotion)); // 1 / |V|, V a half velocity
     vec3 sum = textureLod(uColor, centre * pixelsToUv, 0.0f).rgb * weight;
     float jitter = (interleavedGradientNoise(floor(centre)) - 0.5f) * params.jitter;
+    float soft = softExtent(target.z, params.softDepthExtent, params.softDepthShare);
     float halfTap = 0.5f / float(params.sampleCount + 1u);
     float centreTap = findCentreTapAt(params.response, params.rasterTime);
     for (uint i = 0u; i < params.sampleCount; ++i) {
@@ -35,7 +36,7 @@ vec3 gather(vec2 dominant, vec2 centre) {
         vec2 uv = (centre + offset) * pixelsToUv;
         vec4 tap = textureLod(uMotionDepth, uv, 0.0f);
         float tapWeight = sampleWeight(
-            (target.z - tap.z) / params.softDepthExtent, length(offset),
+            (target.z - tap.z) / soft, length(offset),
             smearReach(offset, limitMotion(tap.xyz, limit, params.maxMotionDepth), params.rasterTime),
             smearReach(offset, targetMotion, params.rasterTime), 1.0f
         );

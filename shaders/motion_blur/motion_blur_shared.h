@@ -22,14 +22,14 @@ struct MotionBlurParams {
     uint tileSizePx;
     int neighbourRadius; // tiles to each side
     uint sampleCount;
-    float softDepthExtent; // metres
+    float softDepthExtent; // metres, of softExtent() (weights.glsl)
     float rasterTime;      // of the exposure, [0, 1]
     float jitter;          // of the taps, share of their distance, [0, 1]
     float maxMotionDepth;  // metres; deeper pixels count as still; infinity: none do
     float marginPx;        // beyond a block whose tiles its pixels may look up
     uvec2 response;        // address of the shutter's ResponseTable; 0: a box
     float uniformMotionPx; // deviation that still counts as uniform motion; 0: none does
-    float padding0;
+    float softDepthShare;  // of the depth, of softExtent()
 };
 
 // Work goes by blocks of kGroupSize x kGroupSize pixels, one group each; passes after the

@@ -32,7 +32,7 @@ float classify(ivec2 tile, vec2 dominant) {
         }
     return classifyTile(
         length(dominant), deviation, depth.y - depth.x, params.uniformMotionPx,
-        params.softDepthExtent
+        softExtent(depth.x, params.softDepthExtent, params.softDepthShare)
     );
 }
 

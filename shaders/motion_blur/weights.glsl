@@ -66,6 +66,13 @@ SHUTTER_INLINE float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189f * fract(0.06711056f * pixel.x + 0.00583715f * pixel.y));
 }
 
+/// SOFT_Z_EXTENT: depth over which foreground and background mix, metres. Never 0, so that it divides.
+/// \param extent metres everywhere (McGuire 2012)
+/// \param share of the depth, for scenes of any scale
+SHUTTER_INLINE float softExtent(float depth, float extent, float share) {
+    return max(extent + share * depth, 1.0e-6f);
+}
+
 /// Whether `b` is longer than `a`; ties go to the greater x, then y, so that the order in which
 /// tiles are visited does not matter.
 /// \param la, lb their squared lengths

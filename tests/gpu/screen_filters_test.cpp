@@ -77,6 +77,7 @@ MotionBlurSettings oneTile(const Method* method) {
     settings.method = method;
     settings.tileSizePx = 64;
     settings.softDepthExtent = float(kSoftExtent);
+    settings.softDepthShare = 0.0f;
     settings.jitter = 0.0f;
     return settings;
 }

@@ -140,15 +140,17 @@ TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharp) {
         for (uint32_t x = 1; x < 95; ++x)
             inside += isInside(x, y);
     ASSERT_GT(inside, 300u);
-    const auto expectSharpInside = [&](std::string_view method) {
-        const auto blurred = stage.render({.method = method, .instants = 32}).color;
+    const auto expectSharpInside = [&](std::string_view method, uint32_t filterLevels = 5) {
+        test::Shot shot{.method = method, .instants = 32};
+        shot.settings.filterLevels = filterLevels;
+        const auto blurred = stage.render(shot).color;
         // A step of the half floats, and what a texel's filter makes of places 1e-4 px apart;
         // Jimenez's filter fades still pixels over one tap's distance wherever motion reaches.
-        // The filter of denoised takes texture for noise in each tile that motion crosses: below
-        // 0.1 on one processor, 0.111 on another, and the cause is not known yet.
-        const double tolerance = method == "jimenez2014" ? 0.03
-                                 : method == "denoised"  ? 0.15
-                                                         : 4e-3;
+        // The filter of denoised takes texture for noise in each tile that motion crosses: the
+        // bound is the texture's contrast. Its rays alone are held to the others' bound below.
+        const double tolerance = method == "jimenez2014"                    ? 0.03
+                                 : method == "denoised" && filterLevels > 0 ? 0.15
+                                                                            : 4e-3;
         EXPECT_LT(test::computeMaxDifferenceWhere(blurred, sharp.color, isInside), tolerance)
             << method;
         EXPECT_GT(test::computeMaxDifferenceWhere(blurred, sharp.color, isElsewhere), 0.1)
@@ -156,6 +158,7 @@ TEST_F(ArtistLaw, InsideAnExcludedMoverEveryMethodIsSharp) {
     };
     for (const std::string_view method : test::listBlurMethods(device()))
         expectSharpInside(method);
+    expectSharpInside("denoised", 0);
     expectSharpInside("accumulate");
     expectSharpInside("truth");
 }

@@ -55,7 +55,8 @@ class Frames {
   public:
     Frames(gpu::Device& device, const SceneBuilder& scene)
         : mScene(scene), mRenderer(device, scene.world.assets),
-          mBlur(device, mRenderer.scene(), {}), mTruth(device, mRenderer.scene(), {}) {}
+          mBlur(device, mRenderer.scene(), {.method = &motion_blur::getMethod("hybrid")}),
+          mTruth(device, mRenderer.scene(), {}) {}
 
     render::FrameResult hybrid(double seconds) { return draw(seconds, &mBlur); }
 

@@ -53,7 +53,9 @@ struct Sequence {
 Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
     Scene scene;
     render::Renderer renderer(device, scene.builder.world.assets, framesInFlight);
-    motion_blur::MotionBlurPlugin blur(device, renderer.scene(), {});
+    motion_blur::MotionBlurPlugin blur(
+        device, renderer.scene(), {.method = &motion_blur::getMethod("hybrid")}
+    );
     std::array<render::PostEffect*, 1> effects{&blur};
     Sequence sequence;
     const auto finish = [&] {

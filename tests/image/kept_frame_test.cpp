@@ -68,7 +68,7 @@ class Frames {
   public:
     Frames(gpu::Device& device, const SceneBuilder& scene)
         : mScene(scene), mRenderer(device, scene.world.assets),
-          mBlur(device, mRenderer.scene(), {}) {}
+          mBlur(device, mRenderer.scene(), {.method = &motion_blur::getMethod("hybrid")}) {}
 
     render::FrameResult hybrid(double seconds, uint32_t width = 96) {
         render::FrameRequest request;

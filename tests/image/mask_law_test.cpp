@@ -19,14 +19,20 @@ class MaskLaw : public test::GpuTest {};
 
 constexpr double kHalfPx = 14.0; // the mover covers 34 <= x < 62 and 18 <= y < 46
 
-Shot maskShot() {
-    return {.method = "hybrid", .aovs = {"mask", "edge"}};
+Shot maskShot(motion_blur::MaskTest test = motion_blur::MaskTest::Paper) {
+    Shot shot{.method = "hybrid", .aovs = {"mask", "edge"}};
+    shot.settings = motion_blur::paperSettings();
+    shot.settings.maskTest = test;
+    return shot;
 }
 
 /// A mover `gap` metres before a wall that fills the picture.
-void addMover(SceneBuilder& scene, double gap, double speedPx) {
+void addMover(SceneBuilder& scene, double gap, double speedPx, double wallSpeedPx = 0.0) {
     scene.setPixelView(64);
-    scene.add(test::makeQuad(200, 200, scene.addColor({0, 1, 0})), {.position = {0, 0, -20}});
+    scene.add(
+        test::makeQuad(200, 200, scene.addColor({0, 1, 0})),
+        {.position = {0, 0, -20}, .velocity = {wallSpeedPx, 0, 0}}
+    );
     scene.add(
         test::makeQuad(2 * kHalfPx, 2 * kHalfPx, scene.addColor({1, 0, 0})),
         {.position = {0, 0, -20 + gap}, .velocity = {speedPx, 0, 0}}
@@ -78,10 +84,66 @@ TEST_F(MaskLaw, ADepthDifferenceBelowTheSoftExtentIsNotMasked) {
     SceneBuilder scene;
     addMover(scene, 5.0, 12.0);
     Shot shot = maskShot();
+    shot.settings.softDepthShare = 0.0f;
     shot.settings.softDepthExtent = 5.01f;
     EXPECT_EQ(countMasked(device(), scene, shot), 0u);
     shot.settings.softDepthExtent = 4.99f;
     EXPECT_GT(countMasked(device(), scene, shot), 200u);
+}
+
+TEST_F(MaskLaw, TheSoftExtentGrowsWithTheDepthByItsShare) {
+    SceneBuilder scene;
+    addMover(scene, 5.0, 12.0); // 15 m before the camera
+    Shot shot = maskShot();
+    shot.settings.softDepthExtent = 2.0f;
+    shot.settings.softDepthShare = 3.01f / 15.0f;
+    EXPECT_EQ(countMasked(device(), scene, shot), 0u);
+    shot.settings.softDepthShare = 2.99f / 15.0f;
+    EXPECT_GT(countMasked(device(), scene, shot), 200u);
+    shot.settings.softDepthExtent = shot.settings.softDepthShare = 0.0f;
+    EXPECT_GT(countMasked(device(), scene, shot), 200u) << "an extent of 0 divides";
+}
+
+TEST_F(MaskLaw, RelativeMasksAMoverBeforeAStillWallAsThePaperDoes) {
+    SceneBuilder scene;
+    addMover(scene, 5.0, 12.0);
+    const auto mask = [&](motion_blur::MaskTest test) {
+        return test::renderOnce(device(), scene, maskShot(test)).intermediates.at("mask");
+    };
+    EXPECT_TRUE(
+        test::sameBits(mask(motion_blur::MaskTest::Relative), mask(motion_blur::MaskTest::Paper))
+    );
+}
+
+TEST_F(MaskLaw, RelativeMasksNothingWhereAllMovesAlike) {
+    SceneBuilder scene;
+    addMover(scene, 5.0, 12.0, 12.0);
+    const auto count = [&](motion_blur::MaskTest test) {
+        Shot shot = maskShot(test);
+        shot.settings.uniformMotionPx = 0.0f;
+        return countMasked(device(), scene, shot);
+    };
+    EXPECT_GT(count(motion_blur::MaskTest::Paper), 200u);
+    EXPECT_EQ(count(motion_blur::MaskTest::Relative), 0u);
+}
+
+TEST_F(MaskLaw, RelativeMasksNoPixelOfTheWallThatMovesBehind) {
+    SceneBuilder scene;
+    addMover(scene, 5.0, 12.0, 5.0);
+    const auto countOutside = [&](motion_blur::MaskTest test) {
+        const auto result = test::renderOnce(device(), scene, maskShot(test));
+        const image::Image& mask = result.intermediates.at("mask");
+        size_t inside = 0;
+        size_t outside = 0;
+        for (uint32_t y = 0; y < mask.height; ++y)
+            for (uint32_t x = 0; x < mask.width; ++x)
+                if (mask.at(x, y, 0) > 0.5f)
+                    ++(x >= 34 && x < 62 && y >= 18 && y < 46 ? inside : outside);
+        EXPECT_GT(inside, 100u);
+        return outside;
+    };
+    EXPECT_GT(countOutside(motion_blur::MaskTest::Paper), 50u);
+    EXPECT_EQ(countOutside(motion_blur::MaskTest::Relative), 0u);
 }
 
 TEST_F(MaskLaw, NoEdgeMeansNoMask) {

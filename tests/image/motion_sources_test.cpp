@@ -142,6 +142,12 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         return shot;
     }
 
+    [[nodiscard]] static Shot makePaperShot(std::string_view method) {
+        Shot shot = makeShot(method);
+        shot.settings = motion_blur::paperSettings();
+        return shot;
+    }
+
     SceneBuilder mScene;
 };
 
@@ -244,10 +250,10 @@ TEST_P(MotionSources, BlurIsAsNearToTruthAsOnARigidMoverOfTheSameSpeed) {
         Stage stage(device(), mScene);
         Scores scores;
         const auto truth = stage.render(makeShot("accumulate"));
-        Shot shot = makeShot("gather");
+        Shot shot = makePaperShot("gather");
         shot.aovs = {"motion", "tiles"};
         const auto gather = stage.render(shot);
-        const auto hybrid = stage.render(makeShot("hybrid"));
+        const auto hybrid = stage.render(makePaperShot("hybrid"));
         const image::Image& tiles = gather.intermediates.at("tiles");
         scores.speed = measureSpeed(gather.intermediates.at("motion"));
         scores.gather = computeReachedPsnr(gather.color, truth.color, tiles);

@@ -68,6 +68,8 @@ TEST_F(PhaseLaw, TheBlurLiesWhereTheAccumulatedPicturesDoesInEveryPhase) {
             EXPECT_NEAR(glm::dot(truth, across), 0.0, 0.3);
             for (std::string_view method : test::listBlurMethods(device())) {
                 Shot shot{.method = method, .phase = phase};
+                // The paper's smears are opaque, so that their centre is the blur's.
+                shot.settings = motion_blur::paperSettings();
                 // The paper's magnification of the revealed layer makes the half of the blur that
                 // lies inside the sharp quad too thin on purpose, which moves its centre: off here.
                 shot.settings.backgroundMagnification = 1.0f;

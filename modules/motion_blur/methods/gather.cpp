@@ -48,6 +48,7 @@ const Method kGather = {
         {"tileSizePx",
          "neighbourhoodTiles",
          "softDepthExtent",
+         "softDepthShare",
          "jitter",
          "maxMotionDepth",
          "foregroundMagnification",

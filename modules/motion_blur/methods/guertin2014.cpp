@@ -56,6 +56,7 @@ const Method kGuertin2014 = {
         {"tileSizePx",
          "neighbourhoodTiles",
          "softDepthExtent",
+         "softDepthShare",
          "jitter",
          "maxMotionDepth",
          "centreBias",
@@ -63,7 +64,7 @@ const Method kGuertin2014 = {
     .views = {"tiles", "variance"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
-            params.marginPx = measureTileJitter(settings);
+            params.marginPx = measureTileJitter(params);
             params.setMethod(shader::Guertin2014Params{
                 settings.centreBias, settings.speedThresholdPx});
         },

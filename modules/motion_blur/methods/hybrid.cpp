@@ -122,6 +122,8 @@ void resolveHybrid(const MotionBlurSettings& settings, PassParams& params) {
         own.flags |= shader::kFlagLuminanceTest | shader::kFlagSteppingReveal;
     if (settings.revealTraversal == RevealTraversal::Stepping)
         own.flags |= shader::kFlagSteppingReveal;
+    if (settings.maskTest == MaskTest::Relative)
+        own.flags |= shader::kFlagRelativeMask;
     params.setMethod(own);
 }
 
@@ -149,6 +151,7 @@ const Method kHybrid = {
         {"tileSizePx",
          "neighbourhoodTiles",
          "softDepthExtent",
+         "softDepthShare",
          "jitter",
          "maxMotionDepth",
          "foregroundMagnification",
@@ -156,6 +159,7 @@ const Method kHybrid = {
          "halfResolutionPx",
          "backgroundMagnification",
          "edgeThreshold",
+         "maskTest",
          "recursionLimit",
          "objectTest",
          "revealTraversal",

@@ -16,14 +16,20 @@ const Method kJimenez2014 = {
     .description = "scatter as you gather, mirrored weights",
     .publication = "Jimenez 2014",
     .defaultSamples = 8,
-    .settings = {"tileSizePx", "neighbourhoodTiles", "softDepthExtent", "jitter", "maxMotionDepth"},
+    .settings =
+        {"tileSizePx",
+         "neighbourhoodTiles",
+         "softDepthExtent",
+         "softDepthShare",
+         "jitter",
+         "maxMotionDepth"},
     .views = {"tiles"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             // A smear fades over one tap's distance beyond its end.
             const float tapPx =
-                static_cast<float>(settings.tileSizePx) / static_cast<float>(settings.sampleCount);
-            params.marginPx = std::max(measureTileJitter(settings), tapPx);
+                static_cast<float>(params.tileSizePx) / static_cast<float>(settings.sampleCount);
+            params.marginPx = std::max(measureTileJitter(params), tapPx);
         },
     .addBudgetLevels = addSampleLevels,
     .makePasses =

@@ -13,7 +13,13 @@ const Method kMcGuire2012 = {
     .name = "mcguire2012",
     .description = "gather along dominant motion, soft depth test",
     .publication = "McGuire, Hennessy, Bukowski, Osman 2012",
-    .settings = {"tileSizePx", "neighbourhoodTiles", "softDepthExtent", "jitter", "maxMotionDepth"},
+    .settings =
+        {"tileSizePx",
+         "neighbourhoodTiles",
+         "softDepthExtent",
+         "softDepthShare",
+         "jitter",
+         "maxMotionDepth"},
     .views = {"tiles"},
     .addBudgetLevels = addSampleLevels,
     .makePasses =

@@ -45,7 +45,8 @@ gpu::ComputePipelineDesc describeMask() {
          kBuffer,
          kBuffer,
          kBuffer,
-         kBuffer}
+         kBuffer,
+         kSampled}
     );
     desc.specialization = {shader::kCandidateList};
     return desc;
@@ -212,6 +213,7 @@ RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams&
 
     struct Data {
         graph::ImageHandle motionDepth;
+        graph::ImageHandle entityId;
         Edges edges;
         RayMaskOutputs out;
     };
@@ -221,6 +223,7 @@ RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams&
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.motionDepth = builder.read(inputs.motionDepth, Access::SampledCompute);
+            data.entityId = builder.read(inputs.entityId, Access::SampledCompute);
             data.edges = edges;
             builder.read(edges.edges, Access::SampledCompute);
             builder.read(edges.blocks, Access::SampledCompute);
@@ -250,7 +253,8 @@ RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams&
                 .buffer(resources.buffer(data.out.blocks.lists.blocks))
                 .buffer(resources.buffer(data.out.blocks.lists.arguments))
                 .buffer(resources.buffer(data.out.tiles))
-                .buffer(resources.buffer(data.out.tileArguments));
+                .buffer(resources.buffer(data.out.tileArguments))
+                .sampled(resources.view(data.entityId), mSampler);
             dispatchList(
                 context,
                 mMask.get(),

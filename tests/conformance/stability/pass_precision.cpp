@@ -71,6 +71,9 @@ motion_blur::MotionBlurSettings makeSettings() {
     settings.method = &motion_blur::getMethod("gather");
     settings.tileSizePx = 16;
     settings.softDepthExtent = float(kSoftExtent);
+    settings.softDepthShare = 0.0f;
+    settings.foregroundMagnification = 30.0f;
+    settings.maskTest = motion_blur::MaskTest::Paper;
     return settings;
 }
 

@@ -31,13 +31,44 @@ core::Status validateWith(const Field& set) {
 
 } // namespace
 
-TEST(MotionBlurSettings, TheDefaultsAreThePapersAndValid) {
-    const MotionBlurSettings settings;
+TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
+    const MotionBlurSettings settings = paperSettings();
     EXPECT_TRUE(validate(settings).ok());
+    EXPECT_EQ(settings.method, &getMethod("hybrid"));
     EXPECT_EQ(settings.tileSizePx, 40u);
     EXPECT_EQ(settings.neighbourhoodTiles, 3u);
     EXPECT_EQ(settings.sampleCount, 15u);
+    EXPECT_EQ(settings.softDepthExtent, 0.03f);
+    EXPECT_EQ(settings.softDepthShare, 0.0f);
+    EXPECT_EQ(settings.edgeThreshold, 0.9f);
+    EXPECT_EQ(settings.foregroundMagnification, 30.0f);
+    EXPECT_EQ(settings.backgroundMagnification, 3.0f);
     EXPECT_EQ(settings.recursionLimit, 5u);
+    EXPECT_EQ(settings.maskTest, MaskTest::Paper);
+}
+
+TEST(MotionBlurSettings, TheDefaultsNeedNoMoreThanEveryHostHas) {
+    const MotionBlurSettings settings;
+    EXPECT_TRUE(validate(settings).ok());
+    EXPECT_EQ(settings.method->rays, RayNeed::None);
+    EXPECT_FALSE(settings.method->readsSurface);
+    EXPECT_FALSE(settings.method->readsCamera);
+    EXPECT_FALSE(settings.method->readsInstantMotions);
+}
+
+TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGiven) {
+    MotionBlurSettings settings;
+    for (const auto& [height, tile] :
+         {std::pair(0u, 40u),
+          {1u, 40u},
+          {480u, 40u},
+          {720u, 60u},
+          {1080u, 90u},
+          {2160u, 180u},
+          {32768u, 256u}})
+        EXPECT_EQ(chooseTileSize(settings, height), tile) << height;
+    settings.tileSizePx = 7;
+    EXPECT_EQ(chooseTileSize(settings, 1080), 7u);
 }
 
 TEST(MotionBlurSettings, TheDepthLimitMayBeInfiniteButNotNegativeOrNoNumber) {
@@ -95,7 +126,7 @@ TEST(MotionBlurSettings, TilesCoverThePictureAndNoMore) {
     };
     EXPECT_EQ(tiles(1, 1), glm::uvec2(1, 1));
     EXPECT_EQ(tiles(40, 41), glm::uvec2(1, 2));
-    EXPECT_EQ(tiles(1280, 720), glm::uvec2(32, 18));
+    EXPECT_EQ(tiles(1280, 720), glm::uvec2(22, 12)) << "of 60 px";
 }
 
 TEST(MotionBlurSettings, ResolveTurnsSettingsIntoWhatShadersRead) {
@@ -105,6 +136,7 @@ TEST(MotionBlurSettings, ResolveTurnsSettingsIntoWhatShadersRead) {
     settings.neighbourhoodTiles = 7;
     settings.sampleCount = 31;
     settings.softDepthExtent = 0.5f;
+    settings.softDepthShare = 0.25f;
     settings.jitter = 0.75f;
     settings.uniformMotionPx = 0.25f;
     settings.maxMotionDepth = 50.0f;
@@ -115,6 +147,7 @@ TEST(MotionBlurSettings, ResolveTurnsSettingsIntoWhatShadersRead) {
     EXPECT_EQ(params.neighbourRadius, 3);
     EXPECT_EQ(params.sampleCount, 31u);
     EXPECT_EQ(params.softDepthExtent, 0.5f);
+    EXPECT_EQ(params.softDepthShare, 0.25f);
     EXPECT_EQ(params.rasterTime, 0.5f);
     EXPECT_EQ(params.jitter, 0.75f);
     EXPECT_EQ(params.uniformMotionPx, 0.25f);
@@ -125,6 +158,8 @@ TEST(MotionBlurSettings, TheHybridMethodsOwnBlockHoldsItsSettings) {
     MotionBlurSettings settings;
     settings.method = &getMethod("hybrid");
     const auto own = [&] { return resolve(settings, 8, 8, 1.0).getMethod<shader::HybridParams>(); };
+    EXPECT_EQ(own().flags, shader::kFlagRelativeMask);
+    settings.maskTest = MaskTest::Paper;
     EXPECT_EQ(own().flags, 0u);
     settings.edgeThreshold = 0.25f;
     settings.recursionLimit = 9;
@@ -165,9 +200,14 @@ TEST(MotionBlurSettings, EachSettingOfAMethodReachesItsShaders) {
             ASSERT_TRUE(row) << method->name << " " << name;
             MotionBlurSettings changed = settings;
             if (const auto* words = std::get_if<core::WordField<MotionBlurSettings>>(&row->field))
-                words->set(changed, words->words.size() - 1);
+                words->set(changed, words->get(changed) == 0 ? words->words.size() - 1 : 0);
             else
-                ASSERT_TRUE(core::setNumber(*row, changed, row->range.lowest)) << name;
+                ASSERT_TRUE(core::setNumber(
+                    *row,
+                    changed,
+                    core::getNumber(*row, changed) == row->range.lowest ? row->range.highest
+                                                                        : row->range.lowest
+                )) << name;
             EXPECT_NE(bytes(changed), bytes(settings)) << method->name << " " << name;
         }
     }
