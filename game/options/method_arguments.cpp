@@ -3,6 +3,7 @@
 
 #include "engine/core/setting_row.h"
 #include "game/options/option_rows.h"
+#include "game/shot/presets.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
@@ -23,7 +24,10 @@ constexpr uint32_t kMaxSamples = 65536;
 using A = MethodArguments;
 
 constexpr std::array kRows = {
-    makeRow<&A::method>("--method", "method, see `shutter info --methods`; default hybrid"),
+    makeRow<&A::method>("--method", "method, see `shutter info --methods`; default resolved"),
+    makeRow<&A::preset>(
+        "--preset", "off, performance, balanced, quality or paper: a method and its settings"
+    ),
     makeRow<&A::samples>(
         "--samples", "taps (filters), instants (accumulate) or rays per pixel (truth, denoised)"
     ),
@@ -31,10 +35,32 @@ constexpr std::array kRows = {
     makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
 };
 
+/// The method and its settings, before any of them is changed.
+Status chooseMethod(const MethodArguments& arguments, MethodOptions& options) {
+    const Preset* preset = nullptr;
+    if (!arguments.preset.empty()) {
+        const auto found = findPreset(arguments.preset);
+        if (!found)
+            return found.error();
+        preset = found.value();
+    }
+    const auto method = findMethod(preset ? preset->method : arguments.method);
+    if (!method)
+        return method.error();
+    options.method = method.value();
+    options.samples = options.method->defaultSamples;
+    if (preset && options.method->blur) {
+        options.motionBlur = preset->blur;
+        options.samples = preset->blur.sampleCount;
+    }
+    return {};
+}
+
 Status interpretSamples(const MethodArguments& arguments, MethodOptions& options) {
     if (arguments.samples > kMaxSamples)
         return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
-    options.samples = arguments.samples > 0 ? arguments.samples : options.method->defaultSamples;
+    if (arguments.samples > 0)
+        options.samples = arguments.samples;
     if (!options.method->blur)
         return {};
     options.motionBlur.method = options.method->blur;
@@ -58,16 +84,13 @@ Status interpretError(const MethodArguments& arguments, MethodOptions& options) 
 
 void defineMethodOptions(CLI::App& command, MethodArguments& arguments) {
     defineRows(command, OptionRows<A>(kRows), arguments);
+    command.get_option("--preset")->excludes("--method");
     defineSettingOptions(command, motion_blur::listBudgetRows(), arguments.budget, arguments.typed);
 }
 
 core::Result<MethodOptions> interpret(const MethodArguments& arguments) {
-    auto method = findMethod(arguments.method);
-    if (!method)
-        return method.error();
     MethodOptions options;
-    options.method = method.value();
-    for (const auto step : {interpretSamples, interpretError})
+    for (const auto step : {chooseMethod, interpretSamples, interpretError})
         SHUTTER_TRY(step(arguments, options));
     for (const std::string& setting : arguments.settings)
         SHUTTER_TRY(applySetting(setting, *options.method, options.motionBlur));

@@ -42,7 +42,23 @@ Status validateRowsOfAll(const PlaySettings& settings) {
     return {};
 }
 
+bool isSharp(const Preset& preset) {
+    return std::string_view(preset.method) == "sharp";
+}
+
 } // namespace
+
+void applyPreset(const Preset& preset, PlaySettings& settings) {
+    settings.method = preset.method;
+    if (!isSharp(preset))
+        settings.blur = preset.blur;
+}
+
+bool isApplied(const Preset& preset, const PlaySettings& settings) {
+    return settings.method == preset.method &&
+           (isSharp(preset) ||
+            core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
+}
 
 scene::CameraShutter makePlayShutter() {
     scene::CameraShutter shutter;

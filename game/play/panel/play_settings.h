@@ -6,6 +6,7 @@
 #include "engine/core/setting_row.h"
 #include "engine/scene/components.h"
 #include "game/shot/methods.h"
+#include "game/shot/presets.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
@@ -21,17 +22,14 @@ namespace shutter::game {
 /// frames per second, so that a slow machine does not smear.
 [[nodiscard]] scene::CameraShutter makePlayShutter();
 
-/// The blur of a new player: the preset "balanced".
-[[nodiscard]] motion_blur::MotionBlurSettings makePlayBlur();
-
 struct PlaySettings {
     std::string method = "resolved";  ///< of the picture, right of a split; a name of listMethods()
     std::string leftMethod = "sharp"; ///< left of a split
     bool split = false;
     double dividerShare = 0.5; ///< of the window's width, [0, 1]
     std::string view; ///< the intermediate that is shown (debug_view.h); empty: the picture
-    motion_blur::MotionBlurSettings blur =
-        makePlayBlur(); ///< of every method that reads the field; `method` unused
+    motion_blur::MotionBlurSettings
+        blur{}; ///< of every method that reads the field; `method` unused
     motion_blur::BlurBudget budget;
     scene::CameraShutter shutter = makePlayShutter();
     /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
@@ -51,16 +49,7 @@ struct PlaySettings {
 [[nodiscard]] motion_blur::MotionBlurSettings
 makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
 
-/// Named sets of the blur's own fields (sampleCount, rayShare, ...); the rest stays.
-struct Preset {
-    const char* name;                     ///< "off", "performance", "balanced", "quality", "paper"
-    const char* description;              ///< one line
-    const char* method;                   ///< of listMethods()
-    motion_blur::MotionBlurSettings blur; ///< unused where the method is sharp
-};
-
-[[nodiscard]] std::span<const Preset> listPresets();
-/// Turning the blur off leaves its settings.
+/// Changes the method and the blur; turning the blur off leaves its settings.
 void applyPreset(const Preset& preset, PlaySettings& settings);
 /// The settings are as the preset makes them.
 [[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);

@@ -172,6 +172,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--phase", {"--phase", "start"}},
         {"--pixel", {"--method", "truth", "--pixel", "box"}},
         {"--rays", {"--rays", "none"}},
+        {"--preset", {"--preset", "paper"}},
         {"--reference-fps", {"--shutter-mode", "capped", "--reference-fps", "30"}},
         {"--response", {"--response", "triangle"}},
         {"--samples", {"--samples", "3"}},
