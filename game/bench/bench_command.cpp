@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/device.h"
 #include "game/bench/bench_run.h"
+#include "game/bench/contenders.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
 #include "game/options/error_output.h"
@@ -110,12 +111,12 @@ core::Result<Suite> chooseSuite(BenchArguments& arguments) {
 core::Result<std::vector<const MethodInfo*>> chooseMethods(const BenchArguments& arguments) {
     std::vector<const MethodInfo*> methods;
     if (arguments.methods.empty()) {
-        for (const MethodInfo& method : game::listMethods())
+        for (const MethodInfo& method : listContenders())
             methods.push_back(&method);
         return methods;
     }
     for (const std::string& name : arguments.methods) {
-        auto method = game::findMethod(name);
+        auto method = findContender(name);
         if (!method)
             return core::makeError("--methods: {}", method.error().message);
         methods.push_back(method.value());

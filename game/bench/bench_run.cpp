@@ -9,7 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <string_view>
 
 namespace shutter::bench {
 
@@ -24,8 +27,10 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The method at whose time all others are compared.
-constexpr const char* kReference = "hybrid";
+/// The method at whose time all others are compared: the first of these that is measured.
+constexpr const char* kReferences[] = {"resolved", "hybrid"};
+/// What the headline compares it with.
+constexpr const char* kBaseline = "gather";
 
 /// A run of one suite.
 class BenchRun {
@@ -78,6 +83,20 @@ class BenchRun {
         return steps + mSuite.hardCases.size() + mSuite.claims.size();
     }
 
+    bool isMeasured(std::string_view name) const {
+        return std::any_of(mMethods.begin(), mMethods.end(), [&](const auto* method) {
+            return method->name == name;
+        });
+    }
+
+    const char* findReference() const {
+        const auto* found =
+            std::find_if(std::begin(kReferences), std::end(kReferences), [&](const char* name) {
+                return isMeasured(name);
+            });
+        return found == std::end(kReferences) ? kReferences[0] : *found;
+    }
+
     void describeRun() {
         mRoot = {
             {"schema", "shutter-bench"},
@@ -93,6 +112,8 @@ class BenchRun {
             {"cases", json::array()},
             {"equalTime", json::array()},
             {"scaling", json::array()}};
+        if (isMeasured(findReference()) && isMeasured(kBaseline))
+            mRoot["headline"] = {{"method", findReference()}, {"baseline", kBaseline}};
         mRoot["settings"] = {
             {"width", mShot.width},
             {"height", mShot.height},
@@ -120,7 +141,7 @@ class BenchRun {
                 row.at("samples").is_null() ? 0u : row.at("samples").get<uint32_t>()
             );
         };
-        if (json row = compareAtEqualTime(described, kReference, imageOf); !row.is_null())
+        if (json row = compareAtEqualTime(described, findReference(), imageOf); !row.is_null())
             mRoot["equalTime"].push_back(std::move(row));
         mRoot["cases"].push_back(std::move(described));
     }

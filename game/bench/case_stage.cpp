@@ -6,6 +6,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "game/bench/contenders.h"
 #include "game/options/render_arguments.h"
 
 #include <fmt/format.h>
@@ -126,15 +127,12 @@ Status CaseStage::drawTruth(const fs::path& file) {
 
 core::Result<render::FrameResult>
 CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
-    const auto method = game::interpret(game::MethodArguments{
-        .method = drawn.point.method->name, .samples = drawn.point.samples});
-    if (!method)
-        return method.error();
     SHUTTER_TRY(game::checkPixel(mShotOptions, *drawn.point.method));
     if (!drawn.drawer)
         drawn.drawer = std::make_unique<game::PictureDrawer>(mDevice, *mRenderer);
-    game::PictureRequest picture =
-        game::makePicture(mShot, mShotOptions, method.value(), mShotOptions.frameTimes.front());
+    game::PictureRequest picture = game::makePicture(
+        mShot, mShotOptions, makeMethodOptions(drawn.point), mShotOptions.frameTimes.front()
+    );
     picture.frame.wantColor = false;
     picture.frame.wantDisplay = true;
     picture.ending = {&*mTonemap};
@@ -189,9 +187,9 @@ core::Result<image::Image> CaseStage::readDefault(std::string_view method) const
 
 core::Result<std::vector<Crop>> CaseStage::chooseCrops() const {
     auto gather = readDefault("gather");
-    auto hybrid = readDefault("hybrid");
+    auto resolved = readDefault("resolved");
     auto sharp = readDefault("sharp");
-    for (const auto* picture : {&gather, &hybrid, &sharp})
+    for (const auto* picture : {&gather, &resolved, &sharp})
         if (!*picture)
             return picture->error();
     std::vector<Crop> crops;
@@ -201,8 +199,8 @@ core::Result<std::vector<Crop>> CaseStage::chooseCrops() const {
         for (Crop& crop : findLargestDifference(a, b, kCropSidePx, label, crops))
             crops.push_back(std::move(crop));
     };
-    add(gather.value(), hybrid.value(), "where rays change the picture most");
-    add(gather.value(), hybrid.value(), "where rays change it second most");
+    add(gather.value(), resolved.value(), "where resolved and gather differ most");
+    add(gather.value(), resolved.value(), "where they differ second most");
     add(sharp.value(), mTruth, "where the shutter changes it most");
     return crops;
 }

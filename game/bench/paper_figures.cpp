@@ -20,9 +20,9 @@ json describeQuality() {
         {"columns", {"psnr", "ssim"}},
         {"baseline", "Adapted Post-Process"},
         {"rows",
-         {{{"name", "Adapted Post-Process"}, {"values", {24.20, 0.91}}, {"ours", "gather"}},
+         {{{"name", "Adapted Post-Process"}, {"values", {24.20, 0.91}}, {"ours", "gather_paper"}},
           {{"name", "UE4 Post-Process"}, {"values", {12.32, 0.68}}},
-          {{"name", "Hybrid MBlur"}, {"values", {25.69, 0.92}}, {"ours", "hybrid"}}}}};
+          {{"name", "Hybrid MBlur"}, {"values", {25.69, 0.92}}, {"ours", "hybrid_paper"}}}}};
 }
 
 json describePassTimes() {
@@ -81,7 +81,7 @@ json describePaperFigures() {
     return {
         {"source", "Tan, Cui and Bhojan, Hybrid MBlur, Tables 1 and 2"},
         {"case", "vase"},
-        {"method", "hybrid"},
+        {"method", "hybrid_paper"},
         {"table1", describeQuality()},
         {"table2", describePassTimes()},
         {"findings",
@@ -91,8 +91,9 @@ json describePaperFigures() {
               "picture: it falls as more of the picture moves and as the background's contrast "
               "grows, and our mover covers less of the picture than the paper's.",
               "What can be held against the paper is the order of the methods and the lead of "
-              "hybrid over gather. Settings are the paper's in both; none was chosen by looking at "
-              "the truth.",
+              "hybrid over gather. Settings are the paper's in gather_paper and hybrid_paper; "
+              "gather "
+              "and hybrid have the defaults, which measure better.",
               "Our times are of another device. Shares of the frame tell more than milliseconds: "
               "on a processor the G-buffer with its shading takes most of the frame, on a graphics "
               "card the filters take most of what is left."}

@@ -40,7 +40,7 @@ class Measured(unittest.TestCase):
         self.assertTrue(results["complete"])
 
     def test_the_paper_suite(self):
-        results = self.measure("--suite", "paper", "--methods", "sharp,gather,hybrid,truth")
+        results = self.measure("--suite", "paper", "--methods", "sharp,gather,hybrid,hybrid_paper,resolved,truth")
         self.validate(results)
         case = results["cases"][0]
         counts = {m["method"]: [] for m in case["measurements"]}
@@ -49,7 +49,11 @@ class Measured(unittest.TestCase):
         self.assertEqual(counts["sharp"], [None])
         self.assertEqual(counts["hybrid"], [4, 8, 15, 16, 32, 64])
         self.assertEqual(counts["truth"], [1 << i for i in range(9)])
-        self.assertEqual(results["equalTime"][0]["reference"]["method"], "hybrid")
+        self.assertEqual(results["equalTime"][0]["reference"]["method"], "resolved")
+        self.assertEqual(results["headline"], {"method": "resolved", "baseline": "gather"})
+        # The publication's numbers give another picture than the defaults.
+        psnr = {m["method"]: m["metrics"]["psnr"] for m in case["measurements"] if m["isDefault"]}
+        self.assertNotEqual(psnr["hybrid_paper"], psnr["hybrid"])
 
     def test_a_hard_case(self):
         results = self.measure("--suite", "hard", "--case", "spin", "--methods", "sharp,denoised")

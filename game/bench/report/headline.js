@@ -2,8 +2,12 @@
 // What a better picture costs, in a sentence of computed figures; then the methods as a ladder.
 
 /** The two methods that the headline compares: as the results say, else hybrid and gather. */
+function headlineMethods() {
+    return results.headline ?? {method: "hybrid", baseline: "gather"};
+}
+
 function findHeadlinePair() {
-    const {method, baseline} = results.headline ?? {method: "hybrid", baseline: "gather"};
+    const {method, baseline} = headlineMethods();
     const cases = results.cases.filter((c) => defaultOf(c, method) && defaultOf(c, baseline));
     return cases.length > 0 ? {method, baseline, cases} : null;
 }
@@ -46,7 +50,7 @@ function writePairSentence(pair, metric) {
 
 function writeScalingSentence() {
     const axis = results.scaling?.[0];
-    const wanted = results.headline?.method ?? "hybrid";
+    const wanted = headlineMethods().method;
     const series = axis?.series.find((s) => s.method === wanted) ?? axis?.series[0];
     if (!series) return null;
     const first = series.points[0];

@@ -5,7 +5,7 @@ const kPanels = 4;
 /** Pictures that the reader put into the panels, by place; what is not there falls back. */
 const panelChoices = [];
 
-/** sharp, gather, hybrid, truth where they are there; what is there, in order, where not. */
+/** sharp, the headline's two methods, truth where they are there; what is there, in order, where not. */
 function choosePanels(list) {
     const taken = new Set();
     const take = (wanted) => {
@@ -14,7 +14,8 @@ function choosePanels(list) {
         return found;
     };
     const ofMethod = (name) => (p) => p.method === name && p.measurement.isDefault;
-    const wishes = [ofMethod("sharp"), ofMethod("gather"), ofMethod("hybrid"),
+    const {method, baseline} = headlineMethods();
+    const wishes = [ofMethod("sharp"), ofMethod(baseline), ofMethod(method),
         (p) => p.measurement === null];
     const panels = [];
     for (let i = 0; i < kPanels; ++i) {

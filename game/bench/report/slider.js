@@ -35,8 +35,8 @@ function drawSlider() {
     const pick = (id, method, fallback) => layers.find((layer) => layer.id === id) ??
         layers.find((layer) => layer.picture?.method === method &&
             layer.picture.measurement.isDefault) ?? fallback;
-    const right = pick(comparison.right, "hybrid", layers[1]);
-    const left = pick(comparison.left, "gather", layers.find((layer) => layer !== right));
+    const right = pick(comparison.right, headlineMethods().method, layers[1]);
+    const left = pick(comparison.left, headlineMethods().baseline, layers.find((layer) => layer !== right));
     const crops = theCase.crops ?? [];
     const region = crops[Number(comparison.region)] ?? null;
     const options = layers.map(({id, label}) => ({value: id, label}));
