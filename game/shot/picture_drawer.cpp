@@ -134,7 +134,7 @@ PictureDrawer::prepare(const scene::World& world, const PictureRequest& request)
     SHUTTER_CHECK(request.slot < kSlots, "slot {} of {}", request.slot, kSlots);
     const extract::ViewRequest& view = request.frame.view;
     SHUTTER_TRY(check(mDevice, request.method, view.width, view.height));
-    if (countSteps(request.method) == 0)
+    if (countSteps(request.method) + request.raysBefore == 0)
         return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
     PictureRequest prepared = request;
     if (!prepared.cap) {
@@ -241,8 +241,9 @@ core::Status PictureDrawer::submitPart(
         effects.push_back(own);
     if (part.isShown)
         effects.insert(effects.end(), request.ending.begin(), request.ending.end());
+    const bool isFirst = part.done == request.raysBefore;
     return submitFrame(
-        world, frame, effects, {request.slot, part.done == 0, part.isShown, isLast && !hasMore}
+        world, frame, effects, {request.slot, isFirst, part.isShown, isLast && !hasMore}
     );
 }
 
@@ -290,8 +291,11 @@ core::Status PictureDrawer::submit(const scene::World& world, const PictureReque
         return prepared.error();
     const PictureRequest& request = prepared.value();
     SHUTTER_TRY(submitFrameBefore(world, request));
-    Part part{.total = countSteps(request.method)};
-    for (const uint32_t count : planParts(request, {})) {
+    Part part{.done = request.raysBefore, .total = request.raysBefore + countSteps(request.method)};
+    std::vector<uint32_t> counts = planParts(request, {});
+    if (counts.empty())
+        counts = {0}; // the mean of those before is shown once more
+    for (const uint32_t count : counts) {
         part.count = count;
         part.isShown = part.done + count == part.total;
         SHUTTER_TRY(submitPart(world, request, part));

@@ -31,6 +31,9 @@ struct PictureRequest {
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                                       ///< accumulate, truth
     uint32_t raysPerFrame = 0; ///< truth: most rays per pixel of one frame; 0: as the device bears
+    /// truth: rays per pixel that the slot's last picture, of the same view, was left with; the
+    /// method's samples, then 0 or more, are added to them.
+    uint32_t raysBefore = 0;
     /// The frame before is drawn first for a method that looks things up in it, unless it is what
     /// the slot drew last.
     bool drawsFrameBefore = true;

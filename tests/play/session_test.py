@@ -48,6 +48,21 @@ class Session(PlayCase):
         for half in (slice(0, 238), slice(242, 480)):
             self.assertGreater(abs(hybrid[:, half].astype(float) - sharp[:, half]).mean(), 0.5)
 
+    def test_photo_mode_adds_rays_until_the_picture_is_the_truth(self):
+        def shoot(name, *taps, frames, method, rays=1):
+            script = Script().add(key="f1").add(key="w", action="press").wait(8)
+            for key in taps:
+                script.tap(key)
+            script.wait(frames).add(screenshot=f"{name}.png").wait(2).add(window="quit")
+            self.play("rally", script, "--method", method, display=False, rays=rays)
+            return skimage.io.imread(self.folder / f"{name}.png")[40:80].astype(int)
+
+        # Four frames of photo mode, the key's and the screenshot's included, are one of four rays.
+        photo = shoot("photo", "t", frames=2, method="resolved")
+        truth = shoot("truth", "p", frames=2, method="truth", rays=4)
+        self.assertTrue((photo == truth).all())
+        self.assertFalse((photo == shoot("three", "p", frames=0, method="truth", rays=3)).all())
+
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
         self.play("spin", script, display=False)

@@ -71,6 +71,7 @@ PanelWishes applyHotkeys(
             applyPreset(listPresets()[i], settings);
     PanelWishes wishes;
     wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
+    wishes.togglePhoto = input.wasPressed(Key::T);
     wishes.singleStep = input.wasPressed(Key::Period);
     wishes.toggleRecording = input.wasPressed(Key::R);
     wishes.toggleFullScreen = input.wasPressed(Key::F11);

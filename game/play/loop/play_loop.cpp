@@ -33,6 +33,7 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
     both.singleStep = panel.singleStep || keys.singleStep;
+    both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
     both.toggleFullScreen = panel.toggleFullScreen || keys.toggleFullScreen;
     both.quit = panel.quit || keys.quit;
@@ -244,6 +245,7 @@ PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
     facts.pictureSize = scaledSize(mScreen.size(), mSettings.resolutionScale);
     facts.exposure = mExposure;
     facts.paused = mClock.isPaused();
+    facts.photoRays = mPhoto.rays();
     facts.speed = mClock.speed();
     facts.recording = mRecorder.isRecording();
     facts.methods = mMethods;
@@ -264,11 +266,16 @@ PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds
 
 void PlayLoop::apply(const PanelWishes& wishes) {
     mQuit = mQuit || wishes.quit;
-    if (wishes.togglePause)
+    if (wishes.togglePause) {
         mClock.setPaused(!mClock.isPaused());
+        mPhoto.turn(false);
+    }
+    if (wishes.togglePhoto)
+        turnPhotoMode(!mPhoto.isOn());
     if (wishes.speed)
         mClock.setSpeed(*wishes.speed);
     if (wishes.singleStep) {
+        mPhoto.turn(false);
         mClock.setPaused(true);
         mClock.stepOnce(kSingleStepSeconds);
     }
@@ -283,6 +290,18 @@ void PlayLoop::apply(const PanelWishes& wishes) {
     }
     if (wishes.toggleRecording)
         toggleRecording();
+}
+
+void PlayLoop::turnPhotoMode(bool on) {
+    if (on && std::find(mMethods.begin(), mMethods.end(), "truth") == mMethods.end()) {
+        mMessage = fmt::format(
+            "photo mode needs ray queries, which {} cannot trace", mScreen.device().info().name
+        );
+        return;
+    }
+    mPhoto.turn(on);
+    if (on)
+        mClock.setPaused(true);
 }
 
 void PlayLoop::toggleRecording() {
@@ -314,7 +333,8 @@ core::Status PlayLoop::drawPicture(double duration) {
     math::uvec2 size = mScreen.size();
     if (size.x == 0 || size.y == 0)
         return {};
-    mRenderer->makeRoom(mSettings);
+    const PlaySettings settings = mPhoto.isOn() ? mPhoto.choose(mSettings) : mSettings;
+    mRenderer->makeRoom(settings);
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
     if (swapchain) {
@@ -332,7 +352,11 @@ core::Status PlayLoop::drawPicture(double duration) {
     }
     if (picture.readBack && swapchain && !swapchain->canBeRead())
         return core::makeError("this display's pictures cannot be read: no film, no screenshots");
-    SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, mSettings));
+    if (mPhoto.isOn())
+        picture.moreRays = {mPhoto.begin(mStage->world(), picture.view), mPhoto.raysToAdd()};
+    SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, settings));
+    if (mPhoto.isOn())
+        mPhoto.end();
     if (shown)
         mScreen.present(*shown, mSettings.vsync, *mRenderer);
     notePicture();

@@ -5,6 +5,7 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "game/play/loop/flythrough_recorder.h"
+#include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"
 #include "game/play/loop/play_screen.h"
@@ -63,6 +64,7 @@ class PlayLoop {
     /// Sets the exposure of a frame that ends now and takes `duration` seconds of game time.
     void chooseExposure(double duration);
     void replaceMissingMethods();
+    void turnPhotoMode(bool on);
 
     const PlayOptions& mOptions;
     Clock::time_point mStart;
@@ -83,6 +85,7 @@ class PlayLoop {
     std::optional<Clock::time_point> mLastTurn;
     PlayRecord mRecord;
     FlythroughRecorder mRecorder;
+    PhotoMode mPhoto;
     bool mDraggingDivider = false;
     bool mHasDrawn = false; ///< in the last turn
     bool mQuit = false;

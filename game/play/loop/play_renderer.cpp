@@ -100,6 +100,10 @@ core::Status PlayRenderer::draw(
     auto right = makeRequest(PlaySide::Right, frame, settings);
     if (!right)
         return right.error();
+    if (picture.moreRays) {
+        right.value().raysBefore = picture.moreRays->before;
+        right.value().method.samples = picture.moreRays->added;
+    }
     mRightView.setView(settings.view);
     mWindow.setTarget(window);
     right.value().cap = cap.value();

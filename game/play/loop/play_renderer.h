@@ -27,6 +27,14 @@ struct PlayPicture {
     gpu::SubmitSemaphores semaphores; ///< of the frame that draws on the window
     bool readBack = false;            ///< keep the window's picture for takePicture()
     bool wantReasons = false;         ///< of the work and passes too, for the panel
+
+    /// Rays that are added to the picture drawn last, whose view it shares.
+    struct MoreRays {
+        uint32_t before = 0; ///< per pixel of the picture so far
+        uint32_t added = 0;  ///< per pixel of this frame
+    };
+
+    std::optional<MoreRays> moreRays; ///< for the method truth without a split
 };
 
 /// Each world's assets need a renderer of their own.

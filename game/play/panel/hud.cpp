@@ -18,6 +18,7 @@ constexpr const char* kKeys[] = {
     "1-5 presets",
     "B reduced motion",
     "P pause",
+    "T photo",
     ". step",
     ", slower",
     "/ faster",
@@ -84,7 +85,9 @@ void drawGame(const PanelFacts& facts, float margin) {
     for (const HudLine& line : facts.hud)
         column.add(line.text, line.emphasis ? kEmphasis : kText, line.emphasis);
     std::string state;
-    if (facts.paused)
+    if (facts.photoRays)
+        state = fmt::format("photo mode: truth, {} rays per pixel", *facts.photoRays);
+    else if (facts.paused)
         state = "paused";
     else if (facts.speed != 1.0)
         state = fmt::format("speed {:g}", facts.speed);
@@ -104,17 +107,19 @@ float drawRates(const PanelFacts& facts, const PlaySettings& settings, float mar
     if (facts.right)
         column.add(
             (facts.left && settings.split ? "right: " : "") +
-            describeBlurCost(settings.method, *facts.right, milliseconds)
+            describeBlurCost(
+                facts.photoRays ? "truth" : settings.method, *facts.right, milliseconds
+            )
         );
     return column.y();
 }
 
-void drawSides(const PlaySettings& settings, float y) {
+void drawSides(const PanelFacts& facts, const PlaySettings& settings, float y) {
     const float gap = ImGui::GetFontSize();
     const float width = ImGui::GetIO().DisplaySize.x;
     const float divider = std::floor(width * static_cast<float>(settings.dividerShare));
-    if (!settings.split) {
-        TextColumn({gap, y}, 0.0f).add(settings.method);
+    if (facts.photoRays || !settings.split) {
+        TextColumn({gap, y}, 0.0f).add(facts.photoRays ? "truth" : settings.method);
         return;
     }
     TextColumn({divider - gap, y}, 1.0f).add(settings.leftMethod);
@@ -159,7 +164,7 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
         y -= margin;
     }
     y -= line;
-    drawSides(settings, y);
+    drawSides(facts, settings, y);
     space.bottom = window.y - y + margin;
     return space;
 }

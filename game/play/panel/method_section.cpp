@@ -125,6 +125,10 @@ std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
 void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes) {
     ButtonRow buttons;
     wishes.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
+    wishes.togglePhoto = buttons.add(
+        facts.photoRays ? "End photo" : "Photo",
+        "Pause, and trace the picture until it is the truth. Key T."
+    );
     wishes.singleStep = buttons.add("Step", "One frame on, and pause. Key period.");
     wishes.toggleRecording = buttons.add(
         facts.recording ? "Stop recording" : "Record", "The camera's way as a flythrough. Key R."

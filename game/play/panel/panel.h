@@ -28,6 +28,7 @@ struct PanelFacts {
     math::uvec2 pictureSize{1u};      ///< pixels
     scene::ExposureInterval exposure; ///< of the frame
     bool paused = false;
+    std::optional<uint32_t> photoRays; ///< per pixel of photo mode's picture; nothing: it is off
     double speed = 1.0;
     bool recording = false;               ///< a flythrough is being recorded
     std::span<const std::string> methods; ///< that the device can run
@@ -39,6 +40,7 @@ struct PanelWishes {
     bool save = false;
     bool load = false;
     bool togglePause = false;
+    bool togglePhoto = false;
     bool singleStep = false;
     bool toggleRecording = false;
     bool toggleFullScreen = false;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Photo mode: a paused picture is traced, more rays in every frame, until it is the truth.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/scene/world.h"
+#include "game/play/panel/play_settings.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace shutter::game {
+
+class PhotoMode {
+  public:
+    static constexpr uint32_t kMostRays = 256; ///< per pixel: then nothing is added any more
+
+    [[nodiscard]] bool isOn() const { return mIsOn; }
+
+    void turn(bool on);
+
+    /// The settings with which the next frame is drawn: `truth` over the whole window.
+    [[nodiscard]] PlaySettings choose(const PlaySettings& settings) const;
+
+    /// Rays per pixel that the picture has had so far: 0 where it is another one than in the call
+    /// before, because the camera, the shutter or the size is.
+    [[nodiscard]] uint32_t begin(const scene::World& world, const extract::ViewRequest& view);
+
+    /// Rays per pixel that the frame after begin() adds, 0 or 1.
+    [[nodiscard]] uint32_t raysToAdd() const { return mRays < kMostRays ? 1 : 0; }
+
+    void end() { mRays += raysToAdd(); }
+
+    /// Rays per pixel of the last frame; nothing while it is off.
+    [[nodiscard]] std::optional<uint32_t> rays() const;
+
+  private:
+    struct Picture {
+        extract::ViewRequest view;
+        math::dmat4 cameraAtOpen{1.0};
+        math::dmat4 cameraAtClose{1.0};
+    };
+
+    [[nodiscard]] static bool areSame(const Picture& a, const Picture& b);
+
+    bool mIsOn = false;
+    uint32_t mRays = 0;
+    std::optional<Picture> mPicture;
+};
+
+} // namespace shutter::game
