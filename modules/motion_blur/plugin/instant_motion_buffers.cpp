@@ -28,12 +28,12 @@ class Layout {
 };
 
 struct PlacedLayer {
-    const extract::LayerTables* tables = nullptr;
+    const math::LayerTables* tables = nullptr;
     VkDeviceSize movers = 0;
     VkDeviceSize motions = 0;
 };
 
-PlacedLayer place(Layout& layout, const extract::LayerTables& tables) {
+PlacedLayer place(Layout& layout, const math::LayerTables& tables) {
     return {&tables, layout.add(tables.movers), layout.add(tables.motions)};
 }
 
