@@ -20,13 +20,16 @@
 
 namespace shutter::motion_blur {
 
+class RasterHistory;
+
 /// Where the surfaces of this frame's raster, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
     VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
     uint32_t instantCount = 0; ///< MotionBlurSettings::sampleCount
-    bool hasLast = false;      ///< of the raster that the call before was given with keepsRaster
-    bool keepsRaster = true;   ///< for the next call
+    bool hasLast = false;      ///< of the raster that `history` keeps, too
+    /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
+    RasterHistory* history = nullptr;
 };
 
 struct MotionBlurInputs {

@@ -57,9 +57,10 @@ InstantMotions InstantMotionBuffers::update(
     bool keepsRaster,
     uint32_t slot
 ) {
-    extract::InstantTables tables = extract::computeInstantTables(
-        world, view, frame, instantCount, keepsRaster && mLast ? &*mLast : nullptr
-    );
+    if (!keepsRaster)
+        forget();
+    extract::InstantTables tables =
+        extract::computeInstantTables(world, view, frame, instantCount, mLast ? &*mLast : nullptr);
     Layout layout;
     std::vector<shader::InstantMotions> head(1);
     const VkDeviceSize headAt = layout.add(head);
@@ -86,9 +87,16 @@ InstantMotions InstantMotionBuffers::update(
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);
     if (keepsRaster)
         mLast = std::move(tables.record);
-    else
-        mLast.reset();
-    return {buffer.address() + headAt, instantCount, last.has_value(), keepsRaster};
+    return {
+        buffer.address() + headAt,
+        instantCount,
+        last.has_value(),
+        keepsRaster ? &mHistory : nullptr};
+}
+
+void InstantMotionBuffers::forget() {
+    mLast.reset();
+    mHistory.forget();
 }
 
 } // namespace shutter::motion_blur
