@@ -35,8 +35,8 @@ struct InstantMotions {
 struct MotionBlurInputs {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
-    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for methods that read the surface
-    graph::ImageHandle entityId;    ///< R32_UINT; for methods that read the surface
+    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for Method::readsNormal
+    graph::ImageHandle entityId;    ///< R32_UINT; for Method::readsEntityId
     double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
     glm::uvec2 response{0u};        ///< address of shader::ResponseTable; 0: a box
     /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves

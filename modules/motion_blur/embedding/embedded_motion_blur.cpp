@@ -133,10 +133,10 @@ core::Status EmbeddedMotionBlur::checkMethod(
         return makeError(
             "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
         );
-    if (method.readsSurface)
-        for (const auto& [name, image] :
-             {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
-            SHUTTER_TRY(checkImage(name, *image));
+    if (method.readsNormal)
+        SHUTTER_TRY(checkImage("normal", inputs.normal));
+    if (method.readsEntityId)
+        SHUTTER_TRY(checkImage("entityId", inputs.entityId));
     if (method.rays == RayNeed::None && !method.readsCamera)
         return {};
     if (inputs.rays.frameConstants == 0)

@@ -58,8 +58,8 @@ struct HostInputs {
     uint32_t height = 0;
     HostImage color;       ///< RGBA16F; sampled, transfer source; in place: storage, too
     HostImage motionDepth; ///< RGBA32F: motion.xy, depth; every value finite; sampled
-    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for methods that read the surface
-    HostImage entityId;    ///< R32_UINT; sampled; for methods that read the surface
+    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for Method::readsNormal
+    HostImage entityId;    ///< R32_UINT; sampled; for Method::readsEntityId
     /// RGBA16F; storage, transfer target. Null: in place, the blurred picture replaces `color`.
     HostImage output;
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
