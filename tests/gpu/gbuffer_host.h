@@ -8,6 +8,7 @@
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "tests/gpu/embedding_host.h"
 
+#include <functional>
 #include <string>
 
 namespace shutter::test {
@@ -36,6 +37,8 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     Picture output;
     Picture inPlace;
+    /// Says how things move in the frame. What it points to must last until the frame is recorded.
+    std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
     [[nodiscard]] std::string name() const override { return "host"; }
 
@@ -60,6 +63,8 @@ class HostOfTheGBuffer : public render::PostEffect {
             inputs.rays.frameConstants = context.rays->frameConstants;
             inputs.rays.hasBlended = context.rays->hasBlended;
         }
+        if (describeMotion)
+            describeMotion(context, inputs.motion);
         using graph::Access;
         const graph::BufferHandle level =
             context.rays ? context.rays->tlasBuffer : graph::BufferHandle{};
@@ -110,6 +115,7 @@ class HostOfTheGBuffer : public render::PostEffect {
         moveOn(commands, color, kCopied, kSampled);
         inputs.output = {};
         inputs.color = {inPlace.handle(), kWritten, kCopied};
+        inputs.motion.view = 1;
         const core::Status same = mBlur.record(commands, 1, inputs, mSettings);
         ASSERT_TRUE(same.ok()) << same.error().message;
         inPlace.recordReadback(commands);
