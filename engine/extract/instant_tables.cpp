@@ -18,44 +18,12 @@ namespace shutter::extract {
 namespace {
 
 using math::dmat4;
-using math::dvec3;
-using math::dvec4;
+using math::LayerBuilder;
+using math::LayerTables;
 
 constexpr uint32_t kNoRow = 0xFFFFFFFFu;
 /// Share of a frame's duration within which two times are the same: frame times are rounded.
 constexpr double kFrameSlack = 1.0e-3;
-
-/// Picture space from view space.
-dmat4 makePicture(const dmat4& clipFromView, const ViewRequest& view) {
-    const dmat4 rows = glm::transpose(clipFromView);
-    const math::dvec2 size(view.width, view.height);
-    dmat4 picture(0.0); // its rows
-    for (int axis = 0; axis < 2; ++axis)
-        picture[axis] = 0.5 * size[axis] * (rows[axis] + rows[3]) - view.jitterPx[axis] * rows[3];
-    picture[2] = dvec4(0.0, 0.0, -1.0, 0.0);
-    picture[3] = dvec4(0.0, 0.0, 0.0, 1.0);
-    return glm::transpose(picture);
-}
-
-/// Places have no meaning for the sky: only directions.
-dmat4 withoutTranslation(const dmat4& matrix) {
-    dmat4 result = matrix;
-    result[3] = dvec4(0.0, 0.0, 0.0, 1.0);
-    return result;
-}
-
-shader::InstantMotion makeMotion(const dmat4& instantFromRaster) {
-    shader::InstantMotion motion{};
-    const dmat4 inverse = glm::inverse(instantFromRaster);
-    if (!math::isFinite(instantFromRaster) || !math::isFinite(inverse))
-        return motion;
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column) {
-            motion.instantFromRaster[row][column] = float(instantFromRaster[column][row]);
-            motion.rasterFromInstant[row][column] = float(inverse[column][row]);
-        }
-    return motion;
-}
 
 bool anyBlurScale(const scene::World& world) {
     const auto view = world.registry.view<scene::MotionBlur>();
@@ -99,7 +67,8 @@ class Builder {
         const double aspect = double(mView.width) / mView.height;
         const dmat4 clip = makeProjection(mCamera, mMotion.cameraYFov(s), aspect);
         const dmat4 worldFromView = computeWorldFromView(mMotion.worldFromCamera(s));
-        return makePicture(clip, mView) * glm::inverse(worldFromView);
+        const math::uvec2 sizePx(mView.width, mView.height);
+        return math::pictureFromView(clip, sizePx, mView.jitterPx) * glm::inverse(worldFromView);
     }
 
     RasterRecord makeRecord() const {
@@ -119,48 +88,24 @@ class Builder {
         return record;
     }
 
-    /// The world and the sky, which every layer has.
-    LayerTables begin(const dmat4& layerPicture, size_t rows) const {
-        LayerTables layer;
-        layer.movers.assign(rows + 1, shader::kWorldMover);
-        layer.movers[rows] = shader::kSkyMover;
-        layer.isStill = std::all_of(mPictures.begin(), mPictures.end(), [&](const dmat4& picture) {
-            return picture == layerPicture;
-        });
-        const dmat4 worldFromLayer = glm::inverse(layerPicture);
-        for (const dmat4& picture : mPictures)
-            layer.motions.push_back(makeMotion(picture * worldFromLayer));
-        const bool hasDirections = mCamera.kind == scene::CameraKind::Perspective;
-        const dmat4 skyFromLayer = glm::inverse(withoutTranslation(layerPicture));
-        for (const dmat4& picture : mPictures)
-            layer.motions.push_back(
-                makeMotion(hasDirections ? withoutTranslation(picture) * skyFromLayer : dmat4(1.0))
-            );
-        return layer;
+    [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {
+        return {layerPicture, mPictures, mCamera.kind == scene::CameraKind::Perspective, rows};
     }
 
-    void addMover(
-        LayerTables& layer,
-        size_t row,
-        ecs::Entity entity,
-        const dmat4& layerPicture,
-        const dmat4& worldFromObject
-    ) const {
-        layer.movers[row] = static_cast<uint32_t>(layer.motions.size() / mTimes.size());
-        const dmat4 objectFromLayer = glm::inverse(layerPicture * worldFromObject);
-        for (size_t i = 0; i < mTimes.size(); ++i)
-            layer.motions.push_back(makeMotion(
-                mPictures[i] * mMotion.worldFromObject(entity, mTimes[i]) * objectFromLayer
-            ));
+    void addMover(LayerBuilder& layer, size_t row, ecs::Entity entity, const dmat4& worldFromObject)
+        const {
+        layer.addMover(row, worldFromObject, [&](size_t instant) {
+            return mMotion.worldFromObject(entity, mTimes[instant]);
+        });
     }
 
     LayerTables describeRaster() const {
         const size_t rows = mFrame.worldFromObject.size();
-        LayerTables layer = begin(mRasterPicture, rows);
+        LayerBuilder layer = begin(mRasterPicture, rows);
         const auto describe = [&](size_t row) {
             const ecs::Entity entity = mFrame.entityHandles[row];
             if (mMotion.mayObjectMove(entity))
-                addMover(layer, row, entity, mRasterPicture, mFrame.worldFromObject[row]);
+                addMover(layer, row, entity, mFrame.worldFromObject[row]);
         };
         // What an artist's scale, or a cap, moves is static in the world.
         if (anyBlurScale(mWorld) || !mView.exposure.cap.movers.empty()) {
@@ -172,8 +117,8 @@ class Builder {
         }
         for (const DeformedEntity& one : mFrame.deformed)
             if (one.changes)
-                layer.movers[one.row] = shader::kDeformedMover;
-        return layer;
+                layer.setMover(one.row, shader::kDeformedMover);
+        return layer.take();
     }
 
     bool mayUse(const RasterRecord& last) const {
@@ -220,7 +165,7 @@ class Builder {
 
     LayerTables describeLast(const RasterRecord& last, const RasterRecord& now) const {
         const size_t count = last.entities.size();
-        LayerTables layer = begin(last.pictureFromWorld, count);
+        LayerBuilder layer = begin(last.pictureFromWorld, count);
         const std::vector<uint32_t> rows = findRows(last, now);
         const scene::TimeSpan span{
             last.seconds + kFrameSlack * mView.exposure.frameSeconds,
@@ -232,7 +177,7 @@ class Builder {
         for (size_t row = 0; row < count; ++row) {
             const uint32_t current = rows[row];
             if (current == kNoRow || last.deforms[row] || now.deforms[current]) {
-                layer.movers[row] = shader::kNoMover;
+                layer.setMover(row, shader::kNoMover);
                 continue;
             }
             const bool wasMoved = last.worldFromObject[row] != now.worldFromObject[current];
@@ -240,11 +185,11 @@ class Builder {
             if (!wasMoved && !(mayMove[current] && mMotion.mayObjectMove(entity)))
                 continue;
             if (scene::hasNoPast(mWorld, entity, span))
-                layer.movers[row] = shader::kNoMover;
+                layer.setMover(row, shader::kNoMover);
             else
-                addMover(layer, row, entity, last.pictureFromWorld, last.worldFromObject[row]);
+                addMover(layer, row, entity, last.worldFromObject[row]);
         }
-        return layer;
+        return layer.take();
     }
 
     const scene::World& mWorld;

@@ -6,12 +6,11 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/extract/extracted_frame.h"
+#include "engine/math/layer_tables.h"
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
-#include "shaders/render/instant_motion_shared.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace shutter::extract {
@@ -22,25 +21,13 @@ struct RasterRecord {
     ecs::Entity camera;
     uint32_t width = 0;
     uint32_t height = 0;
-    math::dmat4 pictureFromWorld{1.0}; ///< picture space (instant_motion_shared.h)
+    math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
     std::vector<ecs::Entity> entities; ///< one per row of the entity table
     std::vector<math::dmat4> worldFromObject;
     std::vector<bool> deforms; ///< the row's shape changes during the exposure
 };
 
-/// What one raster holds of the exposure.
-struct LayerTables {
-    std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
-    std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
-    /// What stands still in the world is where the raster has it, at every instant.
-    bool isStill = false;
-};
-
-struct InstantTables {
-    LayerTables raster;
-    std::optional<LayerTables> last; ///< nothing: the last raster says nothing about this frame
-    std::vector<float> times;        ///< shutter time of each instant, [0, 1]
-    bool isPerspective = true;
+struct InstantTables : math::InstantLayers {
     RasterRecord record; ///< of this frame's raster, for the frame after
 };
 

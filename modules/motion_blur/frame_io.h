@@ -20,20 +20,23 @@
 
 namespace shutter::motion_blur {
 
+class RasterHistory;
+
 /// Where the surfaces of this frame's raster, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
-    VkDeviceAddress table = 0; ///< shader::InstantMotions (render/instant_motion_shared.h)
+    VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
     uint32_t instantCount = 0; ///< MotionBlurSettings::sampleCount
-    bool hasLast = false;      ///< of the raster that the call before was given with keepsRaster
-    bool keepsRaster = true;   ///< for the next call
+    bool hasLast = false;      ///< of the raster that `history` keeps, too
+    /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
+    RasterHistory* history = nullptr;
 };
 
 struct MotionBlurInputs {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
-    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for methods that read the surface
-    graph::ImageHandle entityId;    ///< R32_UINT; for methods that read the surface
+    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for Method::readsNormal
+    graph::ImageHandle entityId;    ///< R32_UINT; for Method::readsEntityId
     double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
     glm::uvec2 response{0u};        ///< address of shader::ResponseTable; 0: a box
     /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves

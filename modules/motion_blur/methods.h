@@ -65,7 +65,8 @@ struct Method {
     uint32_t defaultSamples = 15;
     /// The raster image is an input; false: the method draws a picture of its own.
     bool readsRaster = true;
-    bool readsSurface = false; ///< normal and entity id are inputs
+    bool readsNormal = false;   ///< MotionBlurInputs::normal is an input
+    bool readsEntityId = false; ///< MotionBlurInputs::entityId is an input
     /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced.
     bool readsCamera = false;
     bool readsInstantMotions = false; ///< MotionBlurInputs::instantMotions is an input

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where a layer's surfaces are at an instant of the exposure (render/instant_motion_shared.h). A
+// Where a layer's surfaces are at an instant of the exposure (common/instant_motion_shared.h). A
 // layer is a raster image: this frame's or the last one's.
 #ifndef SHUTTER_RESOLVED_GLSL
 #define SHUTTER_RESOLVED_GLSL

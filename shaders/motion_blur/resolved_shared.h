@@ -3,7 +3,7 @@
 #ifndef SHUTTER_RESOLVED_SHARED_H
 #define SHUTTER_RESOLVED_SHARED_H
 
-#include "render/instant_motion_shared.h"
+#include "common/instant_motion_shared.h"
 
 SHUTTER_SHADER_BEGIN
 

@@ -5,186 +5,28 @@
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/gpu/gbuffer_host.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/picture.h"
 
-#include <glm/gtc/packing.hpp>
-
 #include <array>
-#include <cstring>
-#include <limits>
-#include <optional>
 #include <span>
-#include <string>
+#include <vector>
 
 namespace shutter {
 namespace {
 
 using math::dvec3;
-using motion_blur::EmbeddedMotionBlur;
 using motion_blur::getMethod;
 using motion_blur::HostDevice;
-using motion_blur::HostImage;
-using motion_blur::HostInputs;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
 using test::gather;
 using test::HostFrame;
-using test::kCopied;
-using test::kNothing;
-using test::kSampled;
-using test::kWritten;
-using test::makeImage;
-using test::moveOn;
+using test::HostOfTheGBuffer;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
-
-VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
-    VkImageCopy region{};
-    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.dstSubresource = region.srcSubresource;
-    region.extent = {width, height, 1};
-    return region;
-}
-
-/// A picture in half floats that is copied to where the CPU reads it.
-class Picture {
-  public:
-    Picture(gpu::Device& device, const char* name)
-        : mImage(makeImage(device, name, VK_FORMAT_R16G16B16A16_SFLOAT, kWidth, kHeight)),
-          mPixels(device, name, kWidth * kHeight * 8, 0, gpu::MemoryUse::Readback) {}
-
-    [[nodiscard]] VkImage handle() const { return mImage.handle(); }
-
-    /// The image is as kCopied says.
-    void recordReadback(VkCommandBuffer commands) const {
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {kWidth, kHeight, 1};
-        vkCmdCopyImageToBuffer(
-            commands, mImage.handle(), kCopied.layout, mPixels.handle(), 1, &region
-        );
-        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-    }
-
-    [[nodiscard]] image::Image read() const {
-        image::Image picture(kWidth, kHeight, 4);
-        const auto* texels = static_cast<const uint64_t*>(mPixels.mapped());
-        for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
-            const glm::vec4 value = glm::unpackHalf4x16(texels[i]);
-            std::memcpy(&picture.pixels[4 * i], &value, sizeof(value));
-        }
-        return picture;
-    }
-
-  private:
-    gpu::Image mImage;
-    gpu::Buffer mPixels;
-};
-
-/// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
-/// they happen to have. Blurs it into another picture and, a copy of it, in place; the frame goes
-/// on with what it was.
-class HostOfTheGBuffer : public render::PostEffect {
-  public:
-    HostOfTheGBuffer(
-        gpu::Device& device, EmbeddedMotionBlur& blur, const MotionBlurSettings& settings
-    )
-        : mBlur(blur), mSettings(settings), output(device, "output"), inPlace(device, "in place") {}
-
-    [[nodiscard]] std::string name() const override { return "host"; }
-
-    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
-        return {true, "it is looked at"};
-    }
-
-    void declare(render::PostContext& context) override {
-        struct Data {
-            graph::ImageHandle color, motionDepth, normal, entityId;
-        };
-
-        HostInputs inputs;
-        inputs.width = context.facts.width;
-        inputs.height = context.facts.height;
-        inputs.rasterTime = context.facts.rasterTime;
-        inputs.response = context.response;
-        inputs.rays.frameConstants = context.frameConstants;
-        if (context.rays) {
-            inputs.rays.tlas = context.rays->tlas;
-            inputs.rays.scene = context.rays->textures;
-            inputs.rays.frameConstants = context.rays->frameConstants;
-            inputs.rays.hasBlended = context.rays->hasBlended;
-        }
-        using graph::Access;
-        const graph::BufferHandle level =
-            context.rays ? context.rays->tlasBuffer : graph::BufferHandle{};
-        context.graph.addPass<Data>(
-            "host",
-            graph::PassKind::Compute,
-            [&](graph::PassBuilder& builder, Data& data) {
-                data.color = builder.read(context.color, Access::SampledCompute);
-                data.motionDepth =
-                    builder.read(context.gbuffer.motionDepth, Access::SampledCompute);
-                data.normal = builder.read(context.gbuffer.normal, Access::SampledCompute);
-                data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
-                if (level.isValid())
-                    builder.read(level, Access::AccelerationRead);
-                builder.sideEffect();
-            },
-            [this, inputs, level](const Data& data, graph::PassContext& pass) {
-                const auto give = [&](graph::ImageHandle image) {
-                    return HostImage{pass.resources.image(image).handle(), kSampled, kSampled};
-                };
-                HostInputs given = inputs;
-                given.color = give(data.color);
-                given.motionDepth = give(data.motionDepth);
-                given.normal = give(data.normal);
-                given.entityId = give(data.entityId);
-                if (level.isValid())
-                    given.rays.tlasBuffer = pass.resources.buffer(level);
-                recordBoth(pass.commands, given);
-            }
-        );
-    }
-
-  private:
-    void recordBoth(VkCommandBuffer commands, HostInputs inputs) {
-        inputs.output = {output.handle(), kNothing, kCopied};
-        const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
-        ASSERT_TRUE(other.ok()) << other.error().message;
-        output.recordReadback(commands);
-
-        const VkImage color = inputs.color.image;
-        moveOn(commands, color, kSampled, kCopied);
-        moveOn(commands, inPlace.handle(), kNothing, kWritten);
-        const VkImageCopy region = wholeCopy(inputs.width, inputs.height);
-        vkCmdCopyImage(
-            commands, color, kCopied.layout, inPlace.handle(), kWritten.layout, 1, &region
-        );
-        moveOn(commands, color, kCopied, kSampled);
-        inputs.output = {};
-        inputs.color = {inPlace.handle(), kWritten, kCopied};
-        const core::Status same = mBlur.record(commands, 1, inputs, mSettings);
-        ASSERT_TRUE(same.ok()) << same.error().message;
-        inPlace.recordReadback(commands);
-    }
-
-    EmbeddedMotionBlur& mBlur;
-    MotionBlurSettings mSettings;
-
-  public:
-    Picture output;
-    Picture inPlace;
-};
 
 /// Two movers that cross before a wall, one of them near.
 void build(test::SceneBuilder& scene) {
@@ -228,7 +70,7 @@ class EmbeddedPictures : public test::EmbeddedTest {
             SCOPED_TRACE(method->name);
             MotionBlurSettings settings;
             settings.method = method;
-            HostOfTheGBuffer foreign(device(), *blur, settings);
+            HostOfTheGBuffer foreign(device(), *blur, settings, {kWidth, kHeight});
             motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), settings);
             const std::array<render::PostEffect*, 2> effects{&foreign, &plugin};
             const auto drawn = renderer.renderFrame(scene.world, request, effects);

@@ -103,6 +103,23 @@ TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
     expectRefusal(record(), "denoised");
     settings.method = &getMethod("hybrid");
     expectRefusal(record(), "the method hybrid needs rays");
+    settings.method = &getMethod("adaptive");
+    settings.raysPerPixel = 0.0f;
+    expectRefusal(record(), "the method adaptive needs timed rays, which hosts cannot give");
+}
+
+TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {
+    settings.method = &getMethod("resolved");
+    expectRefusal(record(), "entityId.image is null");
+    const gpu::Image entityId = makeImage(device(), "entity id", VK_FORMAT_R32_UINT, 40, 24);
+    inputs.entityId = {entityId.handle(), kSampled, kSampled};
+    expectRefusal(record(), "motion.keys holds 0"); // tests/unit/motion_blur has each of its fields
+    inputs.motion.view = 2;
+    expectRefusal(record(), "motion.view is 2, framesInFlight 2");
+    settings = gather();
+    expectRefusal(record(), "motion.view is 2, framesInFlight 2");
+    inputs.motion.view = 1;
+    EXPECT_TRUE(record().ok()) << "gather needs no motion";
 }
 
 TEST_F(EmbeddedRefusals, EachBadHostIsNamed) {

@@ -4,11 +4,16 @@
 
 #include "engine/gpu/memory.h"
 #include "engine/graph/types.h"
+#include "engine/image/image.h"
+#include "engine/math/math.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/methods.h"
 #include "tests/support/gpu_fixture.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -61,6 +66,51 @@ makeImage(gpu::Device& device, const char* name, VkFormat format, uint32_t width
          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
              VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
 }
+
+/// A picture in half floats that is copied to where the CPU reads it.
+class Picture {
+  public:
+    Picture(gpu::Device& device, const char* name, math::uvec2 sizePx)
+        : mSize(sizePx),
+          mImage(makeImage(device, name, VK_FORMAT_R16G16B16A16_SFLOAT, sizePx.x, sizePx.y)),
+          mPixels(device, name, sizePx.x * sizePx.y * 8ull, 0, gpu::MemoryUse::Readback) {}
+
+    [[nodiscard]] VkImage handle() const { return mImage.handle(); }
+
+    /// The image is as kCopied says.
+    void recordReadback(VkCommandBuffer commands) const {
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {mSize.x, mSize.y, 1};
+        vkCmdCopyImageToBuffer(
+            commands, mImage.handle(), kCopied.layout, mPixels.handle(), 1, &region
+        );
+        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &barrier;
+        vkCmdPipelineBarrier2(commands, &dependency);
+    }
+
+    [[nodiscard]] image::Image read() const {
+        image::Image picture(mSize.x, mSize.y, 4);
+        const auto* texels = static_cast<const uint64_t*>(mPixels.mapped());
+        for (size_t i = 0; i < size_t{mSize.x} * mSize.y; ++i) {
+            const glm::vec4 value = glm::unpackHalf4x16(texels[i]);
+            std::memcpy(&picture.pixels[4 * i], &value, sizeof(value));
+        }
+        return picture;
+    }
+
+  private:
+    math::uvec2 mSize;
+    gpu::Image mImage;
+    gpu::Buffer mPixels;
+};
 
 /// Pictures of the host that are cleared in each frame, and a command buffer of its own.
 struct HostFrame {

@@ -2,6 +2,8 @@
 // What a pixel saw, looked up: near the truth where this frame or the last one holds it, and honest
 // about where neither does.
 #include "engine/image/metrics.h"
+#include "engine/render/renderer.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -72,6 +74,35 @@ TEST_F(Resolved, TheLastFrameHoldsWhatThisOneHides) {
         both.statistics.counters.at("unresolved samples"),
         alone.statistics.counters.at("unresolved samples") / 4
     );
+}
+
+// Both keep rasters: one that runs again must not take what it kept long ago for the last frame's.
+TEST_F(Resolved, AnotherMethodInBetweenLeavesNoGhost) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << "adaptive needs ray queries";
+    const test::SceneBuilder scene = makeScene();
+    render::Renderer renderer(device(), scene.world.assets);
+    motion_blur::MotionBlurPlugin blur(device(), renderer.scene(), {});
+    const auto draw = [&](int frame, std::string_view method) {
+        motion_blur::MotionBlurSettings settings;
+        settings.method = &motion_blur::getMethod(method);
+        blur.configure(settings, {});
+        render::FrameRequest request;
+        request.view.camera = scene.camera;
+        request.view.exposure = scene::computeExposure({1.0 / 48.0}, frame / 48.0, 1.0 / 48.0);
+        request.view.width = 192;
+        request.view.height = 128;
+        render::PostEffect* effects[] = {&blur};
+        auto drawn = renderer.renderFrame(scene.world, request, effects);
+        EXPECT_TRUE(drawn.ok());
+        return std::move(drawn.value());
+    };
+    (void)draw(-1, "resolved");
+    const auto expected = draw(0, "resolved");
+    EXPECT_GT(expected.statistics.counters.at("samples from the last frame"), 0u);
+    (void)draw(-9, "resolved");
+    (void)draw(-1, "adaptive");
+    EXPECT_TRUE(test::sameBits(draw(0, "resolved").color, expected.color));
 }
 
 TEST_F(Resolved, NothingIsDroppedFromTheListsOfASmallScene) {

@@ -7,11 +7,16 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "engine/graph/transient_pool.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "modules/motion_blur/instant_buffer.h"
+#include "modules/motion_blur/raster_history.h"
 
 #include <array>
 #include <deque>
 #include <new>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 namespace shutter::motion_blur {
 
@@ -60,6 +65,14 @@ core::Status checkDistinct(const HostInputs& inputs) {
     return {};
 }
 
+HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    return {
+        {inputs.width, inputs.height},
+        inputs.rasterTime,
+        inputs.response != 0,
+        settings.sampleCount};
+}
+
 } // namespace
 
 /// What one frame in flight holds.
@@ -71,7 +84,21 @@ struct EmbeddedMotionBlur::Slot {
     /// Views of the host's images, made anew in each frame: a handle that is the last one's need
     /// not be the same image. A deque, since the graph points to them.
     std::deque<gpu::Image> images;
+    gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
     uint64_t handedOver = 0; ///< timeline value of what was recorded last
+};
+
+/// What is kept from frame to frame.
+struct EmbeddedMotionBlur::View {
+    explicit View(gpu::Device& device) : history(device) {}
+
+    std::optional<HostRaster> last; ///< of what `history` keeps; nothing: there is no frame before
+    RasterHistory history;
+
+    void forget() {
+        last.reset();
+        history.forget();
+    }
 };
 
 core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(const HostDevice& host
@@ -109,8 +136,10 @@ core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(con
 EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host)
     : mDevice(std::move(device)), mHasRays(host.rayTier != gpu::RayTier::None),
       mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE) {
-    for (uint32_t i = 0; i < host.framesInFlight; ++i)
+    for (uint32_t i = 0; i < host.framesInFlight; ++i) {
         mSlots.push_back(std::make_unique<Slot>(*mDevice));
+        mViews.push_back(std::make_unique<View>(*mDevice));
+    }
 }
 
 EmbeddedMotionBlur::~EmbeddedMotionBlur() = default;
@@ -124,19 +153,20 @@ core::Status EmbeddedMotionBlur::checkMethod(
             "motion blur: the method {} reads no raster image; it is not for hosts that have one",
             method.name
         );
-    if (method.readsInstantMotions)
+    if (method.rays == RayNeed::Query)
         return makeError(
-            "motion blur: the method {} needs the motion to each instant, which hosts cannot give",
-            method.name
+            "motion blur: the method {} needs timed rays, which hosts cannot give", method.name
         );
     if (method.rays != RayNeed::None && !mHasRays)
         return makeError(
             "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
         );
-    if (method.readsSurface)
-        for (const auto& [name, image] :
-             {std::pair{"normal", &inputs.normal}, std::pair{"entityId", &inputs.entityId}})
-            SHUTTER_TRY(checkImage(name, *image));
+    if (method.readsNormal)
+        SHUTTER_TRY(checkImage("normal", inputs.normal));
+    if (method.readsEntityId)
+        SHUTTER_TRY(checkImage("entityId", inputs.entityId));
+    if (method.readsInstantMotions)
+        SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
     if (method.rays == RayNeed::None && !method.readsCamera)
         return {};
     if (inputs.rays.frameConstants == 0)
@@ -173,11 +203,28 @@ core::Status EmbeddedMotionBlur::check(
     SHUTTER_TRY(checkImage("color", inputs.color));
     SHUTTER_TRY(checkImage("motionDepth", inputs.motionDepth));
     SHUTTER_TRY(checkDistinct(inputs));
+    if (inputs.motion.view >= mViews.size())
+        return makeError(
+            "motion blur: motion.view is {}, framesInFlight {}", inputs.motion.view, mViews.size()
+        );
     SHUTTER_TRY(validate(settings));
     return checkMethod(inputs, settings);
 }
 
 core::Status EmbeddedMotionBlur::record(
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const HostInputs& inputs,
+    const MotionBlurSettings& settings
+) {
+    core::Status done = checkAndRecord(commands, frame, inputs, settings);
+    // The view has no such frame, or not a whole one.
+    if (!done && inputs.motion.view < mViews.size())
+        mViews[inputs.motion.view]->last.reset();
+    return done;
+}
+
+core::Status EmbeddedMotionBlur::checkAndRecord(
     VkCommandBuffer commands,
     uint32_t frame,
     const HostInputs& inputs,
@@ -197,6 +244,29 @@ core::Status EmbeddedMotionBlur::record(
 void EmbeddedMotionBlur::markDone(uint32_t frame) {
     SHUTTER_CHECK(frame < mSlots.size(), "frame {} of {}", frame, mSlots.size());
     mDevice->markDone(mSlots[frame]->handedOver);
+}
+
+void EmbeddedMotionBlur::closeView(uint32_t view) {
+    SHUTTER_CHECK(view < mViews.size(), "view {} of {}", view, mViews.size());
+    mViews[view]->forget();
+}
+
+InstantMotions EmbeddedMotionBlur::describeInstants(
+    Slot& slot, View& view, const HostInputs& inputs, const MotionBlurSettings& settings
+) {
+    if (!settings.history)
+        view.forget();
+    const HostRaster* last = inputs.motion.followsLast && view.last ? &*view.last : nullptr;
+    HostInstants made = computeHostInstants(inputs.motion, describeFrame(inputs, settings), last);
+    InstantMotions motions;
+    motions.table = writeInstantLayers(*mDevice, made.layers, slot.instants);
+    motions.instantCount = settings.sampleCount;
+    motions.hasLast = made.layers.last.has_value();
+    if (settings.history) {
+        motions.history = &view.history;
+        view.last = std::move(made.raster);
+    }
+    return motions;
 }
 
 core::Status EmbeddedMotionBlur::recordInto(
@@ -244,6 +314,11 @@ core::Status EmbeddedMotionBlur::recordInto(
         }
         own.rays = rays;
     }
+    View& view = *mViews[inputs.motion.view];
+    if (method.readsInstantMotions)
+        own.instantMotions = describeInstants(slot, view, inputs, settings);
+    else
+        view.forget();
     graph.markOutput(mEffect.add(graph, own, settings).color);
 
     slot.frame->beginIn(commands);

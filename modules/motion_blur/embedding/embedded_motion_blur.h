@@ -10,6 +10,7 @@
 #include "engine/gpu/device.h"
 #include "engine/graph/types.h"
 #include "modules/motion_blur/embedding/host_features.h"
+#include "modules/motion_blur/embedding/host_motion.h"
 #include "modules/motion_blur/motion_blur.h"
 
 #include <cstdint>
@@ -58,13 +59,14 @@ struct HostInputs {
     uint32_t height = 0;
     HostImage color;       ///< RGBA16F; sampled, transfer source; in place: storage, too
     HostImage motionDepth; ///< RGBA32F: motion.xy, depth; every value finite; sampled
-    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for methods that read the surface
-    HostImage entityId;    ///< R32_UINT; sampled; for methods that read the surface
+    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for Method::readsNormal
+    HostImage entityId;    ///< R32_UINT; sampled; for Method::readsEntityId
     /// RGBA16F; storage, transfer target. Null: in place, the blurred picture replaces `color`.
     HostImage output;
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
     HostRays rays;                ///< for methods of RayNeed::Any
+    HostMotion motion;            ///< for Method::readsInstantMotions; its `view` for all
 };
 
 class EmbeddedMotionBlur {
@@ -86,7 +88,8 @@ class EmbeddedMotionBlur {
     /// this number: then the host has waited for it, or never submits it.
     /// Errors name what is wrong, and nothing was recorded; an error that tells of memory or the
     /// device may leave a part, and the command buffer must be reset then.
-    /// Methods that read no raster image are refused.
+    /// Methods that read no raster image, or need timed rays, are refused. After an error, the next
+    /// frame of the view has none before it, whatever HostMotion::followsLast says.
     [[nodiscard]] core::Status record(
         VkCommandBuffer commands,
         uint32_t frame,
@@ -100,11 +103,16 @@ class EmbeddedMotionBlur {
     /// resizing left over is destroyed once every frame recorded until then is done. CHECKed.
     void markDone(uint32_t frame);
 
+    /// The view was closed: what is kept of its last raster is destroyed once the frames that may
+    /// use it are done. Its number may be used anew. CHECKed: below framesInFlight.
+    void closeView(uint32_t view);
+
     /// Device memory, images and the like that are held now.
     [[nodiscard]] const gpu::LivingObjects& living() const { return mDevice->living(); }
 
   private:
     struct Slot;
+    struct View;
 
     EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host);
     [[nodiscard]] core::Status check(
@@ -115,17 +123,27 @@ class EmbeddedMotionBlur {
     ) const;
     [[nodiscard]] core::Status
     checkMethod(const HostInputs& inputs, const MotionBlurSettings& settings) const;
+    core::Status checkAndRecord(
+        VkCommandBuffer commands,
+        uint32_t frame,
+        const HostInputs& inputs,
+        const MotionBlurSettings& settings
+    );
     core::Status recordInto(
         Slot& slot,
         VkCommandBuffer commands,
         const HostInputs& inputs,
         const MotionBlurSettings& settings
     );
+    [[nodiscard]] InstantMotions describeInstants(
+        Slot& slot, View& view, const HostInputs& inputs, const MotionBlurSettings& settings
+    );
 
     std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
     bool mHasRays;
     MotionBlur mEffect;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
+    std::vector<std::unique_ptr<View>> mViews; ///< as many: frames in flight include views
 };
 
 } // namespace shutter::motion_blur

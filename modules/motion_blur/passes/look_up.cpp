@@ -6,6 +6,7 @@
 
 #include "engine/core/check.h"
 #include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/raster_history.h"
 
 #include <cstring>
 
@@ -115,12 +116,14 @@ LookUpOutputs LookUp::add(
 ) {
     const InstantMotions& motions = *inputs.instantMotions;
     SHUTTER_CHECK_EQ(motions.instantCount, params.sampleCount);
-    const bool hasLast = motions.hasLast && mLayers.holds(params.sizePx);
+    const RasterHistory* const history = motions.history;
+    const bool hasLast = motions.hasLast && history && history->holds(params.sizePx);
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
     params.setMethod(own);
     LookUpOutputs outputs;
-    outputs.layers = mLayers.add(graph, inputs, params, hasLast, motions.keepsRaster);
+    outputs.layers = mLayers.add(graph, inputs, params, hasLast);
+    mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = outputs.layers.raster;
     const SurfaceLayer& last = hasLast ? outputs.layers.last : raster;
     const ClearData cleared = addClear(graph, params, mListsPixels);
@@ -283,7 +286,7 @@ void LookUp::count(uint32_t slot, Counters& counters) const {
     counters["unresolved samples"] = counted.unresolved;
     counters["samples from the last frame"] = counted.fromLast;
     counters["candidates dropped"] = counted.overflown;
-    counters["history bytes"] = mLayers.keptBytes();
+    counters["history bytes"] = mHistoryBytes;
     if (!mListsPixels)
         return;
     counters["rays traced"] = counted.rays;

@@ -85,7 +85,8 @@ class LookUp {
     CandidateLists mCandidates;
     gpu::LazyPipeline mSort;
     gpu::LazyPipeline mResolve;
-    gpu::Buffer mRead; ///< shader::ResolvedCounters by slot
+    gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot
+    uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };
 
 /// Bindings 0 to 8 of a pipeline that searches.

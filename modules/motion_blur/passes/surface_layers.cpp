@@ -4,6 +4,7 @@
 #include "spirv/motion_blur/resolved_surface.comp.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/raster_history.h"
 
 namespace shutter::motion_blur {
 
@@ -11,7 +12,6 @@ namespace {
 
 using graph::Access;
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_SFLOAT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
@@ -38,14 +38,17 @@ addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle k
         .target;
 }
 
-bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
-    return image.desc().width == sizePx.x && image.desc().height == sizePx.y;
+SurfaceLayer
+importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLayout layout) {
+    return {
+        graph.importImage("kept colour", raster.color, layout, kKeptLayout),
+        graph.importImage("kept surface", raster.surface, layout, kKeptLayout)};
 }
 
 } // namespace
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
-    : mDevice(device), mSampler(device.nearestSampler()),
+    : mSampler(device.nearestSampler()),
       mPack(
           device,
           describePass(
@@ -53,66 +56,21 @@ SurfaceLayers::SurfaceLayers(gpu::Device& device)
           )
       ) {}
 
-bool SurfaceLayers::holds(glm::uvec2 sizePx) const {
-    const Kept& kept = mKept.at(mNewest);
-    return kept.hasContents && hasSize(kept.color, sizePx);
-}
-
-uint64_t SurfaceLayers::keptBytes() const {
-    uint64_t bytes = 0;
-    for (const Kept& kept : mKept)
-        for (const gpu::Image* image : {&kept.color, &kept.surface})
-            if (image->handle())
-                bytes += uint64_t(image->desc().width) * image->desc().height *
-                         gpu::texelBytes(image->desc().format);
-    return bytes;
-}
-
-void SurfaceLayers::resize(Kept& kept, glm::uvec2 sizePx) {
-    if (kept.color.handle() && hasSize(kept.color, sizePx))
-        return;
-    gpu::ImageDesc desc;
-    desc.width = sizePx.x;
-    desc.height = sizePx.y;
-    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
-    desc.format = kColorFormat;
-    kept.color = gpu::Image(mDevice, "kept colour", desc);
-    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    desc.format = kSurfaceFormat;
-    kept.surface = gpu::Image(mDevice, "kept surface", desc);
-}
-
-SurfaceLayer
-SurfaceLayers::importKept(graph::Graph& graph, const Kept& kept, VkImageLayout layout) {
-    return {
-        graph.importImage("kept colour", kept.color, layout, kKeptLayout),
-        graph.importImage("kept surface", kept.surface, layout, kKeptLayout)};
-}
-
 SurfaceLayersOutputs SurfaceLayers::add(
-    graph::Graph& graph,
-    const MotionBlurInputs& inputs,
-    const PassParams& params,
-    bool wantLast,
-    bool keep
-) {
+    graph::Graph& graph, const MotionBlurInputs& inputs, const PassParams& params, bool wantLast
+) const {
+    RasterHistory* const history = inputs.instantMotions->history;
     SurfaceLayersOutputs outputs;
     outputs.raster.color = inputs.color;
     if (wantLast)
-        outputs.last = importKept(graph, mKept.at(mNewest), kKeptLayout);
-    if (keep) {
-        mNewest = 1 - mNewest;
-        Kept& kept = mKept.at(mNewest);
-        resize(kept, params.sizePx);
-        kept.hasContents = true;
-        const SurfaceLayer target = importKept(graph, kept, VK_IMAGE_LAYOUT_UNDEFINED);
+        outputs.last = importRaster(graph, history->newest(), kKeptLayout);
+    if (history) {
+        const SurfaceLayer target =
+            importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
         graph.markOutput(addKeepColor(graph, inputs.color, target.color));
         outputs.raster.surface = addPack(graph, inputs, target.surface, params);
         graph.markOutput(outputs.raster.surface);
     } else {
-        // What was kept is a frame older from now on.
-        mKept.at(mNewest).hasContents = false;
         const glm::uvec2 size = params.sizePx;
         outputs.raster.surface = addPack(
             graph, inputs, graph.createImage("surface", {size.x, size.y, kSurfaceFormat}), params

@@ -1,53 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/instant_motion_buffers.h"
 
-#include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/instant_buffer.h"
 
-#include <span>
 #include <utility>
 
 namespace shutter::motion_blur {
-
-namespace {
-
-constexpr VkDeviceSize kAlignment = 16;
-
-/// Lays tables out one behind the other in one buffer.
-class Layout {
-  public:
-    template <class T> VkDeviceSize add(const std::vector<T>& table) {
-        const VkDeviceSize at = mBytes;
-        mBytes += (table.size() * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
-        return at;
-    }
-
-    [[nodiscard]] VkDeviceSize bytes() const { return mBytes; }
-
-  private:
-    VkDeviceSize mBytes = 0;
-};
-
-struct PlacedLayer {
-    const extract::LayerTables* tables = nullptr;
-    VkDeviceSize movers = 0;
-    VkDeviceSize motions = 0;
-};
-
-PlacedLayer place(Layout& layout, const extract::LayerTables& tables) {
-    return {&tables, layout.add(tables.movers), layout.add(tables.motions)};
-}
-
-shader::LayerMotion write(gpu::Buffer& buffer, const PlacedLayer& layer) {
-    buffer.write(std::span<const uint32_t>(layer.tables->movers), layer.movers);
-    buffer.write(std::span<const shader::InstantMotion>(layer.tables->motions), layer.motions);
-    return {
-        gpu::splitAddress(buffer.address() + layer.movers),
-        gpu::splitAddress(buffer.address() + layer.motions),
-        static_cast<uint32_t>(layer.tables->movers.size() - 1),
-        layer.tables->isStill ? 1u : 0u};
-}
-
-} // namespace
 
 InstantMotions InstantMotionBuffers::update(
     const scene::World& world,
@@ -57,38 +15,19 @@ InstantMotions InstantMotionBuffers::update(
     bool keepsRaster,
     uint32_t slot
 ) {
-    extract::InstantTables tables = extract::computeInstantTables(
-        world, view, frame, instantCount, keepsRaster && mLast ? &*mLast : nullptr
-    );
-    Layout layout;
-    std::vector<shader::InstantMotions> head(1);
-    const VkDeviceSize headAt = layout.add(head);
-    const VkDeviceSize times = layout.add(tables.times);
-    const PlacedLayer raster = place(layout, tables.raster);
-    std::optional<PlacedLayer> last;
-    if (tables.last)
-        last = place(layout, *tables.last);
-    gpu::Buffer& buffer = mBuffers.at(slot);
-    if (buffer.bytes() < layout.bytes())
-        buffer = gpu::Buffer(
-            mDevice,
-            "instant motions",
-            layout.bytes() + layout.bytes() / 2,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Upload
-        );
-    buffer.write(std::span<const float>(tables.times), times);
-    head[0].raster = write(buffer, raster);
-    if (last)
-        head[0].last = write(buffer, *last);
-    head[0].times = gpu::splitAddress(buffer.address() + times);
-    head[0].isPerspective = tables.isPerspective ? 1 : 0;
-    buffer.write(std::span<const shader::InstantMotions>(head), headAt);
+    if (!keepsRaster)
+        forget();
+    extract::InstantTables tables =
+        extract::computeInstantTables(world, view, frame, instantCount, mLast ? &*mLast : nullptr);
+    const VkDeviceAddress address = writeInstantLayers(mDevice, tables, mBuffers.at(slot));
     if (keepsRaster)
         mLast = std::move(tables.record);
-    else
-        mLast.reset();
-    return {buffer.address() + headAt, instantCount, last.has_value(), keepsRaster};
+    return {address, instantCount, tables.last.has_value(), keepsRaster ? &mHistory : nullptr};
+}
+
+void InstantMotionBuffers::forget() {
+    mLast.reset();
+    mHistory.forget();
 }
 
 } // namespace shutter::motion_blur

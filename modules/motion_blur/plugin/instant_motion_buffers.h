@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// extract::InstantTables on the device, and the record of the frame before that they need.
+// extract::InstantTables on the device, and what they need of the frame before.
 #pragma once
 
 #include "engine/extract/instant_tables.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "modules/motion_blur/frame_io.h"
+#include "modules/motion_blur/raster_history.h"
 
 #include <array>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace shutter::motion_blur {
 
 class InstantMotionBuffers {
   public:
-    explicit InstantMotionBuffers(gpu::Device& device) : mDevice(device) {}
+    explicit InstantMotionBuffers(gpu::Device& device) : mDevice(device), mHistory(device) {}
 
     /// \param keepsRaster the next frame may look things up in this one's raster
     /// \param slot of the frames in flight; its last frame must be finished
@@ -29,11 +30,12 @@ class InstantMotionBuffers {
     );
 
     /// The next frame has none before it.
-    void forget() { mLast.reset(); }
+    void forget();
 
   private:
     gpu::Device& mDevice;
-    std::optional<extract::RasterRecord> mLast;
+    std::optional<extract::RasterRecord> mLast; ///< of what mHistory keeps
+    RasterHistory mHistory;
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;
 };
 

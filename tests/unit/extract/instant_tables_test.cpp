@@ -13,6 +13,7 @@ namespace {
 
 using math::dvec3;
 using math::dvec4;
+using math::LayerTables;
 using math::vec3;
 using math::vec4;
 

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Where the surfaces that raster images hold are seen at the instants of an exposure: affine maps
+// between picture spaces (shaders/common/instant_motion_shared.h), mover by mover. Whoever knows
+// where things are, a world of entities or a foreign engine, builds the same tables.
+#pragma once
+
+#include "engine/math/math.h"
+#include "shaders/common/instant_motion_shared.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace shutter::math {
+
+/// What one raster holds of the exposure.
+struct LayerTables {
+    std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
+    std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
+    /// What stands still in the world is where the raster has it, at every instant.
+    bool isStill = false;
+};
+
+/// What a frame's own raster and the one of the frame before hold.
+struct InstantLayers {
+    LayerTables raster;
+    std::optional<LayerTables> last; ///< nothing: the last raster says nothing about this frame
+    std::vector<float> times;        ///< shutter time of each instant, [0, 1]
+    bool isPerspective = true;       ///< the camera is, at every instant; false: orthographic
+};
+
+/// Picture space from a view space that looks down -Z.
+/// \param clipFromView perspective with a clip w of -z, or orthographic with one of 1; y down
+/// \param jitterPx the raster's, right and down: its places are that much less
+[[nodiscard]] dmat4
+pictureFromView(const dmat4& clipFromView, const uvec2& sizePx, const dvec2& jitterPx);
+
+/// Both maps between a raster's picture space and an instant's; none where the map is singular or
+/// leaves the range of single precision.
+[[nodiscard]] shader::InstantMotion makeInstantMotion(const dmat4& instantFromRaster);
+
+/// Builds the tables of one layer. To begin with, all rows stand still in the world.
+class LayerBuilder {
+  public:
+    /// \param layerPicture picture space from the world when the layer was drawn
+    /// \param pictures the same for each instant; at least one, and they must outlive this
+    /// \param rowCount of the layer's entity table
+    LayerBuilder(
+        const dmat4& layerPicture,
+        std::span<const dmat4> pictures,
+        bool isPerspective,
+        size_t rowCount
+    );
+
+    /// A row that moves rigidly.
+    /// \param worldFromObject when the layer was drawn
+    /// \param worldFromObjectAt (size_t instant) -> dmat4, at each instant
+    template <class At>
+    void addMover(size_t row, const dmat4& worldFromObject, const At& worldFromObjectAt) {
+        mTables.movers[row] = static_cast<uint32_t>(mTables.motions.size() / mPictures.size());
+        const dmat4 objectFromLayer = glm::inverse(mLayerPicture * worldFromObject);
+        for (size_t i = 0; i < mPictures.size(); ++i)
+            mTables.motions.push_back(
+                makeInstantMotion(mPictures[i] * worldFromObjectAt(i) * objectFromLayer)
+            );
+    }
+
+    /// \param kind shader::kDeformedMover or shader::kNoMover
+    void setMover(size_t row, uint32_t kind) { mTables.movers[row] = kind; }
+
+    [[nodiscard]] LayerTables take() { return std::move(mTables); }
+
+  private:
+    dmat4 mLayerPicture;
+    std::span<const dmat4> mPictures;
+    LayerTables mTables;
+};
+
+} // namespace shutter::math

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_instants.h"
+
+#include "engine/core/check.h"
+#include "engine/math/pose.h"
+#include "modules/motion_blur/embedding/host_camera.h"
+#include "shaders/common/shutter_response.glsl"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using math::dmat4;
+using math::LayerBuilder;
+using math::LayerTables;
+using math::Pose;
+
+constexpr uint32_t kNone = 0xFFFFFFFFu;
+/// Within which a key is at the raster instant: hosts may compute the two apart.
+constexpr double kSameTime = 1.0e-6;
+
+/// A time between two keys, or at one.
+struct Between {
+    size_t from = 0;
+    size_t to = 0;
+    double share = 0.0;
+};
+
+Between locate(std::span<const HostCameraKey> keys, double time) {
+    const auto after =
+        std::upper_bound(keys.begin(), keys.end(), time, [](double t, const HostCameraKey& key) {
+            return t < key.time;
+        });
+    const size_t next = size_t(after - keys.begin());
+    if (next == 0)
+        return {};
+    if (next == keys.size() || keys[next - 1].time == time)
+        return {next - 1, next - 1, 0.0};
+    const double span = keys[next].time - keys[next - 1].time;
+    return {next - 1, next, (time - keys[next - 1].time) / span};
+}
+
+double invertResponse(const shader::ResponseTable* table, double u) {
+    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
+}
+
+/// A mover's way through the exposure.
+class Way {
+  public:
+    explicit Way(std::span<const dmat4> keys) : mFirst(keys.front()) {
+        mIsStill =
+            std::all_of(keys.begin(), keys.end(), [&](const dmat4& key) { return key == mFirst; });
+        if (mIsStill)
+            return;
+        for (const dmat4& key : keys)
+            mPoses.push_back(math::takeApart(key));
+    }
+
+    [[nodiscard]] dmat4 at(const Between& place) const {
+        if (mIsStill)
+            return mFirst;
+        return math::interpolate(mPoses[place.from], mPoses[place.to], place.share);
+    }
+
+    /// Whether it is there, and nowhere else, all the time.
+    [[nodiscard]] bool staysAt(const dmat4& worldFromObject) const {
+        return mIsStill && mFirst == worldFromObject;
+    }
+
+  private:
+    dmat4 mFirst;
+    bool mIsStill = false;
+    std::vector<Pose> mPoses; ///< one per key, unless it is still
+};
+
+uint64_t idOf(std::span<const uint64_t> rowIds, uint32_t row) {
+    return rowIds.empty() ? row : rowIds[row];
+}
+
+class Builder {
+  public:
+    Builder(const HostMotion& motion, const HostMotionFrame& frame)
+        : mMotion(motion), mFrame(frame) {
+        for (const HostCameraKey& key : motion.keys) {
+            mCameras.push_back(normalize(key, motion.aheadIsPlusZ).value());
+            mCameraPoses.push_back(math::takeApart(glm::inverse(mCameras.back().viewFromWorld)));
+        }
+        const auto raster =
+            std::find_if(motion.keys.begin(), motion.keys.end(), [&](const HostCameraKey& key) {
+                return isRasterKey(key, frame.rasterTime);
+            });
+        SHUTTER_CHECK(raster != motion.keys.end(), "no key at {}", frame.rasterTime);
+        mRasterKey = size_t(raster - motion.keys.begin());
+        for (uint32_t i = 0; i < frame.instantCount; ++i) {
+            mTimes.push_back(invertResponse(motion.response, (i + 0.5) / frame.instantCount));
+            mPlaces.push_back(locate(motion.keys, mTimes.back()));
+            mPictures.push_back(pictureAt(mPlaces.back()));
+        }
+        mMoverOfRow.assign(motion.rowCount, kNone);
+        for (uint32_t i = 0; i < motion.movers.size(); ++i) {
+            const HostMover& mover = motion.movers[i];
+            mMoverOfRow[mover.row] = i;
+            std::optional<Way>& way = mWays.emplace_back();
+            if (!mover.worldFromObject.empty())
+                way.emplace(mover.worldFromObject);
+        }
+    }
+
+    HostInstants run(const HostRaster* last) const {
+        HostInstants made;
+        made.layers.times.assign(mTimes.begin(), mTimes.end());
+        made.layers.isPerspective = isPerspective();
+        made.raster = makeRaster();
+        made.layers.raster = describeRaster(made.raster.pictureFromWorld);
+        if (last && last->sizePx == mFrame.sizePx && last->isPerspective == isPerspective())
+            made.layers.last = describeLast(*last);
+        return made;
+    }
+
+  private:
+    [[nodiscard]] bool isPerspective() const { return mCameras.front().isPerspective; }
+
+    [[nodiscard]] dmat4 pictureAt(const Between& place) const {
+        HostCamera camera = mCameras[place.from];
+        const HostCamera& to = mCameras[place.to];
+        camera.clipFromView += (to.clipFromView - camera.clipFromView) * place.share;
+        // One that stands still keeps its bits, which tell that nothing before it moves.
+        if (camera.viewFromWorld != to.viewFromWorld)
+            camera.viewFromWorld = glm::inverse(
+                math::interpolate(mCameraPoses[place.from], mCameraPoses[place.to], place.share)
+            );
+        return camera.pictureFromWorld(mFrame.sizePx);
+    }
+
+    [[nodiscard]] HostRaster makeRaster() const {
+        HostRaster raster;
+        raster.sizePx = mFrame.sizePx;
+        raster.isPerspective = isPerspective();
+        raster.pictureFromWorld = mCameras[mRasterKey].pictureFromWorld(mFrame.sizePx);
+        raster.rowCount = mMotion.rowCount;
+        for (const HostMover& mover : mMotion.movers) {
+            const bool deforms = mover.worldFromObject.empty();
+            raster.movers.push_back(
+                {mover.row, deforms, deforms ? dmat4(1.0) : mover.worldFromObject[mRasterKey]}
+            );
+        }
+        raster.rowIds.assign(mMotion.rowIds.begin(), mMotion.rowIds.end());
+        return raster;
+    }
+
+    /// Adds the row unless it stays where the layer has it.
+    void addMover(LayerBuilder& layer, uint32_t row, const Way& way, const dmat4& worldFromObject)
+        const {
+        if (way.staysAt(worldFromObject))
+            return;
+        layer.addMover(row, worldFromObject, [&](size_t instant) {
+            return way.at(mPlaces[instant]);
+        });
+    }
+
+    [[nodiscard]] LayerTables describeRaster(const dmat4& picture) const {
+        LayerBuilder layer(picture, mPictures, isPerspective(), mMotion.rowCount);
+        for (size_t i = 0; i < mMotion.movers.size(); ++i) {
+            const HostMover& mover = mMotion.movers[i];
+            if (mWays[i])
+                addMover(layer, mover.row, *mWays[i], mover.worldFromObject[mRasterKey]);
+            else
+                layer.setMover(mover.row, shader::kDeformedMover);
+        }
+        return layer.take();
+    }
+
+    /// By row of the last raster: the same entity's row now, or kNone.
+    [[nodiscard]] std::vector<uint32_t> findRows(const HostRaster& last) const {
+        std::vector<uint32_t> rows(last.rowCount, kNone);
+        if (mMotion.rowIds.empty() && last.rowIds.empty()) {
+            for (uint32_t row = 0; row < std::min(last.rowCount, mMotion.rowCount); ++row)
+                rows[row] = row;
+            return rows;
+        }
+        std::unordered_map<uint64_t, uint32_t> rowOfId;
+        for (uint32_t row = 0; row < mMotion.rowCount; ++row) {
+            const auto [found, isNew] = rowOfId.emplace(idOf(mMotion.rowIds, row), row);
+            if (!isNew)
+                found->second = kNone;
+        }
+        std::vector<uint32_t> rowThen(mMotion.rowCount, kNone);
+        for (uint32_t row = 0; row < last.rowCount; ++row) {
+            const auto found = rowOfId.find(idOf(last.rowIds, row));
+            if (found == rowOfId.end() || found->second == kNone)
+                continue;
+            uint32_t& then = rowThen[found->second];
+            if (then == kNone) {
+                then = row;
+                rows[row] = found->second;
+            } else {
+                rows[then] = kNone; // the id occurred twice then
+            }
+        }
+        return rows;
+    }
+
+    [[nodiscard]] LayerTables describeLast(const HostRaster& last) const {
+        LayerBuilder layer(last.pictureFromWorld, mPictures, isPerspective(), last.rowCount);
+        std::vector<const HostRaster::Mover*> moverThen(last.rowCount, nullptr);
+        for (const HostRaster::Mover& mover : last.movers)
+            moverThen[mover.row] = &mover;
+        const std::vector<uint32_t> rows = findRows(last);
+        for (uint32_t row = 0; row < last.rowCount; ++row) {
+            const HostRaster::Mover* const then = moverThen[row];
+            const uint32_t moverNow = rows[row] == kNone ? kNone : mMoverOfRow[rows[row]];
+            if (rows[row] != kNone && moverNow == kNone && !then)
+                continue; // stood still and does
+            // Without both transforms nobody knows where it was, or is.
+            if (!then || then->deforms || moverNow == kNone || !mWays[moverNow])
+                layer.setMover(row, shader::kNoMover);
+            else
+                addMover(layer, row, *mWays[moverNow], then->worldFromObject);
+        }
+        return layer.take();
+    }
+
+    const HostMotion& mMotion;
+    const HostMotionFrame& mFrame;
+    std::vector<HostCamera> mCameras; ///< one per key
+    std::vector<Pose> mCameraPoses;   ///< one per key: world from view
+    size_t mRasterKey = 0;
+    std::vector<double> mTimes;            ///< of the instants
+    std::vector<Between> mPlaces;          ///< one per instant
+    std::vector<dmat4> mPictures;          ///< one per instant
+    std::vector<uint32_t> mMoverOfRow;     ///< index of movers, or kNone
+    std::vector<std::optional<Way>> mWays; ///< one per mover; nothing: by motion vectors
+};
+
+} // namespace
+
+bool isRasterKey(const HostCameraKey& key, double rasterTime) {
+    return std::abs(key.time - rasterTime) <= kSameTime;
+}
+
+HostInstants computeHostInstants(
+    const HostMotion& motion, const HostMotionFrame& frame, const HostRaster* last
+) {
+    return Builder(motion, frame).run(last);
+}
+
+} // namespace shutter::motion_blur

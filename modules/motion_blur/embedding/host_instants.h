@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// The tables of a frame's instants from what a host says of its motion.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/math/layer_tables.h"
+#include "engine/math/math.h"
+#include "modules/motion_blur/embedding/host_motion.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+/// Of a frame, what its motion is read with.
+struct HostMotionFrame {
+    math::uvec2 sizePx{1u};
+    double rasterTime = 1.0;   ///< HostInputs::rasterTime
+    bool hasResponse = false;  ///< HostInputs::response is not 0
+    uint32_t instantCount = 1; ///< MotionBlurSettings::sampleCount
+};
+
+/// Whether a key is the raster instant's.
+[[nodiscard]] bool isRasterKey(const HostCameraKey& key, double rasterTime);
+
+/// One sentence that names the field which is wrong.
+[[nodiscard]] core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame);
+
+/// What a raster was drawn of: enough to find its surfaces again in the frame after.
+struct HostRaster {
+    /// A row that HostMotion::movers had.
+    struct Mover {
+        uint32_t row = 0;
+        bool deforms = false;
+        math::dmat4 worldFromObject{1.0}; ///< at the raster instant
+    };
+
+    math::uvec2 sizePx{0u};
+    bool isPerspective = true;
+    math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
+    uint32_t rowCount = 0;
+    std::vector<Mover> movers;
+    std::vector<uint64_t> rowIds; ///< empty: the row is the id
+};
+
+struct HostInstants {
+    math::InstantLayers layers;
+    HostRaster raster; ///< this frame's, for the frame after
+};
+
+/// \param motion as checkMotion() accepts it
+/// \param last of the frame before, or null. It counts only in the same size and kind of projection
+[[nodiscard]] HostInstants
+computeHostInstants(const HostMotion& motion, const HostMotionFrame& frame, const HostRaster* last);
+
+} // namespace shutter::motion_blur

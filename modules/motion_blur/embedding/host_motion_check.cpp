@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// What a host's motion may be: one sentence for each thing that it may not.
+#include "engine/core/check.h"
+#include "engine/math/transform.h"
+#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "shaders/common/shutter_response_shared.h"
+#include "shaders/motion_blur/resolved_shared.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+using math::dmat4;
+
+constexpr size_t kMostKeys = 64;
+constexpr uint32_t kMostRows = shader::kSkyKey; // exact as floats, and not the sky
+
+template <class T> core::Status checkSpan(std::string_view name, std::span<const T> values) {
+    if (!values.empty() && !values.data())
+        return makeError("motion blur: motion.{} is null, its size is {}", name, values.size());
+    return {};
+}
+
+/// Null: the matrix is as it must be.
+const char* findFault(const dmat4& matrix) {
+    if (!math::isFinite(matrix))
+        return "not finite";
+    return isAffine(matrix) ? nullptr : "not affine";
+}
+
+core::Status checkView(const std::string& name, const dmat4& viewFromWorld) {
+    if (const char* fault = findFault(viewFromWorld))
+        return makeError("motion blur: {} is {}", name, fault);
+    if (!math::isFinite(glm::inverse(viewFromWorld)))
+        return makeError("motion blur: {} is singular", name);
+    return {};
+}
+
+core::Status checkProjection(
+    const std::string& name,
+    const HostCameraKey& key,
+    const HostMotion& motion,
+    const math::uvec2& sizePx
+) {
+    if (!math::isFinite(key.clipFromView))
+        return makeError("motion blur: {} is not finite", name);
+    const auto camera = normalize(key, motion.aheadIsPlusZ);
+    if (!camera && normalize(key, !motion.aheadIsPlusZ))
+        return makeError(
+            "motion blur: {} looks along {}Z, motion.aheadIsPlusZ says {}Z",
+            name,
+            motion.aheadIsPlusZ ? "-" : "+",
+            motion.aheadIsPlusZ ? "+" : "-"
+        );
+    if (!camera)
+        return makeError("motion blur: {} is neither perspective nor orthographic", name);
+    if (!math::isFinite(glm::inverse(camera->pictureFromWorld(sizePx))))
+        return makeError("motion blur: {} is singular", name);
+    const auto first = normalize(motion.keys.front(), motion.aheadIsPlusZ);
+    if (first && first->isPerspective != camera->isPerspective)
+        return makeError(
+            "motion blur: {} is {}, motion.keys[0].clipFromView is not",
+            name,
+            camera->isPerspective ? "perspective" : "orthographic"
+        );
+    return {};
+}
+
+core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
+    SHUTTER_TRY(checkSpan("keys", motion.keys));
+    if (motion.keys.empty() || motion.keys.size() > kMostKeys)
+        return makeError(
+            "motion blur: motion.keys holds {}, it needs 1 to {}", motion.keys.size(), kMostKeys
+        );
+    double before = -1.0;
+    bool hasRaster = false;
+    for (size_t i = 0; i < motion.keys.size(); ++i) {
+        const HostCameraKey& key = motion.keys[i];
+        const std::string name = fmt::format("motion.keys[{}]", i);
+        if (!(key.time >= 0.0 && key.time <= 1.0))
+            return makeError("motion blur: {}.time is {}, it must be 0 to 1", name, key.time);
+        if (!(key.time > before))
+            return makeError(
+                "motion blur: {}.time is {}, not after the key's before", name, key.time
+            );
+        before = key.time;
+        hasRaster = hasRaster || isRasterKey(key, frame.rasterTime);
+        SHUTTER_TRY(checkView(name + ".viewFromWorld", key.viewFromWorld));
+        SHUTTER_TRY(checkProjection(name + ".clipFromView", key, motion, frame.sizePx));
+    }
+    if (!hasRaster)
+        return makeError(
+            "motion blur: motion.keys has no key at rasterTime, which is {}", frame.rasterTime
+        );
+    return {};
+}
+
+/// \param index of the mover
+core::Status checkMatrices(const HostMotion& motion, size_t index) {
+    const std::span<const dmat4> matrices = motion.movers[index].worldFromObject;
+    const auto describe = [&] { return fmt::format("movers[{}].worldFromObject", index); };
+    if (matrices.empty())
+        return {};
+    if (!matrices.data())
+        return checkSpan(describe(), matrices);
+    if (matrices.size() != motion.keys.size())
+        return makeError(
+            "motion blur: motion.{} holds {}, motion.keys {}",
+            describe(),
+            matrices.size(),
+            motion.keys.size()
+        );
+    for (size_t k = 0; k < matrices.size(); ++k)
+        if (const char* fault = findFault(matrices[k]))
+            return makeError("motion blur: motion.{}[{}] is {}", describe(), k, fault);
+    return {};
+}
+
+core::Status checkMovers(const HostMotion& motion) {
+    SHUTTER_TRY(checkSpan("movers", motion.movers));
+    std::vector<bool> isListed(motion.rowCount);
+    for (size_t i = 0; i < motion.movers.size(); ++i) {
+        const HostMover& mover = motion.movers[i];
+        if (mover.row >= motion.rowCount)
+            return makeError(
+                "motion blur: motion.movers[{}].row is {}, rowCount {}",
+                i,
+                mover.row,
+                motion.rowCount
+            );
+        if (isListed[mover.row])
+            return makeError(
+                "motion blur: motion.movers[{}].row is {}, as another mover's is", i, mover.row
+            );
+        isListed[mover.row] = true;
+        SHUTTER_TRY(checkMatrices(motion, i));
+    }
+    return {};
+}
+
+core::Status checkResponse(const shader::ResponseTable& table) {
+    if (table.knotCount < 2 || table.knotCount > shader::kMaxResponseKnots)
+        return makeError(
+            "motion blur: motion.response->knotCount is {}, it must be 2 to {}",
+            table.knotCount,
+            shader::kMaxResponseKnots
+        );
+    for (uint32_t i = 0; i < table.knotCount; ++i) {
+        const shader::ResponseKnot& knot = table.knots[i];
+        const bool isFirst = i == 0;
+        const bool isLast = i + 1 == table.knotCount;
+        const bool rises = isFirst ? knot.s == 0.0f && knot.cumulative == 0.0f
+                                   : knot.s > table.knots[i - 1].s &&
+                                         knot.cumulative >= table.knots[i - 1].cumulative;
+        const bool ends = !isLast || knot.s == 1.0f;
+        if (!(rises && ends && knot.s <= 1.0f && knot.cumulative <= 1.0f && knot.density >= 0.0f &&
+              std::isfinite(knot.density)))
+            return makeError(
+                "motion blur: motion.response->knots[{}] is none: s and cumulative must rise from "
+                "0 to 1, density be 0 or more",
+                i
+            );
+    }
+    return {};
+}
+
+} // namespace
+
+core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame) {
+    SHUTTER_TRY(checkKeys(motion, frame));
+    if (motion.rowCount < 1 || motion.rowCount > kMostRows)
+        return makeError(
+            "motion blur: motion.rowCount is {}, it must be 1 to {}", motion.rowCount, kMostRows
+        );
+    SHUTTER_TRY(checkMovers(motion));
+    SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));
+    if (!motion.rowIds.empty() && motion.rowIds.size() != motion.rowCount)
+        return makeError(
+            "motion blur: motion.rowIds holds {}, rowCount is {}",
+            motion.rowIds.size(),
+            motion.rowCount
+        );
+    if (frame.hasResponse != (motion.response != nullptr))
+        return makeError(
+            "motion blur: motion.response is {}, response is {}",
+            motion.response ? "given" : "null",
+            frame.hasResponse ? "not 0" : "0"
+        );
+    return motion.response ? checkResponse(*motion.response) : core::Status();
+}
+
+} // namespace shutter::motion_blur

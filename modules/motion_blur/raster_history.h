@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A view's raster, kept for the frame after.
+#pragma once
+
+#include "engine/gpu/memory.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace shutter::motion_blur {
+
+/// Whoever declares the frames of a view holds one; the methods that look things up fill and read
+/// it, whichever of them runs.
+class RasterHistory {
+  public:
+    struct Raster {
+        gpu::Image color;   ///< RGBA16F, sharp
+        gpu::Image surface; ///< RG32F: depth, key (resolved_shared.h)
+    };
+
+    explicit RasterHistory(gpu::Device& device) : mDevice(device) {}
+
+    /// Whether a raster of that size is kept.
+    [[nodiscard]] bool holds(glm::uvec2 sizePx) const;
+
+    /// The raster kept last; holds() must be true.
+    [[nodiscard]] const Raster& newest() const { return mRasters.at(mNewest); }
+
+    /// Images for another raster, which becomes the newest; the one before stays as it is until the
+    /// next call.
+    [[nodiscard]] const Raster& turn(glm::uvec2 sizePx);
+
+    /// Nothing is kept any more, nor memory for it once the GPU is done with it.
+    void forget();
+
+    /// Device memory of what is kept, bytes: 32 per pixel once two rasters were.
+    [[nodiscard]] uint64_t bytes() const;
+
+  private:
+    gpu::Device& mDevice;
+    std::array<Raster, 2> mRasters; ///< in turns: one is read while the other is written
+    uint32_t mNewest = 0;           ///< of mRasters
+    bool mHasContents = false;      ///< the newest does
+};
+
+} // namespace shutter::motion_blur

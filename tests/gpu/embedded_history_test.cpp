@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+// Whose raster a host's frame is looked up in: the last one of its own view, and only where the
+// host says that it is the frame before.
+#include "engine/gpu/frame.h"
+#include "engine/math/transform.h"
+#include "tests/gpu/embedding_host.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using motion_blur::EmbeddedMotionBlur;
+using motion_blur::getMethod;
+using motion_blur::HostCameraKey;
+using motion_blur::HostInputs;
+using motion_blur::MotionBlurSettings;
+using test::HostFrame;
+using test::kCopied;
+using test::kNothing;
+using test::kSampled;
+using test::kWritten;
+using test::makeImage;
+using test::moveOn;
+using test::Picture;
+
+/// Rasters of one wall in one colour each, under a camera that pans: what comes into the picture
+/// during the exposure is in the last raster alone, and so its colour tells whether it was used.
+struct PannedFrame : HostFrame {
+    PannedFrame(gpu::Device& device, uint32_t w, uint32_t h)
+        : HostFrame(device, w, h),
+          entityId(makeImage(device, "entity id", VK_FORMAT_R32_UINT, w, h)),
+          picture(device, "picture", {w, h}) {}
+
+    [[nodiscard]] HostInputs inputs() const {
+        HostInputs in = HostFrame::inputs();
+        in.entityId = {entityId.handle(), kWritten, kSampled};
+        in.output = {picture.handle(), kNothing, kCopied};
+        return in;
+    }
+
+    /// \param id of all pixels
+    void recordClears(VkCommandBuffer commands, float brightness, uint32_t id) const {
+        const auto clear = [&](const gpu::Image& image, const VkClearColorValue& value) {
+            const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+            moveOn(commands, image.handle(), kNothing, kWritten);
+            vkCmdClearColorImage(commands, image.handle(), kWritten.layout, &value, 1, &all);
+        };
+        clear(color, {{brightness, brightness, brightness, 1.0f}});
+        clear(motionDepth, {{8.0f, 0.0f, 5.0f, 0.0f}});
+        clear(entityId, {.uint32 = {id, 0, 0, 0}});
+    }
+
+    gpu::Image entityId;
+    Picture picture;
+};
+
+class EmbeddedHistory : public test::EmbeddedTest {
+  protected:
+    static constexpr uint32_t kFramesInFlight = 5;
+
+    struct Frame {
+        float brightness = 1.0f;
+        uint32_t view = 0;
+        bool followsLast = true;
+        uint32_t width = 64;
+        const char* method = "resolved";
+        bool history = true;
+        uint32_t id = 0; ///< of all its pixels; there is one row
+        int index = 1;   ///< of the frame: the pictures of each show another part of the wall
+    };
+
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        motion_blur::HostDevice host = describeHost();
+        host.framesInFlight = kFramesInFlight;
+        mBlur = create(host);
+    }
+
+    void TearDown() override {
+        mFrames.clear();
+        mBlur.reset();
+        EmbeddedTest::TearDown();
+    }
+
+    /// A wall 5 m away, and a camera that has panned by a third of the picture in each frame.
+    static std::array<HostCameraKey, 2> makeKeys(int index) {
+        const auto key = [&](double time) {
+            const double angle = 0.4 * (index - 1.0 + time);
+            const glm::dvec3 up(0.0, 1.0, 0.0);
+            return HostCameraKey{
+                time,
+                glm::rotate(glm::dmat4(1.0), angle, up),
+                math::clipFromViewPerspective(1.0, 2.0, 0.1)};
+        };
+        return {key(0.0), key(1.0)};
+    }
+
+    core::Status
+    record(VkCommandBuffer commands, uint32_t slot, const Frame& frame, HostInputs in) {
+        const std::array<HostCameraKey, 2> keys = makeKeys(frame.index);
+        in.motion.keys = keys;
+        in.motion.movers = mMovers;
+        in.motion.rowCount = 1;
+        in.motion.view = frame.view;
+        in.motion.followsLast = frame.followsLast;
+        MotionBlurSettings settings;
+        settings.method = &getMethod(frame.method);
+        settings.history = frame.history;
+        return mBlur->record(commands, slot, in, settings);
+    }
+
+    /// Records and submits; nobody waits for it until read().
+    void submit(const Frame& frame, uint32_t slot) {
+        InFlight& made = *mFrames.emplace_back(std::make_unique<InFlight>(device(), frame.width));
+        made.frame.begin();
+        const VkCommandBuffer commands = made.frame.commands();
+        made.host.recordClears(commands, frame.brightness, frame.id);
+        const core::Status done = record(commands, slot, frame, made.host.inputs());
+        ASSERT_TRUE(done.ok()) << done.error().message;
+        made.host.picture.recordReadback(commands);
+        made.frame.submit();
+    }
+
+    /// Brightest and darkest of the frames that were submitted since the last call.
+    struct Range {
+        float low = std::numeric_limits<float>::infinity();
+        float high = -low;
+    };
+
+    std::vector<Range> read() {
+        std::vector<Range> ranges;
+        for (const auto& one : mFrames) {
+            one->frame.wait();
+            const image::Image picture = one->host.picture.read();
+            Range range;
+            for (size_t i = 0; i < picture.pixels.size(); i += 4) {
+                range.low = std::min(range.low, picture.pixels[i]);
+                range.high = std::max(range.high, picture.pixels[i]);
+            }
+            ranges.push_back(range);
+        }
+        mFrames.clear();
+        return ranges;
+    }
+
+    Range draw(const Frame& frame) {
+        submit(frame, 0);
+        return read().back();
+    }
+
+    /// \return whether a frame of brightness 4 shows anything of the one before, of brightness 1
+    bool looksBack(const Frame& frame) {
+        const Range range = draw(frame);
+        EXPECT_FLOAT_EQ(range.high, 4.0f);
+        return range.low < 3.9f;
+    }
+
+    void drawFirst() { (void)draw({.brightness = 1.0f, .followsLast = false, .index = 0}); }
+
+    struct InFlight {
+        InFlight(gpu::Device& device, uint32_t width) : frame(device), host(device, width, 32) {}
+
+        gpu::Frame frame;
+        PannedFrame host;
+    };
+
+    std::unique_ptr<EmbeddedMotionBlur> mBlur;
+    std::vector<std::unique_ptr<InFlight>> mFrames;
+    std::vector<motion_blur::HostMover> mMovers; ///< of all frames
+};
+
+TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereTheHostSaysSo) {
+    drawFirst();
+    EXPECT_TRUE(looksBack({.brightness = 4.0f}));
+    drawFirst();
+    EXPECT_FALSE(looksBack({.brightness = 4.0f, .followsLast = false})) << "a cut";
+    drawFirst();
+    EXPECT_FALSE(looksBack({.brightness = 4.0f, .history = false}));
+}
+
+TEST_F(EmbeddedHistory, TheFirstFrameHasNoneWhateverTheHostSays) {
+    EXPECT_FALSE(looksBack({.brightness = 4.0f}));
+}
+
+TEST_F(EmbeddedHistory, AnotherSizeHasNone) {
+    drawFirst();
+    EXPECT_FALSE(looksBack({.brightness = 4.0f, .width = 80}));
+    (void)draw({.brightness = 1.0f, .width = 80, .index = 0});
+    EXPECT_TRUE(looksBack({.brightness = 4.0f, .width = 80}));
+}
+
+TEST_F(EmbeddedHistory, AnotherMethodInBetweenLeavesNone) {
+    drawFirst();
+    (void)draw({.brightness = 1.0f, .method = "gather"});
+    EXPECT_FALSE(looksBack({.brightness = 4.0f}));
+    drawFirst();
+    (void)draw({.brightness = 1.0f, .history = false});
+    EXPECT_FALSE(looksBack({.brightness = 4.0f}));
+}
+
+TEST_F(EmbeddedHistory, ARefusedFrameInBetweenLeavesNone) {
+    drawFirst();
+    InFlight refused(device(), 64);
+    refused.frame.begin();
+    refused.host.recordClears(refused.frame.commands(), 1.0f, 0);
+    HostInputs in = refused.host.inputs();
+    in.color = {};
+    EXPECT_FALSE(record(refused.frame.commands(), 0, {}, in).ok());
+    refused.frame.submit();
+    refused.frame.wait();
+    EXPECT_FALSE(looksBack({.brightness = 4.0f}));
+}
+
+TEST_F(EmbeddedHistory, ARecordingThatIsNeverSubmittedMayBeLeftBehind) {
+    drawFirst();
+    InFlight dropped(device(), 64);
+    dropped.frame.begin();
+    dropped.host.recordClears(dropped.frame.commands(), 1.0f, 0);
+    EXPECT_TRUE(record(dropped.frame.commands(), 1, {}, dropped.host.inputs()).ok());
+    mBlur->markDone(1);
+    EXPECT_FALSE(looksBack({.brightness = 4.0f, .followsLast = false}));
+    drawFirst();
+    EXPECT_TRUE(looksBack({.brightness = 4.0f}));
+}
+
+TEST_F(EmbeddedHistory, ViewsInTurnsHaveTheirOwnWithFramesInFlight) {
+    // Nobody waits: five recordings are on their way at once, each under its own number.
+    submit({.brightness = 1.0f, .view = 0, .followsLast = false, .index = 0}, 0);
+    submit({.brightness = 16.0f, .view = 3, .index = 0}, 1);
+    submit({.brightness = 4.0f, .view = 0}, 2);
+    submit({.brightness = 64.0f, .view = 3}, 3);
+    submit({.brightness = 8.0f, .view = 0, .index = 2}, 4);
+    const std::vector<Range> ranges = read();
+    EXPECT_FLOAT_EQ(ranges[0].low, 1.0f);
+    EXPECT_FLOAT_EQ(ranges[1].low, 16.0f) << "the first frame of its view";
+    EXPECT_LT(ranges[2].low, 3.9f);
+    EXPECT_GE(ranges[2].low, 1.0f);
+    EXPECT_FLOAT_EQ(ranges[2].high, 4.0f) << "nothing of the other view";
+    EXPECT_LT(ranges[3].low, 63.0f);
+    EXPECT_GE(ranges[3].low, 16.0f) << "nothing of the other view";
+    EXPECT_LT(ranges[4].low, 7.9f);
+    EXPECT_GE(ranges[4].low, 4.0f) << "nothing of the frame before the last";
+}
+
+TEST_F(EmbeddedHistory, IdsThatAreNoRowsAndTransformsBeyondAllRangeAreDrawn) {
+    for (const uint32_t id : {1u, 0xFFFFFFu, 0x1000000u, 0x80000000u, 0xFFFFFFFEu, 0xFFFFFFFFu}) {
+        drawFirst();
+        const Range range = draw({.brightness = 4.0f, .id = id});
+        EXPECT_GE(range.low, 1.0f) << id;
+        EXPECT_LE(range.high, 4.0f) << id;
+    }
+    const glm::dmat4 huge(glm::dmat3(1.0e300));
+    const glm::dmat4 tiny(glm::dmat3(1.0e-300));
+    const glm::dmat4 flat(glm::dmat3(0.0));
+    for (const glm::dmat4& open : {huge, tiny, flat})
+        for (const glm::dmat4& close : {tiny, huge, flat}) {
+            const std::array matrices{open, close};
+            mMovers = {{0, matrices}};
+            drawFirst();
+            const Range range = draw({.brightness = 4.0f});
+            EXPECT_GE(range.low, 1.0f);
+            EXPECT_LE(range.high, 4.0f);
+        }
+}
+
+TEST_F(EmbeddedHistory, AClosedViewLeavesNothingBehind) {
+    drawFirst();
+    const gpu::LivingObjects before = mBlur->living();
+    (void)draw({.brightness = 1.0f, .view = 2});
+    EXPECT_EQ(mBlur->living().images, before.images + 2);
+    mBlur->closeView(2);
+    drawFirst();
+    drawFirst(); // once the frames before are done
+    EXPECT_LE(mBlur->living().images, before.images + 2) << "view 0 has two rasters by now";
+    EXPECT_FALSE(looksBack({.brightness = 4.0f, .view = 2}));
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+// `resolved` on raw handles: a host that says how its camera and entities move gets what the plugin
+// gives, bit for bit where it says it at the instants themselves.
+#include "engine/extract/frame_view.h"
+#include "engine/image/metrics.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/gpu/gbuffer_host.h"
+#include "tests/kit/scene_builder.h"
+#include "tests/support/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using motion_blur::HostMotion;
+using motion_blur::MotionBlurSettings;
+using test::HostOfTheGBuffer;
+
+constexpr uint32_t kWidth = 96;
+constexpr uint32_t kHeight = 64;
+constexpr double kFrameSeconds = 0.25;
+constexpr uint32_t kInstants = 7;
+
+MotionBlurSettings resolved() {
+    MotionBlurSettings settings;
+    settings.method = &motion_blur::getMethod("resolved");
+    settings.sampleCount = kInstants;
+    return settings;
+}
+
+/// The engine's own scene, as a host would tell of it.
+class Teller {
+  public:
+    /// \param times of the keys besides the raster instant; empty: the instants
+    explicit Teller(std::vector<double> times = {}) : mTimes(std::move(times)) {}
+
+    void tell(const render::PostContext& context, HostMotion& motion) {
+        const scene::ExposureInterval& exposure = context.view.exposure;
+        const scene::ExposureMotion moves(context.world, context.view.camera, exposure);
+        const std::vector<double> times = listTimes(exposure);
+        const auto& camera = context.world.registry.get<scene::Camera>(context.view.camera);
+        const double aspect = double(context.view.width) / context.view.height;
+        mKeys.clear();
+        for (const double s : times)
+            mKeys.push_back(
+                {s,
+                 glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s))),
+                 extract::makeProjection(camera, moves.cameraYFov(s), aspect)}
+            );
+        tellMovers(context.frame, moves, times, exposure.rasterTime);
+        mResponse = scene::computeResponseTable(exposure.shutter.response);
+        motion.keys = mKeys;
+        motion.rowCount = uint32_t(context.frame.worldFromObject.size());
+        motion.movers = mMovers;
+        motion.rowIds = mIds;
+        motion.response = mResponse ? &*mResponse : nullptr;
+        motion.followsLast = followsLast;
+    }
+
+    bool followsLast = false;
+    bool knowsMovers = true; ///< false: only which rows move, not how
+
+  private:
+    [[nodiscard]] std::vector<double> listTimes(const scene::ExposureInterval& exposure) const {
+        std::vector<double> times = mTimes;
+        if (times.empty())
+            for (uint32_t i = 0; i < kInstants; ++i)
+                times.push_back(
+                    scene::invertResponse(exposure.shutter.response, (i + 0.5) / kInstants)
+                );
+        if (std::find(times.begin(), times.end(), exposure.rasterTime) == times.end())
+            times.push_back(exposure.rasterTime);
+        std::sort(times.begin(), times.end());
+        return times;
+    }
+
+    /// All rows, whether they move or not.
+    void tellMovers(
+        const extract::ExtractedFrame& frame,
+        const scene::ExposureMotion& moves,
+        const std::vector<double>& times,
+        double rasterTime
+    ) {
+        const size_t rows = frame.worldFromObject.size();
+        mMovers.clear();
+        mIds.clear();
+        mMatrices.assign(rows, {});
+        for (uint32_t row = 0; row < rows; ++row) {
+            const ecs::Entity entity = frame.entityHandles[row];
+            mIds.push_back(uint64_t(entity.generation) << 32u | entity.index);
+            if (!knowsMovers && moves.mayObjectMove(entity))
+                mMovers.push_back({row, {}});
+            if (!knowsMovers)
+                continue;
+            for (const double s : times)
+                mMatrices[row].push_back(
+                    s == rasterTime ? frame.worldFromObject[row] : moves.worldFromObject(entity, s)
+                );
+            mMovers.push_back({row, mMatrices[row]});
+        }
+    }
+
+    std::vector<double> mTimes;
+    std::vector<motion_blur::HostCameraKey> mKeys;
+    std::vector<motion_blur::HostMover> mMovers;
+    std::vector<std::vector<dmat4>> mMatrices;
+    std::vector<uint64_t> mIds;
+    std::optional<shader::ResponseTable> mResponse;
+};
+
+/// Movers that cross before a wall, one of which spins, under a camera that goes and turns.
+class Scene : public test::SceneBuilder {
+  public:
+    Scene() {
+        setPerspective(1.0);
+        moveCamera({.velocity = {0.4, 0.1, -0.6}, .angularVelocity = {0.1, 0.5, 0.2}});
+        const auto waves = addTextured(addWaveTexture(), true);
+        guest = add(test::makeQuad(0.4, 0.4, waves), {.position = {1.0, 0.8, -5.0}});
+        add(test::makeQuad(14.0, 9.0, waves), {.position = {0.0, 0.0, -6.0}});
+        add(test::makeQuad(1.2, 1.2, waves),
+            {.position = {0.2, 0.1, -3.0}, .velocity = {3.0, 0.6, 0.0}});
+        add(test::makeBox(dvec3(0.8), waves),
+            {.position = {-1.0, -0.4, -4.0}, .angularVelocity = {1.0, 2.0, 6.0}});
+    }
+
+    ecs::Entity guest;
+};
+
+struct Drawn {
+    image::Image plugin;
+    image::Image output;
+    image::Image inPlace;
+    uint64_t fromLast = 0; ///< samples that the plugin found in the last frame's raster
+};
+
+/// Draws frame after frame with the host's blur before the plugin's.
+class Sequence {
+  public:
+    Sequence(
+        gpu::Device& device,
+        Scene& scene,
+        motion_blur::EmbeddedMotionBlur& blur,
+        Teller& teller,
+        scene::ShutterPhase phase
+    )
+        : mScene(scene), mRenderer(device, scene.world.assets),
+          mHost(device, blur, resolved(), {kWidth, kHeight}),
+          mPlugin(device, mRenderer.scene(), resolved()) {
+        mShutter.exposureSeconds = kFrameSeconds;
+        mShutter.phase = phase;
+        mHost.describeMotion = [&teller](const render::PostContext& context, HostMotion& motion) {
+            teller.tell(context, motion);
+        };
+    }
+
+    Drawn draw(int frame) {
+        render::FrameRequest request;
+        request.view.camera = mScene.camera;
+        request.view.exposure =
+            scene::computeExposure(mShutter, frame * kFrameSeconds, kFrameSeconds);
+        request.view.width = kWidth;
+        request.view.height = kHeight;
+        const std::array<render::PostEffect*, 2> effects{&mHost, &mPlugin};
+        auto drawn = mRenderer.renderFrame(mScene.world, request, effects);
+        EXPECT_TRUE(drawn.ok());
+        return {
+            drawn.value().color,
+            mHost.output.read(),
+            mHost.inPlace.read(),
+            drawn.value().statistics.counters.at("samples from the last frame")};
+    }
+
+    void setResponse(scene::ResponseShape shape) { mShutter.response.shape = shape; }
+
+  private:
+    Scene& mScene;
+    scene::CameraShutter mShutter;
+    render::Renderer mRenderer;
+    HostOfTheGBuffer mHost;
+    motion_blur::MotionBlurPlugin mPlugin;
+};
+
+class EmbeddedInstants : public test::EmbeddedTest {
+  protected:
+    static void expectSame(const Drawn& drawn) {
+        EXPECT_TRUE(test::sameBits(drawn.output, drawn.plugin));
+        EXPECT_TRUE(test::sameBits(drawn.inPlace, drawn.plugin));
+    }
+};
+
+TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
+    for (const scene::ShutterPhase phase : {scene::ShutterPhase::End, scene::ShutterPhase::Centre})
+        for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle}) {
+            Scene scene;
+            const auto blur = create(describeHost());
+            ASSERT_TRUE(blur);
+            Teller teller;
+            Sequence sequence(device(), scene, *blur, teller, phase);
+            sequence.setResponse(shape);
+            const Drawn first = sequence.draw(0);
+            EXPECT_EQ(first.fromLast, 0u);
+            expectSame(first);
+            teller.followsLast = true;
+            scene::despawn(scene.world, scene.guest); // and all rows move up
+            for (const int frame : {1, 2}) {
+                const Drawn next = sequence.draw(frame);
+                EXPECT_GT(next.fromLast, 0u);
+                expectSame(next);
+            }
+        }
+}
+
+TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
+    Scene scene;
+    const auto blur = create(describeHost());
+    ASSERT_TRUE(blur);
+    Teller teller({0.0, 0.5, 1.0});
+    Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
+    EXPECT_GT(image::computePsnr(sequence.draw(0).output, sequence.draw(0).plugin), 60.0);
+    teller.followsLast = true;
+    const Drawn next = sequence.draw(1);
+    EXPECT_GT(next.fromLast, 0u);
+    EXPECT_GT(image::computePsnr(next.output, next.plugin), 60.0);
+    EXPECT_TRUE(test::sameBits(next.output, next.inPlace));
+}
+
+TEST_F(EmbeddedInstants, MoversWithoutTransformsFollowTheirMotionVectors) {
+    Scene scene;
+    const auto blur = create(describeHost());
+    ASSERT_TRUE(blur);
+    Teller teller({0.0, 0.5, 1.0});
+    teller.knowsMovers = false;
+    Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
+    const Drawn drawn = sequence.draw(0);
+    EXPECT_GT(image::computePsnr(drawn.output, drawn.plugin), 25.0);
+    EXPECT_FALSE(test::sameBits(drawn.output, drawn.plugin));
+}
+
+TEST_F(EmbeddedInstants, AnOrthographicCameraIsTheSame) {
+    Scene scene;
+    scene.cameraSettings().kind = scene::CameraKind::Orthographic;
+    scene.cameraSettings().yMag = 2.0;
+    const auto blur = create(describeHost());
+    ASSERT_TRUE(blur);
+    Teller teller;
+    Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
+    expectSame(sequence.draw(0));
+    teller.followsLast = true;
+    expectSame(sequence.draw(1));
+}
+
+} // namespace
+} // namespace shutter

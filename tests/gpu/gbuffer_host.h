@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// A host that has the engine's own G-buffer.
+#pragma once
+
+#include "engine/graph/execute.h"
+#include "engine/graph/graph.h"
+#include "engine/render/post_effect.h"
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "tests/gpu/embedding_host.h"
+
+#include <functional>
+#include <string>
+
+namespace shutter::test {
+
+inline VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
+    VkImageCopy region{};
+    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.dstSubresource = region.srcSubresource;
+    region.extent = {width, height, 1};
+    return region;
+}
+
+/// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
+/// they happen to have. Blurs it into another picture (view 0) and, a copy of it, in place (view
+/// 1); the frame goes on with what it was.
+class HostOfTheGBuffer : public render::PostEffect {
+  public:
+    HostOfTheGBuffer(
+        gpu::Device& device,
+        motion_blur::EmbeddedMotionBlur& blur,
+        const motion_blur::MotionBlurSettings& settings,
+        math::uvec2 sizePx
+    )
+        : output(device, "output", sizePx), inPlace(device, "in place", sizePx), mBlur(blur),
+          mSettings(settings) {}
+
+    Picture output;
+    Picture inPlace;
+    /// Says how things move in the frame. What it points to must last until the frame is recorded.
+    std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
+
+    [[nodiscard]] std::string name() const override { return "host"; }
+
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+        return {true, "it is looked at"};
+    }
+
+    void declare(render::PostContext& context) override {
+        struct Data {
+            graph::ImageHandle color, motionDepth, normal, entityId;
+        };
+
+        motion_blur::HostInputs inputs;
+        inputs.width = context.facts.width;
+        inputs.height = context.facts.height;
+        inputs.rasterTime = context.facts.rasterTime;
+        inputs.response = context.response;
+        inputs.rays.frameConstants = context.frameConstants;
+        if (context.rays) {
+            inputs.rays.tlas = context.rays->tlas;
+            inputs.rays.scene = context.rays->textures;
+            inputs.rays.frameConstants = context.rays->frameConstants;
+            inputs.rays.hasBlended = context.rays->hasBlended;
+        }
+        if (describeMotion)
+            describeMotion(context, inputs.motion);
+        using graph::Access;
+        const graph::BufferHandle level =
+            context.rays ? context.rays->tlasBuffer : graph::BufferHandle{};
+        context.graph.addPass<Data>(
+            "host",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.color = builder.read(context.color, Access::SampledCompute);
+                data.motionDepth =
+                    builder.read(context.gbuffer.motionDepth, Access::SampledCompute);
+                data.normal = builder.read(context.gbuffer.normal, Access::SampledCompute);
+                data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
+                if (level.isValid())
+                    builder.read(level, Access::AccelerationRead);
+                builder.sideEffect();
+            },
+            [this, inputs, level](const Data& data, graph::PassContext& pass) {
+                const auto give = [&](graph::ImageHandle image) {
+                    return motion_blur::HostImage{
+                        pass.resources.image(image).handle(), kSampled, kSampled};
+                };
+                motion_blur::HostInputs given = inputs;
+                given.color = give(data.color);
+                given.motionDepth = give(data.motionDepth);
+                given.normal = give(data.normal);
+                given.entityId = give(data.entityId);
+                if (level.isValid())
+                    given.rays.tlasBuffer = pass.resources.buffer(level);
+                recordBoth(pass.commands, given);
+            }
+        );
+    }
+
+  private:
+    void recordBoth(VkCommandBuffer commands, motion_blur::HostInputs inputs) {
+        inputs.output = {output.handle(), kNothing, kCopied};
+        const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
+        ASSERT_TRUE(other.ok()) << other.error().message;
+        output.recordReadback(commands);
+
+        const VkImage color = inputs.color.image;
+        moveOn(commands, color, kSampled, kCopied);
+        moveOn(commands, inPlace.handle(), kNothing, kWritten);
+        const VkImageCopy region = wholeCopy(inputs.width, inputs.height);
+        vkCmdCopyImage(
+            commands, color, kCopied.layout, inPlace.handle(), kWritten.layout, 1, &region
+        );
+        moveOn(commands, color, kCopied, kSampled);
+        inputs.output = {};
+        inputs.color = {inPlace.handle(), kWritten, kCopied};
+        inputs.motion.view = 1;
+        const core::Status same = mBlur.record(commands, 1, inputs, mSettings);
+        ASSERT_TRUE(same.ok()) << same.error().message;
+        inPlace.recordReadback(commands);
+    }
+
+    motion_blur::EmbeddedMotionBlur& mBlur;
+    motion_blur::MotionBlurSettings mSettings;
+};
+
+} // namespace shutter::test

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Where a host's surfaces are seen at the instants, held against projecting them anew; and when its
+// last raster says nothing.
+#include "tests/unit/motion_blur/host_motion_fixture.h"
+
+namespace shutter::motion_blur {
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+using math::LayerTables;
+using math::vec3;
+using math::vec4;
+
+/// What a pixel shows: its place and its depth.
+struct Seen {
+    math::dvec2 at{0.0};
+    double depth = 0.0;
+};
+
+class HostInstantsTest : public HostMotionFixture {
+  protected:
+    [[nodiscard]] Seen project(const dvec4& inWorld, double seconds) const {
+        const dvec4 inView = glm::inverse(worldFromViewAt(seconds)) * inWorld;
+        const dvec4 clip = projection() * inView;
+        return {(math::dvec2(clip) / clip.w * 0.5 + 0.5) * math::dvec2(frame.sizePx), -inView.z};
+    }
+
+    [[nodiscard]] static dvec4 cornerAt(double seconds) {
+        return worldFromTumblerAt(seconds) * dvec4(0.3, -0.2, 0.1, 1.0);
+    }
+
+    [[nodiscard]] vec3 apply(const vec4 (&rows)[3], const Seen& seen) const {
+        const float q = isPerspective ? float(seen.depth) : 1.0f;
+        const vec4 point(vec3(math::vec2(seen.at) * q, float(seen.depth)), 1.0f);
+        vec3 moved(glm::dot(rows[0], point), glm::dot(rows[1], point), glm::dot(rows[2], point));
+        if (isPerspective)
+            moved = {moved.x / moved.z, moved.y / moved.z, moved.z};
+        return moved;
+    }
+
+    /// The maps of a row take what the raster shows to where the instants of this frame do.
+    /// \param inWorldAt where the point is at a time in seconds
+    template <class At>
+    void expectMaps(const LayerTables& layer, uint32_t row, const Seen& raster, const At& inWorldAt)
+        const {
+        for (uint32_t i = 0; i < kInstants; ++i) {
+            const auto& found = layer.motions.at(layer.movers.at(row) * kInstants + i);
+            const double seconds = openSeconds + (i + 0.5) / kInstants;
+            const Seen seen = project(inWorldAt(seconds), seconds);
+            const vec3 there = apply(found.instantFromRaster, raster);
+            EXPECT_NEAR(there.x, seen.at.x, 2e-3) << i;
+            EXPECT_NEAR(there.y, seen.at.y, 2e-3) << i;
+            EXPECT_NEAR(there.z, seen.depth, 1e-4) << i;
+            const vec3 back = apply(found.rasterFromInstant, seen);
+            EXPECT_NEAR(back.x, raster.at.x, 2e-3) << i;
+            EXPECT_NEAR(back.y, raster.at.y, 2e-3) << i;
+        }
+    }
+
+    void nextFrame() {
+        openSeconds += 1.0;
+        setKeys({0.0, 0.5, 1.0});
+        addTumbler();
+    }
+};
+
+TEST_F(HostInstantsTest, ThreeKeysAreEnoughForWhatTurnsBeforeATurningCamera) {
+    addTumbler();
+    const HostInstants made = compute();
+    EXPECT_TRUE(made.layers.isPerspective);
+    EXPECT_FALSE(made.layers.raster.isStill);
+    EXPECT_FALSE(made.layers.last.has_value());
+    expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
+    const dvec4 still(0.5, 0.5, -9.0, 1.0);
+    const auto stillAt = [&](double) { return still; };
+    EXPECT_EQ(made.layers.raster.movers.at(0), shader::kWorldMover);
+    EXPECT_EQ(made.layers.raster.movers.at(kRows), shader::kSkyMover);
+    expectMaps(made.layers.raster, 0, project(still, 1.0), stillAt);
+}
+
+TEST_F(HostInstantsTest, SoTheyAreUnderAnOrthographicCamera) {
+    isPerspective = false;
+    setKeys({0.0, 0.5, 1.0});
+    addTumbler();
+    const HostInstants made = compute();
+    EXPECT_FALSE(made.layers.isPerspective);
+    expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
+}
+
+TEST_F(HostInstantsTest, AViewAlongPlusZGivesTheSameTables) {
+    addTumbler();
+    for (const bool perspective : {true, false}) {
+        isPerspective = perspective;
+        setKeys({0.0, 0.5, 1.0});
+        motion.aheadIsPlusZ = false;
+        const HostInstants minus = compute();
+        const dmat4 flip = glm::scale(dmat4(1.0), dvec3(1.0, 1.0, -1.0));
+        for (HostCameraKey& key : keys) {
+            key.viewFromWorld = flip * key.viewFromWorld;
+            key.clipFromView = 0.5 * key.clipFromView * flip; // homogeneous: any factor does
+        }
+        motion.aheadIsPlusZ = true;
+        const HostInstants plus = compute();
+        for (size_t i = 0; i < minus.layers.raster.motions.size(); ++i)
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column)
+                    EXPECT_NEAR(
+                        minus.layers.raster.motions[i].instantFromRaster[row][column],
+                        plus.layers.raster.motions[i].instantFromRaster[row][column],
+                        1e-4
+                    );
+    }
+}
+
+TEST_F(HostInstantsTest, OutsideOfTheKeysAllStandsStill) {
+    setKeys({0.5});
+    frame.rasterTime = 0.5;
+    addTumbler();
+    const HostInstants made = compute();
+    EXPECT_TRUE(made.layers.raster.isStill);
+    EXPECT_EQ(made.layers.raster.movers.at(1), shader::kWorldMover);
+    setKeys({0.0, 0.5});
+    addTumbler();
+    const HostInstants half = compute();
+    const size_t mover = half.layers.raster.movers.at(1);
+    const auto& late = half.layers.raster.motions;
+    EXPECT_EQ(
+        late.at(mover * kInstants + 3).instantFromRaster[0],
+        late.at(mover * kInstants + 4).instantFromRaster[0]
+    );
+}
+
+TEST_F(HostInstantsTest, BeforeACameraThatStandsStillBothLayersAreStill) {
+    for (HostCameraKey& key : keys)
+        key.viewFromWorld = glm::inverse(place({7.0, 1.0, -2.0}, {1.0, 2.0, 3.0}, 0.7));
+    addTumbler();
+    const HostRaster last = compute().raster;
+    const HostInstants made = compute(&last);
+    EXPECT_TRUE(made.layers.raster.isStill);
+    ASSERT_TRUE(made.layers.last.has_value());
+    EXPECT_TRUE(made.layers.last->isStill);
+}
+
+TEST_F(HostInstantsTest, InstantsFollowTheResponse) {
+    shader::ResponseTable rising{};
+    rising.knotCount = 2;
+    rising.knots[1] = {1.0f, 2.0f, 1.0f, 0.0f};
+    motion.response = &rising;
+    frame.hasResponse = true;
+    const HostInstants made = compute();
+    for (uint32_t i = 0; i < kInstants; ++i)
+        EXPECT_NEAR(made.layers.times.at(i), std::sqrt((i + 0.5) / kInstants), 1e-6);
+}
+
+TEST_F(HostInstantsTest, WhatHasNoTransformsIsFoundByMotionVectors) {
+    movers = {{2, {}}};
+    motion.movers = movers;
+    EXPECT_EQ(compute().layers.raster.movers.at(2), shader::kDeformedMover);
+}
+
+TEST_F(HostInstantsTest, ASingularTransformIsNowhereToBeSeen) {
+    addTumbler();
+    for (dmat4& matrix : matrices)
+        matrix[0] = dvec4(0.0);
+    const HostInstants made = compute();
+    const auto& found = made.layers.raster.motions.at(made.layers.raster.movers.at(1) * kInstants);
+    EXPECT_EQ(found.instantFromRaster[2], vec4(0.0f));
+}
+
+TEST_F(HostInstantsTest, TheLastRasterShowsWhereItsSurfacesAreNow) {
+    addTumbler();
+    const HostRaster last = compute().raster;
+    nextFrame();
+    const HostInstants made = compute(&last);
+    ASSERT_TRUE(made.layers.last.has_value());
+    expectMaps(*made.layers.last, 1, project(cornerAt(1.0), 1.0), cornerAt);
+    const dvec4 still(0.5, 0.5, -9.0, 1.0);
+    expectMaps(*made.layers.last, 0, project(still, 1.0), [&](double) { return still; });
+}
+
+TEST_F(HostInstantsTest, AnotherSizeOrProjectionHasNoLastRaster) {
+    const HostRaster last = compute().raster;
+    EXPECT_TRUE(compute(&last).layers.last.has_value());
+    frame.sizePx.y = 101;
+    EXPECT_FALSE(compute(&last).layers.last.has_value());
+    frame.sizePx.y = 100;
+    isPerspective = false;
+    setKeys({0.0, 0.5, 1.0});
+    EXPECT_FALSE(compute(&last).layers.last.has_value());
+}
+
+TEST_F(HostInstantsTest, WithoutBothTransformsTheLastRasterSaysNothing) {
+    addTumbler();
+    const HostRaster listed = compute().raster;
+    motion.movers = {};
+    const HostRaster unlisted = compute().raster;
+    EXPECT_EQ(compute(&listed).layers.last->movers.at(1), shader::kNoMover);
+    EXPECT_EQ(compute(&unlisted).layers.last->movers.at(1), shader::kWorldMover);
+    addTumbler();
+    EXPECT_EQ(compute(&unlisted).layers.last->movers.at(1), shader::kNoMover);
+    movers[0].worldFromObject = {};
+    EXPECT_EQ(compute(&listed).layers.last->movers.at(1), shader::kNoMover);
+    const HostRaster deforming = compute().raster;
+    addTumbler();
+    EXPECT_EQ(compute(&deforming).layers.last->movers.at(1), shader::kNoMover);
+}
+
+TEST_F(HostInstantsTest, RowsThatMoveAreFoundByTheirId) {
+    const std::vector<uint64_t> idsThen{10, 11, 12, 13};
+    motion.rowIds = idsThen;
+    addTumbler();
+    const HostRaster last = compute().raster;
+    nextFrame();
+    const std::vector<uint64_t> idsNow{12, 13, 11, 99};
+    motion.rowIds = idsNow;
+    addTumbler(2);
+    const HostInstants made = compute(&last);
+    ASSERT_TRUE(made.layers.last.has_value());
+    expectMaps(*made.layers.last, 1, project(cornerAt(1.0), 1.0), cornerAt);
+    EXPECT_EQ(made.layers.last->movers.at(0), shader::kNoMover) << "10 is gone";
+    EXPECT_EQ(made.layers.last->movers.at(2), shader::kWorldMover);
+}
+
+TEST_F(HostInstantsTest, AnIdThatOccursTwiceFindsNothing) {
+    const std::vector<uint64_t> once{10, 11, 12, 13};
+    const std::vector<uint64_t> twice{10, 11, 10, 13};
+    motion.rowIds = once;
+    const HostRaster last = compute().raster;
+    motion.rowIds = twice;
+    const HostRaster ambiguous = compute().raster;
+    EXPECT_EQ(compute(&last).layers.last->movers.at(0), shader::kNoMover);
+    motion.rowIds = once;
+    const LayerTables found = *compute(&ambiguous).layers.last;
+    EXPECT_EQ(found.movers.at(0), shader::kNoMover);
+    EXPECT_EQ(found.movers.at(2), shader::kNoMover);
+    EXPECT_EQ(found.movers.at(3), shader::kWorldMover);
+}
+
+TEST_F(HostInstantsTest, FewerRowsThanBeforeLeaveTheOthersOut) {
+    const HostRaster last = compute().raster;
+    motion.rowCount = 2;
+    const LayerTables found = *compute(&last).layers.last;
+    EXPECT_EQ(found.movers.at(1), shader::kWorldMover);
+    EXPECT_EQ(found.movers.at(2), shader::kNoMover);
+    EXPECT_EQ(found.movers.at(kRows), shader::kSkyMover);
+}
+
+} // namespace
+} // namespace shutter::motion_blur
