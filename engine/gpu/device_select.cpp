@@ -26,8 +26,12 @@ const char* describeKind(VkPhysicalDeviceType type) {
     }
 }
 
+/// Most methods trace no rays, and a software device takes a hundred times as long: it comes last,
+/// whatever it can.
 int rankOf(const DeviceInfo& info) {
-    int rank = info.rayTier != RayTier::None ? 100 : 0;
+    int rank = info.kind == "software" ? 0 : 200;
+    if (info.rayTier != RayTier::None)
+        rank += 100;
     if (info.rayTier == RayTier::RayQuery)
         rank += 5;
     if (info.kind == "discrete")

@@ -41,9 +41,9 @@ struct DeviceInfo {
 /// The best tier of the device from `best` down.
 [[nodiscard]] RayTier chooseTier(const DeviceInfo& device, RayTier best);
 
-/// `wanted` is empty (rays of any tier before none, then discrete before integrated before
-/// software, then the better tier), an index of `devices`, or a part of a name (case does not
-/// matter). Error: what there is to choose from.
+/// `wanted` is empty (software last, then rays of any tier before none, then discrete before
+/// integrated before virtual, then the better tier), an index of `devices`, or a part of a name
+/// (case does not matter). Error: what there is to choose from.
 [[nodiscard]] core::Result<DeviceInfo>
 chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted);
 

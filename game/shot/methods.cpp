@@ -49,6 +49,18 @@ std::vector<MethodInfo> makeMethods() {
     return methods;
 }
 
+bool canRun(const MethodInfo& method, const gpu::DeviceInfo& device) {
+    switch (method.rays) {
+    case RayNeed::None:
+        return true;
+    case RayNeed::Any:
+        return device.rayTier != gpu::RayTier::None;
+    case RayNeed::Query:
+        return device.rayTier == gpu::RayTier::RayQuery;
+    }
+    return false;
+}
+
 } // namespace
 
 std::span<const MethodInfo> listMethods() {
@@ -57,15 +69,15 @@ std::span<const MethodInfo> listMethods() {
 }
 
 bool canRun(const MethodInfo& method, const gpu::Device& device) {
-    switch (method.rays) {
-    case RayNeed::None:
-        return true;
-    case RayNeed::Any:
-        return device.hasRays();
-    case RayNeed::Query:
-        return device.hasRayQuery();
-    }
-    return false;
+    return canRun(method, device.info());
+}
+
+const gpu::DeviceInfo*
+findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices) {
+    for (const gpu::DeviceInfo& device : devices)
+        if (device.missing.empty() && canRun(method, device))
+            return &device;
+    return nullptr;
 }
 
 core::Result<const MethodInfo*> findMethod(std::string_view name) {

@@ -37,6 +37,9 @@ struct MethodInfo {
 };
 
 [[nodiscard]] bool canRun(const MethodInfo& method, const gpu::Device& device);
+/// The first of the devices that can run it; null: none.
+[[nodiscard]] const gpu::DeviceInfo*
+findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices);
 
 /// All methods, in order of rising quality.
 [[nodiscard]] std::span<const MethodInfo> listMethods();

@@ -38,21 +38,35 @@ checkSize(const gpu::Device& device, const MethodInfo& method, uint32_t width, u
     return {};
 }
 
+/// "; --device 'llvmpipe' can", or nothing where no other device of the machine can.
+std::string suggestDevice(const gpu::Device& device, const MethodInfo& method) {
+    std::vector<gpu::DeviceInfo> others = gpu::listDevices(device.instance());
+    std::erase_if(others, [&](const gpu::DeviceInfo& other) {
+        return other.handle == device.physical();
+    });
+    const gpu::DeviceInfo* found = findDeviceFor(method, others);
+    return found ? fmt::format("; --device '{}' can", found->name) : std::string();
+}
+
 core::Status checkRays(const gpu::Device& device, const MethodInfo& method) {
     if (canRun(method, device))
         return {};
+    const std::string other = suggestDevice(device, method);
     if (device.hasRays())
         return core::makeError(
-            "--method {} nests ray queries (VK_KHR_ray_query), which {} lacks or --rays hides; "
-            "hybrid and accumulate do without",
+            "--method {} nests ray queries (VK_KHR_ray_query), which {} lacks or --rays hides{}; "
+            "resolved, hybrid and accumulate do without",
             method.name,
-            device.info().name
+            device.info().name,
+            other
         );
     return core::makeError(
         "--method {} needs ray tracing (VK_KHR_ray_query or, for hybrid, "
-        "VK_KHR_ray_tracing_pipeline), which {} lacks or --rays hides; gather does without",
+        "VK_KHR_ray_tracing_pipeline), which {} lacks or --rays hides{}; resolved and gather do "
+        "without",
         method.name,
-        device.info().name
+        device.info().name,
+        other
     );
 }
 

@@ -32,24 +32,48 @@ void expectMessage(const core::Result<gpu::DeviceInfo>& result, const std::strin
     EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
 }
 
-TEST(DeviceChoice, WithoutAWishRaysCountBeforeTheKindOfDevice) {
-    auto devices = threeDevices();
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "New Card");
-    devices.pop_back();
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
+TEST(DeviceChoice, WithoutAWishASoftwareDeviceComesLastWhateverItCan) {
+    using gpu::RayTier;
+    // What Mesa's package puts beside the cards of a desktop or a data centre.
+    const gpu::DeviceInfo lavapipe = makeInfo("llvmpipe (LLVM 19)", "software", RayTier::RayQuery);
+    for (const gpu::DeviceInfo& card :
+         {makeInfo("NVIDIA GeForce GTX 1050 (NVK GP107)", "discrete", RayTier::None),
+          makeInfo("AMD Radeon RX Vega (RADV VEGA10)", "discrete", RayTier::None),
+          makeInfo("Intel(R) UHD Graphics 620 (KBL GT2)", "integrated", RayTier::None),
+          makeInfo("Virtio-GPU Venus", "virtual", RayTier::None),
+          makeInfo("Some Card", "other", RayTier::None),
+          makeInfo("NVIDIA H100", "discrete", RayTier::Pipeline)}) {
+        EXPECT_EQ(gpu::chooseDevice({lavapipe, card}, "").value().name, card.name);
+        EXPECT_EQ(gpu::chooseDevice({card, lavapipe}, "").value().name, card.name);
+    }
+    EXPECT_EQ(gpu::chooseDevice({lavapipe}, "").value().name, lavapipe.name);
 }
 
-TEST(DeviceChoice, AnyTierOfRaysCountsBeforeTheKindOfDeviceAndTheBetterTierAfterIt) {
+TEST(DeviceChoice, AmongCardsRaysOfAnyTierComeFirstThenTheKindThenTheBetterTier) {
+    using gpu::RayTier;
+    const gpu::DeviceInfo old = makeInfo("Old Card", "discrete", RayTier::None);
+    const gpu::DeviceInfo laptop = makeInfo("Laptop", "integrated", RayTier::RayQuery);
+    const gpu::DeviceInfo centre = makeInfo("Data Centre", "discrete", RayTier::Pipeline);
+    const gpu::DeviceInfo card = makeInfo("New Card", "discrete", RayTier::RayQuery);
+    EXPECT_EQ(gpu::chooseDevice({old, laptop}, "").value().name, "Laptop");
+    EXPECT_EQ(gpu::chooseDevice({old, laptop, centre}, "").value().name, "Data Centre");
+    EXPECT_EQ(gpu::chooseDevice({old, laptop, centre, card}, "").value().name, "New Card");
+}
+
+TEST(DeviceChoice, ADeviceThatCanRunAMethodIsFoundForIt) {
     auto devices = threeDevices();
-    devices[2].rayTier = gpu::RayTier::Pipeline;
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "New Card");
-    devices[2].rayTier = gpu::RayTier::None;
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
-    devices[0].rayTier = gpu::RayTier::Pipeline;
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
-    devices.push_back(makeInfo("Better Card", "discrete", gpu::RayTier::RayQuery));
-    devices[2].rayTier = gpu::RayTier::Pipeline;
-    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "Better Card");
+    const auto find = [&](const char* method) -> std::string {
+        const auto* found = game::findDeviceFor(*game::findMethod(method).value(), devices);
+        return found ? found->name : "none";
+    };
+    EXPECT_EQ(find("gather"), "llvmpipe (LLVM 15)") << "the first";
+    devices.erase(devices.begin());
+    EXPECT_EQ(find("hybrid"), "New Card");
+    devices[1].rayTier = gpu::RayTier::Pipeline;
+    EXPECT_EQ(find("hybrid"), "New Card");
+    EXPECT_EQ(find("denoised"), "none");
+    devices[1].missing = "Vulkan 1.3";
+    EXPECT_EQ(find("hybrid"), "none");
 }
 
 TEST(DeviceChoice, TheTierIsTheBestOneThatIsThereAndAllowed) {
@@ -73,6 +97,8 @@ TEST(DeviceChoice, TheTierIsTheBestOneThatIsThereAndAllowed) {
 TEST(DeviceChoice, ADeviceThatLacksSomethingIsPassedOver) {
     auto devices = threeDevices();
     devices[2].missing = "timeline semaphores";
+    EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "Old Card");
+    devices[1].missing = "dynamic rendering";
     EXPECT_EQ(gpu::chooseDevice(devices, "").value().name, "llvmpipe (LLVM 15)");
 }
 
