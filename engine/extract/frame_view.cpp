@@ -34,11 +34,6 @@ dmat4 jitterClip(const ViewRequest& request) {
     return glm::translate(dmat4(1.0), dvec3(shift, 0.0));
 }
 
-bool anyBlurScale(const scene::World& world) {
-    const auto view = world.registry.view<scene::MotionBlur>();
-    return view.begin() != view.end();
-}
-
 bool isIdentical(const dmat4& a, const dmat4& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
@@ -70,6 +65,11 @@ dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
     return math::clipFromViewOrthographic(
         camera.yMag * aspect, camera.yMag, camera.near, camera.far
     );
+}
+
+bool mayScaleMotion(const scene::World& world, const scene::ExposureInterval& exposure) {
+    const auto scaled = world.registry.view<scene::MotionBlur>();
+    return scaled.begin() != scaled.end() || !exposure.cap.movers.empty();
 }
 
 bool isDrawable(const math::dmat4& matrix) {
@@ -122,8 +122,7 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     mMatrices.eye = mEye[1];
     const bool cameraMoves =
         scene::mayMove(world, request.camera) || scene::mayZoom(world, request.camera);
-    mMovesStillThings =
-        cameraMoves && (anyBlurScale(world) || !request.exposure.cap.movers.empty());
+    mMovesStillThings = cameraMoves && mayScaleMotion(world, request.exposure);
     fillConstants(camera, request);
 }
 

@@ -12,6 +12,10 @@
 
 namespace shutter::extract {
 
+/// Whether an artist's scale of an entity, or the cap, may move what stands still in the world.
+[[nodiscard]] bool
+mayScaleMotion(const scene::World& world, const scene::ExposureInterval& exposure);
+
 /// Finite and not singular: triangles keep an area, and the matrix has an inverse.
 [[nodiscard]] bool isDrawable(const math::dmat4& matrix);
 

@@ -25,11 +25,6 @@ constexpr uint32_t kNoRow = 0xFFFFFFFFu;
 /// Share of a frame's duration within which two times are the same: frame times are rounded.
 constexpr double kFrameSlack = 1.0e-3;
 
-bool anyBlurScale(const scene::World& world) {
-    const auto view = world.registry.view<scene::MotionBlur>();
-    return view.begin() != view.end();
-}
-
 class Builder {
   public:
     Builder(
@@ -108,7 +103,7 @@ class Builder {
                 addMover(layer, row, entity, mFrame.worldFromObject[row]);
         };
         // What an artist's scale, or a cap, moves is static in the world.
-        if (anyBlurScale(mWorld) || !mView.exposure.cap.movers.empty()) {
+        if (mayScaleMotion(mWorld, mView.exposure)) {
             for (size_t row = 0; row < rows; ++row)
                 describe(row);
         } else {
@@ -170,8 +165,7 @@ class Builder {
         const scene::TimeSpan span{
             last.seconds + kFrameSlack * mView.exposure.frameSeconds,
             std::max(mView.exposure.raster, mView.exposure.close)};
-        const bool scales = anyBlurScale(mWorld) || !mView.exposure.cap.movers.empty();
-        std::vector<bool> mayMove(now.entities.size(), scales);
+        std::vector<bool> mayMove(now.entities.size(), mayScaleMotion(mWorld, mView.exposure));
         for (const uint32_t row : mFrame.movingRows)
             mayMove[row] = true;
         for (size_t row = 0; row < count; ++row) {
