@@ -80,7 +80,17 @@ class RayPipelineTier : public test::GpuTest {
         EXPECT_GE(test::countSet(queries.intermediates.at("mask")), leastMasked);
         EXPECT_EQ(queries.statistics.counters, pipeline.statistics.counters);
         if (device().info().kind == "software") {
-            for (const std::string& aov : shot.aovs)
+            // Ids are written where the mask is, and undefined elsewhere.
+            const image::Image& mask = queries.intermediates.at("mask");
+            const image::Image& ids = queries.intermediates.at("reveal_id");
+            size_t otherIds = 0;
+            for (uint32_t y = 0; y < mask.height; ++y)
+                for (uint32_t x = 0; x < mask.width; ++x)
+                    otherIds +=
+                        mask.at(x, y, 0) > 0.5f &&
+                        ids.at(x, y, 0) != pipeline.intermediates.at("reveal_id").at(x, y, 0);
+            EXPECT_EQ(otherIds, 0u);
+            for (const char* aov : {"mask", "reveal", "reveal_motion"})
                 EXPECT_TRUE(
                     test::sameBits(queries.intermediates.at(aov), pipeline.intermediates.at(aov))
                 ) << aov;
