@@ -51,7 +51,8 @@ TEST(MotionBlurSettings, TheDefaultsNeedNoMoreThanEveryHostHas) {
     const MotionBlurSettings settings;
     EXPECT_TRUE(validate(settings).ok());
     EXPECT_EQ(settings.method->rays, RayNeed::None);
-    EXPECT_FALSE(settings.method->readsSurface);
+    EXPECT_FALSE(settings.method->readsNormal);
+    EXPECT_FALSE(settings.method->readsEntityId);
     EXPECT_FALSE(settings.method->readsCamera);
     EXPECT_FALSE(settings.method->readsInstantMotions);
 }
