@@ -39,7 +39,8 @@ class CheckSkips(unittest.TestCase):
         (cls.folder / "CMakeLists.txt").write_text(PROJECT)
         build = cls.folder / "build"
         cmake, ctest = os.environ["SHUTTER_CMAKE"], os.environ["SHUTTER_CTEST"]
-        for command in ([cmake, "-S", cls.folder, "-B", build],
+        # The generator that scripts/setup.sh installs; the default one may be missing.
+        for command in ([cmake, "-G", "Ninja", "-S", cls.folder, "-B", build],
                         [ctest, "--test-dir", build, "--output-junit", cls.results]):
             subprocess.run(command, check=True, capture_output=True)
 
