@@ -172,7 +172,7 @@ function drawLadder() {
     const many = results.cases.length > 1;
     byId("ladder-note").textContent = `Each method at its default sample count, fastest first` +
         `${many ? `, medians over ${results.cases.length} cases` : ""}. ` +
-        `Time on a logarithmic line, ${metric.name} on a linear one; on the Pareto front stand ` +
+        `Time on a logarithmic line, ${metric.name} on a linear one. The Pareto front holds ` +
         "those that no other here beats in both.";
     const points = rows.map((row) => ({...row, value: row.metrics[metric.id]}));
     const isRanked = (row) => !truthMethods.has(row.method.name);
