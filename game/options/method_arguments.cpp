@@ -29,7 +29,9 @@ constexpr std::array kRows = {
         "--preset", "off, performance, balanced, quality or paper: a method and its settings"
     ),
     makeRow<&A::samples>(
-        "--samples", "taps (filters), instants (accumulate) or rays per pixel (truth, denoised)"
+        "--samples",
+        "taps (filters), instants (resolved, adaptive, accumulate) or rays per pixel (truth, "
+        "denoised)"
     ),
     makeRow<&A::error>("--error", "stop truth at this standard error (linear RMS)"),
     makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
