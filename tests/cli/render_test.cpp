@@ -195,6 +195,10 @@ TEST_F(CliRender, StatisticsAreJsonWithTheDocumentedKeys) {
         sum += pass.at("gpu_ms").get<double>();
     EXPECT_NEAR(picture.at("gpu_ms").get<double>(), sum, 1e-9);
     EXPECT_TRUE(picture.at("counters").contains("unresolved samples"));
+    expectSuccess(renderVase({"--method", "hybrid", "--out", "b.png", "--stats", "h.json"}));
+    const auto hybrid = nlohmann::json::parse(readFile("h.json")).at("pictures").at(0);
+    EXPECT_GT(hybrid.at("counters").at("pixels masked").get<int>(), 0);
+    EXPECT_GT(hybrid.at("counters").at("rays traced").get<int>(), 0);
     EXPECT_TRUE(picture.at("decisions").at("motion blur").get<std::string>().starts_with("ran: "));
 }
 

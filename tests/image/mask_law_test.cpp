@@ -177,7 +177,7 @@ TEST_F(MaskLaw, TheEdgeMeasureFollowsTheDepthStep) {
     EXPECT_NEAR(edge.at(62, 32, 1), measureOf(3.0), 1.0 / 255.0);
     EXPECT_NEAR(edge.at(60, 32, 1), measureOf(1.0), 1.0 / 255.0);
     EXPECT_NEAR(edge.at(59, 32, 1), 0.0, 1.0 / 255.0);
-    // Of these, the mover's own pixels are candidates and one of them passes the threshold.
+    // The mover's own pixels are candidates, and one of them passes the threshold.
     EXPECT_EQ(edge.at(61, 32, 2), 1.0f);
     EXPECT_EQ(edge.at(60, 32, 2), 0.0f);
     EXPECT_EQ(edge.at(62, 32, 2), 0.0f) << "the wall does not move";
