@@ -12,8 +12,8 @@ namespace {
 using math::dmat4;
 using math::dvec4;
 
-/// Of a row's largest element: below it an element counts as 0, since hosts' matrices are products
-/// of single precision.
+/// An element below this share of its row's largest counts as 0, since hosts multiply their
+/// matrices in single precision.
 constexpr double kRounding = 1.0e-6;
 
 dvec4 lastRow(const dmat4& matrix) {

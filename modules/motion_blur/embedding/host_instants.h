@@ -12,7 +12,7 @@
 
 namespace shutter::motion_blur {
 
-/// Of a frame, what its motion is read with.
+/// What a frame's motion depends on besides HostMotion itself.
 struct HostMotionFrame {
     math::uvec2 sizePx{1u};
     double rasterTime = 1.0;   ///< HostInputs::rasterTime
