@@ -59,7 +59,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         SHUTTER_TRY(device->createLogicalDevice(!options.surfaceExtensions.empty()));
         device->loadFunctions();
         device->loadLimits();
-        device->createSampler();
+        device->createSamplers();
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
         device->loadPipelineCache();
@@ -83,6 +83,7 @@ Device::~Device() {
         savePipelineCache();
         vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
+        vkDestroySampler(mDevice, mLinearSampler, nullptr);
         vkDestroySemaphore(mDevice, mTimeline, nullptr);
         if (!mIsAdopted)
             vkDestroyDevice(mDevice, nullptr);
@@ -229,12 +230,15 @@ void Device::loadLimits() {
             pipeline.shaderGroupBaseAlignment};
 }
 
-void Device::createSampler() {
+void Device::createSamplers() {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     require(vkCreateSampler(mDevice, &info, nullptr, &mNearestSampler), "creating a sampler");
+    info.magFilter = VK_FILTER_LINEAR;
+    info.minFilter = VK_FILTER_LINEAR;
+    require(vkCreateSampler(mDevice, &info, nullptr, &mLinearSampler), "creating a sampler");
 }
 
 std::string Device::cacheFileName() const {

@@ -126,6 +126,8 @@ class Device {
 
     [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
 
+    [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
+
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
 
@@ -168,7 +170,7 @@ class Device {
     void loadFunctions();
     void loadLimits();
     void destroyRetired();
-    void createSampler();
+    void createSamplers();
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
     void loadPipelineCache();
@@ -191,6 +193,7 @@ class Device {
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
     std::filesystem::path mCacheFile;
     VkSampler mNearestSampler = VK_NULL_HANDLE;
+    VkSampler mLinearSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
     LivingObjects mLiving;
     bool mHasDebugUtils = false;

@@ -33,7 +33,7 @@ core::Status Device::adoptHost(const HostDevice& host) {
     mHasDebugUtils = host.hasDebugUtils;
     loadFunctions();
     loadLimits();
-    createSampler();
+    createSamplers();
     loadPipelineCache();
     return {};
 }
