@@ -29,7 +29,7 @@ const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
     raster.color = gpu::Image(mDevice, "kept colour", desc);
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    desc.format = VK_FORMAT_R32G32_SFLOAT;
+    desc.format = VK_FORMAT_R32G32_UINT;
     raster.surface = gpu::Image(mDevice, "kept surface", desc);
     return raster;
 }

@@ -45,12 +45,13 @@ struct Mean {
 
 /// Adds those of 32 instants that are not traced. \return those that are, a bit each
 uint addGuesses(
-    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Mean mean
+    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
+    inout Mean mean
 ) {
     uint traced = 0u;
     for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
         Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, first + i, doubt);
+        Seen seen = searchInstant(search, first + i, guesses, doubt);
         vec3 color = vec3(0.0f);
         if (seen.isFound)
             color = colorOf(seen);
@@ -79,13 +80,14 @@ void main() {
     if (!hasRays) return;
     ivec2 pixel = ivec2(entry.x & 0xFFFFu, entry.x >> 16);
     PixelSearch search = beginSearch(pixel);
+    Guesses guesses = beginGuesses(search);
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     Mean mean = Mean(vec3(0.0f), 0u);
     uint rays = 0u;
     for (uint first = 0u; first < params.sampleCount; first += 32u) {
         // Which samples first, then the rays: threads side by side trace at the same time, although
         // not the same instants.
-        uint traced = addGuesses(search, pixel, first, shares, mean);
+        uint traced = addGuesses(search, pixel, first, shares, guesses, mean);
         for (; traced != 0u; traced &= traced - 1u) {
             DistributedSample ray = traceDistributed(
                 uScene, FrameRef(method.frame), TimedRef(method.timed), search.x,

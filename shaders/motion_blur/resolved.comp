@@ -42,6 +42,7 @@ void main() {
     ivec2 pixel;
     if (!findPixel(params.sizePx, pixel)) return;
     PixelSearch search = beginSearch(pixel);
+    Guesses guesses = beginGuesses(search);
     uint counts[kSampleClasses];
     for (uint i = 0u; i < kSampleClasses; ++i) counts[i] = 0u;
     vec3 sum = vec3(0.0f);
@@ -50,7 +51,7 @@ void main() {
     uint fromLast = 0u;
     for (uint instant = 0u; instant < params.sampleCount; ++instant) {
         Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, instant, doubt);
+        Seen seen = searchInstant(search, instant, guesses, doubt);
         vec3 color = vec3(0.0f);
         if (seen.isFound) {
             color = colorOf(seen);

@@ -59,18 +59,32 @@ vec3 transformRows(vec4 rows[3], vec4 point) {
 /// A direction has no place: its depth is 1 and it is not displaced.
 float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; }
 
+// A pixel of a surface image: bits of the depth; key, and a bit for each corner of the pixel, set if the
+// four pixels that meet there are of one entity.
+const uint kKeyBits = 0xFFFFFFu;
+const uint kCornerShift = 24u;
+
+uint keyOf(uvec2 surface) { return surface.y & kKeyBits; }
+uint innerCornersOf(uvec2 surface) { return surface.y >> kCornerShift; }
+
+/// \param at place from the pixel's upper left corner
+/// \return whether the four pixels around the place are of one entity
+bool isInner(uint corners, vec2 at) {
+    uint corner = (at.x < 0.5f ? 0u : 1u) + (at.y < 0.5f ? 0u : 2u);
+    return (corners >> corner & 1u) != 0u;
+}
+
 /// Nearest depth that counts as in front of a perspective camera, metres.
 const float kLeastDepth = 1.0e-6f;
 
 vec2 projectPicture(vec3 point, bool perspective) {
-    return perspective ? point.xy / max(point.z, kLeastDepth) : point.xy;
+    return perspective ? point.xy * (1.0f / max(point.z, kLeastDepth)) : point.xy;
 }
+
+/// Parts of the exposure for each instant, in fixed point for partOf().
+uint partsPerInstant(uint count) { return (kExposureParts << 16u) / max(count, kExposureParts); }
 
 /// Part of the exposure that an instant belongs to.
-uint partOf(uint instant, uint count) {
-    return count <= kExposureParts ? instant : instant * kExposureParts / count;
-}
-
-uint partBit(uint instant, uint count) { return 1u << partOf(instant, count); }
+uint partOf(uint instant, uint partsPerInstant_) { return instant * partsPerInstant_ >> 16u; }
 
 #endif

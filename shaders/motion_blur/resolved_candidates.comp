@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
 };
-layout(binding = 0) uniform sampler2D uSurface;
+layout(binding = 0) uniform usampler2D uSurface;
 layout(binding = 1) uniform sampler2D uMotionDepth; // of this frame's raster
 layout(binding = 2, scalar) buffer Candidates { TileCandidates uTiles[]; };
 layout(binding = 3, scalar) buffer Counters { ResolvedCounters uCounters; };
@@ -42,36 +42,71 @@ const float kMarginPx = 2.0f;
 
 uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
 
-void note(uint slot, ivec2 pixel, float depth, vec2 motion) {
-    atomicMin(sNearest[slot], floatBitsToUint(depth));
-    atomicMax(sFarthest[slot], floatBitsToUint(depth));
-    atomicMin(sLowX[slot], pixel.x);
-    atomicMin(sLowY[slot], pixel.y);
-    atomicMax(sHighX[slot], pixel.x);
-    atomicMax(sHighY[slot], pixel.y);
-    ivec2 low = ivec2(floor(motion * kMotionSteps));
-    ivec2 high = ivec2(ceil(motion * kMotionSteps));
-    atomicMin(sMotionLowX[slot], low.x);
-    atomicMin(sMotionLowY[slot], low.y);
-    atomicMax(sMotionHighX[slot], high.x);
-    atomicMax(sMotionHighY[slot], high.y);
+/// Pixels of one entity.
+struct Extent {
+    uint key; // kNoKey: none
+    bool deforms;
+    vec2 depths;
+    ivec2 low;
+    ivec2 high;
+    ivec2 motionLow;
+    ivec2 motionHigh;
+};
+
+const Extent kNoExtent = Extent(
+    kNoKey, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), ivec2(0x7FFFFFFF),
+    ivec2(-0x7FFFFFFF)
+);
+
+void note(uint slot, Extent extent) {
+    atomicMin(sNearest[slot], floatBitsToUint(extent.depths.x));
+    atomicMax(sFarthest[slot], floatBitsToUint(extent.depths.y));
+    atomicMin(sLowX[slot], extent.low.x);
+    atomicMin(sLowY[slot], extent.low.y);
+    atomicMax(sHighX[slot], extent.high.x);
+    atomicMax(sHighY[slot], extent.high.y);
+    if (!extent.deforms) return;
+    atomicMin(sMotionLowX[slot], extent.motionLow.x);
+    atomicMin(sMotionLowY[slot], extent.motionLow.y);
+    atomicMax(sMotionHighX[slot], extent.motionHigh.x);
+    atomicMax(sMotionHighY[slot], extent.motionHigh.y);
 }
 
-void listPixel(LayerMotion layer, ivec2 pixel) {
-    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx); // texelFetch is slow on software devices
-    vec2 surface = textureLod(uSurface, uv, 0.0f).xy;
-    uint key = uint(surface.y);
-    uint mover = findMover(layer, key);
-    if (mover == kNoMover || isStillMover(layer, mover)) return;
-    vec2 motion = mover == kDeformedMover ? textureLod(uMotionDepth, uv, 0.0f).xy : vec2(0.0f);
+void listExtent(Extent extent) {
+    if (extent.key == kNoKey) return;
     for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
-        uint held = atomicCompSwap(sKeys[slot], kNoKey, key);
-        if (held == kNoKey || held == key) {
-            note(slot, pixel, depthOfKey(key, max(surface.x, 0.0f)), motion);
+        uint held = sKeys[slot];
+        if (held == kNoKey) held = atomicCompSwap(sKeys[slot], kNoKey, extent.key);
+        if (held == kNoKey || held == extent.key) {
+            note(slot, extent);
             return;
         }
     }
     atomicAdd(uCounters.overflown, 1u);
+}
+
+/// Adds a pixel to the extent if it is of the same entity; lists the extent and begins another if it
+/// is not.
+void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
+    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx); // texelFetch is slow on software devices
+    uvec2 surface = textureLod(uSurface, uv, 0.0f).xy;
+    uint key = keyOf(surface);
+    if (key != extent.key) {
+        listExtent(extent);
+        extent = kNoExtent;
+        uint mover = findMover(layer, key);
+        if (mover == kNoMover || isStillMover(layer, mover)) return;
+        extent.key = key;
+        extent.deforms = mover == kDeformedMover;
+    }
+    float depth = depthOfKey(key, uintBitsToFloat(surface.x));
+    extent.depths = vec2(min(extent.depths.x, depth), max(extent.depths.y, depth));
+    extent.low = min(extent.low, pixel);
+    extent.high = max(extent.high, pixel);
+    if (!extent.deforms) return;
+    vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
+    extent.motionLow = min(extent.motionLow, ivec2(floor(motion * kMotionSteps)));
+    extent.motionHigh = max(extent.motionHigh, ivec2(ceil(motion * kMotionSteps)));
 }
 
 void enter(uint tile, uint key, vec2 depths, uint bits) {
@@ -83,7 +118,7 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
         atomicMin(
             uTiles[tile].candidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f))
         );
-        atomicAnd(uTiles[tile].candidates[slot].partsInverted, ~bits);
+        atomicAnd(uTiles[tile].parts[slot], ~bits);
         return;
     }
     atomicAdd(uCounters.overflown, 1u);
@@ -100,6 +135,10 @@ void enterBox(uint key, vec2 low, vec2 high, vec2 depths, uint bits) {
     uvec2 to = min(uvec2(highTile), tiles - 1u);
     for (uint y = from.y; y <= to.y; ++y)
         for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, depths, bits);
+}
+
+uint partBit(uint instant) {
+    return 1u << partOf(instant, partsPerInstant(params.sampleCount));
 }
 
 void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool perspective) {
@@ -124,7 +163,7 @@ void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool per
         isInFront = isInFront || seen.z > 0.0f || !perspective;
     }
     if (!isInFront) return;
-    enterBox(sKeys[slot], low, high, depths, partBit(instant, params.sampleCount));
+    enterBox(sKeys[slot], low, high, depths, partBit(instant));
 }
 
 void enterDeformed(uint slot, uint instant) {
@@ -134,7 +173,7 @@ void enterDeformed(uint slot, uint instant) {
     vec2 low = vec2(sLowX[slot], sLowY[slot]) + min(a, b);
     vec2 high = vec2(sHighX[slot] + 1, sHighY[slot] + 1) + max(a, b);
     vec2 depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
-    enterBox(sKeys[slot], low, high, depths, partBit(instant, params.sampleCount));
+    enterBox(sKeys[slot], low, high, depths, partBit(instant));
 }
 
 void main() {
@@ -150,11 +189,13 @@ void main() {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
     uvec2 origin = gl_WorkGroupID.xy * kCandidateTilePx + gl_LocalInvocationID.xy;
+    Extent extent = kNoExtent;
     for (uint y = 0u; y < kCandidateTilePx; y += kGroupSize)
         for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
             uvec2 pixel = origin + uvec2(x, y);
-            if (all(lessThan(pixel, params.sizePx))) listPixel(layer, ivec2(pixel));
+            if (all(lessThan(pixel, params.sizePx))) addPixel(layer, ivec2(pixel), extent);
         }
+    listExtent(extent);
     barrier();
     bool perspective = motions.value.isPerspective != 0u;
     const uint kThreads = kGroupSize * kGroupSize;

@@ -7,14 +7,25 @@
 #include "common/numeric.glsl"
 #include "motion_blur/resolved.glsl"
 
+/// TileCandidates with each candidate as one vector, which is one load.
+struct ReadTile {
+    uvec4 candidates[kCandidatesPerTile];
+    uint parts[kExposureParts];
+};
+
+// By address and not bound: software devices load at many addresses at once only then.
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ReadTiles {
+    ReadTile tiles[];
+};
+
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
-layout(binding = 2) uniform sampler2D uSurface;
+layout(binding = 2) uniform usampler2D uSurface;
 layout(binding = 3) uniform sampler2D uLastColor;
-layout(binding = 4) uniform sampler2D uLastSurface;
+layout(binding = 4) uniform usampler2D uLastSurface;
 layout(binding = 5, rgba16f) uniform writeonly image2D uBlurred;
-layout(binding = 6, scalar) readonly buffer RasterCandidates { TileCandidates uRasterTiles[]; };
-layout(binding = 7, scalar) readonly buffer LastCandidates { TileCandidates uLastTiles[]; };
+layout(binding = 6) uniform sampler2D uColorLinear;
+layout(binding = 7) uniform sampler2D uLastColorLinear;
 layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
 
 /// Fixed-point steps of a search.
@@ -39,8 +50,9 @@ struct Seen {
     bool isFound;
     uint layer;
     uint key;
-    vec2 at;     // in the layer's picture
-    float depth; // at the instant
+    vec2 at;      // in the layer's picture
+    float depth;  // at the instant
+    bool isInner; // all that the layer shows around the place is of the same entity
 };
 
 /// What a search knows besides what it found.
@@ -57,14 +69,24 @@ struct Doubt {
 
 const Doubt kNoDoubt = Doubt(false, ivec2(0), false, vec3(kMaxColor), vec3(0.0f));
 
-vec2 fetchSurface(uint layer, ivec2 at) {
-    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
-    return layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
-                                 : textureLod(uLastSurface, uv, 0.0f).xy;
+/// What a pixel of a layer shows.
+struct Probe {
+    uint key;
+    float depth;
+    uint innerCorners; // a bit for each corner of the pixel, see isInner()
+};
+
+vec2 uvOf(vec2 at) { return at * (1.0f / vec2(params.sizePx)); }
+
+Probe fetchSurface(uint layer, ivec2 at) {
+    vec2 uv = uvOf(vec2(at) + 0.5f);
+    uvec2 read = layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
+                                       : textureLod(uLastSurface, uv, 0.0f).xy;
+    return Probe(keyOf(read), uintBitsToFloat(read.x), innerCornersOf(read));
 }
 
 vec3 fetchColor(uint layer, ivec2 at) {
-    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
+    vec2 uv = uvOf(vec2(at) + 0.5f);
     return layer == kRasterLayer ? textureLod(uColor, uv, 0.0f).rgb
                                  : textureLod(uLastColor, uv, 0.0f).rgb;
 }
@@ -95,21 +117,22 @@ ivec2 texelOf(Footprint footprint, uint i) {
 
 /// Where the four pixels meet: whatever the precision of the sampler, it gathers these.
 vec2 gatherPlace(Footprint footprint) {
-    return vec2(footprint.corner + 1) / vec2(params.sizePx);
+    return uvOf(vec2(footprint.corner + 1));
 }
 
 vec4 gatherDepths(uint layer, Footprint footprint) {
     vec2 uv = gatherPlace(footprint);
-    return layer == kRasterLayer ? textureGather(uSurface, uv, 0)
-                                 : textureGather(uLastSurface, uv, 0);
+    return uintBitsToFloat(
+        layer == kRasterLayer ? textureGather(uSurface, uv, 0) : textureGather(uLastSurface, uv, 0)
+    );
 }
 
 /// \return whether each of the pixels is of the entity
 bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
     vec2 uv = gatherPlace(footprint);
-    vec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
-                                      : textureGather(uLastSurface, uv, 1);
-    return equal(keys, vec4(float(key)));
+    uvec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
+                                       : textureGather(uLastSurface, uv, 1);
+    return equal(keys & kKeyBits, uvec4(key));
 }
 
 /// Bilinear among the pixels of the entity, one of which holds the place. What is linear in the
@@ -123,17 +146,34 @@ float interpolateDepth(uint layer, uint key, vec2 at, bool perspective) {
     return perspective ? sum / dot(weights, 1.0f / depths) : dot(weights, depths) / sum;
 }
 
+/// One channel of the four pixels' colours.
+vec4 gatherChannel(uint layer, vec2 uv, int channel) {
+    if (channel == 0)
+        return layer == kRasterLayer ? textureGather(uColor, uv, 0)
+                                     : textureGather(uLastColor, uv, 0);
+    if (channel == 1)
+        return layer == kRasterLayer ? textureGather(uColor, uv, 1)
+                                     : textureGather(uLastColor, uv, 1);
+    return layer == kRasterLayer ? textureGather(uColor, uv, 2) : textureGather(uLastColor, uv, 2);
+}
+
+/// Bilinear among the pixels of the entity, one of which holds the place.
 vec3 interpolateColor(Seen seen) {
-    Footprint footprint = footprintOf(seen.at);
-    bvec4 matches = gatherMatches(seen.layer, seen.key, footprint);
-    vec3 sum = vec3(0.0f);
-    float weights = 0.0f;
-    for (uint i = 0u; i < 4u; ++i) {
-        if (!matches[i]) continue;
-        sum += footprint.weights[i] * fetchColor(seen.layer, texelOf(footprint, i));
-        weights += footprint.weights[i];
+    if (seen.isInner) {
+        vec2 uv = uvOf(seen.at);
+        return seen.layer == kRasterLayer ? textureLod(uColorLinear, uv, 0.0f).rgb
+                                          : textureLod(uLastColorLinear, uv, 0.0f).rgb;
     }
-    return weights > 0.0f ? sum / weights : fetchColor(seen.layer, ivec2(seen.at));
+    Footprint footprint = footprintOf(seen.at);
+    vec4 weights =
+        mix(vec4(0.0f), footprint.weights, gatherMatches(seen.layer, seen.key, footprint));
+    vec2 uv = gatherPlace(footprint);
+    vec3 sum = vec3(
+        dot(weights, gatherChannel(seen.layer, uv, 0)),
+        dot(weights, gatherChannel(seen.layer, uv, 1)),
+        dot(weights, gatherChannel(seen.layer, uv, 2))
+    );
+    return sum / dot(weights, vec4(1.0f));
 }
 
 /// A place at a pixel's centre has that pixel's bits.
@@ -142,10 +182,15 @@ vec3 colorOf(Seen seen) {
                                         : interpolateColor(seen);
 }
 
-void keepNearer(inout Seen best, uint layer, uint key, vec2 at, float depth) {
+/// Depth that surfaces are compared by.
+float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : depth; }
+
+void keepNearer(inout Seen best, Seen other) {
     // Coplanar surfaces: the same one wins in whatever order they are met.
-    if (best.isFound && (depth > best.depth || (depth == best.depth && key >= best.key))) return;
-    best = Seen(true, layer, key, at, depth);
+    if (best.isFound && (other.depth > best.depth ||
+                         (other.depth == best.depth && other.key >= best.key)))
+        return;
+    best = other;
 }
 
 void addEdge(vec3 color, inout Doubt doubt) {
@@ -178,81 +223,143 @@ void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     }
 }
 
-/// Looks for the place in the layer of what the pixel sees of an entity, from a guess at its depth.
+/// A pixel's ray at an instant in the layer's picture: the point at a depth is seen at the projection
+/// of base + slope * along. `along` is what places on the ray's picture are evenly spaced by: the
+/// inverse of the depth before a perspective camera, the depth before an orthographic one.
+struct PixelRay {
+    vec3 base;
+    vec3 slope;
+};
+
+PixelRay findRay(vec4 rasterFromInstant[3], vec2 x, bool perspective) {
+    vec3 at = vec3(x, 1.0f);
+    vec3 inDepth = vec3(
+        dot(rasterFromInstant[0].xyz, at), dot(rasterFromInstant[1].xyz, at),
+        dot(rasterFromInstant[2].xyz, at)
+    );
+    vec3 fixed_ = vec3(rasterFromInstant[0].w, rasterFromInstant[1].w, rasterFromInstant[2].w);
+    if (perspective) return PixelRay(inDepth, fixed_);
+    vec3 perDepth = vec3(rasterFromInstant[0].z, rasterFromInstant[1].z, rasterFromInstant[2].z);
+    return PixelRay(inDepth - perDepth + fixed_, perDepth);
+}
+
+float alongOf(float depth, bool perspective) {
+    return perspective ? 1.0f / max(depth, kLeastDepth) : depth;
+}
+
+vec2 placeOn(PixelRay ray, float along, bool perspective) {
+    return projectPicture(ray.base + ray.slope * along, perspective);
+}
+
+/// Where on a pixel's ray an entity was found last: the next instant's first guess.
+struct Guess {
+    uint key;
+    float along;
+};
+
+struct Guesses {
+    Guess raster;
+    Guess last;
+};
+
+/// Looks for the place in the layer of what the pixel sees of an entity.
+/// \param guess where on the ray to begin; where it was found
 /// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
 /// depth matters
 /// \return whether it was found
 bool searchRigid(
-    uint layer, uint key, InstantMotion motion, bool perspective, vec2 x, float depth,
+    uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
     float spreadPx, uint hiding, inout Seen best, inout Doubt doubt
 ) {
-    vec2 at = projectPicture(
-        transformRows(motion.rasterFromInstant, pictureSpace(x, depth, perspective)), perspective
-    );
+    uint key = guess.key;
+    vec2 at = placeOn(ray, guess.along, perspective);
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
-        vec2 surface = fetchSurface(layer, texel);
-        if (uint(surface.y) != key) {
+        Probe surface = fetchSurface(layer, texel);
+        if (surface.key != key) {
             noteMiss(layer, key, at, hiding, doubt);
             return false;
         }
         float layerDepth =
             spreadPx > kInterpolatedSpreadPx ? interpolateDepth(layer, key, at, perspective)
-                                             : surface.x;
-        float instantDepth = dot(
-            motion.instantFromRaster[2],
-            pictureSpace(at, depthOfKey(key, layerDepth), perspective)
-        );
-        if (perspective && instantDepth < kLeastDepth) return false;
-        if (spreadPx < kArrivedPx) {
-            keepNearer(best, layer, key, at, key == kSkyKey ? kFarthest : instantDepth);
-            return true;
+                                             : surface.depth;
+        float depth =
+            dot(instantDepthRow, pictureSpace(at, depthOfKey(key, layerDepth), perspective));
+        if (perspective && depth < kLeastDepth) return false;
+        float along = alongOf(depth, perspective);
+        if (spreadPx >= kArrivedPx) {
+            vec2 next = placeOn(ray, along, perspective);
+            float way = distance(next, at);
+            at = next;
+            if (way > kArrivedPx && step_ + 1u < kSteps) continue;
+            if (way > kTolerancePx || !isInside(at)) return false;
+            if (ivec2(at) != texel && fetchSurface(layer, ivec2(at)).key != key) {
+                noteMiss(layer, key, at, hiding, doubt);
+                return false;
+            }
         }
-        vec2 next = projectPicture(
-            transformRows(motion.rasterFromInstant, pictureSpace(x, instantDepth, perspective)),
-            perspective
-        );
-        float way = distance(next, at);
-        at = next;
-        if (way > kArrivedPx && step_ + 1u < kSteps) continue;
-        if (way > kTolerancePx || !isInside(at)) return false;
-        if (ivec2(at) != texel && uint(fetchSurface(layer, ivec2(at)).y) != key) {
-            noteMiss(layer, key, at, hiding, doubt);
-            return false;
-        }
-        keepNearer(best, layer, key, at, key == kSkyKey ? kFarthest : instantDepth);
+        guess.along = along;
+        keepNearer(best, Seen(true, layer, key, at, behindSky(key, depth), false));
         return true;
     }
     return false;
 }
 
+/// The first guess where it is right and no other entity is near: most samples of most pictures.
+/// \return whether it was found
+bool searchInner(
+    uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
+    float spreadPx, inout Seen best
+) {
+    vec2 at = placeOn(ray, guess.along, perspective);
+    if (!isInside(at)) return false;
+    vec2 texel = floor(at);
+    Probe surface = fetchSurface(layer, ivec2(texel));
+    if (surface.key != guess.key) return false;
+    float layerDepth = depthOfKey(guess.key, surface.depth);
+    float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
+    float along = alongOf(depth, perspective);
+    vec2 place = spreadPx < kArrivedPx ? at : placeOn(ray, along, perspective);
+    if (!isInner(surface.innerCorners, place - texel)) return false;
+    if (distance(place, at) > kArrivedPx || !isInside(place)) return false;
+    if (perspective && depth < kLeastDepth) return false;
+    guess.along = along;
+    keepNearer(best, Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true));
+    return true;
+}
+
 void searchDepths(
     uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x, uint hiding,
-    inout Seen best, inout Doubt doubt
+    inout Guess guess, inout Seen best, inout Doubt doubt
 ) {
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
-    float nearest = uintBitsToFloat(candidate.nearest);
-    float farthest = uintBitsToFloat(~candidate.farthestInverted);
-    vec2 from = projectPicture(
-        transformRows(motion.rasterFromInstant, pictureSpace(x, nearest, perspective)), perspective
-    );
-    vec2 to = projectPicture(
-        transformRows(motion.rasterFromInstant, pictureSpace(x, farthest, perspective)), perspective
-    );
-    float way = distance(from, to);
-    uint seeds = way < 1.0f ? 1u : clamp(uint(way / kSeedDistancePx) + 2u, 2u, kMostSeeds);
-    for (uint seed = 0u; seed < seeds; ++seed) {
-        float share = seeds == 1u ? 0.5f : float(seed) / float(seeds - 1u);
-        // Places along the way are evenly spaced in the inverse of the depth.
-        float depth = perspective && nearest > 0.0f
-                          ? 1.0f / mix(1.0f / nearest, 1.0f / farthest, share)
-                          : mix(nearest, farthest, share);
-        // From near to far: the first place found is, as a rule, the one that hides the others.
-        if (searchRigid(
-                layer, candidate.key, motion, perspective, x, depth, way, hiding, best, doubt
-            ))
+    PixelRay ray = findRay(motion.rasterFromInstant, x, perspective);
+    float nearest = alongOf(uintBitsToFloat(candidate.nearest), perspective);
+    float farthest = alongOf(uintBitsToFloat(~candidate.farthestInverted), perspective);
+    float way = distance(placeOn(ray, nearest, perspective), placeOn(ray, farthest, perspective));
+    vec4 depthRow = motion.instantFromRaster[2];
+    bool hasGuess = guess.key == candidate.key;
+    Guess tried = Guess(candidate.key, hasGuess ? guess.along : 0.5f * (nearest + farthest));
+    if (searchInner(layer, depthRow, ray, perspective, tried, way, best)) {
+        guess = tried;
+        return;
+    }
+    if (hasGuess || way < 1.0f) {
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
+            guess = tried;
             return;
+        }
+        if (way < 1.0f) return;
+    }
+    uint seeds = clamp(uint(way / kSeedDistancePx) + 2u, 2u, kMostSeeds);
+    for (uint seed = 0u; seed < seeds; ++seed) {
+        tried.along = mix(nearest, farthest, float(seed) / float(seeds - 1u));
+        // From near to far: the first place found is, as a rule, the one that hides the others.
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
+            guess = tried;
+            return;
+        }
     }
 }
 
@@ -265,8 +372,8 @@ void searchDeformed(
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return;
         ivec2 texel = ivec2(at);
-        vec2 surface = fetchSurface(kRasterLayer, texel);
-        if (uint(surface.y) != key) {
+        Probe surface = fetchSurface(kRasterLayer, texel);
+        if (surface.key != key) {
             noteMiss(kRasterLayer, key, at, hiding, doubt);
             return;
         }
@@ -275,8 +382,8 @@ void searchDeformed(
         at = next;
         if (way > kArrivedPx && step_ + 1u < kSteps) continue;
         if (way > kTolerancePx || !isInside(at)) return;
-        if (ivec2(at) != texel && uint(fetchSurface(kRasterLayer, ivec2(at)).y) != key) return;
-        keepNearer(best, kRasterLayer, key, at, surface.x);
+        if (ivec2(at) != texel && fetchSurface(kRasterLayer, ivec2(at)).key != key) return;
+        keepNearer(best, Seen(true, kRasterLayer, key, at, surface.depth, false));
         return;
     }
 }
@@ -286,29 +393,33 @@ struct PixelSearch {
     vec2 x;
     uint tile;
     uint hiding; // key of what this frame's raster has at the pixel
+    bool perspective;
+    uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
     LayerMotion last;
     Seen still; // what stands still there, at all instants
     Seen lastStill;
 };
 
+ReadTiles tilesOf(uint layer) {
+    return ReadTiles(layer == kLastLayer ? method.lastCandidates : method.rasterCandidates);
+}
+
 Candidate getCandidate(uint layer, uint tile, uint slot) {
-    if (layer == kLastLayer) return uLastTiles[tile].candidates[slot];
-    return uRasterTiles[tile].candidates[slot];
+    uvec4 read = tilesOf(layer).tiles[tile].candidates[slot];
+    return Candidate(read.x, read.y, read.z, read.w);
 }
 
 /// A bit for each candidate that the tile may see in that part of the exposure.
 uint getPart(uint layer, uint tile, uint part) {
-    return layer == kLastLayer ? uLastTiles[tile].parts[part] : uRasterTiles[tile].parts[part];
+    return tilesOf(layer).tiles[tile].parts[part];
 }
 
 void searchLayer(
-    uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Seen best,
-    inout Doubt doubt
+    uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Guess guess,
+    inout Seen best, inout Doubt doubt
 ) {
-    InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    bool perspective = motions.value.isPerspective != 0u;
-    uint slots = getPart(index, pixel.tile, partOf(instant, params.sampleCount));
+    uint slots = getPart(index, pixel.tile, partOf(instant, pixel.partsPerInstant));
     while (slots != 0u) {
         Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
         slots &= slots - 1u;
@@ -316,27 +427,28 @@ void searchLayer(
         if (!kFindsEdges && best.isFound &&
             (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
             break;
-        uint mover = findMover(layer, candidate.key);
-        if (mover == kDeformedMover)
+        if (candidate.mover == kDeformedMover)
             searchDeformed(
-                candidate.key, timeOf(motions, instant) - params.rasterTime, pixel.x, pixel.hiding,
-                best, doubt
+                candidate.key,
+                timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime, pixel.x,
+                pixel.hiding, best, doubt
             );
         else
             searchDepths(
                 index, candidate,
-                InstantMotionTable(layer.motions).motions[mover * params.sampleCount + instant],
-                perspective, pixel.x, pixel.hiding, best, doubt
+                InstantMotionTable(layer.motions)
+                    .motions[candidate.mover * params.sampleCount + instant],
+                pixel.perspective, pixel.x, pixel.hiding, guess, best, doubt
             );
     }
 }
 
 /// What stands still at the pixel itself in the layer.
 Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
-    vec2 surface = fetchSurface(index, pixel);
-    uint key = uint(surface.y);
+    Probe surface = fetchSurface(index, pixel);
     return Seen(
-        isStillMover(layer, findMover(layer, key)), index, key, vec2(pixel) + 0.5f, surface.x
+        isStillMover(layer, findMover(layer, surface.key)), index, surface.key, vec2(pixel) + 0.5f, surface.depth,
+        false
     );
 }
 
@@ -347,22 +459,32 @@ PixelSearch beginSearch(ivec2 pixel) {
     PixelSearch search;
     search.x = vec2(pixel) + 0.5f;
     search.tile = tile.y * tiles.x + tile.x;
+    search.perspective = motions.value.isPerspective != 0u;
+    search.partsPerInstant = partsPerInstant(params.sampleCount);
     search.raster = getLayer(motions, kRasterLayer);
     search.last = getLayer(motions, kLastLayer);
     search.still = findStill(kRasterLayer, search.raster, pixel);
     search.hiding = search.still.key;
-    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f);
+    search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false);
     if (method.hasLast != 0u && !search.still.isFound)
         search.lastStill = findStill(kLastLayer, search.last, pixel);
     return search;
 }
 
-Seen searchInstant(PixelSearch pixel, uint instant, inout Doubt doubt) {
+/// What is known before the first instant.
+Guesses beginGuesses(PixelSearch pixel) {
+    return Guesses(
+        Guess(pixel.hiding, alongOf(depthOfKey(pixel.hiding, pixel.still.depth), pixel.perspective)),
+        Guess(kNoKey, 0.0f)
+    );
+}
+
+Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
     Seen seen = pixel.still;
-    searchLayer(kRasterLayer, pixel.raster, pixel, instant, seen, doubt);
+    searchLayer(kRasterLayer, pixel.raster, pixel, instant, guesses.raster, seen, doubt);
     if (!seen.isFound && method.hasLast != 0u) {
         seen = pixel.lastStill;
-        searchLayer(kLastLayer, pixel.last, pixel, instant, seen, doubt);
+        searchLayer(kLastLayer, pixel.last, pixel, instant, guesses.last, seen, doubt);
     }
     return seen;
 }

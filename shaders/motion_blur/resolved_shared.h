@@ -25,12 +25,14 @@ struct Candidate {
     uint key;              // row of its raster's entity table, or kSkyKey
     uint nearest;          // bits of its least depth in the tile at any instant, metres
     uint farthestInverted; // inverted bits of the largest
-    uint partsInverted;    // a bit for each part of the exposure; 0: in the tile then
+    uint mover;            // in the table of movers, once they are sorted
 };
 
 struct TileCandidates {
     Candidate candidates[kCandidatesPerTile]; // nearest first once they are sorted
-    uint parts[kExposureParts];               // once they are sorted: a bit for each candidate
+    // While they are listed: for each candidate a bit for each part of the exposure, 0 if it is in
+    // the tile then. Once they are sorted: for each part a bit for each candidate, 1 if it is.
+    uint parts[kExposureParts];
 };
 
 /// Samples that rays may replace, by the harm that leaving them does: what no layer explains, then
@@ -51,6 +53,8 @@ struct ResolvedParams {
     uint rayLimit; // of the frame; kNoRayLimit: none
     uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
+    uvec2 rasterCandidates; // addresses of TileCandidates[]: for passes that search
+    uvec2 lastCandidates;
 };
 
 /// What a frame counted.
@@ -70,7 +74,8 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::Candidate) == 16);
 static_assert(sizeof(shutter::shader::TileCandidates) == 640);
-static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
+static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 48);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif
 

@@ -31,11 +31,15 @@ void setCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
         uRaster[tile].candidates[slot] = candidate;
 }
 
-void setPart(uint layer, uint tile, uint part, uint bits) {
+uint getParts(uint layer, uint tile, uint index) {
+    return layer == kLastLayer ? uLast[tile].parts[index] : uRaster[tile].parts[index];
+}
+
+void setParts(uint layer, uint tile, uint index, uint bits) {
     if (layer == kLastLayer)
-        uLast[tile].parts[part] = bits;
+        uLast[tile].parts[index] = bits;
     else
-        uRaster[tile].parts[part] = bits;
+        uRaster[tile].parts[index] = bits;
 }
 
 /// In the order of searching: the sky is behind everything, and equals have one order.
@@ -47,36 +51,41 @@ bool isBefore(Candidate a, Candidate b) {
 
 /// \return how many there are
 uint sortCandidates(uint layer, uint tile) {
+    LayerMotion motion = getLayer(InstantMotionsRef(method.motions), layer);
     uint end = 0u;
     for (; end < kCandidatesPerTile; ++end) {
         Candidate moved = getCandidate(layer, tile, end);
         if (moved.key == kNoKey) break;
+        moved.mover = findMover(motion, moved.key);
+        uint parts = getParts(layer, tile, end);
         uint slot = end;
         for (; slot > 0u; --slot) {
             Candidate before = getCandidate(layer, tile, slot - 1u);
             if (!isBefore(moved, before)) break;
             setCandidate(layer, tile, slot, before);
+            setParts(layer, tile, slot, getParts(layer, tile, slot - 1u));
         }
-        if (slot != end) setCandidate(layer, tile, slot, moved);
+        setCandidate(layer, tile, slot, moved);
+        setParts(layer, tile, slot, parts);
     }
     return end;
 }
 
-void listParts(uint layer, uint tile, uint count) {
+/// From a bit for each part, by candidate, to a bit for each candidate, by part.
+void transposeParts(uint layer, uint tile, uint count) {
+    uint missing[kCandidatesPerTile];
+    for (uint slot = 0u; slot < count; ++slot) missing[slot] = getParts(layer, tile, slot);
     for (uint part = 0u; part < min(params.sampleCount, kExposureParts); ++part) {
         uint bits = 0u;
-        for (uint slot = 0u; slot < count; ++slot) {
-            uint parts = ~getCandidate(layer, tile, slot).partsInverted;
-            bits |= (parts >> part & 1u) << slot;
-        }
-        setPart(layer, tile, part, bits);
+        for (uint slot = 0u; slot < count; ++slot) bits |= (~missing[slot] >> part & 1u) << slot;
+        setParts(layer, tile, part, bits);
     }
 }
 
 /// \return whether there are any
 bool prepareTile(uint layer, uint tile) {
     uint count = sortCandidates(layer, tile);
-    listParts(layer, tile, count);
+    transposeParts(layer, tile, count);
     return count > 0u;
 }
 

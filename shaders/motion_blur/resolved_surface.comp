@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The raster's depth and entity id in one image, so that a probe is one fetch.
+// The raster's depth and entity id in one image, so that a probe is one fetch, which says too
+// whether other entities are near.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -10,16 +11,35 @@ layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform usampler2D uEntityId;
-layout(binding = 2, rg32f) uniform writeonly image2D uSurface; // depth, key
+layout(binding = 2, rg32ui) uniform writeonly uimage2D uSurface;
+
+uint fetchKey(ivec2 at) {
+    // texelFetch is slow on software devices
+    vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
+    uint id = textureLod(uEntityId, uv, 0.0f).x;
+    return id == kNoEntity ? kSkyKey : id;
+}
+
+/// A bit for each corner of the pixel: the four pixels that meet there are of one entity. The picture
+/// goes on as it ends.
+uint findInnerCorners(ivec2 pixel, uint key) {
+    bool isSame[9];
+    for (int i = 0; i < 9; ++i)
+        isSame[i] = i == 4 || fetchKey(pixel + ivec2(i % 3 - 1, i / 3 - 1)) == key;
+    return (isSame[0] && isSame[1] && isSame[3] ? 1u : 0u) |
+           (isSame[1] && isSame[2] && isSame[5] ? 2u : 0u) |
+           (isSame[3] && isSame[6] && isSame[7] ? 4u : 0u) |
+           (isSame[5] && isSame[7] && isSame[8] ? 8u : 0u);
+}
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx); // texelFetch is slow on software devices
-    uint id = textureLod(uEntityId, uv, 0.0f).x;
-    uint key = id == kNoEntity ? kSkyKey : id;
-    // A row is below 2^24, and so exact as a float.
+    uint key = fetchKey(pixel);
+    float depth = textureLod(uMotionDepth, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).z;
+    uint corners = findInnerCorners(pixel, key);
     imageStore(
-        uSurface, pixel, vec4(textureLod(uMotionDepth, uv, 0.0f).z, float(key), 0.0f, 0.0f)
+        uSurface, pixel,
+        uvec4(floatBitsToUint(max(depth, 0.0f)), key | corners << kCornerShift, 0u, 0u)
     );
 }

@@ -23,7 +23,7 @@ using graph::Access;
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mSampler(device.nearestSampler()), mLookUp(device, true), mTrace(device, [sceneLayout] {
+        : mDevice(device), mLookUp(device, true), mTrace(device, [sceneLayout] {
               std::vector<VkDescriptorType> bindings = listSearchBindings();
               bindings.push_back(kBuffer);
               bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
@@ -50,7 +50,7 @@ class AdaptivePasses : public MethodPasses {
         const PassParams& params
     ) const;
 
-    VkSampler mSampler;
+    gpu::Device& mDevice;
     LookUp mLookUp;
     gpu::LazyPipeline mTrace;
 };
@@ -111,9 +111,10 @@ void AdaptivePasses::addTrace(
             const Data& data, graph::PassContext& context
         ) {
             const graph::PassResources& resources = context.resources;
-            gpu::BindingList bindings = data.search.bind(resources, mSampler, data.picture);
+            gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
-            context.frame.bind(mTrace.get(), bindings, &params, sizeof(params), textures);
+            const PassParams located = data.search.locate(resources, params);
+            context.frame.bind(mTrace.get(), bindings, &located, sizeof(located), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }
     );

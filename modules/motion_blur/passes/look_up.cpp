@@ -65,7 +65,8 @@ ClearData addClear(graph::Graph& graph, const PassParams& params, bool listsPixe
 } // namespace
 
 std::vector<VkDescriptorType> listSearchBindings() {
-    return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer, kBuffer, kBuffer};
+    return {
+        kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kSampled, kSampled, kBuffer};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
@@ -79,27 +80,37 @@ void SearchResources::use(graph::PassBuilder& builder) {
 }
 
 gpu::BindingList SearchResources::bind(
-    const graph::PassResources& resources, VkSampler sampler, graph::ImageHandle target
+    const graph::PassResources& resources, gpu::Device& device, graph::ImageHandle target
 ) const {
     gpu::BindingList bindings;
     for (const graph::ImageHandle image : images)
-        bindings.sampled(resources.view(image), sampler);
+        bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.storage(resources.image(target));
-    for (const graph::BufferHandle buffer : {rasterCandidates, lastCandidates, counters})
-        bindings.buffer(resources.buffer(buffer));
-    return bindings;
+    for (const graph::ImageHandle color : {images[0], images[3]})
+        bindings.sampled(resources.view(color), device.linearSampler());
+    return bindings.buffer(resources.buffer(counters));
+}
+
+PassParams
+SearchResources::locate(const graph::PassResources& resources, const PassParams& params) const {
+    auto own = params.getMethod<shader::ResolvedParams>();
+    own.rasterCandidates = gpu::splitAddress(resources.address(rasterCandidates));
+    own.lastCandidates = gpu::splitAddress(resources.address(lastCandidates));
+    PassParams located = params;
+    located.setMethod(own);
+    return located;
 }
 
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
-    : mListsPixels(listsPixels), mSampler(device.nearestSampler()), mLayers(device),
-      mCandidates(device), mSort(
-                               device,
-                               describePass(
-                                   "sort candidates",
-                                   motion_blur_resolved_sort_comp,
-                                   {kBuffer, kBuffer, kBuffer, kBuffer}
-                               )
-                           ),
+    : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
+      mSort(
+          device,
+          describePass(
+              "sort candidates",
+              motion_blur_resolved_sort_comp,
+              {kBuffer, kBuffer, kBuffer, kBuffer}
+          )
+      ),
       mResolve(device, describeResolve(listsPixels)),
       mRead(
           device,
@@ -216,14 +227,19 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
         },
         [this, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
-            gpu::BindingList bindings = data.search.bind(resources, mSampler, data.picture);
+            gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.blocks.blocks));
             // Bindings that the specialised shader does not use are some buffer all the same.
             const bool isListed = data.listed.pixels.isValid();
             for (const graph::BufferHandle buffer : {data.listed.pixels, data.listed.arguments})
                 bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));
             dispatchList(
-                context, mResolve.get(), bindings, params, data.blocks.arguments, shader::kMixedList
+                context,
+                mResolve.get(),
+                bindings,
+                data.search.locate(resources, params),
+                data.blocks.arguments,
+                shader::kMixedList
             );
         }
     );

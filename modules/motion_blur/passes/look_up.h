@@ -27,8 +27,12 @@ struct SearchResources {
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);
-    [[nodiscard]] gpu::BindingList
-    bind(const graph::PassResources& resources, VkSampler sampler, graph::ImageHandle target) const;
+    [[nodiscard]] gpu::BindingList bind(
+        const graph::PassResources& resources, gpu::Device& device, graph::ImageHandle target
+    ) const;
+    /// \return with the addresses of the candidates
+    [[nodiscard]] PassParams
+    locate(const graph::PassResources& resources, const PassParams& params) const;
 };
 
 /// Pixels that have samples for rays.
@@ -80,7 +84,7 @@ class LookUp {
     void addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params) const;
 
     bool mListsPixels;
-    VkSampler mSampler;
+    gpu::Device& mDevice;
     SurfaceLayers mLayers;
     CandidateLists mCandidates;
     gpu::LazyPipeline mSort;

@@ -12,7 +12,7 @@ namespace {
 
 using graph::Access;
 
-constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_SFLOAT;
+constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_UINT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
 /// Copies the colour as it is before the blur.
