@@ -4,15 +4,12 @@
 #include "engine/core/check.h"
 #include "engine/extract/demand.h"
 #include "engine/extract/instance_masks.h"
-#include "engine/extract/motion_cap.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 #include "engine/scene/shutter.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 
 namespace shutter::render {
@@ -299,41 +296,6 @@ void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEf
     }
     if (mBlasIdle.advance(anyRays))
         mScene.releaseBlas();
-}
-
-core::Result<scene::MotionCap>
-Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
-    // A turning mover's chord is not proportional to its angle: a second look finds the rest.
-    constexpr int kLooks = 4;
-    const double percent = view.exposure.shutter.maxBlurPercent;
-    scene::MotionCap cap;
-    if (!std::isfinite(percent) || !(view.exposure.open < view.exposure.close))
-        return cap;
-    FrameRequest look;
-    look.view = view;
-    look.view.exposure.cap = {};
-    look.view.instant.reset();
-    look.intermediates = {"motion", "mesh_id"};
-    look.wantColor = false;
-    const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
-    std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
-    for (int i = 0; i < kLooks; ++i) {
-        look.view.exposure.cap = cap;
-        auto frame = extract::extractFrame(world, mScene.layout(), look.view);
-        if (!frame)
-            return frame.error();
-        if (!uncapped)
-            uncapped.emplace(world, view.camera, look.view.exposure);
-        auto seen = renderFrame(world, look, {});
-        if (!seen)
-            return seen.error();
-        const auto& images = seen.value().intermediates;
-        if (!extract::tightenCap(
-                cap, frame.value(), images.at("motion"), images.at("mesh_id"), *uncapped, maxPx
-            ))
-            break;
-    }
-    return cap;
 }
 
 Renderer::Tickets Renderer::declareFrame(

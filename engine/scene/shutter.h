@@ -63,7 +63,7 @@ struct ExposureInterval {
     double rasterTime = 1.0;
     double frameSeconds = 0.0; ///< since the frame before, 0 or more
     CameraShutter shutter{};
-    MotionCap cap{}; ///< of this frame; render::measureMotionCap() finds it
+    MotionCap cap{}; ///< of this frame; Renderer::measureMotionCap() finds it
 };
 
 /// Length of the exposure, 0 or more and finite. A frame of duration 0 is paused: nothing moves,

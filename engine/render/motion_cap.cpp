@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/extract/motion_cap.h"
+// What of a frame's motion CameraShutter::maxBlurPercent leaves, found by looking at it.
+#include "engine/image/image.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/shutter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace shutter::extract {
+namespace shutter::render {
 
 namespace {
 
@@ -34,11 +38,15 @@ bool tighten(double& share, double length, double maxPx) {
     return true;
 }
 
-} // namespace
-
+/// Lowers the shares of what moves farther than the cap.
+/// \param frame extracted with `cap`
+/// \param motion, entityId the frame's intermediates
+/// \param uncapped motion of the same exposure without a cap: tells movers from the still world
+/// \param maxPx the cap, 0 or more
+/// \return true: something moved farther than the cap, by more than a hundredth
 bool tightenCap(
     scene::MotionCap& cap,
-    const ExtractedFrame& frame,
+    const extract::ExtractedFrame& frame,
     const image::Image& motion,
     const image::Image& entityId,
     const scene::ExposureMotion& uncapped,
@@ -67,4 +75,41 @@ bool tightenCap(
     return tighten(cap.camera, still, maxPx) || isTightened;
 }
 
-} // namespace shutter::extract
+} // namespace
+
+core::Result<scene::MotionCap>
+Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest& view) {
+    // A turning mover's chord is not proportional to its angle: a second look finds the rest.
+    constexpr int kLooks = 4;
+    const double percent = view.exposure.shutter.maxBlurPercent;
+    scene::MotionCap cap;
+    if (!std::isfinite(percent) || !(view.exposure.open < view.exposure.close))
+        return cap;
+    FrameRequest look;
+    look.view = view;
+    look.view.exposure.cap = {};
+    look.view.instant.reset();
+    look.intermediates = {"motion", "mesh_id"};
+    look.wantColor = false;
+    const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
+    std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
+    for (int i = 0; i < kLooks; ++i) {
+        look.view.exposure.cap = cap;
+        auto frame = extract::extractFrame(world, mScene.layout(), look.view);
+        if (!frame)
+            return frame.error();
+        if (!uncapped)
+            uncapped.emplace(world, view.camera, look.view.exposure);
+        auto seen = renderFrame(world, look, {});
+        if (!seen)
+            return seen.error();
+        const auto& images = seen.value().intermediates;
+        if (!tightenCap(
+                cap, frame.value(), images.at("motion"), images.at("mesh_id"), *uncapped, maxPx
+            ))
+            break;
+    }
+    return cap;
+}
+
+} // namespace shutter::render
