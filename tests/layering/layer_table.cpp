@@ -47,7 +47,7 @@ const std::vector<Row> kEngineRows = {
     {"json", {"core", "io"}},
     {"gltf", {"core", "math", "ecs", "scene", "io"}},
     {"flythrough", {"core", "math", "ecs", "scene", "json"}},
-    {"extract", {"core", "math", "ecs", "image", "scene"}},
+    {"extract", {"core", "math", "ecs", "scene"}},
     {"gpu_scene", {"core", "math", "gpu", "graph", "scene", "extract"}},
     {"rays", {"core", "math", "ecs", "gpu", "graph", "scene", "extract", "gpu_scene"}},
     {"render",

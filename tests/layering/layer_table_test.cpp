@@ -104,6 +104,7 @@ TEST(LayerTable, EngineFoldersSeeNothingAboveThemAndNoSibling) {
         {"engine/scene/path.h", "\"engine/flythrough/flythrough.h\""},
         {"engine/extract/extracted_frame.h", "\"engine/gpu/device.h\""},
         {"engine/extract/extracted_frame.h", "\"engine/graph/graph.h\""},
+        {"engine/extract/extracted_frame.h", "\"engine/image/image.h\""},
         {"engine/extract/extracted_frame.h", "\"spirv/render/deform.comp.h\""},
         {"engine/gpu_scene/gpu_scene.h", "\"engine/rays/tlas.h\""},
         {"engine/rays/tlas.h", "\"engine/render/renderer.h\""},
