@@ -2,7 +2,7 @@
 #include "modules/motion_blur/embedding/host_instants.h"
 
 #include "engine/core/check.h"
-#include "engine/math/pose.h"
+#include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_camera.h"
 #include "shaders/common/shutter_response.glsl"
 

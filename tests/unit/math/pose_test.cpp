@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Between two placements of a body: still a body, on its way.
-#include "engine/math/pose.h"
 #include "engine/math/transform.h"
 
 #include <gtest/gtest.h>
