@@ -3,7 +3,7 @@
 
 #include "engine/core/setting_row.h"
 #include "game/options/option_rows.h"
-#include "game/shot/presets.h"
+#include "game/shot/methods.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 

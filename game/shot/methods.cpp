@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/methods.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace shutter::game {
 
 namespace {
@@ -61,6 +64,12 @@ bool canRun(const MethodInfo& method, const gpu::DeviceInfo& device) {
     return false;
 }
 
+motion_blur::MotionBlurSettings makePerformance() {
+    motion_blur::MotionBlurSettings blur;
+    blur.sampleCount = 9;
+    return blur;
+}
+
 } // namespace
 
 std::span<const MethodInfo> listMethods() {
@@ -88,6 +97,27 @@ core::Result<const MethodInfo*> findMethod(std::string_view name) {
         names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
     }
     return core::makeError("--method '{}' is not one of {}", name, names);
+}
+
+std::span<const Preset> listPresets() {
+    static const std::vector<Preset> kPresets = {
+        {"off", "no motion blur: the raster image", "sharp", {}},
+        {"performance", "fewer instants", "resolved", makePerformance()},
+        {"balanced", "no rays", "resolved", {}},
+        {"quality", "rays where the raster images do not suffice", "adaptive", {}},
+        {"paper", "with the numbers of the publication", "hybrid", motion_blur::paperSettings()},
+    };
+    return kPresets;
+}
+
+core::Result<const Preset*> findPreset(std::string_view name) {
+    std::vector<std::string_view> names;
+    for (const Preset& preset : listPresets()) {
+        if (name == preset.name)
+            return &preset;
+        names.emplace_back(preset.name);
+    }
+    return core::makeError("--preset '{}' is unknown; there are {}", name, fmt::join(names, ", "));
 }
 
 PassGroup groupOf(const MethodInfo& method, render::PassOwner owner) {

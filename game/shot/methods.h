@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The methods of drawing a picture, by name: those of the motion blur, and those that draw the
-// scene in their own way; and which of a picture's passes count as the method's.
+// scene in their own way; presets of them; and which of a picture's passes count as the method's.
 #pragma once
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 #include "engine/render/frame_statistics.h"
 #include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/settings.h"
 
 #include <cstdint>
 #include <optional>
@@ -46,6 +47,20 @@ findDeviceFor(const MethodInfo& method, std::span<const gpu::DeviceInfo> devices
 
 /// Error: lists the names of all methods.
 [[nodiscard]] core::Result<const MethodInfo*> findMethod(std::string_view name);
+
+/// A choice of a method and of the blur's settings by one word, for people who want no more.
+struct Preset {
+    const char* name;                     ///< "off", "performance", "balanced", "quality", "paper"
+    const char* description;              ///< one line
+    const char* method;                   ///< of listMethods()
+    motion_blur::MotionBlurSettings blur; ///< unused where the method is sharp; its method too
+};
+
+/// In order of rising quality; the paper's comes last. game/play/README.md says what each costs.
+[[nodiscard]] std::span<const Preset> listPresets();
+
+/// Error: lists the names of all presets.
+[[nodiscard]] core::Result<const Preset*> findPreset(std::string_view name);
 
 enum class PassGroup : uint8_t {
     Scene,   ///< what a picture without blur draws as well

@@ -6,7 +6,6 @@
 #include "engine/core/setting_row.h"
 #include "engine/scene/components.h"
 #include "game/shot/methods.h"
-#include "game/shot/presets.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
