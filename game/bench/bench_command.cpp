@@ -4,8 +4,7 @@
 #include "game/bench/contenders.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
-#include "game/options/error_output.h"
-#include "game/options/folders.h"
+#include "game/options/program.h"
 #include "game/options/render_arguments.h"
 
 #include <CLI/CLI.hpp>

@@ -27,7 +27,7 @@ struct RunOptions {
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
 
-/// Adds `shutter bench`, which leaves its exit status (game/options/error_output.h).
+/// Adds `shutter bench`, which leaves its exit status (game/options/program.h).
 void addBenchCommand(CLI::App& app, int& exitStatus);
 
 } // namespace shutter::bench

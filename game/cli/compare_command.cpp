@@ -4,7 +4,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"
-#include "game/options/error_output.h"
+#include "game/options/program.h"
 #include "game/options/shot_arguments.h"
 #include "game/output/extra_files.h"
 #include "modules/tonemap/tonemap.h"

@@ -3,7 +3,7 @@
 #include "engine/gpu/device_select.h"
 #include "engine/scene/camera.h"
 #include "game/cli/commands.h"
-#include "game/options/error_output.h"
+#include "game/options/program.h"
 #include "game/play/panel/play_settings.h"
 #include "game/shot/methods.h"
 

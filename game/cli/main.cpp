@@ -3,7 +3,7 @@
 #include "engine/gpu/vulkan.h"
 #include "game/bench/bench_run.h"
 #include "game/cli/commands.h"
-#include "game/options/error_output.h"
+#include "game/options/program.h"
 #include "game/play/loop/play_options.h"
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/device.h"
 #include "game/cli/commands.h"
-#include "game/options/error_output.h"
-#include "game/options/folders.h"
+#include "game/options/program.h"
 #include "game/options/render_arguments.h"
 #include "game/output/sequence.h"
 

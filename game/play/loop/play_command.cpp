@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/options/error_output.h"
+#include "game/options/program.h"
 #include "game/play/loop/play_loop.h"
 
 #include <CLI/CLI.hpp>

@@ -3,8 +3,8 @@
 
 #include "engine/io/image_file.h"
 #include "game/demos/demo.h"
-#include "game/options/folders.h"
 #include "game/options/option_rows.h"
+#include "game/options/program.h"
 
 #include <CLI/CLI.hpp>
 

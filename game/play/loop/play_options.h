@@ -50,7 +50,7 @@ struct PlayOptions {
     uint32_t frames = 0; ///< ends after as many; 0: never
 };
 
-/// Adds `shutter play`, which leaves its exit status (game/options/error_output.h).
+/// Adds `shutter play`, which leaves its exit status (game/options/program.h).
 void addPlayCommand(CLI::App& app, int& exitStatus);
 
 void definePlayOptions(CLI::App& command, PlayArguments& arguments);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/play_screen.h"
 
-#include "game/options/folders.h"
+#include "game/options/program.h"
 
 #include <utility>
 

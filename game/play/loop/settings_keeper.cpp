@@ -2,7 +2,7 @@
 #include "game/play/loop/settings_keeper.h"
 
 #include "engine/core/log.h"
-#include "game/options/folders.h"
+#include "game/options/program.h"
 
 #include <system_error>
 #include <utility>

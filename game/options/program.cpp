@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: MIT
-#include "game/options/folders.h"
+#include "game/options/program.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <system_error>
 
 namespace shutter::game {
 
 namespace fs = std::filesystem;
+
+std::string toOneLine(std::string text) {
+    // Bytes of UTF-8 are 0x80 and above and stay.
+    std::replace_if(
+        text.begin(),
+        text.end(),
+        [](char c) {
+            const auto byte = static_cast<unsigned char>(c);
+            return byte < 0x20 || byte == 0x7F;
+        },
+        ' '
+    );
+    return text;
+}
+
+void printError(const core::Error& error) {
+    fmt::print(stderr, "shutter: {}\n", toOneLine(error.message));
+}
+
+int fail(int status, const core::Error& error) {
+    printError(error);
+    return status;
+}
 
 fs::path findCacheFolder() {
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
