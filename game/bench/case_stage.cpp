@@ -6,7 +6,6 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
-#include "game/bench/contenders.h"
 #include "game/options/render_arguments.h"
 
 #include <fmt/format.h>

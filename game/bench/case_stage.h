@@ -8,6 +8,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/device_select.h"
 #include "engine/image/image.h"
+#include "game/bench/contenders.h"
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace shutter::bench {
@@ -29,6 +30,37 @@ bool isPapers(std::string_view name) {
         if (name == row.name)
             return true;
     return false;
+}
+
+std::vector<uint32_t> listPowersOfTwo(uint32_t first, uint32_t last) {
+    std::vector<uint32_t> powers;
+    for (uint32_t power = first; power <= last; power *= 2)
+        powers.push_back(power);
+    return powers;
+}
+
+/// Sample counts to measure a method at, rising; its default is one of them if it is not above
+/// them.
+std::vector<uint32_t> listSampleCounts(const game::MethodInfo& method, uint32_t maxRays) {
+    if (!method.sampleUnit)
+        return {0};
+    std::vector<uint32_t> counts;
+    switch (*method.sampleUnit) {
+    case game::SampleUnit::Taps:
+        counts = listPowersOfTwo(4, 64);
+        break;
+    case game::SampleUnit::Instants:
+        counts = listPowersOfTwo(2, 64); // the default of one is the truth itself
+        break;
+    case game::SampleUnit::Rays:
+        counts = listPowersOfTwo(1, maxRays);
+        break;
+    }
+    if (method.defaultSamples < counts.back())
+        counts.push_back(method.defaultSamples);
+    std::sort(counts.begin(), counts.end());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+    return counts;
 }
 
 } // namespace
@@ -58,6 +90,26 @@ core::Result<const game::MethodInfo*> findContender(std::string_view name) {
         names.emplace_back(contender.name);
     }
     return core::makeError("method '{}' is unknown; there are {}", name, fmt::join(names, ", "));
+}
+
+std::vector<SamplePoint>
+makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays) {
+    std::vector<SamplePoint> points;
+    for (const game::MethodInfo* method : methods)
+        for (uint32_t count : listSampleCounts(*method, maxRays))
+            points.push_back({method, count, count == method->defaultSamples});
+    return points;
+}
+
+std::vector<SamplePoint> makeScalingPoints(const std::vector<const game::MethodInfo*>& methods) {
+    constexpr uint32_t kMostSamples = 4;
+    std::vector<SamplePoint> points;
+    for (const game::MethodInfo* method : methods) {
+        const bool isTruth = method->family == game::MethodFamily::Accumulate ||
+                             method->family == game::MethodFamily::Truth;
+        points.push_back({method, isTruth ? kMostSamples : method->defaultSamples, !isTruth});
+    }
+    return points;
 }
 
 game::MethodOptions makeMethodOptions(const SamplePoint& point) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// What is measured: every method with its default settings, and the paper's with the publication's.
+// What is measured: every method with its default settings, and the paper's with the publication's;
+// and at which sample counts.
 #pragma once
 
 #include "engine/core/result.h"
-#include "game/bench/suites/suite.h"
+#include "game/shot/methods.h"
 #include "game/shot/shot_options.h"
 
+#include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace shutter::bench {
 
@@ -16,6 +19,22 @@ namespace shutter::bench {
 
 /// Error: lists the names of all contenders.
 [[nodiscard]] core::Result<const game::MethodInfo*> findContender(std::string_view name);
+
+/// A method at one of its sample counts.
+struct SamplePoint {
+    const game::MethodInfo* method = nullptr;
+    uint32_t samples = 0; ///< 0: the method takes none
+    bool isDefault = false;
+};
+
+/// Every sample count that the methods are measured at, the cheapest first.
+[[nodiscard]] std::vector<SamplePoint>
+makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
+
+/// The methods at their defaults; truths with a few samples, since their time is proportional to
+/// them.
+[[nodiscard]] std::vector<SamplePoint>
+makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
 
 /// \param point of a contender
 [[nodiscard]] game::MethodOptions makeMethodOptions(const SamplePoint& point);

@@ -6,6 +6,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "game/bench/contenders.h"
 #include "game/bench/crops.h"
 #include "game/bench/journal.h"
 #include "game/bench/suites/suite.h"

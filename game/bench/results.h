@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gpu/device_select.h"
+#include "game/bench/contenders.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
 

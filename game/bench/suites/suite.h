@@ -5,7 +5,6 @@
 #include "assets/generator/gltf_writer.h"
 #include "engine/core/result.h"
 #include "game/options/shot_arguments.h"
-#include "game/shot/methods.h"
 #include "tests/conformance/demand/claim.h"
 #include "tests/conformance/stability/measured.h"
 
@@ -62,22 +61,6 @@ struct Suite {
 
 /// A user's own shot as a suite of one case, swept like `paper`.
 [[nodiscard]] Suite makeOwnSuite(const game::ShotArguments& shot);
-
-/// A method at one of its sample counts.
-struct SamplePoint {
-    const game::MethodInfo* method = nullptr;
-    uint32_t samples = 0; ///< 0: the method takes none
-    bool isDefault = false;
-};
-
-/// Every sample count that the methods are measured at, the cheapest first.
-[[nodiscard]] std::vector<SamplePoint>
-makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays);
-
-/// The methods at their defaults; truths with a few samples, since their time is proportional to
-/// them.
-[[nodiscard]] std::vector<SamplePoint>
-makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
 
 /// Case::writeScene of a generated scene.
 [[nodiscard]] std::function<core::Status(const std::filesystem::path&)>
