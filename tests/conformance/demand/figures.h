@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of frames and what is said of them.
+// What is read off frames, figures and the parts of their graphs, and what is said of it.
 #pragma once
 
 #include "tests/conformance/demand/claim.h"
@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shutter::demand {
 
@@ -57,5 +58,19 @@ compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB);
 
 /// The medians' line.
 void addLine(Curve& curve);
+
+/// What a frame was made of: a line each, as it stands in graph::dump().
+struct GraphParts {
+    std::vector<std::string> passes;
+    std::vector<std::string> images;
+    std::vector<std::string> buffers;
+};
+
+/// \param dump FrameResult::dump; of an empty one, no parts
+[[nodiscard]] GraphParts readDump(std::string_view dump);
+
+/// How many of `lines` have no equal among `others`, each of which answers for one.
+[[nodiscard]] size_t
+countBeyond(const std::vector<std::string>& lines, const std::vector<std::string>& others);
 
 } // namespace shutter::demand

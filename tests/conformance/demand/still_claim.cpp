@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "assets/generator/scaling_scenes.h"
 #include "assets/generator/scenes.h"
-#include "tests/conformance/demand/dump_reader.h"
 #include "tests/conformance/demand/figures.h"
 #include "tests/conformance/stability/pictures.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/conformance/demand/dump_reader.h"
+#include "tests/conformance/demand/figures.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@ namespace shutter::demand {
 
 using Lines = std::vector<std::string>;
 
-TEST(DumpReader, FindsPassesImagesAndBuffersAndNothingElse) {
+TEST(GraphParts, FindsPassesImagesAndBuffersAndNothingElse) {
     const GraphParts parts = readDump("passes: 2\n"
                                       "  0 'G-buffer' (raster)\n"
                                       "      barrier 'color' nothing -> colour\n"
@@ -26,14 +26,14 @@ TEST(DumpReader, FindsPassesImagesAndBuffersAndNothingElse) {
     EXPECT_EQ(parts.buffers, (Lines{"'list', passes 0 to 1, 16 bytes"}));
 }
 
-TEST(DumpReader, AnEmptyDumpHasNoParts) {
+TEST(GraphParts, AnEmptyDumpHasNoParts) {
     const GraphParts parts = readDump("");
     EXPECT_TRUE(parts.passes.empty());
     EXPECT_TRUE(parts.images.empty());
     EXPECT_TRUE(parts.buffers.empty());
 }
 
-TEST(DumpReader, EveryLineAnswersForOneOfItsEqualsOnly) {
+TEST(GraphParts, EveryLineAnswersForOneOfItsEqualsOnly) {
     EXPECT_EQ(countBeyond({}, {"a"}), 0u);
     EXPECT_EQ(countBeyond({"a", "b"}, {"b", "a"}), 0u);
     EXPECT_EQ(countBeyond({"a", "a", "c"}, {"a", "b"}), 2u);
