@@ -8,7 +8,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
 #include "engine/gpu/vulkan.h"
-#include "shaders/app/ui_shared.h"
+#include "shaders/app/app_shared.h"
 
 #include <algorithm>
 #include <array>

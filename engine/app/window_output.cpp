@@ -6,7 +6,7 @@
 
 #include "engine/core/check.h"
 #include "engine/graph/execute.h"
-#include "shaders/app/window_shared.h"
+#include "shaders/app/app_shared.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
-#include "app/ui_shared.h"
+#include "app/app_shared.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer UiVertices {
     UiVertex values[];

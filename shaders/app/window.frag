@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "app/window_shared.h"
+#include "app/app_shared.h"
 
 layout(push_constant, scalar) uniform Push { WindowParams params; };
 layout(binding = 0) uniform sampler2D uLeft;
