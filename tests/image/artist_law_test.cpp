@@ -2,9 +2,9 @@
 // The artist's scales mean the same in the raster image, for rays, and for truth.
 #include "engine/image/metrics.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/marker.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
+#include "tests/support/white_quads.h"
 
 #include <functional>
 #include <string>

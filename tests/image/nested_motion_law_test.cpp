@@ -3,8 +3,8 @@
 // have the same point.
 #include "engine/scene/path.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/marker.h"
 #include "tests/support/stage.h"
+#include "tests/support/white_quads.h"
 
 namespace shutter {
 namespace {

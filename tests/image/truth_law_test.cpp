@@ -4,7 +4,7 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
-#include "tests/support/trapezoid.h"
+#include "tests/support/white_quads.h"
 
 #include <algorithm>
 #include <cmath>
