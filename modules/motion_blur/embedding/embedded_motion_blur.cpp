@@ -8,8 +8,7 @@
 #include "engine/graph/execute.h"
 #include "engine/graph/transient_pool.h"
 #include "modules/motion_blur/embedding/host_instants.h"
-#include "modules/motion_blur/instant_buffer.h"
-#include "modules/motion_blur/raster_history.h"
+#include "modules/motion_blur/instant_motions.h"
 
 #include <array>
 #include <deque>

@@ -5,8 +5,8 @@
 #include "spirv/motion_blur/resolved_sort.comp.h"
 
 #include "engine/core/check.h"
+#include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
-#include "modules/motion_blur/raster_history.h"
 
 #include <cstring>
 

@@ -3,8 +3,8 @@
 
 #include "spirv/motion_blur/resolved_surface.comp.h"
 
+#include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
-#include "modules/motion_blur/raster_history.h"
 
 namespace shutter::motion_blur {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/instant_motion_buffers.h"
 
-#include "modules/motion_blur/instant_buffer.h"
-
 #include <utility>
 
 namespace shutter::motion_blur {

@@ -6,7 +6,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "modules/motion_blur/frame_io.h"
-#include "modules/motion_blur/raster_history.h"
+#include "modules/motion_blur/instant_motions.h"
 
 #include <array>
 #include <cstdint>

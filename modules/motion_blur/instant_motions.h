@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A view's raster, kept for the frame after.
+// What InstantMotions (frame_io.h) refers to, on the device: a frame's tables of motion, and the
+// raster of the frame before.
 #pragma once
 
 #include "engine/gpu/memory.h"
+#include "engine/math/layer_tables.h"
 
 #include <glm/glm.hpp>
 
@@ -11,8 +13,14 @@
 
 namespace shutter::motion_blur {
 
-/// Whoever declares the frames of a view holds one; the methods that look things up fill and read
-/// it, whichever of them runs.
+/// Writes all tables into the buffer, which is made anew where they do not fit. The GPU must be
+/// done with what it held. Throws gpu::DeviceError where there is no memory.
+/// \return address of shader::InstantMotions
+[[nodiscard]] VkDeviceAddress
+writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer);
+
+/// A view's raster, kept for the frame after. Whoever declares the frames of a view holds one; the
+/// methods that look things up fill and read it, whichever of them runs.
 class RasterHistory {
   public:
     struct Raster {
