@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// The order in which instances and triangles are handed to builders of acceleration structures:
+// neighbours in space stand together. It depends on the boxes alone, not on the machine.
 #pragma once
 
 #include "engine/math/math.h"
@@ -22,7 +24,9 @@ struct Box {
 /// \return for each new place the old index: a permutation of 0 ... n-1
 [[nodiscard]] std::vector<uint32_t> computeSpatialOrder(std::span<const Box> boxes);
 
-/// Reorders the triangles (3 indices each) by computeSpatialOrder of their boxes.
+/// Reorders the triangles (3 indices each) by computeSpatialOrder of their boxes; each keeps its
+/// three corners in their order, and vertices stay where they are.
+/// \param indices three a triangle, each below positions.size()
 void sortTriangles(std::span<const math::vec3> positions, std::vector<uint32_t>& indices);
 
 } // namespace shutter::extract

@@ -11,18 +11,21 @@
 
 namespace shutter::io {
 
+/// Whether it begins with `data:`, in any case; what follows need not be valid.
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
-/// Bytes of a data URI, base64 or percent-encoded. An Error names what is malformed.
+/// Bytes of a data URI, base64 (the URL-safe alphabet as well, padding may lack) or
+/// percent-encoded; its media type is not looked at. An Error names what is malformed.
 [[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
 
-/// The file that a relative URI names below `folder`. Refuses, without touching the disk first:
-/// schemes (http:, file:, C:), absolute paths, any `..`, NUL, broken percent-encoding, over 4096
-/// bytes; then links that lead out of the folder. The file itself need not exist.
+/// The file that a relative URI names below `folder` (empty: the working folder). Refuses, without
+/// touching the disk first: nothing at all, schemes (http:, file:, C:), absolute paths, any `..`,
+/// NUL, broken percent-encoding, over 4096 bytes; then links that lead out of the folder. The file
+/// itself need not exist. An Error says what is wrong with the URI.
 [[nodiscard]] core::Result<std::filesystem::path>
 resolveUri(const std::filesystem::path& folder, std::string_view uri);
 
-/// A URI as it may stand in a message: shortened where it is long.
+/// A URI as it may stand in a message: its first 80 bytes and "..." where it is longer.
 [[nodiscard]] std::string abbreviateUri(std::string_view uri);
 
 } // namespace shutter::io

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+// Boxes around what is drawn, in the space and the unit of the points that are added: objects' own,
+// world or view, metres.
 #pragma once
 
 #include "engine/math/math.h"
@@ -14,15 +16,20 @@ struct Bounds {
 
     [[nodiscard]] bool isEmpty() const { return !(min.x <= max.x); }
 
+    /// Grows to hold the point, which is to be finite: a NaN would be passed over.
     void add(const dvec3& point);
+    /// Grows to hold the other box; an empty one changes nothing.
     void add(const Bounds& other);
 
+    /// Of a box that is not empty; NaN if it is.
     [[nodiscard]] dvec3 centre() const { return (min + max) * 0.5; }
 
+    /// Edge lengths, 0 or more; of an empty box minus infinity.
     [[nodiscard]] dvec3 size() const { return max - min; }
 };
 
-/// Box around the eight transformed corners; empty stays empty.
+/// Box around the eight transformed corners, so larger than what it holds where `matrix` turns;
+/// empty stays empty. \param matrix affine
 [[nodiscard]] Bounds transformBounds(const dmat4& matrix, const Bounds& bounds);
 
 } // namespace shutter::math

@@ -23,7 +23,9 @@ addMarker(SceneBuilder& scene, double sizeMetres, const Placement& placement);
 void expectMotionOfMarker(Stage& stage, Shot shot, double longerThanPx);
 
 /// Expects a white quad that moves at constant speed before black to be the exact trapezoid of its
-/// coverage in each shutter phase. \param samples instants, or rays a pixel
+/// coverage in each shutter phase.
+/// \param method, samples as Shot::method and Shot::instants
+/// \param tolerance of a pixel's coverage, which lies in [0, 1]
 void expectTrapezoidInEachPhase(
     gpu::Device& device, std::string_view method, uint32_t samples, double tolerance
 );
