@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// What `resolved` may look up in the last frame's raster, and what it must not: pictures drawn one
+// after the other by one renderer, with something in between.
+#include "engine/render/renderer.h"
+#include "engine/scene/history.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+constexpr double kFramesPerSecond = 48.0;
+constexpr double kExposureSeconds = 0.5 / kFramesPerSecond;
+
+/// A textured wall and a red box that crosses the picture's upper half in front of it.
+struct Scene {
+    test::SceneBuilder builder;
+    ecs::Entity box;
+
+    /// \param isGrey the wall is of one grey
+    explicit Scene(bool isGrey = false) {
+        builder.setPerspective(0.9);
+        builder.add(
+            test::makeQuad(8, 6, isGrey ? builder.addColor(math::vec3(0.3f)) : builder.addWaves()),
+            {.position = {0, 0, -5}}
+        );
+        box = builder.add(
+            test::makeBox({0.6, 0.6, 0.5}, builder.addColor({1.0f, 0.0f, 0.0f})),
+            {.position = {-0.3, 0.6, -3}, .velocity = {24.0, 0.0, 0.0}}
+        );
+    }
+
+    [[nodiscard]] scene::World& world() { return builder.world; }
+};
+
+struct FrameOptions {
+    std::string_view method = "resolved";
+    bool history = true;
+    uint32_t width = 192;
+    uint32_t height = 128;
+    ecs::Entity camera; ///< null: the scene's
+};
+
+/// Draws frames of a scene in any order, as an application does.
+class Frames {
+  public:
+    Frames(gpu::Device& device, Scene& scene)
+        : mScene(scene), mRenderer(device, scene.builder.world.assets),
+          mBlur(device, mRenderer.scene(), {}) {}
+
+    render::FrameResult draw(int frame, const FrameOptions& options = {}) {
+        motion_blur::MotionBlurSettings settings;
+        settings.method = &motion_blur::getMethod(options.method);
+        settings.history = options.history;
+        mBlur.configure(settings, {});
+        render::FrameRequest request;
+        request.view.camera =
+            options.camera == ecs::Entity{} ? mScene.builder.camera : options.camera;
+        request.view.exposure = scene::computeExposure(
+            {kExposureSeconds}, frame / kFramesPerSecond, 1.0 / kFramesPerSecond
+        );
+        request.view.width = options.width;
+        request.view.height = options.height;
+        render::PostEffect* effects[] = {&mBlur};
+        auto drawn = mRenderer.renderFrame(mScene.world(), request, effects);
+        EXPECT_TRUE(drawn.ok());
+        return std::move(drawn.value());
+    }
+
+  private:
+    Scene& mScene;
+    render::Renderer mRenderer;
+    motion_blur::MotionBlurPlugin mBlur;
+};
+
+/// 0 where nothing moves and so nothing is looked up.
+uint64_t countFromLast(const render::FrameResult& frame) {
+    const auto& counters = frame.statistics.counters;
+    const auto found = counters.find("samples from the last frame");
+    return found == counters.end() ? 0 : found->second;
+}
+
+class ResolvedHistory : public test::GpuTest {
+  protected:
+    /// The frame as it is drawn without the one before.
+    render::FrameResult drawAlone(Scene& scene, FrameOptions options = {}, int frame = 0) {
+        options.history = false;
+        return Frames(device(), scene).draw(frame, options);
+    }
+};
+
+TEST_F(ResolvedHistory, TheFrameBeforeIsLookedUp) {
+    Scene scene;
+    Frames frames(device(), scene);
+    (void)frames.draw(-1);
+    const auto drawn = frames.draw(0);
+    EXPECT_GT(countFromLast(drawn), 0u);
+    EXPECT_FALSE(test::sameBits(drawn.color, drawAlone(scene).color));
+}
+
+TEST_F(ResolvedHistory, NothingFromBeforeACutIs) {
+    Scene scene;
+    Frames frames(device(), scene);
+    (void)frames.draw(-1);
+    // The frame of the cut is sharp; the one after it moves, and must not see past the cut.
+    scene::cut(scene.world(), scene.builder.camera, -0.75 / kFramesPerSecond);
+    EXPECT_EQ(countFromLast(frames.draw(0)), 0u);
+    const auto drawn = frames.draw(1);
+    EXPECT_TRUE(drawn.statistics.counters.contains("samples from the last frame")) << "it moves";
+    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene, {}, 1).color));
+}
+
+TEST_F(ResolvedHistory, NorOfAnotherCamera) {
+    Scene scene;
+    const ecs::Entity other = scene.world().registry.create();
+    scene.world().registry.add(other, scene::LocalTransform{{.translation = {0.3, 0, 0.5}}});
+    scene.world().registry.add(other, scene.builder.cameraSettings());
+    scene.world().cameras.push_back(other);
+    Frames frames(device(), scene);
+    for (int frame = -2; frame < 0; ++frame) {
+        (void)frames.draw(frame);
+        (void)frames.draw(frame, {.camera = other});
+    }
+    const auto drawn = frames.draw(0);
+    EXPECT_EQ(countFromLast(drawn), 0u);
+    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
+    const auto drawnByOther = frames.draw(0, {.camera = other});
+    EXPECT_TRUE(test::sameBits(drawnByOther.color, drawAlone(scene, {.camera = other}).color));
+}
+
+TEST_F(ResolvedHistory, NorOfAnotherSizeAndTheNextFrameIsLookedUpAgain) {
+    Scene scene;
+    Frames frames(device(), scene);
+    (void)frames.draw(-1);
+    const FrameOptions small = {.width = 96, .height = 64};
+    const auto drawn = frames.draw(0, small);
+    EXPECT_EQ(countFromLast(drawn), 0u);
+    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene, small).color));
+    EXPECT_GT(countFromLast(frames.draw(1, small)), 0u);
+}
+
+TEST_F(ResolvedHistory, NorAfterAGap) {
+    Scene scene;
+    Frames frames(device(), scene);
+    (void)frames.draw(-3);
+    const auto drawn = frames.draw(0);
+    EXPECT_EQ(countFromLast(drawn), 0u);
+    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
+}
+
+/// What red exceeds green by at most: where the red box or a ghost of it is.
+float findReddest(const image::Image& picture) {
+    float most = 0.0f;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            most = std::max(most, picture.at(x, y, 0) - picture.at(x, y, 1));
+    return most;
+}
+
+TEST_F(ResolvedHistory, WhatIsNoLongerThereLeavesNoGhost) {
+    const auto teleportAway = [](Scene& scene) {
+        scene::teleport(
+            scene.world(), scene.box, {.translation = {0, 0, 50}}, -0.75 / kFramesPerSecond
+        );
+    };
+    const auto hide = [](Scene& scene) { scene::hide(scene.world(), scene.box); };
+    const auto despawn = [](Scene& scene) { scene::despawn(scene.world(), scene.box); };
+    const std::vector<std::pair<std::string, std::function<void(Scene&)>>> events = {
+        {"teleported", teleportAway}, {"hidden", hide}, {"despawned", despawn}};
+    for (const auto& [name, happen] : events) {
+        Scene scene(true);
+        // The camera turns, so that every pixel is searched for.
+        scene.builder.moveCamera({.angularVelocity = {0.0, 3.0, 0.0}});
+        Frames frames(device(), scene);
+        EXPECT_GT(findReddest(frames.draw(-1).color), 0.5f) << "the box is in the picture";
+        happen(scene);
+        const auto drawn = frames.draw(0);
+        EXPECT_GT(countFromLast(drawn), 0u) << name << ": what left the picture's side";
+        EXPECT_LT(findReddest(drawn.color), findReddest(drawAlone(scene).color) + 1e-3f) << name;
+    }
+}
+
+TEST_F(ResolvedHistory, WhatAppearsHasNoPastAndHidesNothingBefore) {
+    Scene scene;
+    scene::hide(scene.world(), scene.box);
+    Frames frames(device(), scene);
+    (void)frames.draw(-1);
+    scene::show(scene.world(), scene.box, -0.25 / kFramesPerSecond);
+    // It stands still in this frame: all that is seen is in this frame's raster.
+    const auto drawn = frames.draw(0);
+    EXPECT_EQ(countFromLast(drawn), 0u);
+    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
+    (void)frames.draw(1);
+    EXPECT_GT(countFromLast(frames.draw(2)), 0u) << "then it moves, and has a past";
+}
+
+} // namespace
+} // namespace shutter
