@@ -13,8 +13,14 @@ SHUTTER_INLINE float luminance(vec3 color) {
     return dot(color, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-/// False for NaN and infinity. Written as a comparison, which fast-math may not drop.
-SHUTTER_INLINE bool isFinite(float x) { return abs(x) <= 3.402823e38f; }
+/// False for NaN and infinity. Asks the bits: a compiler for Vulkan may take it that no float is
+/// either and drop a comparison that only they decide.
+SHUTTER_INLINE bool isFinite(float x) { return (floatBitsToUint(x) & 0x7F800000u) != 0x7F800000u; }
+
+/// True for NaN alone, for the same reason by the bits.
+SHUTTER_INLINE bool isNotANumber(float x) {
+    return (floatBitsToUint(x) & 0x7FFFFFFFu) > 0x7F800000u;
+}
 
 /// Largest value a colour may have: half floats end at 65504.
 SHUTTER_CONST float kMaxColor = 65000.0f;
@@ -23,9 +29,9 @@ SHUTTER_CONST float kMaxColor = 65000.0f;
 SHUTTER_INLINE vec3 storableColor(vec3 color) {
     vec3 result = min(max(color, vec3(0.0f)), vec3(kMaxColor));
     // GLSL leaves min and max of NaN open, so each channel is asked.
-    if (!(color.x == color.x)) result.x = 0.0f;
-    if (!(color.y == color.y)) result.y = 0.0f;
-    if (!(color.z == color.z)) result.z = 0.0f;
+    if (isNotANumber(color.x)) result.x = 0.0f;
+    if (isNotANumber(color.y)) result.y = 0.0f;
+    if (isNotANumber(color.z)) result.z = 0.0f;
     return result;
 }
 

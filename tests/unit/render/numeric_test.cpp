@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ios>
 #include <limits>
 
 namespace shutter::shader {
@@ -35,7 +36,18 @@ TEST(Numeric, NanAndInfinityAreNotFinite) {
     EXPECT_FALSE(isFinite(-kInfinity));
     EXPECT_TRUE(isFinite(0.0f));
     EXPECT_TRUE(isFinite(-3.4e38f));
+    EXPECT_FALSE(isFinite(-kNan));
     EXPECT_TRUE(isFinite(std::numeric_limits<float>::denorm_min()));
+    EXPECT_TRUE(isFinite(std::numeric_limits<float>::max()));
+    EXPECT_TRUE(isFinite(std::numeric_limits<float>::lowest()));
+}
+
+TEST(Numeric, OnlyNanIsNotANumber) {
+    // Quiet and signalling, of either sign, with the smallest and the largest payload.
+    for (const uint bits : {0x7FC00000u, 0x7F800001u, 0x7FFFFFFFu, 0xFFC00000u, 0xFF800001u})
+        EXPECT_TRUE(isNotANumber(uintBitsToFloat(bits))) << std::hex << bits;
+    for (const float x : {0.0f, -0.0f, 1.0f, std::numeric_limits<float>::max(), kInfinity})
+        EXPECT_FALSE(isNotANumber(x) || isNotANumber(-x)) << x;
 }
 
 TEST(Numeric, AStorableColourStaysAsItIs) {
