@@ -54,7 +54,7 @@ void reserve(
     if (buffer && buffer.bytes() >= bytes)
         return;
     const VkDeviceSize wanted = std::max<VkDeviceSize>(bytes + bytes / 2, 64 << 10);
-    buffer = gpu::Buffer(device, name, wanted, usage, gpu::MemoryUse::Upload);
+    buffer = gpu::Buffer(device, name, wanted, usage, gpu::MemoryUse::Stream);
 }
 
 /// The part of a clip rectangle that lies in the target; empty where none does.

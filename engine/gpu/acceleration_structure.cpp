@@ -195,7 +195,7 @@ void Tlas::prepare(Device& device, std::span<const Instance> instances) {
             "TLAS instances",
             mCapacity * sizeof(VkAccelerationStructureInstanceKHR),
             kBuildInputUsage,
-            MemoryUse::Upload
+            MemoryUse::Stream
         );
     std::vector<VkAccelerationStructureInstanceKHR> records;
     records.reserve(mCount);
@@ -229,7 +229,7 @@ std::vector<AccelerationStructure> buildTlas(Device& device, std::span<const Ins
         "TLAS instances",
         records.size() * sizeof(VkAccelerationStructureInstanceKHR),
         kBuildInputUsage,
-        MemoryUse::Upload
+        MemoryUse::Stream
     );
     buffer.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
     std::vector<AccelerationStructure> structures;
@@ -261,7 +261,7 @@ void BoxBlas::prepare(Device& device, std::span<const BoxGeometry> boxes) {
             "swept boxes",
             mCapacity * sizeof(BoxGeometry),
             kBuildInputUsage,
-            MemoryUse::Upload
+            MemoryUse::Stream
         );
     }
     mBoxes.write(boxes);

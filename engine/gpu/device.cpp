@@ -59,6 +59,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         SHUTTER_TRY(device->createLogicalDevice(!options.surfaceExtensions.empty()));
         device->loadFunctions();
         device->loadLimits();
+        if (options.adaptMemory)
+            options.adaptMemory(device->mMemoryProperties);
         device->createSamplers();
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
@@ -221,6 +223,7 @@ void Device::loadLimits() {
         properties.pNext = &structure;
     vkGetPhysicalDeviceProperties2(mInfo.handle, &properties);
     mLimits = properties.properties.limits;
+    vkGetPhysicalDeviceMemoryProperties(mInfo.handle, &mMemoryProperties);
     if (hasRays())
         mMinScratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
     if (mInfo.rayTier == RayTier::Pipeline)

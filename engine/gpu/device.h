@@ -25,6 +25,9 @@ struct DeviceOptions {
         RayTier::RayQuery; ///< hides the tiers above, so that lower ones can be tested
     /// False hides launches of rays whose size is in memory, for the same reason.
     bool allowIndirectLaunch = true;
+    /// Changes what is known of the device's memory, so that the layouts of others can be tested;
+    /// empty: it is taken as it is.
+    std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
     /// Instance extensions of the window system; with any, the device can show pictures
@@ -118,6 +121,10 @@ class Device {
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
 
+    [[nodiscard]] const VkPhysicalDeviceMemoryProperties& memoryProperties() const {
+        return mMemoryProperties;
+    }
+
     [[nodiscard]] uint32_t minScratchAlignment() const { return mMinScratchAlignment; }
 
     [[nodiscard]] const ShaderGroupLimits& shaderGroupLimits() const { return mShaderGroupLimits; }
@@ -185,6 +192,7 @@ class Device {
     uint32_t mQueueFamily = 0;
     DeviceInfo mInfo;
     VkPhysicalDeviceLimits mLimits{};
+    VkPhysicalDeviceMemoryProperties mMemoryProperties{};
     uint32_t mMinScratchAlignment = 1;
     ShaderGroupLimits mShaderGroupLimits;
     ExtensionFunctions mFunctions;

@@ -12,12 +12,15 @@ namespace shutter::gpu {
 
 namespace {
 
-constexpr MemoryRequirement kDeviceWish{0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+struct Allocation {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    uint32_t type = 0;
+};
 
-VkDeviceMemory allocate(
+Allocation allocate(
     Device& device,
     const VkMemoryRequirements& needs,
-    const MemoryRequirement& wish,
+    MemoryUse use,
     bool addressable,
     const std::string& name
 ) {
@@ -27,15 +30,21 @@ VkDeviceMemory allocate(
     if (addressable)
         info.pNext = &flags;
     info.allocationSize = needs.size;
-    info.memoryTypeIndex = findMemoryType(device, needs.memoryTypeBits, wish);
     VkDeviceMemory memory = VK_NULL_HANDLE;
+    const auto types =
+        rankMemoryTypes(device.memoryProperties(), needs.memoryTypeBits, use, needs.size);
+    if (types.empty())
+        throw DeviceError(fmt::format("the device has no memory of the kind '{}' needs", name));
+    const TypeAttempt attempt = allocateInTurn(types, [&](uint32_t type) {
+        info.memoryTypeIndex = type;
+        return vkAllocateMemory(device.handle(), &info, nullptr, &memory);
+    });
     require(
-        vkAllocateMemory(device.handle(), &info, nullptr, &memory),
-        fmt::format("allocating {} MiB for '{}'", (needs.size >> 20) + 1, name)
+        attempt.result, fmt::format("allocating {} MiB for '{}'", (needs.size >> 20) + 1, name)
     );
     device.living().memoryBytes += needs.size;
     ++device.living().memoryBlocks;
-    return memory;
+    return {memory, attempt.type};
 }
 
 /// \param memory may be null
@@ -48,17 +57,6 @@ void freeMemory(Device& device, VkDeviceMemory memory, VkDeviceSize bytes) {
 }
 
 } // namespace
-
-uint32_t findMemoryType(const Device& device, uint32_t typeBits, const MemoryRequirement& wish) {
-    VkPhysicalDeviceMemoryProperties memory;
-    vkGetPhysicalDeviceMemoryProperties(device.physical(), &memory);
-    for (const VkMemoryPropertyFlags properties : {wish.required | wish.preferred, wish.required})
-        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((typeBits & (1u << i)) != 0 &&
-                (memory.memoryTypes[i].propertyFlags & properties) == properties)
-                return i;
-    throw DeviceError("the device has no memory of a kind that is needed");
-}
 
 Buffer::Buffer(
     Device& device, std::string name, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use
@@ -76,13 +74,11 @@ Buffer::Buffer(
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(mBuffer), name);
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device.handle(), mBuffer, &needs);
-    MemoryRequirement wish = kDeviceWish;
-    if (use != MemoryUse::Device)
-        wish = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0};
-    if (use == MemoryUse::Readback)
-        wish.preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    mMemory = allocate(device, needs, wish, true, name);
+    const Allocation allocation = allocate(device, needs, use, true, name);
+    mMemory = allocation.memory;
     mMemoryBytes = needs.size;
+    mIsCoherent = (device.memoryProperties().memoryTypes[allocation.type].propertyFlags &
+                   VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
     require(vkBindBufferMemory(device.handle(), mBuffer, mMemory, 0), "binding memory");
     if (use != MemoryUse::Device)
         require(vkMapMemory(device.handle(), mMemory, 0, VK_WHOLE_SIZE, 0, &mMapped), "mapping");
@@ -110,6 +106,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     mBytes = std::exchange(other.mBytes, 0);
     mAddress = std::exchange(other.mAddress, 0);
     mMapped = std::exchange(other.mMapped, nullptr);
+    mIsCoherent = other.mIsCoherent;
     return *this;
 }
 
@@ -129,6 +126,34 @@ void Buffer::writeBytes(const void* data, VkDeviceSize bytes, VkDeviceSize offse
     SHUTTER_CHECK(offset + bytes <= mBytes, "{} + {} > {}", offset, bytes, mBytes);
     if (bytes > 0)
         std::memcpy(static_cast<char*>(mMapped) + offset, data, bytes);
+    flush();
+}
+
+void Buffer::writeZeros() {
+    SHUTTER_CHECK(mMapped != nullptr, "the buffer is not mapped");
+    std::memset(mMapped, 0, mBytes);
+    flush();
+}
+
+const void* Buffer::mapped() const {
+    const VkMappedMemoryRange range = mappedRange();
+    if (mMapped != nullptr && !mIsCoherent)
+        require(vkInvalidateMappedMemoryRanges(mDevice->handle(), 1, &range), "reading memory");
+    return mMapped;
+}
+
+void Buffer::flush() {
+    const VkMappedMemoryRange range = mappedRange();
+    if (!mIsCoherent)
+        require(vkFlushMappedMemoryRanges(mDevice->handle(), 1, &range), "writing memory");
+}
+
+VkMappedMemoryRange Buffer::mappedRange() const {
+    // All of it: a part would have to keep to nonCoherentAtomSize.
+    VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE};
+    range.memory = mMemory;
+    range.size = VK_WHOLE_SIZE;
+    return range;
 }
 
 uint32_t texelBytes(VkFormat format) {
@@ -194,7 +219,7 @@ VkImageAspectFlags aspectOf(VkFormat format) {
 Image::Image(Device& device, std::string name, const ImageDesc& desc)
     : Image(createUnbound(device, std::move(name), desc)) {
     const VkMemoryRequirements needs = requirements();
-    mMemory = allocate(device, needs, kDeviceWish, false, mName);
+    mMemory = allocate(device, needs, MemoryUse::Device, false, mName).memory;
     mMemoryBytes = needs.size;
     bind(mMemory, 0);
 }
@@ -303,7 +328,7 @@ MemoryBlock::MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits) 
     VkMemoryRequirements needs{};
     needs.size = bytes;
     needs.memoryTypeBits = typeBits;
-    mMemory = allocate(device, needs, kDeviceWish, false, "transient images");
+    mMemory = allocate(device, needs, MemoryUse::Device, false, "transient images").memory;
     mMemoryBytes = bytes;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/gpu/device.h"
+#include "engine/gpu/memory_type.h"
 #include "engine/gpu/vulkan.h"
 
 #include <cstdint>
@@ -13,26 +14,12 @@
 
 namespace shutter::gpu {
 
-enum class MemoryUse : uint8_t {
-    Device,   ///< fast for the GPU, not mapped
-    Upload,   ///< mapped, written by the CPU
-    Readback, ///< mapped, read by the CPU
-};
-
-struct MemoryRequirement {
-    VkMemoryPropertyFlags required = 0;
-    VkMemoryPropertyFlags preferred = 0; ///< taken where there is such memory
-};
-
-/// First memory type in `typeBits` that fits the wish. Throws DeviceError where none does.
-[[nodiscard]] uint32_t
-findMemoryType(const Device& device, uint32_t typeBits, const MemoryRequirement& wish);
-
 class Buffer {
   public:
     Buffer() = default;
     /// \param bytes 0 makes a buffer of 16 bytes, so that empty scenes need no special case
-    /// Always usable as transfer source, transfer target and by device address.
+    /// Always usable as transfer source, transfer target and by device address. Throws DeviceError
+    /// where no memory that serves `use` is left.
     Buffer(
         Device& device,
         std::string name,
@@ -50,7 +37,9 @@ class Buffer {
 
     [[nodiscard]] VkDeviceAddress address() const { return mAddress; }
 
-    [[nodiscard]] void* mapped() const { return mMapped; } ///< null for MemoryUse::Device
+    /// Null for MemoryUse::Device. For reading: shows what the GPU had written when this is called
+    /// (after a barrier to the host and a wait), so it is called anew after each wait.
+    [[nodiscard]] const void* mapped() const;
 
     [[nodiscard]] explicit operator bool() const { return mBuffer != VK_NULL_HANDLE; }
 
@@ -61,8 +50,13 @@ class Buffer {
 
     void writeBytes(const void* data, VkDeviceSize bytes, VkDeviceSize offset);
 
+    /// Fills mapped memory with zeros.
+    void writeZeros();
+
   private:
     void release();
+    [[nodiscard]] VkMappedMemoryRange mappedRange() const;
+    void flush();
 
     Device* mDevice = nullptr;
     VkBuffer mBuffer = VK_NULL_HANDLE;
@@ -71,6 +65,7 @@ class Buffer {
     VkDeviceSize mBytes = 0;
     VkDeviceAddress mAddress = 0;
     void* mMapped = nullptr;
+    bool mIsCoherent = true;
 };
 
 struct ImageDesc {

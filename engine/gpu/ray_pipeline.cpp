@@ -38,7 +38,7 @@ RayPipeline::RayPipeline(Device& device, const RayPipelineDesc& desc) : mDevice(
         desc.name + " binding table",
         layout.bytes + limits.baseAlignment,
         VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR,
-        MemoryUse::Upload
+        MemoryUse::Stream
     );
     const VkDeviceAddress base = alignUp(mTable.address(), limits.baseAlignment);
     for (uint32_t i = 0; i < count; ++i) {

@@ -130,7 +130,7 @@ void StructureSet::prepareTlas(Device& device, std::span<const Instance> instanc
         "instances of one each",
         records.size() * sizeof(VkAccelerationStructureInstanceKHR),
         kBuildInputUsage,
-        MemoryUse::Upload
+        MemoryUse::Stream
     );
     mInstances.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
     mBuilds.clear();

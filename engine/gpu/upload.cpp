@@ -74,7 +74,7 @@ void uploadBuffer(
     if (data.empty())
         return;
     SHUTTER_CHECK(offset + data.size() <= target.bytes(), "upload past the end of a buffer");
-    Buffer staging(device, "staging", data.size(), 0, MemoryUse::Upload);
+    Buffer staging(device, "staging", data.size(), 0, MemoryUse::Staging);
     staging.write(data);
     runOnce(device, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, offset, data.size()};
@@ -89,7 +89,7 @@ uint32_t countMipLevels(uint32_t width, uint32_t height) {
 void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels) {
     const ImageDesc& desc = target.desc();
     SHUTTER_CHECK_EQ(texels.size(), size_t(desc.width) * desc.height * texelBytes(desc.format));
-    Buffer staging(device, "staging", texels.size(), 0, MemoryUse::Upload);
+    Buffer staging(device, "staging", texels.size(), 0, MemoryUse::Staging);
     staging.write(texels);
     runOnce(device, [&](VkCommandBuffer commands) {
         const VkImage image = target.handle();

@@ -68,7 +68,7 @@ void PoseTable::upload(gpu::Device& device, gpu::Buffer& buffer) {
             "poses",
             total + total / 2,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Upload
+            gpu::MemoryUse::Stream
         );
     buffer.write(std::span<const shader::MotionKey>(mJoints));
     buffer.write(std::span<const float>(mWeights), weightsAt);

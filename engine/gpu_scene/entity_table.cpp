@@ -17,7 +17,7 @@ bool EntityTable::fit(gpu::Buffer& buffer, const char* name, VkDeviceSize bytes)
     if (buffer && buffer.bytes() >= bytes)
         return false;
     buffer = gpu::Buffer(
-        mDevice, name, bytes + bytes / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Upload
+        mDevice, name, bytes + bytes / 2, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Stream
     );
     return true;
 }

@@ -176,7 +176,7 @@ void TimedBlas::linkScenes(
         "TLAS of deformed meshes",
         mScenes.count() * sizeof(math::uvec2),
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-        gpu::MemoryUse::Upload
+        gpu::MemoryUse::Stream
     );
     std::vector<math::uvec2> addresses;
     for (size_t level = 0; level < mScenes.count(); ++level)

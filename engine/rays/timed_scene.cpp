@@ -81,7 +81,7 @@ TimedScene::upload(const extract::TimedTables& tables, std::vector<shader::Timed
             "timed scene tables",
             layout.end() + layout.end() / 2,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Upload
+            gpu::MemoryUse::Stream
         );
     const VkDeviceAddress base = mTables.address();
 

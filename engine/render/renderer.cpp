@@ -116,7 +116,7 @@ Renderer::TableAddresses Renderer::uploadTables(
             "frame tables",
             total + total / 2,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Upload
+            gpu::MemoryUse::Stream
         );
     frame.constants.entities = gpu::splitAddress(slot.entityTable.rows());
     frame.constants.entityMotions = gpu::splitAddress(slot.entityTable.motions());

@@ -70,7 +70,7 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
             "instant motions",
             layout.bytes() + layout.bytes() / 2,
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Upload
+            gpu::MemoryUse::Stream
         );
     buffer.write(std::span<const float>(layers.times), times);
     head[0].raster = write(buffer, raster);

@@ -184,7 +184,7 @@ TEST_F(AccelerationStructure, ASetOfTopLevelsHasOneAnInstance) {
         "boxes",
         geometry.size() * sizeof(gpu::BoxGeometry),
         VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR,
-        gpu::MemoryUse::Upload
+        gpu::MemoryUse::Stream
     );
     boxes.write(std::span<const gpu::BoxGeometry>(geometry));
     gpu::StructureSet levels;

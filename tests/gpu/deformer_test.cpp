@@ -226,7 +226,7 @@ TEST_F(Deformer, BoxesHoldTrianglesAtBothKeysOfTheirInterval) {
         vertex.positionU0 = {value(random), value(random), value(random), 0.0f};
     constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     gpu::Buffer vertices(
-        device(), "vertices", keys.size() * sizeof(shader::Vertex), kUsage, gpu::MemoryUse::Upload
+        device(), "vertices", keys.size() * sizeof(shader::Vertex), kUsage, gpu::MemoryUse::Stream
     );
     vertices.write(std::span<const shader::Vertex>(keys));
     gpu::Buffer boxes(

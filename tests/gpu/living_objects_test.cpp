@@ -40,7 +40,7 @@ class LivingObjects : public test::GpuTest {
 TEST_F(LivingObjects, ABufferCountsWithItsMemoryUntilTheGpuIsDoneWithIt) {
     const gpu::LivingObjects before = device().living();
     {
-        gpu::Buffer buffer(device(), "buffer", 1000, 0, gpu::MemoryUse::Upload);
+        gpu::Buffer buffer(device(), "buffer", 1000, 0, gpu::MemoryUse::Stream);
         EXPECT_EQ(device().living().buffers, before.buffers + 1);
         EXPECT_EQ(device().living().memoryBlocks, before.memoryBlocks + 1);
         EXPECT_GE(device().living().memoryBytes, before.memoryBytes + 1000);

@@ -91,7 +91,7 @@ BlockSorter::BlockSorter(gpu::Device& device)
                                                     0,
                                                     gpu::MemoryUse::Readback
                                                 ) {
-    std::memset(mHeaders.mapped(), 0, mHeaders.bytes());
+    mHeaders.writeZeros();
 }
 
 SortedBlocks BlockSorter::addEmpty(graph::Graph& graph, const PassParams& params) const {

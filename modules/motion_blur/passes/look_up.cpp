@@ -119,7 +119,7 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
           0,
           gpu::MemoryUse::Readback
       ) {
-    std::memset(mRead.mapped(), 0, mRead.bytes());
+    mRead.writeZeros();
 }
 
 LookUpOutputs LookUp::add(

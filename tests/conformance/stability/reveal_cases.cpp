@@ -75,7 +75,7 @@ class RevealEverywhere : public render::PostEffect {
             for (uint32_t x = 0; x < width; ++x)
                 list.push_back(x | y << 16);
         const auto makeBuffer = [&](const char* name, size_t bytes, VkBufferUsageFlags usage) {
-            return gpu::Buffer(mDevice, name, bytes, usage, gpu::MemoryUse::Upload);
+            return gpu::Buffer(mDevice, name, bytes, usage, gpu::MemoryUse::Stream);
         };
         mList = makeBuffer(
             "all pixels", list.size() * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Buffers on a device that says of its memory what others say of theirs.
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+#include "engine/gpu/upload.h"
+#include "tests/support/gpu_fixture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+class Memory : public test::GpuTest {
+  protected:
+    static std::vector<uint32_t> copyValues(const gpu::Buffer& buffer, size_t count) {
+        const auto* values = static_cast<const uint32_t*>(buffer.mapped());
+        return {values, values + count};
+    }
+};
+
+TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
+    gpu::DeviceOptions options;
+    options.validate = true;
+    options.adaptMemory = [](VkPhysicalDeviceMemoryProperties& memory) {
+        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            memory.memoryTypes[i].propertyFlags &= ~VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    };
+    auto opened = gpu::Device::create(options);
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    const std::unique_ptr<gpu::Device> incoherent = std::move(opened).value();
+    {
+        gpu::Buffer source(*incoherent, "source", 16, 0, gpu::MemoryUse::Readback);
+        gpu::Buffer target(*incoherent, "target", 16, 0, gpu::MemoryUse::Readback);
+        const std::vector<uint32_t> values{1, 2, 3, 4};
+        source.write(std::span(values));
+        target.writeZeros();
+        EXPECT_EQ(copyValues(target, 4), std::vector<uint32_t>(4, 0));
+        gpu::runOnce(*incoherent, [&](VkCommandBuffer commands) {
+            const VkBufferCopy region{0, 0, 16};
+            vkCmdCopyBuffer(commands, source.handle(), target.handle(), 1, &region);
+        });
+        EXPECT_EQ(copyValues(target, 4), values);
+    }
+    EXPECT_THROW(gpu::Buffer(*incoherent, "table", 16, 0, gpu::MemoryUse::Stream), gpu::DeviceError)
+        << "no device lacks coherent memory; one that says so gets a sentence";
+    EXPECT_EQ(incoherent->validationMessageCount(), 0u);
+}
+
+} // namespace
+} // namespace shutter
