@@ -33,6 +33,49 @@ int32_t halve(uint32_t extent, uint32_t mip) {
     return static_cast<int32_t>(std::max(extent >> mip, 1u));
 }
 
+/// Fills the levels above 0 and leaves all in SHADER_READ_ONLY_OPTIMAL. Level 0 is in
+/// TRANSFER_DST_OPTIMAL before.
+void buildMipLevels(VkCommandBuffer commands, const Image& target) {
+    const ImageDesc& desc = target.desc();
+    const VkImage image = target.handle();
+    for (uint32_t mip = 1; mip < desc.mipLevels; ++mip) {
+        transition(
+            commands,
+            image,
+            mip - 1,
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+        );
+        transition(
+            commands, image, mip, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
+        );
+        VkImageBlit blit{};
+        blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1};
+        blit.srcOffsets[1] = {halve(desc.width, mip - 1), halve(desc.height, mip - 1), 1};
+        blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1};
+        blit.dstOffsets[1] = {halve(desc.width, mip), halve(desc.height, mip), 1};
+        vkCmdBlitImage(
+            commands,
+            image,
+            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+            image,
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            1,
+            &blit,
+            VK_FILTER_LINEAR
+        );
+    }
+    for (uint32_t mip = 0; mip < desc.mipLevels; ++mip)
+        transition(
+            commands,
+            image,
+            mip,
+            mip + 1 < desc.mipLevels ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+                                     : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+        );
+}
+
 } // namespace
 
 void fullBarrier(VkCommandBuffer commands) {
@@ -68,18 +111,30 @@ void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record)
     vkDestroyCommandPool(device.handle(), handle, nullptr);
 }
 
+std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit) {
+    SHUTTER_CHECK(unit > 0 && total % unit == 0, "{} bytes in units of {}", total, unit);
+    const VkDeviceSize most = std::max(kStagingBytes / unit, VkDeviceSize(1)) * unit;
+    std::vector<UploadPart> parts;
+    for (VkDeviceSize offset = 0; offset < total; offset += most)
+        parts.push_back({offset, std::min(most, total - offset)});
+    return parts;
+}
+
 void uploadBuffer(
     Device& device, Buffer& target, std::span<const std::byte> data, VkDeviceSize offset
 ) {
     if (data.empty())
         return;
     SHUTTER_CHECK(offset + data.size() <= target.bytes(), "upload past the end of a buffer");
-    Buffer staging(device, "staging", data.size(), 0, MemoryUse::Staging);
-    staging.write(data);
-    runOnce(device, [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, offset, data.size()};
-        vkCmdCopyBuffer(commands, staging.handle(), target.handle(), 1, &region);
-    });
+    const auto parts = splitUpload(data.size(), 1);
+    Buffer staging(device, "staging", parts.front().bytes, 0, MemoryUse::Staging);
+    for (const UploadPart& part : parts) {
+        staging.write(data.subspan(part.offset, part.bytes));
+        runOnce(device, [&](VkCommandBuffer commands) {
+            const VkBufferCopy region{0, offset + part.offset, part.bytes};
+            vkCmdCopyBuffer(commands, staging.handle(), target.handle(), 1, &region);
+        });
+    }
 }
 
 uint32_t countMipLevels(uint32_t width, uint32_t height) {
@@ -89,60 +144,36 @@ uint32_t countMipLevels(uint32_t width, uint32_t height) {
 void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels) {
     const ImageDesc& desc = target.desc();
     SHUTTER_CHECK_EQ(texels.size(), size_t(desc.width) * desc.height * texelBytes(desc.format));
-    Buffer staging(device, "staging", texels.size(), 0, MemoryUse::Staging);
-    staging.write(texels);
-    runOnce(device, [&](VkCommandBuffer commands) {
-        const VkImage image = target.handle();
-        transition(
-            commands, image, 0, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
-        );
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {desc.width, desc.height, 1};
-        vkCmdCopyBufferToImage(
-            commands, staging.handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region
-        );
-        for (uint32_t mip = 1; mip < desc.mipLevels; ++mip) {
-            transition(
+    const auto parts = splitUpload(texels.size(), desc.width * texelBytes(desc.format));
+    Buffer staging(device, "staging", parts.front().bytes, 0, MemoryUse::Staging);
+    for (const UploadPart& part : parts) {
+        staging.write(texels.subspan(part.offset, part.bytes));
+        runOnce(device, [&](VkCommandBuffer commands) {
+            if (part.offset == 0)
+                transition(
+                    commands,
+                    target.handle(),
+                    0,
+                    VK_IMAGE_LAYOUT_UNDEFINED,
+                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
+                );
+            const VkDeviceSize rowBytes = texels.size() / desc.height;
+            VkBufferImageCopy region{};
+            region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+            region.imageOffset.y = static_cast<int32_t>(part.offset / rowBytes);
+            region.imageExtent = {desc.width, static_cast<uint32_t>(part.bytes / rowBytes), 1};
+            vkCmdCopyBufferToImage(
                 commands,
-                image,
-                mip - 1,
-                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-            );
-            transition(
-                commands,
-                image,
-                mip,
-                VK_IMAGE_LAYOUT_UNDEFINED,
-                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
-            );
-            VkImageBlit blit{};
-            blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1};
-            blit.srcOffsets[1] = {halve(desc.width, mip - 1), halve(desc.height, mip - 1), 1};
-            blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1};
-            blit.dstOffsets[1] = {halve(desc.width, mip), halve(desc.height, mip), 1};
-            vkCmdBlitImage(
-                commands,
-                image,
-                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                image,
+                staging.handle(),
+                target.handle(),
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 1,
-                &blit,
-                VK_FILTER_LINEAR
+                &region
             );
-        }
-        for (uint32_t mip = 0; mip < desc.mipLevels; ++mip)
-            transition(
-                commands,
-                image,
-                mip,
-                mip + 1 < desc.mipLevels ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
-                                         : VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-            );
-    });
+            if (part.offset + part.bytes == texels.size())
+                buildMipLevels(commands, target);
+        });
+    }
 }
 
 } // namespace shutter::gpu

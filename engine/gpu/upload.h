@@ -5,6 +5,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
@@ -13,6 +14,22 @@ namespace shutter::gpu {
 
 /// Records with `record`, submits, waits.
 void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record);
+
+/// Most bytes that are staged at once; larger transfers go in parts, so that a scene of gigabytes
+/// needs no second copy of itself in mapped memory.
+inline constexpr VkDeviceSize kStagingBytes = VkDeviceSize(32) << 20;
+
+/// A part of a transfer.
+struct UploadPart {
+    VkDeviceSize offset = 0;
+    VkDeviceSize bytes = 0;
+
+    bool operator==(const UploadPart&) const = default;
+};
+
+/// The parts of a transfer of `total` bytes: of whole units each, as many as kStagingBytes holds
+/// and at least one. \param unit bytes that stay together (a row of a picture); divides `total`
+[[nodiscard]] std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit);
 
 /// Fills a device buffer through staging memory.
 void uploadBuffer(

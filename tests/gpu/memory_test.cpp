@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -49,6 +50,14 @@ TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
     EXPECT_THROW(gpu::Buffer(*incoherent, "table", 16, 0, gpu::MemoryUse::Stream), gpu::DeviceError)
         << "no device lacks coherent memory; one that says so gets a sentence";
     EXPECT_EQ(incoherent->validationMessageCount(), 0u);
+}
+
+TEST_F(Memory, ABufferThatIsStagedInPartsIsFilledWhole) {
+    std::vector<uint32_t> values(gpu::kStagingBytes / 4 + 1000);
+    std::iota(values.begin(), values.end(), 7u);
+    gpu::Buffer buffer(device(), "large", 4 * values.size(), 0, gpu::MemoryUse::Readback);
+    gpu::uploadBuffer(device(), buffer, std::as_bytes(std::span(values)));
+    EXPECT_EQ(copyValues(buffer, values.size()), values);
 }
 
 } // namespace
