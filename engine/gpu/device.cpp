@@ -113,6 +113,8 @@ core::Status Device::createLogicalDevice(bool presents) {
     if (mQueueFamily == familyCount)
         return core::makeError("{} has no queue for graphics, compute and timestamps", mInfo.name);
 
+    mTimestampBits = families[mQueueFamily].timestampValidBits;
+
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = mQueueFamily;

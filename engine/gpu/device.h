@@ -110,6 +110,9 @@ class Device {
 
     [[nodiscard]] uint32_t queueFamily() const { return mQueueFamily; }
 
+    /// Of the queue's timestamps: how many bits count, the others are zero. 0: a host's queue.
+    [[nodiscard]] uint32_t timestampBits() const { return mTimestampBits; }
+
     [[nodiscard]] const DeviceInfo& info() const { return mInfo; }
 
     [[nodiscard]] bool hasRays() const { return mInfo.rayTier != RayTier::None; }
@@ -190,6 +193,7 @@ class Device {
     VkDevice mDevice = VK_NULL_HANDLE;
     VkQueue mQueue = VK_NULL_HANDLE;
     uint32_t mQueueFamily = 0;
+    uint32_t mTimestampBits = 0;
     DeviceInfo mInfo;
     VkPhysicalDeviceLimits mLimits{};
     VkPhysicalDeviceMemoryProperties mMemoryProperties{};

@@ -19,6 +19,11 @@ double nowMilliseconds() {
 
 } // namespace
 
+uint64_t countTicks(uint64_t begin, uint64_t end, uint32_t validBits) {
+    SHUTTER_CHECK(validBits >= 1 && validBits <= 64, "timestamps of {} bits", validBits);
+    return (end - begin) & (UINT64_MAX >> (64 - validBits));
+}
+
 Frame::Frame(Device& device) : mDevice(device), mDescriptors(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
@@ -157,7 +162,9 @@ std::vector<PassTime> Frame::waitForTimes() {
     const double millisecondsPerTick = static_cast<double>(mDevice.limits().timestampPeriod) * 1e-6;
     for (size_t i = 0; i < mSpans.size(); ++i)
         mSpans[i].gpuMilliseconds =
-            static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) * millisecondsPerTick;
+            static_cast<double>(countTicks(ticks[2 * i], ticks[2 * i + 1], mDevice.timestampBits())
+            ) *
+            millisecondsPerTick;
     return mSpans;
 }
 

@@ -18,6 +18,11 @@ namespace shutter::gpu {
 /// exists as often. A frame's slot, below this, says which is its own.
 inline constexpr uint32_t kMaxFramesInFlight = 3;
 
+/// Ticks from one timestamp to a later one of a counter that has wrapped once at most between them:
+/// one of 36 bits, which Intel has, does so every hour.
+/// \param validBits of the counter, [1, 64]; those above are zero in timestamps
+[[nodiscard]] uint64_t countTicks(uint64_t begin, uint64_t end, uint32_t validBits);
+
 /// GPU time of one labelled span, milliseconds.
 struct PassTime {
     std::string name;
