@@ -85,7 +85,7 @@ function(shutter_install_package)
                                      COMPATIBILITY SameMinorVersion)
     install(FILES ${folder}/ShutterConfig.cmake ${folder}/ShutterConfigVersion.cmake
                   ${SHUTTER_ROOT}/cmake/ShutterTools.cmake ${SHUTTER_ROOT}/cmake/EmbedBytes.cmake
-                  ${SHUTTER_ROOT}/cmake/MakeSelfContained.cmake
+                  ${SHUTTER_ROOT}/cmake/EmbedWords.cmake
             DESTINATION ${SHUTTER_INSTALL_PACKAGE} COMPONENT Development)
 
     install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)

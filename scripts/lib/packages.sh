@@ -7,7 +7,7 @@
 # are here because OpenImageIO's CMake files refer to /usr/bin/iconvert and /usr/include/opencv4 and
 # stop the configuration when they are absent.
 build_packages=(
-    g++ cmake ninja-build pkg-config glslang-tools
+    g++ cmake ninja-build pkg-config glslang-tools spirv-tools
     libvulkan-dev libglfw3-dev libglm-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
     libimgui-dev vulkan-validationlayers libjs-chart.js
@@ -121,7 +121,7 @@ go_on_with_tools_found() {
     say "this is ${1:-an unknown distribution}, not Debian 12, Debian 13 or Ubuntu 24.04;" \
         "nothing is installed here. Debian calls what the build needs:" \
         "${build_packages[*]} $mesa_package (for the tests also ${test_packages[*]})"
-    for tool in c++ cmake ninja; do
+    for tool in c++ cmake ninja spirv-opt spirv-val; do
         command -v "$tool" >/dev/null || absent+=("$tool")
     done
     if ! command -v glslang >/dev/null && ! command -v glslangValidator >/dev/null; then
