@@ -2,6 +2,7 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/shader_reflection.h"
 
 #include <algorithm>
 #include <array>
@@ -113,7 +114,10 @@ void Pipeline::createLayout(const PipelineInterface& interface) {
     );
 }
 
-void Pipeline::addStorageFormats(std::span<const uint32_t> spirv) {
+void Pipeline::
+    addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
+    const core::Status fits = checkInterface(spirv, stage, interface);
+    SHUTTER_CHECK(fits.ok(), "pipeline '{}': {}", mName, fits.error().message);
     const std::vector<VkFormat> formats = reflectStorageFormats(spirv);
     mStorageFormats.resize(std::max(mStorageFormats.size(), formats.size()));
     for (size_t i = 0; i < formats.size(); ++i)
@@ -125,7 +129,7 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_COMPUTE),
       mStages(VK_SHADER_STAGE_COMPUTE_BIT), mName(desc.name) {
     createLayout(desc.interface);
-    addStorageFormats(desc.spirv);
+    addShader(desc.spirv, VK_SHADER_STAGE_COMPUTE_BIT, desc.interface);
     const Module module(device, desc.spirv, desc.name);
     const Specialization constants(desc.specialization);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
@@ -144,8 +148,8 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_GRAPHICS),
       mStages(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT), mName(desc.name) {
     createLayout(desc.interface);
-    for (const auto spirv : {desc.vertexSpirv, desc.fragmentSpirv})
-        addStorageFormats(spirv);
+    addShader(desc.vertexSpirv, VK_SHADER_STAGE_VERTEX_BIT, desc.interface);
+    addShader(desc.fragmentSpirv, VK_SHADER_STAGE_FRAGMENT_BIT, desc.interface);
     const Module vertex(device, desc.vertexSpirv, desc.name);
     const Module fragment(device, desc.fragmentSpirv, desc.name);
     const Specialization constants(desc.specialization);
@@ -220,9 +224,10 @@ Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
       ),
       mName(desc.name) {
     createLayout(desc.interface);
-    for (const auto spirv :
-         {desc.raygenSpirv, desc.missSpirv, desc.closestHitSpirv, desc.anyHitSpirv})
-        addStorageFormats(spirv);
+    addShader(desc.raygenSpirv, VK_SHADER_STAGE_RAYGEN_BIT_KHR, desc.interface);
+    addShader(desc.missSpirv, VK_SHADER_STAGE_MISS_BIT_KHR, desc.interface);
+    addShader(desc.closestHitSpirv, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, desc.interface);
+    addShader(desc.anyHitSpirv, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, desc.interface);
     const Module raygen(device, desc.raygenSpirv, desc.name);
     const Module miss(device, desc.missSpirv, desc.name);
     const Module closestHit(device, desc.closestHitSpirv, desc.name);

@@ -13,6 +13,11 @@
 
 namespace shutter::gpu {
 
+/// Stages that may use set 1 of a pipeline's layout.
+inline constexpr VkShaderStageFlags kSceneStages =
+    VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_RAYGEN_BIT_KHR |
+    VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
+
 /// What a pipeline binds. Set 0 belongs to the pass and is bound anew each frame; set 1, where
 /// given, belongs to the scene (bindless textures) and is long-lived.
 struct PipelineInterface {
@@ -87,8 +92,10 @@ class Pipeline {
 
   private:
     void createLayout(const PipelineInterface& interface);
-    /// Takes over the storage formats of one of its shaders.
-    void addStorageFormats(std::span<const uint32_t> spirv);
+    /// Takes over the storage formats of one of its shaders, which must name nothing that the
+    /// layout does not bind (CHECKed).
+    void
+    addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface);
     void release();
 
     Device* mDevice = nullptr;
@@ -119,13 +126,5 @@ class LazyPipeline {
     ComputePipelineDesc mDesc;
     mutable std::optional<Pipeline> mPipeline;
 };
-
-/// The formats that a shader declares for its storage images in descriptor set 0: element i is
-/// binding i's, VK_FORMAT_UNDEFINED where that is not a storage image or has no declared format. No
-/// element follows the last storage image. Vulkan leaves values undefined where the declared format
-/// is not that of the image bound there, and older validation layers do not report it. The words
-/// must be SPIR-V (CHECKed).
-/// Source: SPIR-V 1.6, physical layout of a module, image formats, instructions.
-[[nodiscard]] std::vector<VkFormat> reflectStorageFormats(std::span<const uint32_t> spirv);
 
 } // namespace shutter::gpu

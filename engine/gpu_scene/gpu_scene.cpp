@@ -2,6 +2,7 @@
 #include "engine/gpu_scene/gpu_scene.h"
 
 #include "engine/extract/spatial_order.h"
+#include "engine/gpu/pipeline.h"
 #include "engine/gpu/upload.h"
 #include "engine/gpu/vulkan.h"
 
@@ -256,9 +257,9 @@ void GpuScene::createTextureSet(uint32_t count) {
     VkDescriptorSetLayoutBinding binding{};
     binding.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     binding.descriptorCount = count;
-    binding.stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
-    if (mDevice.info().rayTier == gpu::RayTier::Pipeline)
-        binding.stageFlags |= VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
+    binding.stageFlags = gpu::kSceneStages;
+    if (mDevice.info().rayTier != gpu::RayTier::Pipeline)
+        binding.stageFlags &= VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
     const VkDescriptorBindingFlags flags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
     VkDescriptorSetLayoutBindingFlagsCreateInfo bindingFlags{
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};

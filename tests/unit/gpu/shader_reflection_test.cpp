@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The storage formats of shaders as they are shipped, and of modules written down word by word.
-#include "engine/gpu/pipeline.h"
+#include "engine/gpu/shader_reflection.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 // clang-format off: need <cstdint> before them
 #include "spirv/accumulate/accumulate.comp.h"
 #include "spirv/motion_blur/edge.comp.h"
 #include "spirv/motion_blur/reveal.comp.h"
+#include "spirv/motion_blur/reveal_sky.comp.h"
 #include "spirv/motion_blur/tile_max.comp.h"
+#include "spirv/render/gbuffer.frag.h"
+#include "spirv/render/gbuffer.vert.h"
 
 // clang-format on
 
@@ -119,6 +123,60 @@ TEST(ShaderReflection, TheLastFormatsOfSpirvAreTranslated) {
     EXPECT_EQ(
         reflectStorageFormats(makeModule({.format = 41, .binding = 0})), Formats{VK_FORMAT_R64_SINT}
     );
+}
+
+constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+
+/// An interface of these bindings, with or without a layout for set 1.
+PipelineInterface makeInterface(std::vector<VkDescriptorType> bindings, bool hasScene = false) {
+    PipelineInterface interface;
+    interface.bindings = std::move(bindings);
+    if (hasScene)
+        interface.sceneLayout = reinterpret_cast<VkDescriptorSetLayout>(uintptr_t(1));
+    return interface;
+}
+
+std::string
+checkMade(const Declared& declared, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
+    const core::Status status = checkInterface(makeModule(declared), stage, interface);
+    return status.ok() ? "" : status.error().message;
+}
+
+TEST(ShaderInterface, WhatAModuleNamesMustBeBound) {
+    constexpr auto kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+    EXPECT_EQ(checkMade({}, kCompute, makeInterface({kTexture, kStorage})), "");
+    EXPECT_EQ(
+        checkMade({}, kCompute, makeInterface({kTexture})),
+        "the shader names binding 1, the layout has 1"
+    );
+    EXPECT_EQ(
+        checkMade({}, kCompute, makeInterface({kTexture, kTexture})),
+        "binding 1 is of type 3 in the shader and 1 in the layout"
+    );
+}
+
+TEST(ShaderInterface, SetOneMustBeThereAndSeenByTheStage) {
+    const Declared scene{.set = 1};
+    EXPECT_EQ(checkMade(scene, VK_SHADER_STAGE_FRAGMENT_BIT, makeInterface({}, true)), "");
+    EXPECT_EQ(
+        checkMade(scene, VK_SHADER_STAGE_FRAGMENT_BIT, makeInterface({})),
+        "the shader names set 1, which the layout does not have"
+    );
+    EXPECT_EQ(
+        checkMade(scene, VK_SHADER_STAGE_VERTEX_BIT, makeInterface({}, true)),
+        "the shader's stage does not see set 1, which it names"
+    );
+}
+
+TEST(ShaderInterface, ModulesDoNotNameTheSceneTexturesTheyLeaveAlone) {
+    EXPECT_TRUE(reflectBindings(render_gbuffer_vert).empty());
+    EXPECT_EQ(
+        reflectBindings(render_gbuffer_frag),
+        (std::vector<ShaderBinding>{{1, 0, kTexture, VK_FORMAT_UNDEFINED}})
+    );
+    for (const ShaderBinding& binding : reflectBindings(motion_blur_reveal_sky_comp))
+        EXPECT_EQ(binding.set, 0u);
 }
 
 TEST(ShaderReflectionDeathTest, WhatIsNoSpirvOrIsCutShortIsRefused) {
