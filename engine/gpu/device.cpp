@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/gpu/device_features.h"
 
 #include <array>
 #include <fstream>
@@ -132,25 +133,10 @@ core::Status Device::createLogicalDevice(bool presents) {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
     structure.pNext = hasRayQuery() ? static_cast<void*>(&query) : &pipeline;
     structure.accelerationStructure = VK_TRUE;
-    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    DeviceFeatures features;
+    features.enableNeeded();
     if (hasRays())
-        v13.pNext = &structure;
-    v13.dynamicRendering = VK_TRUE;
-    v13.synchronization2 = VK_TRUE;
-    v13.maintenance4 = VK_TRUE; // glslang gives workgroup sizes as LocalSizeId
-    VkPhysicalDeviceVulkan12Features v12{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
-    v12.timelineSemaphore = VK_TRUE;
-    v12.bufferDeviceAddress = VK_TRUE;
-    v12.descriptorIndexing = VK_TRUE;
-    v12.runtimeDescriptorArray = VK_TRUE;
-    v12.shaderSampledImageArrayNonUniformIndexing = VK_TRUE;
-    v12.descriptorBindingPartiallyBound = VK_TRUE;
-    v12.scalarBlockLayout = VK_TRUE;
-    v12.hostQueryReset = VK_TRUE;
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
-    features.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    features.features.independentBlend = VK_TRUE;
+        features.v13.pNext = &structure;
 
     std::vector<const char*> extensions;
     if (hasRays())
@@ -163,7 +149,7 @@ core::Status Device::createLogicalDevice(bool presents) {
     if (presents)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
-    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());

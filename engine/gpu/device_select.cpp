@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/device_select.h"
 
+#include "engine/gpu/device_features.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -89,33 +91,9 @@ void findRays(DeviceInfo& info) {
 std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
     if (apiVersion < VK_API_VERSION_1_3)
         return "Vulkan 1.3";
-    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features v12{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
-    vkGetPhysicalDeviceFeatures2(device, &features);
-    if (!v13.dynamicRendering)
-        return "dynamic rendering";
-    if (!v13.synchronization2)
-        return "synchronization2";
-    if (!v13.maintenance4)
-        return "maintenance4";
-    if (!v12.timelineSemaphore)
-        return "timeline semaphores";
-    if (!v12.bufferDeviceAddress)
-        return "buffer device addresses";
-    if (!v12.descriptorIndexing || !v12.runtimeDescriptorArray ||
-        !v12.shaderSampledImageArrayNonUniformIndexing || !v12.descriptorBindingPartiallyBound)
-        return "descriptor indexing";
-    if (!v12.scalarBlockLayout)
-        return "scalar block layout";
-    if (!v12.hostQueryReset)
-        return "host query reset";
-    if (!features.features.shaderStorageImageExtendedFormats)
-        return "extended storage formats";
-    if (!features.features.independentBlend)
-        return "independent blending";
-    return {};
+    DeviceFeatures features;
+    vkGetPhysicalDeviceFeatures2(device, &features.core);
+    return features.findMissing();
 }
 
 std::string toLower(std::string text) {

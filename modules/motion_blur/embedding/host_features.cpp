@@ -35,6 +35,7 @@ HostFeatures::HostFeatures(gpu::RayTier rays) : mRays(rays) {
     v13.maintenance4 = VK_TRUE; // glslang gives workgroup sizes as LocalSizeId
     if (rays == gpu::RayTier::None)
         return;
+    features.features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
     for (const auto feature : kBindless)
         v12.*feature = VK_TRUE;
     v13.pNext = &mStructure;
@@ -80,6 +81,8 @@ core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu:
         return lacks("synchronization2");
     if (!v13.maintenance4)
         return lacks("maintenance4");
+    if (rays != gpu::RayTier::None && !features.features.shaderSampledImageArrayDynamicIndexing)
+        return lacks("shaderSampledImageArrayDynamicIndexing");
     for (const auto feature : kBindless)
         if (rays != gpu::RayTier::None && !(v12.*feature))
             return lacks("descriptor indexing");

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The features that the engine enables, in one list: what is asked of a device, and what is looked
+// for before.
+#pragma once
+
+#include "engine/gpu/vulkan.h"
+
+#include <string>
+
+namespace shutter::gpu {
+
+/// The structs of core Vulkan that hold features, chained. Does not move: the chain points into it.
+struct DeviceFeatures {
+    VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+
+    DeviceFeatures();
+    DeviceFeatures(const DeviceFeatures&) = delete;
+    DeviceFeatures& operator=(const DeviceFeatures&) = delete;
+
+    /// Sets what the engine needs without rays; their features are structs of their own.
+    void enableNeeded();
+
+    /// What of that is not set, in words; empty where all is.
+    [[nodiscard]] std::string findMissing() const;
+};
+
+} // namespace shutter::gpu
