@@ -41,6 +41,30 @@ SHUTTER_INLINE float tileSpread(vec2 least, vec2 greatest, float longestPx, floa
     return length(greatest - least) + max(longestPx - limitPx, 0.0f);
 }
 
+/// The tile that holds a position, or the picture's nearest.
+SHUTTER_INLINE ivec2 tileAt(vec2 positionPx, uint tileSizePx, uvec2 tileCount) {
+    ivec2 tile = ivec2(floor(positionPx / float(tileSizePx)));
+    return clamp(tile, ivec2(0), ivec2(tileCount) - 1);
+}
+
+// Pixels look tiles up at their centres, or up to a margin beyond. A quarter of a pixel is added to
+// that: a centre may lie where a tile begins, where a quotient that is off by its last bits, as
+// Vulkan allows, has the wrong floor.
+SHUTTER_CONST float kTileSlackPx = 0.25f;
+
+/// Nearest the origin of the tiles that the pixels of a block look up.
+/// \param first its first corner
+SHUTTER_INLINE ivec2
+lowestTile(vec2 first, float marginPx, uint tileSizePx, uvec2 tileCount) {
+    return tileAt(first + 0.5f - marginPx - kTileSlackPx, tileSizePx, tileCount);
+}
+
+/// Farthest from the origin of them.
+/// \param end where the block ends
+SHUTTER_INLINE ivec2 highestTile(vec2 end, float marginPx, uint tileSizePx, uvec2 tileCount) {
+    return tileAt(end - 0.5f + marginPx + kTileSlackPx, tileSizePx, tileCount);
+}
+
 /// Whether a smear no longer than `reachPx` of something in one rectangle comes over the other.
 /// Each from its first corner to where it ends.
 SHUTTER_INLINE bool reachesBlock(

@@ -25,17 +25,14 @@ layout(binding = 5, scalar) buffer CandidateArguments { DispatchArguments uCandi
 
 vec2 uvOf(ivec2 tile) { return (vec2(tile) + 0.5f) / vec2(params.tileCount); }
 
-ivec2 tileAt(vec2 positionPx) {
-    ivec2 tile = ivec2(floor(positionPx / float(params.tileSizePx)));
-    return clamp(tile, ivec2(0), ivec2(params.tileCount) - 1);
-}
-
 /// A tile that is farther than the next one never reaches a block: motion is no longer than a tile.
 bool isReached(vec2 first, vec2 end) {
     int ring = min(params.neighbourRadius, 1);
     // Pixels may look up tiles beyond their own by a margin, and take what those reach.
-    ivec2 lowest = max(tileAt(first - params.marginPx) - ring, ivec2(0));
-    ivec2 highest = min(tileAt(end - 1.0f + params.marginPx) + ring, ivec2(params.tileCount) - 1);
+    ivec2 lowest = lowestTile(first, params.marginPx, params.tileSizePx, params.tileCount);
+    ivec2 highest = highestTile(end, params.marginPx, params.tileSizePx, params.tileCount);
+    lowest = max(lowest - ring, ivec2(0));
+    highest = min(highest + ring, ivec2(params.tileCount) - 1);
     float tileSize = float(params.tileSizePx);
     for (int y = lowest.y; y <= highest.y; ++y)
         for (int x = lowest.x; x <= highest.x; ++x) {
@@ -49,8 +46,8 @@ bool isReached(vec2 first, vec2 end) {
 }
 
 float classifyBlock(vec2 first, vec2 end) {
-    ivec2 lowest = tileAt(first - params.marginPx);
-    ivec2 highest = tileAt(end - 1.0f + params.marginPx);
+    ivec2 lowest = lowestTile(first, params.marginPx, params.tileSizePx, params.tileCount);
+    ivec2 highest = highestTile(end, params.marginPx, params.tileSizePx, params.tileCount);
     float demand = kClassStill;
     for (int y = lowest.y; y <= highest.y; ++y)
         for (int x = lowest.x; x <= highest.x; ++x)

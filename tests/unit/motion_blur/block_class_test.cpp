@@ -87,6 +87,45 @@ TEST(BlockClass, ASmearReachesBlocksWithinItsLength) {
     EXPECT_TRUE(reaches(90, 90, 13.5f));
 }
 
+TEST(BlockTiles, ACentreLiesInTheTileThatWholeNumbersSay) {
+    for (uint tileSize = 1; tileSize < 130; ++tileSize)
+        for (uint x = 0; x < 8192; ++x)
+            ASSERT_EQ(
+                tileAt(vec2(float(x) + 0.5f, 0.5f), tileSize, uvec2(10000, 1)),
+                ivec2(x / tileSize, 0)
+            ) << x
+              << " of " << tileSize;
+}
+
+TEST(BlockTiles, PositionsBeyondThePictureLieInItsNearestTile) {
+    EXPECT_EQ(tileAt(vec2(-7.0f, 95.0f), 10, uvec2(3, 4)), ivec2(0, 3));
+    EXPECT_EQ(lowestTile(vec2(0.0f), 5.0f, 10, uvec2(3, 4)), ivec2(0));
+    EXPECT_EQ(highestTile(vec2(30.0f, 40.0f), 5.0f, 10, uvec2(3, 4)), ivec2(2, 3));
+}
+
+TEST(BlockTiles, ABlockKnowsEveryTileThatItsPixelsLookUp) {
+    constexpr uint kBlock = 8;
+    const uvec2 tiles(10000, 1);
+    for (uint tileSize = 2; tileSize < 130; ++tileSize)
+        for (const float margin : {0.0f, 0.25f * float(tileSize), 1.5f})
+            for (uint block = 0; block < 512; ++block) {
+                const vec2 first(float(block * kBlock), 0.0f);
+                const vec2 end = first + vec2(float(kBlock), 1.0f);
+                const int lowest = lowestTile(first, margin, tileSize, tiles).x;
+                const int highest = highestTile(end, margin, tileSize, tiles).x;
+                for (const float centre : {first.x + 0.5f, end.x - 0.5f})
+                    for (const float side : {-margin, 0.0f, margin}) {
+                        const double at = double(centre + side);
+                        const int tile = std::max(int(std::floor(at / double(tileSize))), 0);
+                        ASSERT_LE(lowest, tile) << block << ", margin " << margin;
+                        ASSERT_GE(highest, tile) << block << ", margin " << margin;
+                    }
+                // No more than that: a tile too many would make still blocks work.
+                ASSERT_GE((float(lowest) + 1.0f) * float(tileSize), first.x - margin);
+                ASSERT_LE(float(highest) * float(tileSize), end.x + margin);
+            }
+}
+
 TEST(ShownMotion, MotionEndsBeyondTheDepthLimit) {
     EXPECT_EQ(shownMotion({3, 4}, 10.0f, 10.0f), vec2(3, 4));
     EXPECT_EQ(shownMotion({3, 4}, 10.1f, 10.0f), vec2(0));
