@@ -34,8 +34,8 @@ TEST(Denoise, TheKernelsWeightsSumToOne) {
 }
 
 TEST(Denoise, EqualLightAlwaysCountsAndNoiseFreePixelsTakeNothingElse) {
-    EXPECT_EQ(luminanceWeight(0.0f, 0.0f, 4.0f), 1.0f);
-    EXPECT_EQ(luminanceWeight(0.0f, 0.3f, 4.0f), 1.0f);
+    EXPECT_FLOAT_EQ(luminanceWeight(0.0f, 0.0f, 4.0f), 1.0f);
+    EXPECT_FLOAT_EQ(luminanceWeight(0.0f, 0.3f, 4.0f), 1.0f);
     EXPECT_LT(luminanceWeight(0.01f, 0.0f, 4.0f), 1e-30f);
     EXPECT_GT(luminanceWeight(-0.01f, 0.1f, 4.0f), 0.97f);
     EXPECT_EQ(luminanceWeight(-0.5f, 0.1f, 4.0f), luminanceWeight(0.5f, 0.1f, 4.0f));

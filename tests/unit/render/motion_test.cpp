@@ -17,8 +17,12 @@ constexpr vec2 kSize{200.0f, 100.0f};
 
 TEST(Motion, TheMiddleOfClipSpaceIsTheMiddleOfThePicture) {
     EXPECT_EQ(screenFromClip(vec3(0.0f, 0.0f, 5.0f), kSize), vec2(100.0f, 50.0f));
-    EXPECT_EQ(screenFromClip(vec3(-5.0f, -5.0f, 5.0f), kSize), vec2(0.0f, 0.0f));
-    EXPECT_EQ(screenFromClip(vec3(5.0f, 5.0f, 5.0f), kSize), vec2(200.0f, 100.0f));
+    const vec2 corner = screenFromClip(vec3(-5.0f, -5.0f, 5.0f), kSize);
+    EXPECT_NEAR(corner.x, 0.0f, 1e-4f);
+    EXPECT_NEAR(corner.y, 0.0f, 1e-4f);
+    const vec2 opposite = screenFromClip(vec3(5.0f, 5.0f, 5.0f), kSize);
+    EXPECT_NEAR(opposite.x, 200.0f, 1e-4f);
+    EXPECT_NEAR(opposite.y, 100.0f, 1e-4f);
 }
 
 TEST(Motion, APointAtRestHasNone) {
