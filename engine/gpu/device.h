@@ -146,6 +146,12 @@ class Device {
 
     [[nodiscard]] LivingObjects& living() { return mLiving; }
 
+    /// Blocks of device memory that were ever allocated: drivers may take tens of milliseconds over
+    /// one, so frames that look alike should leave this as it is.
+    [[nodiscard]] uint64_t allocationCount() const { return mAllocationCount; }
+
+    void countAllocation() { ++mAllocationCount; }
+
     /// Submits and returns the timeline value that is reached when it is done. Not for adopted
     /// devices (CHECKed).
     uint64_t submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores = {});
@@ -208,6 +214,7 @@ class Device {
     VkSampler mLinearSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
     LivingObjects mLiving;
+    uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

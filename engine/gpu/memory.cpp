@@ -44,6 +44,7 @@ Allocation allocate(
     );
     device.living().memoryBytes += needs.size;
     ++device.living().memoryBlocks;
+    device.countAllocation();
     return {memory, attempt.type};
 }
 
@@ -328,8 +329,10 @@ MemoryBlock::MemoryBlock(Device& device, VkDeviceSize bytes, uint32_t typeBits) 
     VkMemoryRequirements needs{};
     needs.size = bytes;
     needs.memoryTypeBits = typeBits;
-    mMemory = allocate(device, needs, MemoryUse::Device, false, "transient images").memory;
+    const Allocation allocation = allocate(device, needs, MemoryUse::Device, false, "images");
+    mMemory = allocation.memory;
     mMemoryBytes = bytes;
+    mType = allocation.type;
 }
 
 MemoryBlock::~MemoryBlock() {
@@ -347,6 +350,7 @@ MemoryBlock& MemoryBlock::operator=(MemoryBlock&& other) noexcept {
     mDevice = std::exchange(other.mDevice, nullptr);
     mMemory = std::exchange(other.mMemory, VK_NULL_HANDLE);
     mMemoryBytes = std::exchange(other.mMemoryBytes, 0);
+    mType = other.mType;
     return *this;
 }
 

@@ -138,12 +138,17 @@ class MemoryBlock {
 
     [[nodiscard]] VkDeviceMemory handle() const { return mMemory; }
 
+    [[nodiscard]] uint32_t type() const { return mType; } ///< index of its memory type
+
+    [[nodiscard]] explicit operator bool() const { return mMemory != VK_NULL_HANDLE; }
+
   private:
     void release();
 
     Device* mDevice = nullptr;
     VkDeviceMemory mMemory = VK_NULL_HANDLE;
     VkDeviceSize mMemoryBytes = 0;
+    uint32_t mType = 0;
 };
 
 } // namespace shutter::gpu

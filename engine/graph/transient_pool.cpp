@@ -4,10 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace shutter::graph {
 
 namespace {
+
+/// Several plans' images wait for them: a frame with every method's intermediates has about thirty.
+constexpr uint64_t kMostIdleImages = 128;
+
+/// Frames for which what no plan wants is kept: a second or two, so that motion may pause.
+constexpr uint64_t kRoundsKept = 100;
 
 gpu::ImageDesc describe(const TransientImageDesc& desc, VkImageUsageFlags usage) {
     gpu::ImageDesc result;
@@ -20,47 +27,41 @@ gpu::ImageDesc describe(const TransientImageDesc& desc, VkImageUsageFlags usage)
 
 } // namespace
 
-void TransientPool::realize(const Graph& graph, const Plan& plan) {
-    std::vector<ImageKey> imageKeys;
-    mImageSlots.clear();
-    for (const Placement& image : plan.images) {
-        mImageSlots[image.resource] = imageKeys.size();
-        imageKeys.push_back(
-            {graph.resources()[image.resource].imageDesc, image.imageUsage, image.offset}
-        );
-    }
-    std::vector<BufferKey> bufferKeys;
-    mBufferSlots.clear();
-    for (const Placement& buffer : plan.buffers) {
-        mBufferSlots[buffer.resource] = bufferKeys.size();
-        bufferKeys.push_back({buffer.bytes, buffer.bufferUsage});
-    }
-    // Equal keys were packed into a block of equal size, so the keys alone decide.
-    if (imageKeys != mImageKeys) {
-        makeImages(graph, plan);
-        mImageKeys = std::move(imageKeys);
-    }
-    if (bufferKeys != mBufferKeys) {
-        makeBuffers(graph, plan);
-        mBufferKeys = std::move(bufferKeys);
-    }
+void TransientPool::keepFor(uint32_t width, uint32_t height) {
+    if (width == mSize.width && height == mSize.height)
+        return;
+    clear();
+    mSize = {width, height};
 }
 
-void TransientPool::makeImages(const Graph& graph, const Plan& plan) {
-    // The old ones go first, and their keys with them: should a step below throw, the next frame
-    // starts from nothing.
-    mImageKeys.clear();
-    mImages.clear();
-    mBlock = {};
-    mBlockBytes = 0;
-    if (plan.images.empty())
-        return;
+void TransientPool::realize(const Graph& graph, const Plan& plan) {
+    mImageSlots.clear();
+    mBufferSlots.clear();
+    realizeImages(graph, plan);
+    realizeBuffers(graph, plan);
+}
+
+void TransientPool::realizeImages(const Graph& graph, const Plan& plan) {
+    if (plan.blockBytes > mBlockBytes)
+        clearImages(); // first: there may be no room for both blocks
+    mImages.beginRound();
+    const auto makeKey = [&](const Placement& placement) {
+        const ResourceRecord& resource = graph.resources()[placement.resource];
+        return ImageKey{resource.imageDesc, placement.imageUsage, placement.offset};
+    };
+    std::vector<const Placement*> missing;
+    for (const Placement& placement : plan.images) {
+        const gpu::Image* kept = mImages.use(makeKey(placement));
+        mImageSlots[placement.resource] = kept;
+        if (!kept)
+            missing.push_back(&placement);
+    }
     uint32_t typeBits = UINT32_MAX;
     std::vector<gpu::Image> images;
-    for (const Placement& placement : plan.images) {
-        const ResourceRecord& resource = graph.resources()[placement.resource];
+    for (const Placement* placement : missing) {
+        const ResourceRecord& resource = graph.resources()[placement->resource];
         images.push_back(gpu::Image::createUnbound(
-            mDevice, resource.name, describe(resource.imageDesc, placement.imageUsage)
+            mDevice, resource.name, describe(resource.imageDesc, placement->imageUsage)
         ));
         typeBits &= images.back().requirements().memoryTypeBits;
         if (typeBits == 0)
@@ -70,53 +71,76 @@ void TransientPool::makeImages(const Graph& graph, const Plan& plan) {
                 resource.name
             ));
     }
-    gpu::MemoryBlock block(mDevice, plan.blockBytes, typeBits);
-    for (size_t i = 0; i < images.size(); ++i)
-        images[i].bind(block.handle(), plan.images[i].offset);
-    mBlock = std::move(block);
-    mBlockBytes = plan.blockBytes;
-    mImages = std::move(images);
+    if (!mBlock && !images.empty()) {
+        mBlock = gpu::MemoryBlock(mDevice, plan.blockBytes, typeBits);
+        mBlockBytes = plan.blockBytes;
+    }
+    if (!images.empty() && (typeBits & (1u << mBlock.type())) == 0) {
+        // A kind of image that this block cannot hold: one for all of them, from the start.
+        clearImages();
+        realizeImages(graph, plan);
+        return;
+    }
+    for (size_t i = 0; i < images.size(); ++i) {
+        images[i].bind(mBlock.handle(), missing[i]->offset);
+        mImageSlots[missing[i]->resource] = mImages.add(makeKey(*missing[i]), std::move(images[i]));
+    }
+    mImages.dropUnused(kRoundsKept);
+    mImages.dropIdle(kMostIdleImages, [](const ImageKey&) { return 1; });
 }
 
-void TransientPool::makeBuffers(const Graph& graph, const Plan& plan) {
-    mBufferKeys.clear();
-    mBuffers.clear();
-    for (const Placement& placement : plan.buffers)
-        mBuffers.emplace_back(
-            mDevice,
-            graph.resources()[placement.resource].name,
-            placement.bytes,
-            placement.bufferUsage,
-            gpu::MemoryUse::Device
-        );
+void TransientPool::realizeBuffers(const Graph& graph, const Plan& plan) {
+    const auto bytesOf = [](const BufferKey& key) { return key.bytes; };
+    mBuffers.beginRound();
+    VkDeviceSize usedBytes = 0;
+    for (const Placement& placement : plan.buffers) {
+        const BufferKey key{placement.bytes, placement.bufferUsage};
+        const gpu::Buffer* buffer = mBuffers.use(key);
+        if (!buffer)
+            buffer = mBuffers.add(
+                key,
+                gpu::Buffer(
+                    mDevice,
+                    graph.resources()[placement.resource].name,
+                    key.bytes,
+                    key.usage,
+                    gpu::MemoryUse::Device
+                )
+            );
+        mBufferSlots[placement.resource] = buffer;
+        usedBytes += key.bytes;
+    }
+    mMostBufferBytes = std::max(mMostBufferBytes, usedBytes);
+    mBuffers.dropUnused(kRoundsKept);
+    mBuffers.dropIdle(mMostBufferBytes, bytesOf);
 }
 
 const gpu::Image* TransientPool::image(uint32_t resource) const {
     const auto slot = mImageSlots.find(resource);
-    return slot == mImageSlots.end() ? nullptr : &mImages[slot->second];
+    return slot == mImageSlots.end() ? nullptr : slot->second;
 }
 
 const gpu::Buffer* TransientPool::buffer(uint32_t resource) const {
     const auto slot = mBufferSlots.find(resource);
-    return slot == mBufferSlots.end() ? nullptr : &mBuffers[slot->second];
+    return slot == mBufferSlots.end() ? nullptr : slot->second;
 }
 
 VkDeviceSize TransientPool::heldBytes() const {
-    VkDeviceSize bytes = mBlockBytes;
-    for (const gpu::Buffer& buffer : mBuffers)
-        bytes += buffer.bytes();
-    return bytes;
+    return mBlockBytes + mBuffers.sum([](const BufferKey& key) { return key.bytes; });
+}
+
+void TransientPool::clearImages() {
+    mImageSlots.clear();
+    mImages.clear();
+    mBlock = {};
+    mBlockBytes = 0;
 }
 
 void TransientPool::clear() {
-    mImageSlots.clear();
+    clearImages();
     mBufferSlots.clear();
-    mImageKeys.clear();
-    mBufferKeys.clear();
-    mImages.clear();
     mBuffers.clear();
-    mBlock = {};
-    mBlockBytes = 0;
+    mMostBufferBytes = 0;
 }
 
 MemoryRequirement

@@ -4,6 +4,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"
 #include "engine/graph/compile.h"
+#include "engine/graph/kept_objects.h"
 
 #include <cstdint>
 #include <unordered_map>
@@ -11,14 +12,20 @@
 
 namespace shutter::graph {
 
-/// The images and buffers behind the transients of one frame in flight. Kept from frame to frame as
-/// long as the plan asks for the same ones at the same places; otherwise made anew.
+/// The images and buffers behind the transients of one frame in flight. They outlive the plan that
+/// asked for them: plans change when motion starts or stops, and drivers may take tens of
+/// milliseconds to allocate. The block of memory that images share only grows; images that wait for
+/// their plan to come back cost handles, buffers no more memory than the largest plan uses.
 class TransientPool {
   public:
     explicit TransientPool(gpu::Device& device) : mDevice(device) {}
 
     TransientPool(const TransientPool&) = delete;
     TransientPool& operator=(const TransientPool&) = delete;
+
+    /// Gives all back if the last frame's pictures had another size: what is kept for those will
+    /// not be asked for soon, and could be far larger. To be called before realize().
+    void keepFor(uint32_t width, uint32_t height);
 
     /// Makes what `plan` needs. After it, image() and buffer() answer for its resources. The GPU
     /// must be done with the frame this pool was used for before. Throws gpu::DeviceError.
@@ -55,19 +62,21 @@ class TransientPool {
         MemoryRequirement requirement;
     };
 
-    void makeImages(const Graph& graph, const Plan& plan);
-    void makeBuffers(const Graph& graph, const Plan& plan);
+    void realizeImages(const Graph& graph, const Plan& plan);
+    void realizeBuffers(const Graph& graph, const Plan& plan);
+    /// Gives back the block and the images in it.
+    void clearImages();
     MemoryRequirement askRequirement(const TransientImageDesc& desc, VkImageUsageFlags usage);
 
     gpu::Device& mDevice;
+    VkExtent2D mSize{};      ///< of keepFor()
     gpu::MemoryBlock mBlock; // before mImages: it must outlive them
     VkDeviceSize mBlockBytes = 0;
-    std::vector<ImageKey> mImageKeys;
-    std::vector<gpu::Image> mImages;
-    std::vector<BufferKey> mBufferKeys;
-    std::vector<gpu::Buffer> mBuffers;
-    std::unordered_map<uint32_t, size_t> mImageSlots;  ///< resource -> index of mImages
-    std::unordered_map<uint32_t, size_t> mBufferSlots; ///< resource -> index of mBuffers
+    VkDeviceSize mMostBufferBytes = 0; ///< of any plan so far
+    KeptObjects<ImageKey, gpu::Image> mImages;
+    KeptObjects<BufferKey, gpu::Buffer> mBuffers;
+    std::unordered_map<uint32_t, const gpu::Image*> mImageSlots;   ///< by resource
+    std::unordered_map<uint32_t, const gpu::Buffer*> mBufferSlots; ///< by resource
     std::vector<KnownRequirement> mRequirements;
 };
 

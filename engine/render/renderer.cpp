@@ -211,6 +211,7 @@ core::Status Renderer::submitFrame(
     statistics.measures["TLAS ms"] = mTlasMilliseconds;
     statistics.counters["entity rows written"] = mWritten.rows;
     statistics.counters["entity motions written"] = mWritten.motions;
+    mPool.keepFor(request.view.width, request.view.height);
     auto plan = graph::execute(graph, slot.frame, mPool);
     if (!plan) {
         slot.frameTlas.emplace(mDevice); // what was to be built was not

@@ -321,6 +321,7 @@ core::Status EmbeddedMotionBlur::recordInto(
     graph.markOutput(mEffect.add(graph, own, settings).color);
 
     slot.frame->beginIn(commands);
+    slot.pool.keepFor(inputs.width, inputs.height);
     const auto plan = graph::execute(graph, *slot.frame, slot.pool);
     if (!plan)
         return plan.error();
