@@ -384,6 +384,7 @@ void PlayLoop::notePicture() {
     mFiles.notePicture();
     mHasDrawn = true;
     mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());
+    mRecord.addAllocations(mTime.seconds, mScreen.device().allocationCount());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))
         mRecord.addStatistics(*statistics);
 }

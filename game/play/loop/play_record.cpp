@@ -62,6 +62,8 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
         record["score"] = *facts.score;
         record["isOver"] = facts.isOver;
     }
+    if (mFirstAllocations)
+        record["allocationsAfterFirstSecond"] = mLastAllocations - *mFirstAllocations;
     record["validationMessages"] = facts.validationMessages;
     return json::writeJsonFile(path, record);
 }

@@ -38,6 +38,14 @@ class PlayRecord {
             mStartSeconds = seconds;
     }
 
+    /// What a device has allocated until a time of the game, seconds: later calls count from the
+    /// first one after its first second.
+    void addAllocations(double gameSeconds, uint64_t allocationCount) {
+        if (gameSeconds >= 1.0 && !mFirstAllocations)
+            mFirstAllocations = allocationCount;
+        mLastAllocations = allocationCount;
+    }
+
     [[nodiscard]] uint32_t pictureCount() const { return mPictureCount; }
 
     /// Mean of the last second's frames; 0 before the first.
@@ -53,6 +61,8 @@ class PlayRecord {
     std::deque<double> mRecent;            ///< milliseconds of the last second
     double mRecentSum = 0.0;
     double mStartSeconds = 0.0;
+    std::optional<uint64_t> mFirstAllocations; ///< once the first second is over
+    uint64_t mLastAllocations = 0;
     uint32_t mPictureCount = 0;
 };
 
