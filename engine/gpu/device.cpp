@@ -48,16 +48,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     std::unique_ptr<Device> device(new Device);
     try {
         SHUTTER_TRY(device->createInstance(options));
-        std::vector<DeviceInfo> devices = listDevices(device->mInstance);
-        for (DeviceInfo& info : devices) {
-            info.rayTier = chooseTier(info, options.bestTier);
-            info.tracesIndirect = info.tracesIndirect && options.allowIndirectLaunch;
-        }
-        auto chosen = chooseDevice(devices, options.wanted);
-        if (!chosen)
-            return chosen.error();
-        device->mInfo = chosen.value();
-        SHUTTER_TRY(device->createLogicalDevice(!options.surfaceExtensions.empty()));
+        SHUTTER_TRY(device->choosePhysicalDevice(options));
+        device->createLogicalDevice();
         device->loadFunctions();
         device->loadLimits();
         if (options.adaptMemory)
@@ -97,28 +89,38 @@ Device::~Device() {
         );
         destroy(mInstance, mMessenger, nullptr);
     }
+    if (mSurface)
+        vkDestroySurfaceKHR(mInstance, mSurface, nullptr);
     if (mInstance)
         vkDestroyInstance(mInstance, nullptr);
 }
 
-core::Status Device::createLogicalDevice(bool presents) {
-    uint32_t familyCount = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(mInfo.handle, &familyCount, nullptr);
-    std::vector<VkQueueFamilyProperties> families(familyCount);
-    vkGetPhysicalDeviceQueueFamilyProperties(mInfo.handle, &familyCount, families.data());
-    constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    mQueueFamily = familyCount;
-    for (uint32_t i = familyCount; i-- > 0;)
-        if ((families[i].queueFlags & kWanted) == kWanted && families[i].timestampValidBits > 0)
-            mQueueFamily = i;
-    if (mQueueFamily == familyCount)
-        return core::makeError("{} has no queue for graphics, compute and timestamps", mInfo.name);
+core::Status Device::choosePhysicalDevice(const DeviceOptions& options) {
+    if (options.makeSurface) {
+        auto surface = options.makeSurface(mInstance);
+        if (!surface)
+            return surface.error();
+        mSurface = surface.value();
+    }
+    std::vector<DeviceInfo> devices = listDevices(mInstance, mSurface);
+    for (DeviceInfo& info : devices) {
+        info.rayTier = chooseTier(info, options.bestTier);
+        info.tracesIndirect = info.tracesIndirect && options.allowIndirectLaunch;
+    }
+    auto chosen = chooseDevice(devices, options.wanted);
+    if (!chosen)
+        return chosen.error();
+    mInfo = std::move(chosen).value();
+    if (options.wanted.empty())
+        for (const std::string& sentence : describePassedOver(devices, mInfo))
+            core::logWarning("{}", sentence);
+    return {};
+}
 
-    mTimestampBits = families[mQueueFamily].timestampValidBits;
-
+void Device::createLogicalDevice() {
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-    queue.queueFamilyIndex = mQueueFamily;
+    queue.queueFamilyIndex = mInfo.queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
 
@@ -146,7 +148,7 @@ core::Status Device::createLogicalDevice(bool presents) {
             hasRayQuery() ? VK_KHR_RAY_QUERY_EXTENSION_NAME
                           : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
-    if (presents)
+    if (mSurface != VK_NULL_HANDLE)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
@@ -158,13 +160,12 @@ core::Status Device::createLogicalDevice(bool presents) {
         vkCreateDevice(mInfo.handle, &info, nullptr, &mDevice),
         fmt::format("opening the device {}", mInfo.name)
     );
-    vkGetDeviceQueue(mDevice, mQueueFamily, 0, &mQueue);
+    vkGetDeviceQueue(mDevice, mInfo.queueFamily, 0, &mQueue);
 
     VkSemaphoreTypeCreateInfo timeline{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     timeline.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &timeline};
     require(vkCreateSemaphore(mDevice, &semaphore, nullptr, &mTimeline), "creating the timeline");
-    return {};
 }
 
 void Device::loadFunctions() {

@@ -30,9 +30,11 @@ struct DeviceOptions {
     std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
-    /// Instance extensions of the window system; with any, the device can show pictures
-    /// (swapchain.h).
+    /// Instance extensions of the window system.
     std::vector<std::string> surfaceExtensions;
+    /// Makes the surface on which the device shall show pictures (swapchain.h): it comes before the
+    /// choice, which leaves out devices that cannot. Empty: any device will do.
+    std::function<core::Result<VkSurfaceKHR>(VkInstance)> makeSurface;
 };
 
 /// Semaphores of one submission; null: none.
@@ -108,10 +110,13 @@ class Device {
 
     [[nodiscard]] VkQueue queue() const { return mQueue; }
 
-    [[nodiscard]] uint32_t queueFamily() const { return mQueueFamily; }
+    [[nodiscard]] uint32_t queueFamily() const { return mInfo.queueFamily; }
 
-    /// Of the queue's timestamps: how many bits count, the others are zero. 0: a host's queue.
-    [[nodiscard]] uint32_t timestampBits() const { return mTimestampBits; }
+    /// Of the queue's timestamps: how many bits count, the others are zero.
+    [[nodiscard]] uint32_t timestampBits() const { return mInfo.timestampBits; }
+
+    /// Hands over the surface of DeviceOptions::makeSurface; null where there is none any more.
+    [[nodiscard]] VkSurfaceKHR takeSurface() { return std::exchange(mSurface, VK_NULL_HANDLE); }
 
     [[nodiscard]] const DeviceInfo& info() const { return mInfo; }
 
@@ -182,7 +187,9 @@ class Device {
     Device() = default;
     core::Status adoptHost(const HostDevice& host);
     core::Status createInstance(const DeviceOptions& options);
-    core::Status createLogicalDevice(bool presents);
+    /// Notes what is chosen in mInfo, and says what is passed over.
+    core::Status choosePhysicalDevice(const DeviceOptions& options);
+    void createLogicalDevice();
     void loadFunctions();
     void loadLimits();
     void destroyRetired();
@@ -196,10 +203,9 @@ class Device {
     std::set<uint64_t> mHandedOver; ///< adopted: values the host has not said to be done
     VkInstance mInstance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
+    VkSurfaceKHR mSurface = VK_NULL_HANDLE; ///< until it is taken
     VkDevice mDevice = VK_NULL_HANDLE;
     VkQueue mQueue = VK_NULL_HANDLE;
-    uint32_t mQueueFamily = 0;
-    uint32_t mTimestampBits = 0;
     DeviceInfo mInfo;
     VkPhysicalDeviceLimits mLimits{};
     VkPhysicalDeviceMemoryProperties mMemoryProperties{};

@@ -88,12 +88,46 @@ void findRays(DeviceInfo& info) {
     info.tracesIndirect = info.hasRayPipeline && pipelines.rayTracingPipelineTraceRaysIndirect;
 }
 
-std::string findMissing(VkPhysicalDevice device, uint32_t apiVersion) {
-    if (apiVersion < VK_API_VERSION_1_3)
-        return "Vulkan 1.3";
+std::vector<QueueFamily> listQueueFamilies(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> properties(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, properties.data());
+    std::vector<QueueFamily> families;
+    for (uint32_t i = 0; i < count; ++i) {
+        VkBool32 presents = VK_FALSE;
+        // An error is a no as well.
+        if (surface != VK_NULL_HANDLE)
+            vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &presents);
+        families.push_back(
+            {properties[i].queueFlags, properties[i].timestampValidBits, presents == VK_TRUE}
+        );
+    }
+    return families;
+}
+
+/// Notes the queue family and the first thing that is missing.
+void findMissing(DeviceInfo& info, VkSurfaceKHR surface) {
+    if (info.apiVersion < VK_API_VERSION_1_3) {
+        info.missing = "Vulkan 1.3";
+        return;
+    }
     DeviceFeatures features;
-    vkGetPhysicalDeviceFeatures2(device, &features.core);
-    return features.findMissing();
+    vkGetPhysicalDeviceFeatures2(info.handle, &features.core);
+    info.missing = features.findMissing();
+    if (!info.missing.empty())
+        return;
+    const bool mustPresent = surface != VK_NULL_HANDLE;
+    const std::vector<QueueFamily> families = listQueueFamilies(info.handle, surface);
+    const auto family = chooseQueueFamily(families, mustPresent);
+    if (!chooseQueueFamily(families, false))
+        info.missing = "a queue for graphics, compute and timestamps";
+    else if (!family)
+        info.missing = "a queue that shows pictures on this display";
+    else if (mustPresent && !hasExtension(listExtensions(info.handle), VK_KHR_SWAPCHAIN_EXTENSION_NAME))
+        info.missing = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    info.queueFamily = family.value_or(0);
+    info.timestampBits = family ? families[*family].timestampBits : 0;
 }
 
 std::string toLower(std::string text) {
@@ -140,7 +174,16 @@ RayTier chooseTier(const DeviceInfo& device, RayTier best) {
     return RayTier::None;
 }
 
-DeviceInfo describeDevice(VkPhysicalDevice device) {
+std::optional<uint32_t> chooseQueueFamily(std::span<const QueueFamily> families, bool mustPresent) {
+    constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < families.size(); ++i)
+        if ((families[i].flags & kWanted) == kWanted && families[i].timestampBits > 0 &&
+            (families[i].presents || !mustPresent))
+            return i;
+    return std::nullopt;
+}
+
+DeviceInfo describeDevice(VkPhysicalDevice device, VkSurfaceKHR surface) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
     vkGetPhysicalDeviceProperties2(device, &properties);
@@ -150,13 +193,13 @@ DeviceInfo describeDevice(VkPhysicalDevice device) {
     info.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     info.kind = describeKind(properties.properties.deviceType);
     info.apiVersion = properties.properties.apiVersion;
-    info.missing = findMissing(device, info.apiVersion);
+    findMissing(info, surface);
     findRays(info);
     info.rayTier = chooseTier(info, RayTier::RayQuery);
     return info;
 }
 
-std::vector<DeviceInfo> listDevices(VkInstance instance) {
+std::vector<DeviceInfo> listDevices(VkInstance instance, VkSurfaceKHR surface) {
     uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance, &count, nullptr);
     std::vector<VkPhysicalDevice> handles(count);
@@ -164,7 +207,7 @@ std::vector<DeviceInfo> listDevices(VkInstance instance) {
 
     std::vector<DeviceInfo> devices;
     for (VkPhysicalDevice handle : handles)
-        devices.push_back(describeDevice(handle));
+        devices.push_back(describeDevice(handle, surface));
     return devices;
 }
 
@@ -204,6 +247,17 @@ chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted) 
     if (!best->missing.empty())
         return core::makeError("--device '{}': {} lacks {}", wanted, best->name, best->missing);
     return *best;
+}
+
+std::vector<std::string>
+describePassedOver(const std::vector<DeviceInfo>& devices, const DeviceInfo& chosen) {
+    std::vector<std::string> sentences;
+    for (const DeviceInfo& device : devices)
+        if (!device.missing.empty() && rankOf(device) > rankOf(chosen))
+            sentences.push_back(fmt::format(
+                "{} is passed over for {}: it lacks {}", device.name, chosen.name, device.missing
+            ));
+    return sentences;
 }
 
 } // namespace shutter::gpu

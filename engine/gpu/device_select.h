@@ -6,6 +6,8 @@
 #include "engine/gpu/vulkan.h"
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,15 +30,32 @@ struct DeviceInfo {
     bool hasRayQuery = false;        ///< it could do RayTier::RayQuery
     bool hasRayPipeline = false;     ///< it could do RayTier::Pipeline
     bool tracesIndirect =
-        false;           ///< launches of ray-tracing pipelines may read their size from memory
-    std::string missing; ///< why the engine cannot use it, empty where it can
+        false;                ///< launches of ray-tracing pipelines may read their size from memory
+    std::string missing;      ///< why the engine cannot use it, empty where it can
+    uint32_t queueFamily = 0; ///< that the engine uses, where nothing is missing
+    uint32_t timestampBits = 0; ///< of that family's timestamps: how many count
 };
 
+/// A queue family, as far as one is chosen by it.
+struct QueueFamily {
+    VkQueueFlags flags = 0;
+    uint32_t timestampBits = 0;
+    bool presents = false; ///< on the surface in question
+};
+
+/// The first family for graphics, compute and timestamps that presents where it must. Nothing where
+/// none does all of that: some devices draw in one family and show pictures in another.
+[[nodiscard]] std::optional<uint32_t>
+chooseQueueFamily(std::span<const QueueFamily> families, bool mustPresent);
+
 /// What one device is and can do.
-[[nodiscard]] DeviceInfo describeDevice(VkPhysicalDevice device);
+/// \param surface where it shall show pictures: it lacks something where it cannot; null: nowhere
+[[nodiscard]] DeviceInfo
+describeDevice(VkPhysicalDevice device, VkSurfaceKHR surface = VK_NULL_HANDLE);
 
 /// All devices of the instance, in the driver's order.
-[[nodiscard]] std::vector<DeviceInfo> listDevices(VkInstance instance);
+[[nodiscard]] std::vector<DeviceInfo>
+listDevices(VkInstance instance, VkSurfaceKHR surface = VK_NULL_HANDLE);
 
 /// The best tier of the device from `best` down.
 [[nodiscard]] RayTier chooseTier(const DeviceInfo& device, RayTier best);
@@ -46,6 +65,10 @@ struct DeviceInfo {
 /// (case does not matter). Error: what there is to choose from.
 [[nodiscard]] core::Result<DeviceInfo>
 chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& wanted);
+
+/// A sentence for each device that would have been chosen before `chosen` if it lacked nothing.
+[[nodiscard]] std::vector<std::string>
+describePassedOver(const std::vector<DeviceInfo>& devices, const DeviceInfo& chosen);
 
 [[nodiscard]] const char* describe(RayTier tier);
 /// All tiers of the device in words, best first; "none" where it has none.

@@ -31,15 +31,6 @@ VkSemaphore createSemaphore(const Device& device) {
 core::Result<std::unique_ptr<Swapchain>>
 Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& desc) {
     std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
-    VkBool32 supported = VK_FALSE;
-    require(
-        vkGetPhysicalDeviceSurfaceSupportKHR(
-            device.physical(), device.queueFamily(), surface, &supported
-        ),
-        "asking the window"
-    );
-    if (!supported)
-        return core::makeError("{} cannot show pictures on this display", device.info().name);
     SHUTTER_TRY(swapchain->chooseFormat());
     for (VkSemaphore& semaphore : swapchain->mAcquired)
         semaphore = createSemaphore(device);

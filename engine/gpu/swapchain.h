@@ -31,8 +31,9 @@ struct SwapchainImage {
 /// drawn on and copied from.
 class Swapchain {
   public:
-    /// \param surface of the device's instance; taken over, destroyed with this
-    /// Error: the device cannot show pictures there.
+    /// \param surface that the device was chosen for (Device::takeSurface); taken over, destroyed
+    /// with this
+    /// Error: the device has no format for it.
     [[nodiscard]] static core::Result<std::unique_ptr<Swapchain>>
     create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& desc);
     ~Swapchain();

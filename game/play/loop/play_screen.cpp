@@ -27,6 +27,9 @@ core::Status PlayScreen::open(const PlayOptions& options, bool vsync) {
             return core::makeError("{}; --no-window does without", window.error().message);
         mWindow = std::move(window).value();
         wanted.surfaceExtensions = mWindow->surfaceExtensions();
+        wanted.makeSurface = [this](VkInstance instance) {
+            return mWindow->createSurface(instance);
+        };
     }
     auto device = gpu::Device::create(wanted);
     if (!device)
@@ -39,11 +42,9 @@ core::Status PlayScreen::open(const PlayOptions& options, bool vsync) {
 }
 
 core::Status PlayScreen::openSwapchain(bool vsync) {
-    auto surface = mWindow->createSurface(mDevice->instance());
-    if (!surface)
-        return surface.error();
     const math::uvec2 size = mWindow->framebufferSize();
-    auto swapchain = gpu::Swapchain::create(*mDevice, surface.value(), {size.x, size.y, vsync});
+    auto swapchain =
+        gpu::Swapchain::create(*mDevice, mDevice->takeSurface(), {size.x, size.y, vsync});
     if (!swapchain)
         return swapchain.error();
     mSwapchain = std::move(swapchain).value();
