@@ -28,6 +28,18 @@ VkSemaphore createSemaphore(const Device& device) {
 
 } // namespace
 
+SwapchainState judgeSwapchain(VkResult result, const VkExtent2D& made, const VkExtent2D& surface) {
+    if (result == VK_ERROR_OUT_OF_DATE_KHR)
+        return SwapchainState::Outdated;
+    if (result == VK_ERROR_SURFACE_LOST_KHR)
+        return SwapchainState::SurfaceLost;
+    require(result, "showing a picture");
+    const bool isChosen = surface.width == UINT32_MAX;
+    const bool isSame = surface.width == made.width && surface.height == made.height;
+    return result == VK_SUBOPTIMAL_KHR && !isChosen && !isSame ? SwapchainState::Outdated
+                                                               : SwapchainState::Fits;
+}
+
 core::Result<std::unique_ptr<Swapchain>>
 Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& desc) {
     std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
@@ -85,10 +97,14 @@ bool Swapchain::resize(const SwapchainDesc& desc) {
     // Images may still be on their way to the display, which no semaphore of ours tells.
     mDevice.collectIdle();
     releaseImages();
+    mWanted = desc;
     mDesc = desc;
+    mState = SwapchainState::Fits;
     const auto surface = askSurface(mDevice, mSurface);
-    if (!surface)
+    if (!surface) {
+        mState = SwapchainState::SurfaceLost;
         return false;
+    }
     // A window system that leaves the size to the program says so by all ones.
     const bool fixed = surface->currentExtent.width != UINT32_MAX;
     const VkExtent2D wanted = fixed ? surface->currentExtent : VkExtent2D{desc.width, desc.height};
@@ -100,6 +116,14 @@ bool Swapchain::resize(const SwapchainDesc& desc) {
         return false;
     createImages(*surface);
     return true;
+}
+
+bool Swapchain::resize(const SwapchainDesc& desc, VkSurfaceKHR surface) {
+    mDevice.collectIdle();
+    releaseImages();
+    vkDestroySwapchainKHR(mDevice.handle(), std::exchange(mSwapchain, VK_NULL_HANDLE), nullptr);
+    vkDestroySurfaceKHR(mDevice.instance(), std::exchange(mSurface, surface), nullptr);
+    return resize(desc);
 }
 
 void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
@@ -143,7 +167,10 @@ void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
 }
 
 std::optional<SwapchainImage> Swapchain::acquire() {
-    if (mImages.empty())
+    // A window that just changed its size may tell its surface later, and not every driver says so.
+    if (mWanted != mDesc)
+        noteState(VK_SUBOPTIMAL_KHR);
+    if (mImages.empty() || mState != SwapchainState::Fits)
         return std::nullopt;
     SwapchainImage acquired;
     acquired.semaphores.wait = mAcquired[mNextAcquired];
@@ -155,28 +182,32 @@ std::optional<SwapchainImage> Swapchain::acquire() {
         VK_NULL_HANDLE,
         &acquired.index
     );
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR)
+    if (result < 0) {
+        noteState(result);
         return std::nullopt;
-    require(result, "asking for an image of the window");
+    }
     mNextAcquired = (mNextAcquired + 1) % mAcquired.size();
     acquired.image = &mImages[acquired.index];
     acquired.semaphores.signal = mDrawn[acquired.index];
     return acquired;
 }
 
-bool Swapchain::present(const SwapchainImage& image) {
+void Swapchain::noteState(VkResult result) {
+    VkExtent2D size{mDesc.width, mDesc.height};
+    if (result == VK_SUBOPTIMAL_KHR)
+        if (const auto surface = askSurface(mDevice, mSurface))
+            size = surface->currentExtent;
+    mState = judgeSwapchain(result, {mDesc.width, mDesc.height}, size);
+}
+
+void Swapchain::present(const SwapchainImage& image) {
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
     info.pWaitSemaphores = &image.semaphores.signal;
     info.swapchainCount = 1;
     info.pSwapchains = &mSwapchain;
     info.pImageIndices = &image.index;
-    const VkResult result = vkQueuePresentKHR(mDevice.queue(), &info);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR ||
-        result == VK_ERROR_SURFACE_LOST_KHR)
-        return false;
-    require(result, "showing a picture");
-    return true;
+    noteState(vkQueuePresentKHR(mDevice.queue(), &info));
 }
 
 } // namespace shutter::gpu

@@ -18,7 +18,25 @@ struct SwapchainDesc {
     uint32_t width = 1;  ///< pixels; clamped to what the surface takes
     uint32_t height = 1; ///< pixels
     bool vsync = true;   ///< false: pictures are shown at once (mailbox, else immediate)
+
+    bool operator==(const SwapchainDesc&) const = default;
 };
+
+/// What the window system's answer means for a swapchain.
+enum class SwapchainState : uint8_t {
+    Fits,
+    Outdated,    ///< to be made anew before the next image
+    SurfaceLost, ///< so is the surface
+};
+
+/// \param result of acquiring or presenting an image
+/// \param made size of the images
+/// \param surface size that the surface has now, all ones where the program chooses it. Drivers may
+/// call a swapchain suboptimal for reasons that making it anew does not end (its rotation, the way
+/// it is composed): only another size counts.
+/// Throws DeviceError for a result that is no answer of the window system's.
+[[nodiscard]] SwapchainState
+judgeSwapchain(VkResult result, const VkExtent2D& made, const VkExtent2D& surface);
 
 /// An image of the window to draw a frame on.
 struct SwapchainImage {
@@ -43,15 +61,23 @@ class Swapchain {
     /// Makes it anew for another size or mode; waits for the device. False where the window has no
     /// area now: then nothing can be acquired until it has one.
     bool resize(const SwapchainDesc& desc);
+    /// The same on another surface of the window, which is taken over: the former was lost.
+    bool resize(const SwapchainDesc& desc, VkSurfaceKHR surface);
 
-    /// Nothing where the images no longer fit the window, or there are none: resize() first. Of
-    /// what was drawn on images acquired before, the GPU must be done with all but the last
-    /// kMaxFramesInFlight - 1.
+    /// Nothing where the images no longer fit the window (state()), or there are none: resize()
+    /// first. Of what was drawn on images acquired before, the GPU must be done with all but the
+    /// last kMaxFramesInFlight - 1.
     [[nodiscard]] std::optional<SwapchainImage> acquire();
 
-    /// Shows an image once its submission's semaphore is signalled. False: resize() before the next
-    /// acquire().
-    bool present(const SwapchainImage& image);
+    /// Shows an image once its submission's semaphore is signalled, and notes the state().
+    void present(const SwapchainImage& image);
+
+    /// As the window system answered last.
+    [[nodiscard]] SwapchainState state() const { return mState; }
+
+    /// What resize() was asked for last. The surface may insist on another size, and that is no
+    /// reason to make the same images anew.
+    [[nodiscard]] const SwapchainDesc& wanted() const { return mWanted; }
 
     [[nodiscard]] const SwapchainDesc& desc() const { return mDesc; } ///< what was made
 
@@ -67,12 +93,15 @@ class Swapchain {
     [[nodiscard]] VkPresentModeKHR chooseMode(bool vsync) const;
     void createImages(const VkSurfaceCapabilitiesKHR& surface);
     void releaseImages();
+    void noteState(VkResult result);
 
     Device& mDevice;
     VkSurfaceKHR mSurface;
     VkSurfaceFormatKHR mFormat{};
     VkImageUsageFlags mUsage = 0;
+    SwapchainDesc mWanted;
     SwapchainDesc mDesc;
+    SwapchainState mState = SwapchainState::Fits;
     VkSwapchainKHR mSwapchain = VK_NULL_HANDLE;
     std::vector<Image> mImages;
     std::vector<VkSemaphore> mDrawn; ///< one an image: its submission is done

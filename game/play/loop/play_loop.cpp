@@ -167,16 +167,18 @@ double PlayLoop::measureFrame() {
 core::Status PlayLoop::advance() {
     const math::uvec2 size = mScreen.size();
     const bool hidden = size.x == 0 || size.y == 0;
-    mScreen.poll(hidden && !mScript);
+    // Between two sizes one turn goes without a picture; a window that takes none for longer is
+    // asked again after a rest.
+    const bool rests = hidden || mTurnsWithoutPicture > 1;
+    mScreen.poll(rests && !mScript);
+    if (rests && mScript)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
     applyScript();
     mQuit = mQuit || mScreen.closeRequested();
     const double wallSeconds = measureFrame();
     app::InputState input = mScreen.collector(mScript.has_value()).take();
-    if (hidden) { // the game rests with it
-        if (mScript)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (hidden) // the game rests with it
         return {};
-    }
     apply(drawPanel(input, wallSeconds));
     input = filterInput(input);
     mTime = mClock.advance(wallSeconds);
@@ -339,6 +341,7 @@ core::Status PlayLoop::drawPicture(double duration) {
     std::optional<gpu::SwapchainImage> shown;
     if (swapchain) {
         shown = mScreen.acquire(size, mSettings.vsync, *mRenderer);
+        mTurnsWithoutPicture = shown ? 0 : mTurnsWithoutPicture + 1;
         if (!shown)
             return {};
         size = {swapchain->desc().width, swapchain->desc().height};
@@ -358,7 +361,7 @@ core::Status PlayLoop::drawPicture(double duration) {
     if (mPhoto.isOn())
         mPhoto.end();
     if (shown)
-        mScreen.present(*shown, mSettings.vsync, *mRenderer);
+        mScreen.present(*shown);
     notePicture();
     return {};
 }

@@ -87,7 +87,8 @@ class PlayLoop {
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
     bool mDraggingDivider = false;
-    bool mHasDrawn = false; ///< in the last turn
+    bool mHasDrawn = false;            ///< in the last turn
+    uint32_t mTurnsWithoutPicture = 0; ///< on end, of a window that is not hidden
     bool mQuit = false;
 };
 

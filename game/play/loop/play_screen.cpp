@@ -107,32 +107,26 @@ void PlayScreen::toggleFullScreen() {
         mWindow->setFullScreen(!mWindow->isFullScreen());
 }
 
-bool PlayScreen::fitSwapchain(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
-    const gpu::SwapchainDesc& now = mSwapchain->desc();
-    if (now.width == sizePx.x && now.height == sizePx.y && now.vsync == vsync)
-        return true;
+void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& renderer) {
     renderer.finishAll();
-    return mSwapchain->resize({sizePx.x, sizePx.y, vsync});
+    if (mSwapchain->state() != gpu::SwapchainState::SurfaceLost) {
+        mSwapchain->resize(desc);
+        return;
+    }
+    // Where the window has no new surface yet, the next turn asks again.
+    if (const auto surface = mWindow->createSurface(mDevice->instance()))
+        mSwapchain->resize(desc, surface.value());
 }
 
 std::optional<gpu::SwapchainImage>
 PlayScreen::acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
-    std::optional<gpu::SwapchainImage> image;
-    if (fitSwapchain(sizePx, vsync, renderer))
-        image = mSwapchain->acquire();
-    if (!image) { // between two sizes, or out of sight
-        renderer.finishAll();
-        mSwapchain->resize({sizePx.x, sizePx.y, vsync});
-    }
+    const gpu::SwapchainDesc wanted{sizePx.x, sizePx.y, vsync};
+    if (mSwapchain->wanted() != wanted || mSwapchain->state() != gpu::SwapchainState::Fits)
+        remakeSwapchain(wanted, renderer);
+    auto image = mSwapchain->acquire();
+    if (!image) // between two sizes, or out of sight
+        remakeSwapchain(wanted, renderer);
     return image;
-}
-
-void PlayScreen::present(const gpu::SwapchainImage& image, bool vsync, PlayRenderer& renderer) {
-    if (mSwapchain->present(image))
-        return;
-    const gpu::SwapchainDesc& now = mSwapchain->desc();
-    renderer.finishAll();
-    mSwapchain->resize({now.width, now.height, vsync});
 }
 
 } // namespace shutter::game

@@ -53,19 +53,20 @@ class PlayScreen {
     void toggleFullScreen();
 
     /// The next image of the window, whose size is `sizePx`. Nothing if the window has no area to
-    /// draw on now or changes its size; `renderer` is finished whenever the swapchain is made anew.
+    /// draw on now or changes its size; `renderer` is finished whenever the swapchain is made anew,
+    /// which happens for another size or mode, or when the window system says so.
     [[nodiscard]] std::optional<gpu::SwapchainImage>
     acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer);
+
     /// Shows an acquired image that was drawn on.
-    void present(const gpu::SwapchainImage& image, bool vsync, PlayRenderer& renderer);
+    void present(const gpu::SwapchainImage& image) { mSwapchain->present(image); }
 
     /// Null without a window.
     [[nodiscard]] const gpu::Swapchain* swapchain() const { return mSwapchain.get(); }
 
   private:
     core::Status openSwapchain(bool vsync);
-    /// False if the window has no area to draw on now.
-    bool fitSwapchain(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer);
+    void remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& renderer);
 
     std::unique_ptr<app::Window> mWindow;
     app::InputCollector mInput; ///< a script's, and that of a session without a window
