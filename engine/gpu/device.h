@@ -82,6 +82,7 @@ struct LivingObjects {
     uint32_t memoryBlocks = 0; ///< allocations
     uint32_t buffers = 0;
     uint32_t images = 0;
+    uint32_t samplers = 0; ///< of the scene's textures
     uint32_t accelerationStructures = 0;
 
     bool operator==(const LivingObjects&) const = default;

@@ -2,7 +2,6 @@
 #include "engine/gpu_scene/gpu_scene.h"
 
 #include "engine/extract/spatial_order.h"
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/upload.h"
 #include "engine/gpu/vulkan.h"
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -47,17 +45,6 @@ shader::TextureRef packSlot(const scene::TextureSlot& slot, uint32_t bindlessInd
     return ref;
 }
 
-VkSamplerAddressMode addressMode(scene::Wrap wrap) {
-    switch (wrap) {
-    case scene::Wrap::MirroredRepeat:
-        return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case scene::Wrap::ClampToEdge:
-        return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    default:
-        return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    }
-}
-
 /// The bindless array holds each glTF texture twice: sRGB at 2i, linear at 2i + 1. Only the halves
 /// that a material uses get an image.
 uint32_t bindlessIndex(const scene::TextureSlot& slot, bool srgb) {
@@ -88,25 +75,30 @@ shader::MaterialRow packMaterial(const scene::Material& material) {
     return row;
 }
 
+/// By place in the table.
+std::vector<bool> findUsedTextures(const scene::Assets& assets) {
+    std::vector<bool> used(2 * assets.textures.size(), false);
+    for (const scene::Material& material : assets.materials) {
+        const auto use = [&](const scene::TextureSlot& slot, bool srgb) {
+            if (slot.texture != scene::kNone)
+                used[bindlessIndex(slot, srgb)] = true;
+        };
+        use(material.baseColor, true);
+        use(material.metallicRoughness, false);
+        use(material.normal, false);
+        use(material.occlusion, false);
+        use(material.emissiveTexture, true);
+    }
+    return used;
+}
+
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const scene::Assets& assets)
-    : mDevice(device), mDeformSources(device, assets) {
+    : mDevice(device), mDeformSources(device, assets),
+      mTextures(device, assets, findUsedTextures(assets)) {
     uploadMeshes(assets);
     uploadMaterials(assets);
-    uploadTextures(assets);
-}
-
-GpuScene::~GpuScene() {
-    mDevice.retire([device = mDevice.handle(),
-                    layout = mTextureLayout,
-                    pool = mTexturePool,
-                    samplers = mSamplers] {
-        vkDestroyDescriptorPool(device, pool, nullptr);
-        vkDestroyDescriptorSetLayout(device, layout, nullptr);
-        for (VkSampler sampler : samplers)
-            vkDestroySampler(device, sampler, nullptr);
-    });
 }
 
 void GpuScene::uploadMeshes(const scene::Assets& assets) {
@@ -192,104 +184,6 @@ void GpuScene::uploadMaterials(const scene::Assets& assets) {
         gpu::MemoryUse::Device
     );
     gpu::uploadBuffer(mDevice, mMaterials, std::as_bytes(std::span(rows)));
-}
-
-void GpuScene::uploadTextures(const scene::Assets& assets) {
-    const auto count = static_cast<uint32_t>(2 * assets.textures.size());
-    std::vector<bool> used(count, false);
-    for (const scene::Material& material : assets.materials) {
-        const auto use = [&](const scene::TextureSlot& slot, bool srgb) {
-            if (slot.texture != scene::kNone)
-                used[bindlessIndex(slot, srgb)] = true;
-        };
-        use(material.baseColor, true);
-        use(material.metallicRoughness, false);
-        use(material.normal, false);
-        use(material.occlusion, false);
-        use(material.emissiveTexture, true);
-    }
-    createTextureSet(std::max(count, 1u));
-
-    std::map<std::pair<scene::AssetIndex, bool>, VkImageView> views;
-    for (uint32_t i = 0; i < count; ++i) {
-        if (!used[i])
-            continue;
-        const scene::Texture& texture = assets.textures[i / 2];
-        const bool srgb = i % 2 == 0;
-        VkImageView& view = views[{texture.image, srgb}];
-        if (!view) {
-            const scene::TextureImage& source = assets.images[texture.image];
-            gpu::ImageDesc desc;
-            desc.width = source.width;
-            desc.height = source.height;
-            desc.format = srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-            desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                         VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-            desc.mipLevels = gpu::countMipLevels(desc.width, desc.height);
-            gpu::Image image(mDevice, source.name, desc);
-            gpu::uploadTexture(mDevice, image, std::as_bytes(std::span(source.rgba)));
-            view = image.view();
-            mTextures.push_back(std::move(image));
-        }
-        VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-        info.magFilter = texture.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
-        info.minFilter = VK_FILTER_LINEAR;
-        info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
-        info.maxLod = VK_LOD_CLAMP_NONE;
-        info.addressModeU = addressMode(texture.wrapU);
-        info.addressModeV = addressMode(texture.wrapV);
-        VkSampler sampler = VK_NULL_HANDLE;
-        gpu::require(vkCreateSampler(mDevice.handle(), &info, nullptr, &sampler), "a sampler");
-        mSamplers.push_back(sampler);
-
-        const VkDescriptorImageInfo entry{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = mTextureSet;
-        write.dstArrayElement = i;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        write.pImageInfo = &entry;
-        vkUpdateDescriptorSets(mDevice.handle(), 1, &write, 0, nullptr);
-    }
-}
-
-void GpuScene::createTextureSet(uint32_t count) {
-    VkDescriptorSetLayoutBinding binding{};
-    binding.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    binding.descriptorCount = count;
-    binding.stageFlags = gpu::kSceneStages;
-    if (mDevice.info().rayTier != gpu::RayTier::Pipeline)
-        binding.stageFlags &= VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
-    const VkDescriptorBindingFlags flags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
-    VkDescriptorSetLayoutBindingFlagsCreateInfo bindingFlags{
-        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
-    bindingFlags.bindingCount = 1;
-    bindingFlags.pBindingFlags = &flags;
-    VkDescriptorSetLayoutCreateInfo layout{
-        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &bindingFlags};
-    layout.bindingCount = 1;
-    layout.pBindings = &binding;
-    gpu::require(
-        vkCreateDescriptorSetLayout(mDevice.handle(), &layout, nullptr, &mTextureLayout),
-        "creating the texture table"
-    );
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
-    VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    pool.maxSets = 1;
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
-    gpu::require(
-        vkCreateDescriptorPool(mDevice.handle(), &pool, nullptr, &mTexturePool),
-        "creating the texture table"
-    );
-    VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocate.descriptorPool = mTexturePool;
-    allocate.descriptorSetCount = 1;
-    allocate.pSetLayouts = &mTextureLayout;
-    gpu::require(
-        vkAllocateDescriptorSets(mDevice.handle(), &allocate, &mTextureSet),
-        fmt::format("making room for {} textures", count)
-    );
 }
 
 std::vector<gpu::TriangleGeometry> GpuScene::describeTriangles(uint32_t mesh) const {

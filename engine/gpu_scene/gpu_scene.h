@@ -6,6 +6,7 @@
 #include "engine/gpu/device.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu_scene/deform_sources.h"
+#include "engine/gpu_scene/texture_table.h"
 #include "engine/scene/assets.h"
 #include "shaders/render/scene_shared.h"
 
@@ -20,7 +21,6 @@ namespace shutter::gpu_scene {
 class GpuScene {
   public:
     GpuScene(gpu::Device& device, const scene::Assets& assets);
-    ~GpuScene();
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
@@ -40,9 +40,9 @@ class GpuScene {
 
     [[nodiscard]] VkDeviceAddress materialTable() const { return mMaterials.address(); }
 
-    [[nodiscard]] VkDescriptorSetLayout textureLayout() const { return mTextureLayout; }
+    [[nodiscard]] VkDescriptorSetLayout textureLayout() const { return mTextures.layout(); }
 
-    [[nodiscard]] VkDescriptorSet textureSet() const { return mTextureSet; }
+    [[nodiscard]] VkDescriptorSet textureSet() const { return mTextures.set(); }
 
     /// The mesh's triangles for a BLAS, undeformed.
     [[nodiscard]] std::vector<gpu::TriangleGeometry> describeTriangles(uint32_t mesh) const;
@@ -74,8 +74,6 @@ class GpuScene {
   private:
     void uploadMeshes(const scene::Assets& assets);
     void uploadMaterials(const scene::Assets& assets);
-    void uploadTextures(const scene::Assets& assets);
-    void createTextureSet(uint32_t count);
 
     gpu::Device& mDevice;
     extract::SceneLayout mLayout;
@@ -85,11 +83,7 @@ class GpuScene {
     std::vector<shader::Geometry> mGeometryRows;
     DeformSources mDeformSources;
     gpu::Buffer mMaterials;
-    std::vector<gpu::Image> mTextures;
-    std::vector<VkSampler> mSamplers;
-    VkDescriptorSetLayout mTextureLayout = VK_NULL_HANDLE;
-    VkDescriptorPool mTexturePool = VK_NULL_HANDLE;
-    VkDescriptorSet mTextureSet = VK_NULL_HANDLE;
+    TextureTable mTextures;
     std::vector<gpu::AccelerationStructure> mBlas;
     std::vector<gpu::AccelerationStructure> mMeshScenes;
     std::vector<uint32_t> mFirstVertex; ///< one a geometry

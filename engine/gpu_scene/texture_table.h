@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The textures of a scene, bindless: one descriptor set for all shaders.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/gpu/memory.h"
+#include "engine/scene/assets.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::gpu_scene {
+
+/// How many textures a device lets one shader see, beside those of a pass, and which of its limits
+/// says so.
+struct TextureLimit {
+    uint32_t count = 0;
+    const char* name = "";
+};
+
+[[nodiscard]] TextureLimit findTextureLimit(const VkPhysicalDeviceLimits& limits);
+
+/// Images share blocks of memory and textures share samplers: devices guarantee 4096 allocations
+/// and 4000 samplers, and some have no more.
+class TextureTable {
+  public:
+    /// The set holds each texture of the scene twice, as sRGB at 2i and linear at 2i + 1.
+    /// \param used which of these a material reads; only they get an image
+    /// Throws DeviceError, with the limit's name, for more textures than the device takes.
+    TextureTable(gpu::Device& device, const scene::Assets& assets, const std::vector<bool>& used);
+    ~TextureTable();
+    TextureTable(const TextureTable&) = delete;
+    TextureTable& operator=(const TextureTable&) = delete;
+
+    [[nodiscard]] VkDescriptorSetLayout layout() const { return mLayout; }
+
+    [[nodiscard]] VkDescriptorSet set() const { return mSet; }
+
+  private:
+    void createSet(uint32_t count);
+    /// \return by place in the set, null where no image is
+    std::vector<VkImageView>
+    uploadImages(const scene::Assets& assets, const std::vector<bool>& used);
+    VkSampler findSampler(const scene::Texture& texture);
+
+    struct KnownSampler {
+        bool nearest = false;
+        scene::Wrap wrapU = scene::Wrap::Repeat;
+        scene::Wrap wrapV = scene::Wrap::Repeat;
+        VkSampler sampler = VK_NULL_HANDLE;
+    };
+
+    gpu::Device& mDevice;
+    std::vector<gpu::MemoryBlock> mBlocks; // before mImages: they must outlive them
+    std::vector<gpu::Image> mImages;
+    std::vector<KnownSampler> mSamplers;
+    VkDescriptorSetLayout mLayout = VK_NULL_HANDLE;
+    VkDescriptorPool mPool = VK_NULL_HANDLE;
+    VkDescriptorSet mSet = VK_NULL_HANDLE;
+};
+
+} // namespace shutter::gpu_scene
