@@ -2,7 +2,6 @@
 #include "engine/gpu/acceleration_structure.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/upload.h"
 
 #include <algorithm>
 #include <utility>
@@ -68,57 +67,42 @@ struct BoxBuild : SingleBuild {
     }
 };
 
-/// Everything one BLAS build needs; addresses into `geometries` stay valid while it lives.
-struct BlasBuild {
-    std::vector<VkAccelerationStructureGeometryKHR> geometries;
-    std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
-    VkAccelerationStructureBuildGeometryInfoKHR info{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
-    VkAccelerationStructureBuildSizesInfoKHR sizes{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-
-    BlasBuild(const Device& device, const std::vector<TriangleGeometry>& mesh) {
-        std::vector<uint32_t> counts;
-        for (const TriangleGeometry& triangles : mesh) {
-            geometries.push_back(describeTriangles(triangles));
-            ranges.push_back({triangles.triangleCount, 0, 0, 0});
-            counts.push_back(triangles.triangleCount);
-        }
-        info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
-        info.flags = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-        info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-        info.geometryCount = static_cast<uint32_t>(geometries.size());
-        info.pGeometries = geometries.data();
-        device.functions().getAccelerationStructureBuildSizes(
-            device.handle(),
-            VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-            &info,
-            counts.data(),
-            &sizes
-        );
-    }
-};
-
 } // namespace
 
 AccelerationStructure::AccelerationStructure(
     Device& device, std::string name, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes
 )
-    : mDevice(&device), mBuffer(
-                            device,
-                            name,
-                            bytes,
-                            VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR,
-                            MemoryUse::Device
-                        ) {
+    : AccelerationStructure(
+          device,
+          std::make_shared<const Buffer>(
+              device,
+              std::move(name),
+              bytes,
+              VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR,
+              MemoryUse::Device
+          ),
+          0,
+          bytes,
+          type
+      ) {}
+
+AccelerationStructure::AccelerationStructure(
+    Device& device,
+    std::shared_ptr<const Buffer> storage,
+    VkDeviceSize offset,
+    VkDeviceSize bytes,
+    VkAccelerationStructureTypeKHR type
+)
+    : mDevice(&device), mStorage(std::move(storage)) {
     VkAccelerationStructureCreateInfoKHR info{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
-    info.buffer = mBuffer.handle();
+    info.buffer = mStorage->handle();
+    info.offset = offset;
     info.size = bytes;
     info.type = type;
     require(
         device.functions().createAccelerationStructure(device.handle(), &info, nullptr, &mHandle),
-        fmt::format("creating the acceleration structure '{}'", name)
+        "creating an acceleration structure"
     );
     ++device.living().accelerationStructures;
     VkAccelerationStructureDeviceAddressInfoKHR address{
@@ -142,7 +126,7 @@ AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&& 
     mDevice = std::exchange(other.mDevice, nullptr);
     mHandle = std::exchange(other.mHandle, VK_NULL_HANDLE);
     mAddress = std::exchange(other.mAddress, 0);
-    mBuffer = std::move(other.mBuffer);
+    mStorage = std::move(other.mStorage);
     return *this;
 }
 
@@ -155,33 +139,6 @@ void AccelerationStructure::release() {
         --device->living().accelerationStructures;
     });
     mHandle = VK_NULL_HANDLE;
-}
-
-std::vector<AccelerationStructure>
-buildBlas(Device& device, std::span<const std::vector<TriangleGeometry>> meshes) {
-    std::vector<AccelerationStructure> structures(meshes.size());
-    for (size_t i = 0; i < meshes.size(); ++i) {
-        uint64_t triangleCount = 0;
-        for (const TriangleGeometry& triangles : meshes[i])
-            triangleCount += triangles.triangleCount;
-        if (triangleCount == 0)
-            continue;
-        BlasBuild build(device, meshes[i]);
-        structures[i] = AccelerationStructure(
-            device,
-            fmt::format("BLAS {}", i),
-            VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-            build.sizes.accelerationStructureSize
-        );
-        const Buffer scratch = makeScratch(device, "BLAS scratch", build.sizes.buildScratchSize);
-        build.info.dstAccelerationStructure = structures[i].handle();
-        build.info.scratchData.deviceAddress = alignScratch(device, scratch);
-        const auto* ranges = build.ranges.data();
-        runOnce(device, [&](VkCommandBuffer commands) {
-            device.functions().cmdBuildAccelerationStructures(commands, 1, &build.info, &ranges);
-        });
-    }
-    return structures;
 }
 
 void Tlas::prepare(Device& device, std::span<const Instance> instances) {
@@ -217,37 +174,6 @@ void Tlas::prepare(Device& device, std::span<const Instance> instances) {
 void Tlas::record(const Device& device, VkCommandBuffer commands) const {
     InstanceBuild(mInstances.address())
         .record(device, commands, mStructure, alignScratch(device, mScratch), mCount);
-}
-
-std::vector<AccelerationStructure> buildTlas(Device& device, std::span<const Instance> instances) {
-    std::vector<VkAccelerationStructureInstanceKHR> records;
-    records.reserve(instances.size());
-    for (const Instance& instance : instances)
-        records.push_back(makeRecord(instance));
-    Buffer buffer(
-        device,
-        "TLAS instances",
-        records.size() * sizeof(VkAccelerationStructureInstanceKHR),
-        kBuildInputUsage,
-        MemoryUse::Stream
-    );
-    buffer.write(std::span<const VkAccelerationStructureInstanceKHR>(records));
-    std::vector<AccelerationStructure> structures;
-    for (size_t i = 0; i < instances.size(); ++i) {
-        InstanceBuild build(buffer.address() + i * sizeof(VkAccelerationStructureInstanceKHR));
-        const auto sizes = build.measure(device, 1);
-        structures.emplace_back(
-            device,
-            fmt::format("TLAS of one {}", i),
-            VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR,
-            sizes.accelerationStructureSize
-        );
-        const Buffer scratch = makeScratch(device, "TLAS scratch", sizes.buildScratchSize);
-        runOnce(device, [&](VkCommandBuffer commands) {
-            build.record(device, commands, structures[i], alignScratch(device, scratch), 1);
-        });
-    }
-    return structures;
 }
 
 void BoxBlas::prepare(Device& device, std::span<const BoxGeometry> boxes) {

@@ -6,6 +6,7 @@
 #include "engine/gpu/memory.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,8 +26,18 @@ struct TriangleGeometry {
 class AccelerationStructure {
   public:
     AccelerationStructure() = default;
+    /// In a buffer of its own.
     AccelerationStructure(
         Device& device, std::string name, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes
+    );
+    /// In a part of a buffer, which lives as long as one of the structures in it.
+    /// \param offset a multiple of kStructureAlignment
+    AccelerationStructure(
+        Device& device,
+        std::shared_ptr<const Buffer> storage,
+        VkDeviceSize offset,
+        VkDeviceSize bytes,
+        VkAccelerationStructureTypeKHR type
     );
     ~AccelerationStructure();
     AccelerationStructure(AccelerationStructure&& other) noexcept;
@@ -36,7 +47,7 @@ class AccelerationStructure {
 
     [[nodiscard]] VkDeviceAddress address() const { return mAddress; }
 
-    [[nodiscard]] VkBuffer buffer() const { return mBuffer.handle(); }
+    [[nodiscard]] VkBuffer buffer() const { return mStorage->handle(); }
 
     [[nodiscard]] explicit operator bool() const { return mHandle != VK_NULL_HANDLE; }
 
@@ -44,13 +55,13 @@ class AccelerationStructure {
     void release();
 
     Device* mDevice = nullptr;
-    Buffer mBuffer;
+    std::shared_ptr<const Buffer> mStorage;
     VkAccelerationStructureKHR mHandle = VK_NULL_HANDLE;
     VkDeviceAddress mAddress = 0;
 };
 
-/// One BLAS a mesh, built and waited for: load time only. A mesh whose geometries hold no triangle
-/// gets an empty structure (false).
+/// One BLAS a mesh, in few buffers, built together and waited for: load time only. A mesh whose
+/// geometries hold no triangle gets an empty structure (false).
 [[nodiscard]] std::vector<AccelerationStructure>
 buildBlas(Device& device, std::span<const std::vector<TriangleGeometry>> meshes);
 
@@ -66,7 +77,7 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
-/// One TLAS an instance, built and waited for: load time only.
+/// One TLAS an instance, likewise.
 [[nodiscard]] std::vector<AccelerationStructure>
 buildTlas(Device& device, std::span<const Instance> instances);
 
@@ -117,6 +128,9 @@ class Tlas {
 };
 
 // Shared by the builds here and in structure_set.h (acceleration_build.cpp).
+
+/// Required of a structure in its buffer (VkAccelerationStructureCreateInfoKHR::offset).
+inline constexpr VkDeviceSize kStructureAlignment = 256;
 
 inline constexpr VkBufferUsageFlags kBuildInputUsage =
     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;

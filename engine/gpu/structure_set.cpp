@@ -11,9 +11,6 @@ namespace shutter::gpu {
 
 namespace {
 
-/// Required alignment of a structure in its buffer (VkAccelerationStructureCreateInfoKHR::offset).
-constexpr VkDeviceSize kStructureAlignment = 256;
-
 /// What the size of a structure follows from.
 bool isAlike(
     const VkAccelerationStructureGeometryKHR& a, const VkAccelerationStructureGeometryKHR& b

@@ -11,6 +11,8 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -81,6 +83,50 @@ TEST_F(AccelerationStructure, AMeshWithoutTrianglesGivesAnEmptyOne) {
     ASSERT_EQ(structures.size(), 2u);
     EXPECT_FALSE(structures[0]);
     EXPECT_FALSE(structures[1]);
+}
+
+TEST_F(AccelerationStructure, ThousandsOfMeshesShareABufferAndASubmission) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(2000, {one.geometry});
+    device().collectIdle();
+    const gpu::LivingObjects before = device().living();
+    const uint64_t allocations = device().allocationCount();
+    {
+        const auto structures = gpu::buildBlas(device(), meshes);
+        ASSERT_EQ(structures.size(), 2000u);
+        std::set<VkDeviceAddress> addresses;
+        for (const gpu::AccelerationStructure& structure : structures)
+            addresses.insert(structure.address());
+        EXPECT_EQ(addresses.size(), 2000u);
+        EXPECT_EQ(device().living().accelerationStructures, before.accelerationStructures + 2000);
+        EXPECT_EQ(device().allocationCount(), allocations + 2) << "structures and scratch";
+        gpu::Tlas top;
+        build(
+            device(), top, std::vector{makeInstance(structures[0]), makeInstance(structures[1999])}
+        );
+        EXPECT_TRUE(top.structure());
+    }
+    device().collectIdle();
+    EXPECT_EQ(device().living(), before);
+}
+
+TEST_F(AccelerationStructure, ABufferLivesAsLongAsOneOfItsStructures) {
+    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(3, {one.geometry});
+    device().collectIdle();
+    const gpu::LivingObjects before = device().living();
+    {
+        auto structures = gpu::buildBlas(device(), meshes);
+        const gpu::AccelerationStructure kept = std::move(structures[1]);
+        structures.clear();
+        device().collectIdle();
+        EXPECT_EQ(device().living().buffers, before.buffers + 1);
+        gpu::Tlas top;
+        build(device(), top, std::vector{makeInstance(kept)});
+        EXPECT_TRUE(top.structure());
+    }
+    device().collectIdle();
+    EXPECT_EQ(device().living(), before);
 }
 
 TEST_F(AccelerationStructure, OneTriangleBuildsAndHasAnAddress) {
