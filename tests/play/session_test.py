@@ -77,6 +77,22 @@ class Session(PlayCase):
         self.assertIn("instants", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
 
+    def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
+        # Pausing and going on change what a frame consists of; drivers may take tens of
+        # milliseconds over an allocation.
+        script = Script().add(key="f1").wait(6)
+        for _ in range(2):
+            script.tap("p").wait(6).tap("p").wait(6)
+        script.wait(12)
+        for _ in range(3):
+            script.tap("p").wait(4).tap("p").wait(4)
+        script.add(window="quit")
+        for demo in ("spin", "gallery", "rally"):
+            for method in ("hybrid", "resolved"):
+                with self.subTest(demo=demo, method=method):
+                    stats = self.play(demo, script, "--method", method, display=False)
+                    self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
+
     def test_bad_input_is_told_in_one_sentence(self):
         for arguments, status, told in (
             (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
