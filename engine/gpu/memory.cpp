@@ -62,7 +62,9 @@ void freeMemory(Device& device, VkDeviceMemory memory, VkDeviceSize bytes) {
 Buffer::Buffer(
     Device& device, std::string name, VkDeviceSize bytes, VkBufferUsageFlags usage, MemoryUse use
 )
-    : mDevice(&device), mBytes(std::max<VkDeviceSize>(bytes, 16)) {
+    : Buffer() { // made from here on: what throws below leaves nothing behind
+    mDevice = &device;
+    mBytes = std::max<VkDeviceSize>(bytes, 16);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = mBytes;
     info.usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |

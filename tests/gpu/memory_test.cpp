@@ -49,6 +49,8 @@ TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
     }
     EXPECT_THROW(gpu::Buffer(*incoherent, "table", 16, 0, gpu::MemoryUse::Stream), gpu::DeviceError)
         << "no device lacks coherent memory; one that says so gets a sentence";
+    incoherent->collectIdle();
+    EXPECT_EQ(incoherent->living(), gpu::LivingObjects{}) << "what failed leaves nothing behind";
     EXPECT_EQ(incoherent->validationMessageCount(), 0u);
 }
 
