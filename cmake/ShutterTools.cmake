@@ -35,8 +35,8 @@ endfunction()
 # Compiles each GLSL file to SPIR-V at build time, optimises and validates it, and makes it a header
 # "spirv/<path>.h" that defines `const uint32_t <path with _ for / and .>[]`. Optimising takes out
 # what an entry point does not use: what a module declares counts as used by it in Vulkan's rules.
-# Rebuilt when any included file changes. The root is the current source folder (in this tree: shaders/); shaders may include files below it and
-# Shutter's ("common/numeric.glsl").
+# Rebuilt when any included file changes. The root is the current source folder (in this tree:
+# shaders/); shaders may include files below it and Shutter's ("common/numeric.glsl").
 function(shutter_shaders target)
     cmake_parse_arguments(ARG "" "ROOT" "" ${ARGN})
     if(NOT SHUTTER_GLSLANG)
@@ -71,8 +71,8 @@ function(shutter_shaders target)
             VERBATIM)
         add_custom_command(
             OUTPUT ${output} ${module}
-            COMMAND ${SHUTTER_SPIRV_OPT} --target-env=vulkan1.3 ${SHUTTER_SPIRV_PASSES} ${module}.raw
-                    -o ${module}
+            COMMAND ${SHUTTER_SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout
+                    ${SHUTTER_SPIRV_PASSES} ${module}.raw -o ${module}
             COMMAND ${SHUTTER_SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${module}
             COMMAND ${CMAKE_COMMAND} -DSOURCE=${module} -DOUTPUT=${output} -DSYMBOL=${symbol} -P
                     ${SHUTTER_TOOLS_DIR}/EmbedWords.cmake
