@@ -25,7 +25,7 @@ class RasterHistory {
   public:
     struct Raster {
         gpu::Image color;   ///< RGBA16F, sharp
-        gpu::Image surface; ///< RG32F: depth, key (resolved_shared.h)
+        gpu::Image surface; ///< RG32UI: depth; key, inner corners (resolved.glsl)
     };
 
     explicit RasterHistory(gpu::Device& device) : mDevice(device) {}

@@ -262,7 +262,7 @@ struct Guesses {
     Guess last;
 };
 
-/// Looks for the place in the layer of what the pixel sees of an entity.
+/// Looks for what the pixel sees of an entity, from one place on the ray.
 /// \param guess where on the ray to begin; where it was found
 /// \param spreadPx way between the places at the entity's nearest and farthest depth: how much the
 /// depth matters
@@ -329,18 +329,32 @@ bool searchInner(
     return true;
 }
 
+/// How far between the depths that a tile sees of an entity.
+/// \param share 0: nearest, 1: farthest
+float alongAt(Candidate candidate, float share, bool perspective) {
+    float nearest = uintBitsToFloat(candidate.nearest);
+    float farthest = uintBitsToFloat(~candidate.farthestInverted);
+    // What reaches the camera's own plane has no inverse of its depth there.
+    if (nearest <= 0.0f) return alongOf(mix(nearest, farthest, share), perspective);
+    return mix(alongOf(nearest, perspective), alongOf(farthest, perspective), share);
+}
+
+/// Looks for the place in the layer of what the pixel sees of an entity.
+/// \param guess where it was found at the instant before, if it was this entity; where it is now
 void searchDepths(
     uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x, uint hiding,
     inout Guess guess, inout Seen best, inout Doubt doubt
 ) {
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
     PixelRay ray = findRay(motion.rasterFromInstant, x, perspective);
-    float nearest = alongOf(uintBitsToFloat(candidate.nearest), perspective);
-    float farthest = alongOf(uintBitsToFloat(~candidate.farthestInverted), perspective);
-    float way = distance(placeOn(ray, nearest, perspective), placeOn(ray, farthest, perspective));
+    float way = distance(
+        placeOn(ray, alongAt(candidate, 0.0f, perspective), perspective),
+        placeOn(ray, alongAt(candidate, 1.0f, perspective), perspective)
+    );
     vec4 depthRow = motion.instantFromRaster[2];
     bool hasGuess = guess.key == candidate.key;
-    Guess tried = Guess(candidate.key, hasGuess ? guess.along : 0.5f * (nearest + farthest));
+    Guess tried =
+        Guess(candidate.key, hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective));
     if (searchInner(layer, depthRow, ray, perspective, tried, way, best)) {
         guess = tried;
         return;
@@ -352,9 +366,9 @@ void searchDepths(
         }
         if (way < 1.0f) return;
     }
-    uint seeds = clamp(uint(way / kSeedDistancePx) + 2u, 2u, kMostSeeds);
+    uint seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMostSeeds))), 2u);
     for (uint seed = 0u; seed < seeds; ++seed) {
-        tried.along = mix(nearest, farthest, float(seed) / float(seeds - 1u));
+        tried.along = alongAt(candidate, float(seed) / float(seeds - 1u), perspective);
         // From near to far: the first place found is, as a rule, the one that hides the others.
         if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
             guess = tried;

@@ -11,7 +11,7 @@ namespace shutter::motion_blur {
 
 struct SurfaceLayer {
     graph::ImageHandle color;   ///< RGBA16F, sharp
-    graph::ImageHandle surface; ///< RG32F: depth, key (resolved_shared.h)
+    graph::ImageHandle surface; ///< RG32UI: depth; key, inner corners (resolved.glsl)
 };
 
 struct SurfaceLayersOutputs {
