@@ -66,6 +66,20 @@ TEST_F(Resolved, SoItIsUnderACameraThatMovesAndTurns) {
     EXPECT_LT(compareWithTruth(scene, paperGather()), 31.0) << "the shot is hard";
 }
 
+TEST_F(Resolved, SoIsWhatPassesTheCamerasPlane) {
+    test::SceneBuilder scene;
+    scene.setPerspective(1.4);
+    scene.moveCamera({.velocity = {4.0, 0.0, -60.0}});
+    const scene::AssetIndex waves = scene.addWaves();
+    // Floor, ceiling and wall begin behind the camera and end far ahead: tiles at the picture's
+    // border have depths down to 0 at some instant.
+    scene.add(test::makeBox({60, 0.1, 60}, waves), {.position = {0, -0.5, 0}});
+    scene.add(test::makeBox({60, 0.1, 60}, waves), {.position = {0, 1.5, 0}});
+    scene.add(test::makeBox({0.1, 8, 60}, waves), {.position = {2.0, 0, 0}});
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 36.0);
+    EXPECT_LT(compareWithTruth(scene, paperGather()), 24.0) << "the shot is hard";
+}
+
 TEST_F(Resolved, TheLastFrameHoldsWhatThisOneHides) {
     const test::SceneBuilder scene = makeScene();
     test::Shot without = shotOf("resolved");
