@@ -5,28 +5,7 @@
 #define SHUTTER_RESOLVED_SEARCH_GLSL
 
 #include "common/numeric.glsl"
-#include "motion_blur/resolved.glsl"
-
-/// TileCandidates with each candidate as one vector, which is one load.
-struct ReadTile {
-    uvec4 candidates[kCandidatesPerTile];
-    uint parts[kExposureParts];
-};
-
-// By address and not bound: software devices load at many addresses at once only then.
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ReadTiles {
-    ReadTile tiles[];
-};
-
-layout(binding = 0) uniform sampler2D uColor;
-layout(binding = 1) uniform sampler2D uMotionDepth;
-layout(binding = 2) uniform usampler2D uSurface;
-layout(binding = 3) uniform sampler2D uLastColor;
-layout(binding = 4) uniform usampler2D uLastSurface;
-layout(binding = 5, rgba16f) uniform writeonly image2D uBlurred;
-layout(binding = 6) uniform sampler2D uColorLinear;
-layout(binding = 7) uniform sampler2D uLastColorLinear;
-layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
+#include "motion_blur/resolved_layers.glsl"
 
 /// Fixed-point steps of a search.
 const uint kSteps = 4u;
@@ -45,16 +24,6 @@ const float kFarthest = 3.0e38f;
 const uint kMostSeeds = 5u;
 const float kSeedDistancePx = 4.0f;
 
-/// A surface that a pixel saw at an instant.
-struct Seen {
-    bool isFound;
-    uint layer;
-    uint key;
-    vec2 at;      // in the layer's picture
-    float depth;  // at the instant
-    bool isInner; // all that the layer shows around the place is of the same entity
-};
-
 /// What a search knows besides what it found.
 struct Doubt {
     // Beside the surface that hides the rest of the raster at this pixel, where that surface would be
@@ -68,119 +37,6 @@ struct Doubt {
 };
 
 const Doubt kNoDoubt = Doubt(false, ivec2(0), false, vec3(kMaxColor), vec3(0.0f));
-
-/// What a pixel of a layer shows.
-struct Probe {
-    uint key;
-    float depth;
-    uint innerCorners; // a bit for each corner of the pixel, see isInner()
-};
-
-vec2 uvOf(vec2 at) { return at * (1.0f / vec2(params.sizePx)); }
-
-Probe fetchSurface(uint layer, ivec2 at) {
-    vec2 uv = uvOf(vec2(at) + 0.5f);
-    uvec2 read = layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
-                                       : textureLod(uLastSurface, uv, 0.0f).xy;
-    return Probe(keyOf(read), uintBitsToFloat(read.x), innerCornersOf(read));
-}
-
-vec3 fetchColor(uint layer, ivec2 at) {
-    vec2 uv = uvOf(vec2(at) + 0.5f);
-    return layer == kRasterLayer ? textureLod(uColor, uv, 0.0f).rgb
-                                 : textureLod(uLastColor, uv, 0.0f).rgb;
-}
-
-bool isInside(vec2 at) {
-    return all(greaterThanEqual(at, vec2(0.0f))) && all(lessThan(at, vec2(params.sizePx)));
-}
-
-ivec2 keepInside(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(params.sizePx) - 1); }
-
-/// The four pixels around a place in the order of textureGather, and their bilinear weights.
-struct Footprint {
-    ivec2 corner; // the upper left one
-    vec4 weights;
-};
-
-Footprint footprintOf(vec2 at) {
-    vec2 corner = floor(at - 0.5f);
-    vec2 share = at - 0.5f - corner;
-    vec4 weights = vec4(1.0f - share.x, share.x, share.x, 1.0f - share.x) *
-                   vec4(share.y, share.y, 1.0f - share.y, 1.0f - share.y);
-    return Footprint(ivec2(corner), weights);
-}
-
-ivec2 texelOf(Footprint footprint, uint i) {
-    return keepInside(footprint.corner + ivec2(i == 1u || i == 2u ? 1 : 0, i < 2u ? 1 : 0));
-}
-
-/// Where the four pixels meet: whatever the precision of the sampler, it gathers these.
-vec2 gatherPlace(Footprint footprint) {
-    return uvOf(vec2(footprint.corner + 1));
-}
-
-vec4 gatherDepths(uint layer, Footprint footprint) {
-    vec2 uv = gatherPlace(footprint);
-    return uintBitsToFloat(
-        layer == kRasterLayer ? textureGather(uSurface, uv, 0) : textureGather(uLastSurface, uv, 0)
-    );
-}
-
-/// \return whether each of the pixels is of the entity
-bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
-    vec2 uv = gatherPlace(footprint);
-    uvec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
-                                       : textureGather(uLastSurface, uv, 1);
-    return equal(keys & kKeyBits, uvec4(key));
-}
-
-/// Bilinear among the pixels of the entity, one of which holds the place. What is linear in the
-/// picture of a plane is its depth before an orthographic camera, the inverse before a perspective
-/// one.
-float interpolateDepth(uint layer, uint key, vec2 at, bool perspective) {
-    Footprint footprint = footprintOf(at);
-    vec4 weights = mix(vec4(0.0f), footprint.weights, gatherMatches(layer, key, footprint));
-    vec4 depths = gatherDepths(layer, footprint);
-    float sum = dot(weights, vec4(1.0f));
-    return perspective ? sum / dot(weights, 1.0f / depths) : dot(weights, depths) / sum;
-}
-
-/// One channel of the four pixels' colours.
-vec4 gatherChannel(uint layer, vec2 uv, int channel) {
-    if (channel == 0)
-        return layer == kRasterLayer ? textureGather(uColor, uv, 0)
-                                     : textureGather(uLastColor, uv, 0);
-    if (channel == 1)
-        return layer == kRasterLayer ? textureGather(uColor, uv, 1)
-                                     : textureGather(uLastColor, uv, 1);
-    return layer == kRasterLayer ? textureGather(uColor, uv, 2) : textureGather(uLastColor, uv, 2);
-}
-
-/// Bilinear among the pixels of the entity, one of which holds the place.
-vec3 interpolateColor(Seen seen) {
-    if (seen.isInner) {
-        vec2 uv = uvOf(seen.at);
-        return seen.layer == kRasterLayer ? textureLod(uColorLinear, uv, 0.0f).rgb
-                                          : textureLod(uLastColorLinear, uv, 0.0f).rgb;
-    }
-    Footprint footprint = footprintOf(seen.at);
-    vec4 weights =
-        mix(vec4(0.0f), footprint.weights, gatherMatches(seen.layer, seen.key, footprint));
-    vec2 uv = gatherPlace(footprint);
-    vec3 sum = vec3(
-        dot(weights, gatherChannel(seen.layer, uv, 0)),
-        dot(weights, gatherChannel(seen.layer, uv, 1)),
-        dot(weights, gatherChannel(seen.layer, uv, 2))
-    );
-    return sum / dot(weights, vec4(1.0f));
-}
-
-/// A place at a pixel's centre has that pixel's bits.
-vec3 colorOf(Seen seen) {
-    return fract(seen.at) == vec2(0.5f) ? fetchColor(seen.layer, ivec2(seen.at))
-                                        : interpolateColor(seen);
-}
 
 /// Depth that surfaces are compared by.
 float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : depth; }
@@ -414,20 +270,6 @@ struct PixelSearch {
     Seen still; // what stands still there, at all instants
     Seen lastStill;
 };
-
-ReadTiles tilesOf(uint layer) {
-    return ReadTiles(layer == kLastLayer ? method.lastCandidates : method.rasterCandidates);
-}
-
-Candidate getCandidate(uint layer, uint tile, uint slot) {
-    uvec4 read = tilesOf(layer).tiles[tile].candidates[slot];
-    return Candidate(read.x, read.y, read.z, read.w);
-}
-
-/// A bit for each candidate that the tile may see in that part of the exposure.
-uint getPart(uint layer, uint tile, uint part) {
-    return tilesOf(layer).tiles[tile].parts[part];
-}
 
 void searchLayer(
     uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Guess guess,

@@ -16,7 +16,7 @@
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 8 of resolved_search.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 8 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     std::array<graph::ImageHandle, 5> images;
