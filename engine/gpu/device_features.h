@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The features that the engine enables, in one list: what is asked of a device, and what is looked
-// for before.
+// The features that the engine enables, in one list: a device is searched for them, and then made
+// with them.
 #pragma once
 
 #include "engine/gpu/vulkan.h"
@@ -19,10 +19,12 @@ struct DeviceFeatures {
     DeviceFeatures(const DeviceFeatures&) = delete;
     DeviceFeatures& operator=(const DeviceFeatures&) = delete;
 
-    /// Sets what the engine needs without rays; their features are structs of their own.
+    /// Sets what the engine needs without rays, as for vkCreateDevice. Features of rays are structs
+    /// of their own (device.cpp).
     void enableNeeded();
 
-    /// What of that is not set, in words; empty where all is.
+    /// For what vkGetPhysicalDeviceFeatures2 has filled in.
+    /// \return what the engine needs of that and is not set, in words; empty where all is
     [[nodiscard]] std::string findMissing() const;
 };
 
