@@ -303,8 +303,8 @@ void searchLayer(
 Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
     Probe surface = fetchSurface(index, pixel);
     return Seen(
-        isStillMover(layer, findMover(layer, surface.key)), index, surface.key, vec2(pixel) + 0.5f, surface.depth,
-        false
+        isStillMover(layer, findMover(layer, surface.key)), index, surface.key, vec2(pixel) + 0.5f,
+        surface.depth, false
     );
 }
 

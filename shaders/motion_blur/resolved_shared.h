@@ -12,8 +12,10 @@ SHUTTER_CONST uint kCandidateTilePx = 16u;
 /// Most entities that a tile's list holds.
 SHUTTER_CONST uint kCandidatesPerTile = 32u;
 
-/// Key of the sky; entities have the row of the entity table, which stays below.
+/// Key of the sky; entities have the row of the entity table, which stays below. Keys have 24 bits:
+/// what a host gives larger ids than any row has kUnknownKey, of which nothing is known.
 SHUTTER_CONST uint kSkyKey = 0xFFFFFFu;
+SHUTTER_CONST uint kUnknownKey = kSkyKey - 1u;
 SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
 
 /// Parts of the exposure that a tile's candidates are told apart by.

@@ -17,7 +17,7 @@ uint fetchKey(ivec2 at) {
     // texelFetch is slow on software devices
     vec2 uv = (vec2(at) + 0.5f) / vec2(params.sizePx);
     uint id = textureLod(uEntityId, uv, 0.0f).x;
-    return id == kNoEntity ? kSkyKey : id;
+    return id == kNoEntity ? kSkyKey : min(id, kUnknownKey);
 }
 
 /// A bit for each corner of the pixel: the four pixels that meet there are of one entity. The picture

@@ -129,10 +129,11 @@ class EmbeddedHistory : public test::EmbeddedTest {
         made.frame.submit();
     }
 
-    /// Brightest and darkest of the frames that were submitted since the last call.
+    /// Brightest, darkest and mean of the frames that were submitted since the last call.
     struct Range {
         float low = std::numeric_limits<float>::infinity();
         float high = -low;
+        double mean = 0.0;
     };
 
     std::vector<Range> read() {
@@ -144,6 +145,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
             for (size_t i = 0; i < picture.pixels.size(); i += 4) {
                 range.low = std::min(range.low, picture.pixels[i]);
                 range.high = std::max(range.high, picture.pixels[i]);
+                range.mean += 4.0 * picture.pixels[i] / double(picture.pixels.size());
             }
             ranges.push_back(range);
         }
@@ -251,12 +253,23 @@ TEST_F(EmbeddedHistory, ViewsInTurnsHaveTheirOwnWithFramesInFlight) {
 }
 
 TEST_F(EmbeddedHistory, IdsThatAreNoRowsAndTransformsBeyondAllRangeAreDrawn) {
-    for (const uint32_t id : {1u, 0xFFFFFFu, 0x1000000u, 0x80000000u, 0xFFFFFFFEu, 0xFFFFFFFFu}) {
+    drawFirst();
+    const Range unknown = draw({.brightness = 4.0f, .id = 1});
+    drawFirst();
+    const Range row = draw({.brightness = 4.0f, .id = 0});
+    ASSERT_LT(unknown.mean, row.mean - 0.1)
+        << "the row is found in this frame, what is none is not";
+    // 0x1000000 has the low bits of row 0, and must not be taken for it.
+    for (const uint32_t id : {0xFFFFFEu, 0xFFFFFFu, 0x1000000u, 0x80000000u, 0xFFFFFFFEu}) {
         drawFirst();
         const Range range = draw({.brightness = 4.0f, .id = id});
-        EXPECT_GE(range.low, 1.0f) << id;
-        EXPECT_LE(range.high, 4.0f) << id;
+        EXPECT_EQ(range.low, unknown.low) << id;
+        EXPECT_EQ(range.mean, unknown.mean) << id;
     }
+    drawFirst();
+    const Range sky = draw({.brightness = 4.0f, .id = 0xFFFFFFFFu});
+    EXPECT_GE(sky.low, 1.0f);
+    EXPECT_LE(sky.high, 4.0f);
     const glm::dmat4 huge(glm::dmat3(1.0e300));
     const glm::dmat4 tiny(glm::dmat3(1.0e-300));
     const glm::dmat4 flat(glm::dmat3(0.0));
