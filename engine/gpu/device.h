@@ -47,7 +47,7 @@ struct SubmitSemaphores {
 struct HostDevice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    /// Of the rays whose extension and features the host enabled.
+    /// The tier of rays whose extension and features the host enabled.
     RayTier rayTier = RayTier::None;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
 };
@@ -113,7 +113,7 @@ class Device {
 
     [[nodiscard]] uint32_t queueFamily() const { return mInfo.queueFamily; }
 
-    /// Of the queue's timestamps: how many bits count, the others are zero.
+    /// How many bits of the queue's timestamps count; the others are zero.
     [[nodiscard]] uint32_t timestampBits() const { return mInfo.timestampBits; }
 
     /// Hands over the surface of DeviceOptions::makeSurface; null where there is none any more.

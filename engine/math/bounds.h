@@ -21,10 +21,10 @@ struct Bounds {
     /// Grows to hold the other box; an empty one changes nothing.
     void add(const Bounds& other);
 
-    /// Of a box that is not empty; NaN if it is.
+    /// The middle of the box; NaN if it is empty.
     [[nodiscard]] dvec3 centre() const { return (min + max) * 0.5; }
 
-    /// Edge lengths, 0 or more; of an empty box minus infinity.
+    /// Edge lengths, 0 or more; minus infinity if the box is empty.
     [[nodiscard]] dvec3 size() const { return max - min; }
 };
 

@@ -29,7 +29,7 @@ SHUTTER_INLINE float classifyTile(
     float softDepthExtent
 ) {
     if (dominantPx < kStillPx) return kClassStill;
-    // Written so that a deviation that is no number is not uniform.
+    // Written so that a NaN deviation is not uniform.
     if (uniformMotionPx > 0.0f && deviationPx <= uniformBound(dominantPx, uniformMotionPx))
         return kClassUniform;
     return depthRange > softDepthExtent ? kClassDeep : kClassMixed;

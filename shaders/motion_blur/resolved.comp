@@ -17,11 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_search.glsl"
 
-#define SHUTTER_BLOCK_LIST_BINDING 9
+#define SHUTTER_BLOCK_LIST_BINDING 11
 #include "motion_blur/block_list.glsl"
 
-layout(binding = 10, scalar) buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 11, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+layout(binding = 12, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 13, scalar) buffer ListArguments { DispatchArguments uListArguments; };
 
 /// For the pass that traces: the pixel and which classes its samples have.
 void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {

@@ -12,20 +12,17 @@ struct ReadTile {
     uint parts[kExposureParts];
 };
 
-// By address and not bound: software devices load at many addresses at once only then.
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ReadTiles {
-    ReadTile tiles[];
-};
-
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uMotionDepth;
 layout(binding = 2) uniform usampler2D uSurface;
 layout(binding = 3) uniform sampler2D uLastColor;
 layout(binding = 4) uniform usampler2D uLastSurface;
 layout(binding = 5, rgba16f) uniform writeonly image2D uBlurred;
-layout(binding = 6) uniform sampler2D uColorLinear;
-layout(binding = 7) uniform sampler2D uLastColorLinear;
+layout(binding = 6, scalar) readonly buffer RasterCandidates { ReadTile uRasterTiles[]; };
+layout(binding = 7, scalar) readonly buffer LastCandidates { ReadTile uLastTiles[]; };
 layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
+layout(binding = 9) uniform sampler2D uColorLinear;
+layout(binding = 10) uniform sampler2D uLastColorLinear;
 
 /// A surface that a pixel saw at an instant.
 struct Seen {
@@ -150,18 +147,15 @@ vec3 colorOf(Seen seen) {
                                         : interpolateColor(seen);
 }
 
-ReadTiles tilesOf(uint layer) {
-    return ReadTiles(layer == kLastLayer ? method.lastCandidates : method.rasterCandidates);
-}
-
 Candidate getCandidate(uint layer, uint tile, uint slot) {
-    uvec4 read = tilesOf(layer).tiles[tile].candidates[slot];
+    uvec4 read = layer == kLastLayer ? uLastTiles[tile].candidates[slot]
+                                     : uRasterTiles[tile].candidates[slot];
     return Candidate(read.x, read.y, read.z, read.w);
 }
 
 /// A bit for each candidate that the tile may see in that part of the exposure.
 uint getPart(uint layer, uint tile, uint part) {
-    return tilesOf(layer).tiles[tile].parts[part];
+    return layer == kLastLayer ? uLastTiles[tile].parts[part] : uRasterTiles[tile].parts[part];
 }
 
 #endif

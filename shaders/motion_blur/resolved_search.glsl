@@ -55,7 +55,7 @@ void addEdge(vec3 color, inout Doubt doubt) {
     doubt.greatestAcross = max(doubt.greatestAcross, color);
 }
 
-/// The entity is not where the search came to. Is it next to it?
+/// The entity is not where the search ended; notes where it is if it is right beside.
 void noteMiss(uint layer, uint key, vec2 at, uint hiding, inout Doubt doubt) {
     if (layer == kRasterLayer && key == hiding && !doubt.hasBeside) {
         doubt.hasBeside = true;
@@ -162,7 +162,7 @@ bool searchRigid(
     return false;
 }
 
-/// The first guess where it is right and no other entity is near: most samples of most pictures.
+/// Accepts the first guess where it is right and no other entity is near, as for most samples.
 /// \return whether it was found
 bool searchInner(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
@@ -185,7 +185,7 @@ bool searchInner(
     return true;
 }
 
-/// How far between the depths that a tile sees of an entity.
+/// A place on a pixel's ray between the depths that its tile sees of an entity.
 /// \param share 0: nearest, 1: farthest
 float alongAt(Candidate candidate, float share, bool perspective) {
     float nearest = uintBitsToFloat(candidate.nearest);

@@ -55,8 +55,6 @@ struct ResolvedParams {
     uint rayLimit; // of the frame; kNoRayLimit: none
     uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
-    uvec2 rasterCandidates; // addresses of TileCandidates[]: for passes that search
-    uvec2 lastCandidates;
 };
 
 /// What a frame counted.
@@ -77,7 +75,7 @@ SHUTTER_SHADER_END
 static_assert(sizeof(shutter::shader::Candidate) == 16);
 static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
-static_assert(sizeof(shutter::shader::ResolvedParams) == 48);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif
 

@@ -25,7 +25,7 @@ class TruthLaw : public test::GpuTest {
     }
 };
 
-/// Lit and textured, still but for a box that tumbles.
+/// Lit and textured; only a box tumbles, if anything moves.
 SceneBuilder makeScene(bool moves) {
     SceneBuilder scene;
     scene.setPerspective(0.9);

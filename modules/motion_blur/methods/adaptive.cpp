@@ -113,8 +113,7 @@ void AdaptivePasses::addTrace(
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
-            const PassParams located = data.search.locate(resources, params);
-            context.frame.bind(mTrace.get(), bindings, &located, sizeof(located), textures);
+            context.frame.bind(mTrace.get(), bindings, &params, sizeof(params), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }
     );

@@ -66,7 +66,17 @@ ClearData addClear(graph::Graph& graph, const PassParams& params, bool listsPixe
 
 std::vector<VkDescriptorType> listSearchBindings() {
     return {
-        kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kSampled, kSampled, kBuffer};
+        kSampled,
+        kSampled,
+        kSampled,
+        kSampled,
+        kSampled,
+        kStorage,
+        kBuffer,
+        kBuffer,
+        kBuffer,
+        kSampled,
+        kSampled};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
@@ -86,19 +96,11 @@ gpu::BindingList SearchResources::bind(
     for (const graph::ImageHandle image : images)
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.storage(resources.image(target));
+    for (const graph::BufferHandle buffer : {rasterCandidates, lastCandidates, counters})
+        bindings.buffer(resources.buffer(buffer));
     for (const graph::ImageHandle color : {images[0], images[3]})
         bindings.sampled(resources.view(color), device.linearSampler());
-    return bindings.buffer(resources.buffer(counters));
-}
-
-PassParams
-SearchResources::locate(const graph::PassResources& resources, const PassParams& params) const {
-    auto own = params.getMethod<shader::ResolvedParams>();
-    own.rasterCandidates = gpu::splitAddress(resources.address(rasterCandidates));
-    own.lastCandidates = gpu::splitAddress(resources.address(lastCandidates));
-    PassParams located = params;
-    located.setMethod(own);
-    return located;
+    return bindings;
 }
 
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
@@ -234,12 +236,7 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
             for (const graph::BufferHandle buffer : {data.listed.pixels, data.listed.arguments})
                 bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));
             dispatchList(
-                context,
-                mResolve.get(),
-                bindings,
-                data.search.locate(resources, params),
-                data.blocks.arguments,
-                shader::kMixedList
+                context, mResolve.get(), bindings, params, data.blocks.arguments, shader::kMixedList
             );
         }
     );

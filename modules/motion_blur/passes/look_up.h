@@ -16,7 +16,7 @@
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 8 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 10 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     std::array<graph::ImageHandle, 5> images;
@@ -30,9 +30,6 @@ struct SearchResources {
     [[nodiscard]] gpu::BindingList bind(
         const graph::PassResources& resources, gpu::Device& device, graph::ImageHandle target
     ) const;
-    /// \return with the addresses of the candidates
-    [[nodiscard]] PassParams
-    locate(const graph::PassResources& resources, const PassParams& params) const;
 };
 
 /// Pixels that have samples for rays.
@@ -93,7 +90,7 @@ class LookUp {
     uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };
 
-/// Bindings 0 to 8 of a pipeline that searches.
+/// Bindings 0 to 10 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur

@@ -35,7 +35,7 @@ using Figure = std::function<double(const render::FrameStatistics&)>;
 
 [[nodiscard]] math::Quartiles summarize(const Frames& frames, const Figure& figure);
 
-/// Of a's figure over b's in the same round.
+/// Ratio of a's figure to b's, round by round.
 [[nodiscard]] math::Quartiles
 compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB);
 

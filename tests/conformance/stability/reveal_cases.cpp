@@ -34,7 +34,7 @@ class RevealEverywhere : public render::PostEffect {
     [[nodiscard]] std::string name() const override { return "reveal everywhere"; }
 
     [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
-        return {true, "every pixel is asked"};
+        return {true, "every pixel is traced"};
     }
 
     [[nodiscard]] core::Decision askRays(const render::ViewFacts&) const override {

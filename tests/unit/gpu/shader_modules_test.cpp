@@ -21,7 +21,7 @@ std::vector<test::ShaderModule> readAll() {
     return modules;
 }
 
-/// Of the tier that a module is written for: one module never traces rays in both ways.
+/// The tier that a module is written for; no module traces rays in both ways.
 RayTier tierOf(const test::ShaderModule& module) {
     const auto needs = gpu::reflectNeeds(module.words);
     return needs.capabilities.contains(4479) ? RayTier::Pipeline : RayTier::RayQuery;
