@@ -12,7 +12,8 @@ layout(constant_id = 0) const uint kLayer = kRasterLayer;
 
 // Each thread takes several of the tile's pixels: on software devices a thread that waits at a barrier
 // is expensive.
-layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(local_size_x = kGroupSize, local_size_y_id = 1) in;
+layout(constant_id = 2) const uint kThreadRows = kGroupSize; // of a group
 layout(push_constant, scalar) uniform Push {
     MotionBlurParams params;
     ResolvedParams method;
@@ -44,7 +45,8 @@ uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidate
 
 /// Pixels of one entity.
 struct Extent {
-    uint key; // kNoKey: none
+    uint key;     // kNoKey: none
+    bool isOfUse; // it moves, and it is known how
     bool deforms;
     vec2 depths;
     ivec2 low;
@@ -54,7 +56,7 @@ struct Extent {
 };
 
 const Extent kNoExtent = Extent(
-    kNoKey, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), ivec2(0x7FFFFFFF),
+    kNoKey, false, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), ivec2(0x7FFFFFFF),
     ivec2(-0x7FFFFFFF)
 );
 
@@ -73,7 +75,7 @@ void note(uint slot, Extent extent) {
 }
 
 void listExtent(Extent extent) {
-    if (extent.key == kNoKey) return;
+    if (!extent.isOfUse) return;
     for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
         uint held = sKeys[slot];
         if (held == kNoKey) held = atomicCompSwap(sKeys[slot], kNoKey, extent.key);
@@ -93,12 +95,13 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
     uint key = keyOf(surface);
     if (key != extent.key) {
         listExtent(extent);
-        extent = kNoExtent;
         uint mover = findMover(layer, key);
-        if (mover == kNoMover || isStillMover(layer, mover)) return;
+        extent = kNoExtent;
         extent.key = key;
+        extent.isOfUse = mover != kNoMover && !isStillMover(layer, mover);
         extent.deforms = mover == kDeformedMover;
     }
+    if (!extent.isOfUse) return;
     float depth = depthOfKey(key, uintBitsToFloat(surface.x));
     extent.depths = vec2(min(extent.depths.x, depth), max(extent.depths.y, depth));
     extent.low = min(extent.low, pixel);
@@ -177,20 +180,21 @@ void enterDeformed(uint slot, uint instant) {
 }
 
 void main() {
+    const uint kThreads = kGroupSize * kThreadRows;
     uint thread = gl_LocalInvocationIndex;
-    if (thread < kCandidatesPerTile) {
-        sKeys[thread] = kNoKey;
-        sNearest[thread] = 0xFFFFFFFFu;
-        sFarthest[thread] = 0u;
-        sLowX[thread] = sLowY[thread] = sMotionLowX[thread] = sMotionLowY[thread] = 0x7FFFFFFF;
-        sHighX[thread] = sHighY[thread] = sMotionHighX[thread] = sMotionHighY[thread] = -0x7FFFFFFF;
+    for (uint slot = thread; slot < kCandidatesPerTile; slot += kThreads) {
+        sKeys[slot] = kNoKey;
+        sNearest[slot] = 0xFFFFFFFFu;
+        sFarthest[slot] = 0u;
+        sLowX[slot] = sLowY[slot] = sMotionLowX[slot] = sMotionLowY[slot] = 0x7FFFFFFF;
+        sHighX[slot] = sHighY[slot] = sMotionHighX[slot] = sMotionHighY[slot] = -0x7FFFFFFF;
     }
     barrier();
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
     uvec2 origin = gl_WorkGroupID.xy * kCandidateTilePx + gl_LocalInvocationID.xy;
     Extent extent = kNoExtent;
-    for (uint y = 0u; y < kCandidateTilePx; y += kGroupSize)
+    for (uint y = 0u; y < kCandidateTilePx; y += kThreadRows)
         for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
             uvec2 pixel = origin + uvec2(x, y);
             if (all(lessThan(pixel, params.sizePx))) addPixel(layer, ivec2(pixel), extent);
@@ -198,7 +202,6 @@ void main() {
     listExtent(extent);
     barrier();
     bool perspective = motions.value.isPerspective != 0u;
-    const uint kThreads = kGroupSize * kGroupSize;
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;
         if (sKeys[slot] == kNoKey) break;

@@ -12,13 +12,15 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeList(LayerIndex layer) {
+gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex layer) {
     gpu::ComputePipelineDesc desc = describePass(
         layer == LayerIndex::Raster ? "list candidates" : "list candidates, last frame",
         motion_blur_resolved_candidates_comp,
         {kSampled, kSampled, kBuffer, kBuffer}
     );
-    desc.specialization = {static_cast<uint32_t>(layer)};
+    // A software device runs a group's threads in turn, and each waits at the barriers.
+    const uint32_t rows = isSoftware(device) ? 2u : shader::kGroupSize;
+    desc.specialization = {static_cast<uint32_t>(layer), rows, rows};
     return desc;
 }
 
@@ -50,8 +52,8 @@ graph::BufferHandle addClear(graph::Graph& graph, graph::BufferHandle lists) {
 } // namespace
 
 CandidateLists::CandidateLists(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mRaster(device, describeList(LayerIndex::Raster)),
-      mLast(device, describeList(LayerIndex::Last)) {}
+    : mSampler(device.nearestSampler()), mRaster(device, describeList(device, LayerIndex::Raster)),
+      mLast(device, describeList(device, LayerIndex::Last)) {}
 
 CandidateOutputs CandidateLists::add(
     graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params

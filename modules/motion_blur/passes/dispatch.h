@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/execute.h"
@@ -24,6 +25,11 @@ namespace shutter::motion_blur {
     desc.interface.bindings = std::move(bindings);
     desc.interface.pushConstantBytes = sizeof(PassParams);
     return desc;
+}
+
+/// Its threads are a processor's: fewer that do more each are faster.
+[[nodiscard]] inline bool isSoftware(const gpu::Device& device) {
+    return device.info().kind == "software";
 }
 
 /// Binds and dispatches one thread a pixel of `extent`, kGroupSize x kGroupSize a group.
