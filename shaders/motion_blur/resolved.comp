@@ -17,11 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_search.glsl"
 
-#define SHUTTER_BLOCK_LIST_BINDING 11
+#define SHUTTER_BLOCK_LIST_BINDING 12
 #include "motion_blur/block_list.glsl"
 
-layout(binding = 12, scalar) buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 13, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+layout(binding = 13, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 14, scalar) buffer ListArguments { DispatchArguments uListArguments; };
 
 /// For the pass that traces: the pixel and which classes its samples have.
 void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {
@@ -49,7 +49,12 @@ void main() {
     uint found = 0u;
     uint guessed = 0u;
     uint fromLast = 0u;
-    for (uint instant = 0u; instant < params.sampleCount; ++instant) {
+    uint searched = params.sampleCount;
+    // Rays may go to any of them.
+    if (!kFindsEdges && params.uniformMotionPx > 0.0f) searched = uLooks[search.looks - 1u].perX;
+    float perSearch = float(params.sampleCount) / float(searched);
+    for (uint i = 0u; i < searched; ++i) {
+        uint instant = uint((float(i) + 0.5f) * perSearch);
         Doubt doubt = kNoDoubt;
         Seen seen = searchInstant(search, instant, guesses, doubt);
         vec3 color = vec3(0.0f);
@@ -65,7 +70,7 @@ void main() {
         if (kFindsEdges) ++counts[classify(seen, color, doubt)];
     }
     if (fromLast > 0u) atomicAdd(uCounters.fromLast, fromLast);
-    if (found < params.sampleCount) atomicAdd(uCounters.unresolved, params.sampleCount - found);
+    if (found < searched) atomicAdd(uCounters.unresolved, searched - found);
     // What nothing is known of counts as what the pixel saw else.
     uint known = found + guessed;
     vec3 color = known > 0u ? sum / float(known) : fetchColor(kRasterLayer, pixel);

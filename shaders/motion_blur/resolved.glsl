@@ -64,6 +64,9 @@ float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; 
 const uint kKeyBits = 0xFFFFFFu;
 const uint kCornerShift = 24u;
 
+/// Bit of a set of keys; some share one.
+uint keyBit(uint key) { return 1u << (key & 31u); }
+
 uint keyOf(uvec2 surface) { return surface.y & kKeyBits; }
 uint innerCornersOf(uvec2 surface) { return surface.y >> kCornerShift; }
 
@@ -72,6 +75,12 @@ uint innerCornersOf(uvec2 surface) { return surface.y >> kCornerShift; }
 bool isInner(uint corners, vec2 at) {
     uint corner = (at.x < 0.5f ? 0u : 1u) + (at.y < 0.5f ? 0u : 2u);
     return (corners >> corner & 1u) != 0u;
+}
+
+/// Where a pixel of a block looks. \param inBlock from the block's centre, pixels
+vec2 lookFrom(BlockLook look, vec2 inBlock) {
+    return look.place + unpackHalf2x16(look.perX) * inBlock.x +
+           unpackHalf2x16(look.perY) * inBlock.y;
 }
 
 /// Nearest depth that counts as in front of a perspective camera, metres.

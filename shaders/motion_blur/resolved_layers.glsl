@@ -23,15 +23,16 @@ layout(binding = 7, scalar) readonly buffer LastCandidates { ReadTile uLastTiles
 layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
 layout(binding = 9) uniform sampler2D uColorLinear;
 layout(binding = 10) uniform sampler2D uLastColorLinear;
+layout(binding = 11, scalar) readonly buffer Looks { BlockLook uLooks[]; };
 
 /// A surface that a pixel saw at an instant.
 struct Seen {
     bool isFound;
     uint layer;
-    uint key;
+    uint key;     // kNoKey: of a plane that may belong to several entities
     vec2 at;      // in the layer's picture
     float depth;  // at the instant
-    bool isInner; // all that the layer shows around the place is of the same entity
+    bool isInner; // all that the layer shows around the place is of the same entity or plane
 };
 
 /// What a pixel of a layer shows.

@@ -5,6 +5,7 @@
 #define SHUTTER_RESOLVED_SEARCH_GLSL
 
 #include "common/numeric.glsl"
+#include "motion_blur/pixel_ray.glsl"
 #include "motion_blur/resolved_layers.glsl"
 
 /// Fixed-point steps of a search.
@@ -23,6 +24,8 @@ const float kFarthest = 3.0e38f;
 /// Places that the way between the nearest and the farthest depth is searched from, at most.
 const uint kMostSeeds = 5u;
 const float kSeedDistancePx = 4.0f;
+/// Ways shorter than this are searched from their middle alone.
+const float kSeedlessWayPx = 2.0f;
 
 /// What a search knows besides what it found.
 struct Doubt {
@@ -72,39 +75,13 @@ void noteMiss(uint layer, uint key, vec2 at, uint hiding, inout Doubt doubt) {
 void noteEdge(Seen seen, vec3 color, inout Doubt doubt) {
     if (fract(seen.at) == vec2(0.5f)) return;
     Footprint footprint = footprintOf(seen.at);
-    bvec4 matches = gatherMatches(seen.layer, seen.key, footprint);
+    uint key = seen.key;
+    if (key == kNoKey) key = fetchSurface(seen.layer, ivec2(seen.at)).key;
+    bvec4 matches = gatherMatches(seen.layer, key, footprint);
     for (uint i = 0u; i < 4u; ++i) {
         vec3 beside = fetchColor(seen.layer, texelOf(footprint, i));
         addEdge(matches[i] ? mix(color, beside, kInnerShare) : beside, doubt);
     }
-}
-
-/// A pixel's ray at an instant in the layer's picture: the point at a depth is seen at the projection
-/// of base + slope * along. `along` is what places on the ray's picture are evenly spaced by: the
-/// inverse of the depth before a perspective camera, the depth before an orthographic one.
-struct PixelRay {
-    vec3 base;
-    vec3 slope;
-};
-
-PixelRay findRay(vec4 rasterFromInstant[3], vec2 x, bool perspective) {
-    vec3 at = vec3(x, 1.0f);
-    vec3 inDepth = vec3(
-        dot(rasterFromInstant[0].xyz, at), dot(rasterFromInstant[1].xyz, at),
-        dot(rasterFromInstant[2].xyz, at)
-    );
-    vec3 fixed_ = vec3(rasterFromInstant[0].w, rasterFromInstant[1].w, rasterFromInstant[2].w);
-    if (perspective) return PixelRay(inDepth, fixed_);
-    vec3 perDepth = vec3(rasterFromInstant[0].z, rasterFromInstant[1].z, rasterFromInstant[2].z);
-    return PixelRay(inDepth - perDepth + fixed_, perDepth);
-}
-
-float alongOf(float depth, bool perspective) {
-    return perspective ? 1.0f / max(depth, kLeastDepth) : depth;
-}
-
-vec2 placeOn(PixelRay ray, float along, bool perspective) {
-    return projectPicture(ray.base + ray.slope * along, perspective);
 }
 
 /// Where on a pixel's ray an entity was found last: the next instant's first guess.
@@ -162,27 +139,34 @@ bool searchRigid(
     return false;
 }
 
+const uint kFound = 0u;   // the search is over
+const uint kMissed = 1u;  // the entity is not at the first place
+const uint kUnclear = 2u; // it is there, but it takes more to say what is seen
+
 /// Accepts the first guess where it is right and no other entity is near, as for most samples.
-/// \return whether it was found
-bool searchInner(
+/// \return kFound, kMissed or kUnclear
+uint searchInner(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, inout Seen best
+    float spreadPx, uint hiding, inout Seen best, inout Doubt doubt
 ) {
     vec2 at = placeOn(ray, guess.along, perspective);
-    if (!isInside(at)) return false;
+    if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurface(layer, ivec2(texel));
-    if (surface.key != guess.key) return false;
+    if (surface.key != guess.key) {
+        noteMiss(layer, guess.key, at, hiding, doubt);
+        return kMissed;
+    }
     float layerDepth = depthOfKey(guess.key, surface.depth);
     float depth = dot(instantDepthRow, pictureSpace(at, layerDepth, perspective));
     float along = alongOf(depth, perspective);
     vec2 place = spreadPx < kArrivedPx ? at : placeOn(ray, along, perspective);
-    if (!isInner(surface.innerCorners, place - texel)) return false;
-    if (distance(place, at) > kArrivedPx || !isInside(place)) return false;
-    if (perspective && depth < kLeastDepth) return false;
+    if (!isInner(surface.innerCorners, place - texel)) return kUnclear;
+    if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
+    if (perspective && depth < kLeastDepth) return kUnclear;
     guess.along = along;
     keepNearer(best, Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true));
-    return true;
+    return kFound;
 }
 
 /// A place on a pixel's ray between the depths that its tile sees of an entity.
@@ -211,17 +195,19 @@ void searchDepths(
     bool hasGuess = guess.key == candidate.key;
     Guess tried =
         Guess(candidate.key, hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective));
-    if (searchInner(layer, depthRow, ray, perspective, tried, way, best)) {
+    uint first =
+        searchInner(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt);
+    if (first == kFound) {
         guess = tried;
         return;
     }
-    if (hasGuess || way < 1.0f) {
+    if (first == kUnclear && (hasGuess || way < kSeedlessWayPx)) {
         if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
             guess = tried;
             return;
         }
-        if (way < 1.0f) return;
     }
+    if (way < kSeedlessWayPx) return;
     uint seeds = max(uint(min(way / kSeedDistancePx + 2.0f, float(kMostSeeds))), 2u);
     for (uint seed = 0u; seed < seeds; ++seed) {
         tried.along = alongAt(candidate, float(seed) / float(seeds - 1u), perspective);
@@ -264,6 +250,8 @@ struct PixelSearch {
     uint tile;
     uint hiding; // key of what this frame's raster has at the pixel
     bool perspective;
+    uint looks;  // index of the first BlockLook of its block
+    vec2 inBlock; // from the block's centre
     uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
     LayerMotion last;
@@ -271,11 +259,12 @@ struct PixelSearch {
     Seen lastStill;
 };
 
+/// \param slots a bit for each candidate of the tile that is looked for
 void searchLayer(
-    uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Guess guess,
+    uint index, LayerMotion layer, PixelSearch pixel, uint instant, uint slots, inout Guess guess,
     inout Seen best, inout Doubt doubt
 ) {
-    uint slots = getPart(index, pixel.tile, partOf(instant, pixel.partsPerInstant));
+    slots &= getPart(index, pixel.tile, partOf(instant, pixel.partsPerInstant));
     while (slots != 0u) {
         Candidate candidate = getCandidate(index, pixel.tile, uint(findLSB(slots)));
         slots &= slots - 1u;
@@ -315,6 +304,10 @@ PixelSearch beginSearch(ivec2 pixel) {
     PixelSearch search;
     search.x = vec2(pixel) + 0.5f;
     search.tile = tile.y * tiles.x + tile.x;
+    uvec2 block = uvec2(pixel) / kGroupSize;
+    uint blocksAcross = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
+    search.looks = (block.y * blocksAcross + block.x) * (params.sampleCount + 1u) + 1u;
+    search.inBlock = search.x - vec2(block * kGroupSize) - 0.5f * float(kGroupSize);
     search.perspective = motions.value.isPerspective != 0u;
     search.partsPerInstant = partsPerInstant(params.sampleCount);
     search.raster = getLayer(motions, kRasterLayer);
@@ -336,11 +329,18 @@ Guesses beginGuesses(PixelSearch pixel) {
 }
 
 Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
+    uint slots = ~0u;
+    if (params.uniformMotionPx > 0.0f) {
+        BlockLook look = uLooks[pixel.looks + instant];
+        if (look.perX != kSearchedLook)
+            return Seen(true, kRasterLayer, kNoKey, lookFrom(look, pixel.inBlock), 0.0f, true);
+        slots = look.perY;
+    }
     Seen seen = pixel.still;
-    searchLayer(kRasterLayer, pixel.raster, pixel, instant, guesses.raster, seen, doubt);
+    searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);
     if (!seen.isFound && method.hasLast != 0u) {
         seen = pixel.lastStill;
-        searchLayer(kLastLayer, pixel.last, pixel, instant, guesses.last, seen, doubt);
+        searchLayer(kLastLayer, pixel.last, pixel, instant, ~0u, guesses.last, seen, doubt);
     }
     return seen;
 }

@@ -37,6 +37,28 @@ struct TileCandidates {
     uint parts[kExposureParts];
 };
 
+/// What a block of kGroupSize x kGroupSize pixels of this frame's raster shows, as one plane: the
+/// sky, before a perspective camera, belongs to the world, infinitely far away.
+struct BlockPlane {
+    uint keys;       // keyBit() of each key in it; 0 where nothing moves
+    uint mover;      // of all its pixels; kNoMover: several, or of a mover without a plane
+    float along;     // at the block's centre: 1/metre (perspective) or metres
+    vec2 slope;      // of `along`, per pixel
+    float deviation; // greatest, of a pixel from the plane
+};
+
+/// Most instants for which what a block looks at is found for all its pixels together.
+SHUTTER_CONST uint kMostLooks = 32u;
+
+/// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
+struct BlockLook {
+    vec2 place; // of the block's centre, pixels
+    uint perX;  // two halves; kSearchedLook: candidates are searched
+    uint perY;  // two halves; or a bit for each of the tile's candidates that the block may see
+};
+
+SHUTTER_CONST uint kSearchedLook = 0xFFFFFFFFu; // two NaN
+
 /// Samples that rays may replace, by the harm that leaving them does: what no layer explains, then
 /// edges within a pixel by the colours on both sides (within one entity, where colours are
 /// interpolated, by a share of their contrast), then the rest.
@@ -75,6 +97,8 @@ SHUTTER_SHADER_END
 static_assert(sizeof(shutter::shader::Candidate) == 16);
 static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
+static_assert(sizeof(shutter::shader::BlockPlane) == 24);
+static_assert(sizeof(shutter::shader::BlockLook) == 16);
 static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorts each tile's candidates, nearest first, and lists the picture's blocks that something moves in:
-// those whose tile has a candidate. A thread a tile.
+// Sorts each tile's candidates, nearest first. A thread per tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,12 +12,6 @@ layout(push_constant, scalar) uniform Push {
 };
 layout(binding = 0, scalar) buffer RasterCandidates { TileCandidates uRaster[]; };
 layout(binding = 1, scalar) buffer LastCandidates { TileCandidates uLast[]; };
-layout(binding = 2, scalar) buffer BlockLists {
-    BlockHeader header;
-    uint entries[];
-} uBlocks;
-layout(binding = 3, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
-
 Candidate getCandidate(uint layer, uint tile, uint slot) {
     if (layer == kLastLayer) return uLast[tile].candidates[slot];
     return uRaster[tile].candidates[slot];
@@ -82,31 +75,13 @@ void transposeParts(uint layer, uint tile, uint count) {
     }
 }
 
-/// \return whether there are any
-bool prepareTile(uint layer, uint tile) {
-    uint count = sortCandidates(layer, tile);
-    transposeParts(layer, tile, count);
-    return count > 0u;
-}
-
-void listBlock(uvec2 block, uvec2 blocks) {
-    if (any(greaterThanEqual(block, blocks))) return;
-    uint index = atomicAdd(uBlocks.header.mixedCount, 1u);
-    uBlocks.entries[kMixedList * blocks.x * blocks.y + index] = block.x | block.y << 16;
-    atomicMax(uArguments[kMixedList].groupsX, min(index + 1u, kListRow));
-    if (index % kListRow == 0u) atomicAdd(uArguments[kMixedList].groupsY, 1u);
-}
+void prepareTile(uint layer, uint tile) { transposeParts(layer, tile, sortCandidates(layer, tile)); }
 
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
     uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
     if (any(greaterThanEqual(tile, tiles))) return;
     uint index = tile.y * tiles.x + tile.x;
-    bool moves = prepareTile(kRasterLayer, index);
-    if (method.hasLast != 0u) moves = prepareTile(kLastLayer, index) || moves;
-    if (!moves) return;
-    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    const uint kBlocks = kCandidateTilePx / kGroupSize;
-    for (uint y = 0u; y < kBlocks; ++y)
-        for (uint x = 0u; x < kBlocks; ++x) listBlock(tile * kBlocks + uvec2(x, y), blocks);
+    prepareTile(kRasterLayer, index);
+    if (method.hasLast != 0u) prepareTile(kLastLayer, index);
 }

@@ -47,7 +47,9 @@ const Method kResolved = {
     .defaultSamples = 15,
     .readsEntityId = true,
     .readsInstantMotions = true,
-    .settings = {"history"},
+    .usesUniformMotion = true,
+    .listBytesPerPixel = 3, // the candidates
+    .settings = {"history", "uniformMotionPx"},
     .views = {"last"},
     .addBudgetLevels = [](BudgetLadder& ladder, const MotionBlurSettings& wanted
                        ) { addLookUpLevels(ladder, wanted, 1.0); },

@@ -76,16 +76,19 @@ std::vector<VkDescriptorType> listSearchBindings() {
         kBuffer,
         kBuffer,
         kSampled,
-        kSampled};
+        kSampled,
+        kBuffer};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
     for (size_t i = 0; i < images.size(); ++i)
-        if (i < 3 || hasLast) // else the last two are the first two again
+        if (i < 3 || candidates.hasLast) // else the last two are the first two again
             builder.read(images[i], Access::SampledCompute);
-    builder.read(rasterCandidates, Access::StorageRead);
-    if (hasLast)
-        builder.read(lastCandidates, Access::StorageRead);
+    builder.read(candidates.raster, Access::StorageRead);
+    if (candidates.hasLast)
+        builder.read(candidates.last, Access::StorageRead);
+    if (looks.isValid())
+        builder.read(looks, Access::StorageRead);
     counters = builder.write(counters, Access::StorageWrite);
 }
 
@@ -96,10 +99,12 @@ gpu::BindingList SearchResources::bind(
     for (const graph::ImageHandle image : images)
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.storage(resources.image(target));
-    for (const graph::BufferHandle buffer : {rasterCandidates, lastCandidates, counters})
+    for (const graph::BufferHandle buffer : {candidates.raster, candidates.last, counters})
         bindings.buffer(resources.buffer(buffer));
     for (const graph::ImageHandle color : {images[0], images[3]})
         bindings.sampled(resources.view(color), device.linearSampler());
+    // A binding that the shader does not use is some buffer all the same.
+    bindings.buffer(resources.buffer(looks.isValid() ? looks : counters));
     return bindings;
 }
 
@@ -107,13 +112,9 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
       mSort(
           device,
-          describePass(
-              "sort candidates",
-              motion_blur_resolved_sort_comp,
-              {kBuffer, kBuffer, kBuffer, kBuffer}
-          )
+          describePass("sort candidates", motion_blur_resolved_sort_comp, {kBuffer, kBuffer})
       ),
-      mResolve(device, describeResolve(listsPixels)),
+      mBlocks(device, !listsPixels), mResolve(device, describeResolve(listsPixels)),
       mRead(
           device,
           "resolved counters",
@@ -134,6 +135,8 @@ LookUpOutputs LookUp::add(
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
     params.setMethod(own);
+    if (!mBlocks.canFind(params))
+        params.uniformMotionPx = 0.0f;
     LookUpOutputs outputs;
     outputs.layers = mLayers.add(graph, inputs, params, hasLast);
     mHistoryBytes = history ? history->bytes() : 0;
@@ -143,7 +146,6 @@ LookUpOutputs LookUp::add(
     outputs.listed = cleared.listed;
     SearchResources& search = outputs.search;
     search.images = {raster.color, inputs.motionDepth, raster.surface, last.color, last.surface};
-    search.hasLast = hasLast;
     search.counters = cleared.counters;
     const auto list = [&](const SurfaceLayer& layer, LayerIndex index) {
         const CandidateOutputs listed = mCandidates.add(
@@ -152,55 +154,48 @@ LookUpOutputs LookUp::add(
         search.counters = listed.counters;
         return listed.candidates;
     };
-    search.rasterCandidates = search.lastCandidates = list(raster, LayerIndex::Raster);
+    SortedCandidates candidates;
+    candidates.hasLast = hasLast;
+    candidates.raster = candidates.last = list(raster, LayerIndex::Raster);
     if (hasLast)
-        search.lastCandidates = list(last, LayerIndex::Last);
-    addSort(graph, outputs, shared.sorter.addEmpty(graph, params), params);
+        candidates.last = list(last, LayerIndex::Last);
+    search.candidates = addSort(graph, candidates, params);
+    const BlockLookOutputs looks = mBlocks.addFind(
+        graph, raster, search.candidates, shared.sorter.addEmpty(graph, params), params
+    );
+    outputs.blocks = looks.blocks;
+    search.looks = looks.looks;
     shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
     outputs.picture =
         shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
+    // Pixels that may be traced are listed by the search.
+    if (!mListsPixels)
+        outputs.picture = mBlocks.addResolve(
+            graph, raster, outputs.blocks, search.looks, outputs.picture, params
+        );
     addResolve(graph, outputs, params);
     return outputs;
 }
 
-void LookUp::addSort(
-    graph::Graph& graph, LookUpOutputs& outputs, const SortedBlocks& empty, const PassParams& params
+SortedCandidates LookUp::addSort(
+    graph::Graph& graph, const SortedCandidates& listed, const PassParams& params
 ) const {
-    struct Data {
-        graph::BufferHandle rasterCandidates;
-        graph::BufferHandle lastCandidates;
-        SortedBlocks blocks;
-    };
-
-    SearchResources& search = outputs.search;
-    const Data& pass = graph.addPass<Data>(
+    return graph.addPass<SortedCandidates>(
         "sort candidates",
         graph::PassKind::Compute,
-        [&](graph::PassBuilder& builder, Data& data) {
-            data.rasterCandidates = data.lastCandidates =
-                builder.write(search.rasterCandidates, Access::StorageWrite);
-            if (search.hasLast)
-                data.lastCandidates = builder.write(search.lastCandidates, Access::StorageWrite);
-            data.blocks = empty;
-            data.blocks.lists.blocks = builder.write(empty.lists.blocks, Access::StorageWrite);
-            data.blocks.lists.arguments =
-                builder.write(empty.lists.arguments, Access::StorageWrite);
+        [&](graph::PassBuilder& builder, SortedCandidates& data) {
+            data.hasLast = listed.hasLast;
+            data.raster = data.last = builder.write(listed.raster, Access::StorageWrite);
+            if (listed.hasLast)
+                data.last = builder.write(listed.last, Access::StorageWrite);
         },
-        [this, params](const Data& data, graph::PassContext& context) {
-            const graph::PassResources& resources = context.resources;
+        [this, params](const SortedCandidates& data, graph::PassContext& context) {
             gpu::BindingList bindings;
-            for (const graph::BufferHandle buffer :
-                 {data.rasterCandidates,
-                  data.lastCandidates,
-                  data.blocks.lists.blocks,
-                  data.blocks.lists.arguments})
-                bindings.buffer(resources.buffer(buffer));
+            for (const graph::BufferHandle buffer : {data.raster, data.last})
+                bindings.buffer(context.resources.buffer(buffer));
             dispatchPixels(context, mSort.get(), bindings, params, countCandidateTiles(params));
         }
     );
-    search.rasterCandidates = pass.rasterCandidates;
-    search.lastCandidates = pass.lastCandidates;
-    outputs.blocks = pass.blocks;
 }
 
 void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params)
@@ -257,7 +252,7 @@ MotionBlurOutputs LookUp::end(
     outputs.color = shared.stillPixels.end(
         graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
     );
-    if (found.search.hasLast)
+    if (found.search.candidates.hasLast)
         outputs.views = {{"last", found.layers.last.color}};
     return outputs;
 }

@@ -6,6 +6,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/block_looks.h"
 #include "modules/motion_blur/passes/candidate_lists.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 #include "modules/motion_blur/shared_passes.h"
@@ -16,14 +17,13 @@
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 10 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 11 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     std::array<graph::ImageHandle, 5> images;
-    bool hasLast = false;
-    graph::BufferHandle rasterCandidates;
-    graph::BufferHandle lastCandidates; ///< rasterCandidates where there is no last frame
-    graph::BufferHandle counters;       ///< shader::ResolvedCounters
+    SortedCandidates candidates;
+    graph::BufferHandle looks;    ///< of BlockLooks
+    graph::BufferHandle counters; ///< shader::ResolvedCounters
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);
@@ -50,8 +50,8 @@ class LookUp {
   public:
     LookUp(gpu::Device& device, bool listsPixels);
 
-    /// \param params with shader::ResolvedParams, `hasLast` not set
-    /// \return params with it, too
+    /// \param params with shader::ResolvedParams, `hasLast` not set; comes back with it, and with
+    /// uniformMotionPx 0 where each pixel searches for itself
     [[nodiscard]] LookUpOutputs
     add(graph::Graph& graph,
         const MotionBlurInputs& inputs,
@@ -71,13 +71,9 @@ class LookUp {
 
   private:
     void readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const;
-    /// Nearest first, and lists the blocks with candidates.
-    void addSort(
-        graph::Graph& graph,
-        LookUpOutputs& outputs,
-        const SortedBlocks& empty,
-        const PassParams& params
-    ) const;
+    /// Nearest first.
+    [[nodiscard]] SortedCandidates
+    addSort(graph::Graph& graph, const SortedCandidates& listed, const PassParams& params) const;
     void addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params) const;
 
     bool mListsPixels;
@@ -85,12 +81,13 @@ class LookUp {
     SurfaceLayers mLayers;
     CandidateLists mCandidates;
     gpu::LazyPipeline mSort;
+    BlockLooks mBlocks;
     gpu::LazyPipeline mResolve;
     gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot
     uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };
 
-/// Bindings 0 to 10 of a pipeline that searches.
+/// Bindings 0 to 11 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur

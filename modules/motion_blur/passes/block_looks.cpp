@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/block_looks.h"
+
+#include "spirv/motion_blur/resolved_looks.comp.h"
+#include "spirv/motion_blur/resolved_planes.comp.h"
+#include "spirv/motion_blur/resolved_uniform.comp.h"
+
+#include "modules/motion_blur/passes/dispatch.h"
+#include "shaders/motion_blur/resolved_shared.h"
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
+    gpu::ComputePipelineDesc desc = describePass(
+        "resolve uniform", motion_blur_resolved_uniform_comp, {kSampled, kStorage, kBuffer, kBuffer}
+    );
+    // On a software device a thread takes a column of the block: what it loads serves all of it.
+    const uint32_t rows = isSoftware(device) ? 1u : shader::kGroupSize;
+    desc.specialization = {shader::kUniformList, rows, rows};
+    return desc;
+}
+
+gpu::ComputePipelineDesc describeFind(bool sortsUniform) {
+    gpu::ComputePipelineDesc desc = describePass(
+        "find looks",
+        motion_blur_resolved_looks_comp,
+        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
+    );
+    desc.specialization = {sortsUniform ? 1u : 0u};
+    return desc;
+}
+
+VkDeviceSize countAllBlocks(const PassParams& params) {
+    const glm::uvec2 blocks = countBlocks(params);
+    return VkDeviceSize(blocks.x) * blocks.y;
+}
+
+VkDeviceSize countLookBytes(const PassParams& params) {
+    return countAllBlocks(params) * (params.sampleCount + 1) * sizeof(shader::BlockLook);
+}
+
+} // namespace
+
+BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
+    : mDevice(device),
+      mFit(
+          device,
+          describePass("fit planes", motion_blur_resolved_planes_comp, {kSampled, kBuffer, kBuffer})
+      ),
+      mFind(device, describeFind(sortsUniform)), mResolve(device, describeResolve(device)) {}
+
+bool BlockLooks::canFind(const PassParams& params) const {
+    return params.sampleCount <= shader::kMostLooks &&
+           countLookBytes(params) <= mDevice.limits().maxStorageBufferRange;
+}
+
+graph::BufferHandle BlockLooks::addFit(
+    graph::Graph& graph,
+    const SurfaceLayer& raster,
+    const SortedCandidates& candidates,
+    const PassParams& params
+) const {
+    struct Data {
+        graph::BufferHandle candidates;
+        graph::BufferHandle planes;
+    };
+
+    const graph::BufferHandle planes = graph.createBuffer(
+        "block planes", {countAllBlocks(params) * sizeof(shader::BlockPlane), kListUsage}
+    );
+    return graph
+        .addPass<Data>(
+            "fit planes",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                builder.read(raster.surface, Access::SampledCompute);
+                data.candidates = builder.read(candidates.raster, Access::StorageRead);
+                data.planes = builder.write(planes, Access::StorageWrite);
+            },
+            [this,
+             surface = raster.surface,
+             params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                gpu::BindingList bindings;
+                bindings.sampled(resources.view(surface), mDevice.nearestSampler())
+                    .buffer(resources.buffer(data.candidates))
+                    .buffer(resources.buffer(data.planes));
+                dispatchPixels(context, mFit.get(), bindings, params, countBlocks(params));
+            }
+        )
+        .planes;
+}
+
+BlockLookOutputs BlockLooks::addFind(
+    graph::Graph& graph,
+    const SurfaceLayer& raster,
+    const SortedCandidates& candidates,
+    const SortedBlocks& empty,
+    const PassParams& params
+) const {
+    struct Data {
+        SortedCandidates candidates;
+        graph::BufferHandle planes;
+        BlockLookOutputs sorted;
+    };
+
+    graph::BufferHandle planes;
+    graph::BufferHandle looks;
+    if (params.uniformMotionPx > 0.0f) {
+        planes = addFit(graph, raster, candidates, params);
+        looks = graph.createBuffer("block looks", {countLookBytes(params), kListUsage});
+    }
+    return graph
+        .addPass<Data>(
+            "find looks",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.candidates = candidates;
+                builder.read(candidates.raster, Access::StorageRead);
+                if (candidates.hasLast)
+                    builder.read(candidates.last, Access::StorageRead);
+                if (planes.isValid()) {
+                    data.planes = builder.read(planes, Access::StorageRead);
+                    data.sorted.looks = builder.write(looks, Access::StorageWrite);
+                }
+                data.sorted.blocks = empty;
+                BlockLists& lists = data.sorted.blocks.lists;
+                lists.blocks = builder.write(lists.blocks, Access::StorageWrite);
+                lists.arguments = builder.write(lists.arguments, Access::StorageWrite);
+            },
+            [this, params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                const BlockLists& lists = data.sorted.blocks.lists;
+                // Bindings that the shader does not use are some buffer all the same.
+                const bool hasPlanes = data.planes.isValid();
+                gpu::BindingList bindings;
+                for (const graph::BufferHandle buffer :
+                     {data.candidates.raster,
+                      data.candidates.last,
+                      hasPlanes ? data.planes : lists.blocks,
+                      hasPlanes ? data.sorted.looks : lists.blocks,
+                      lists.blocks,
+                      lists.arguments})
+                    bindings.buffer(resources.buffer(buffer));
+                dispatchPixels(context, mFind.get(), bindings, params, countBlocks(params));
+            }
+        )
+        .sorted;
+}
+
+graph::ImageHandle BlockLooks::addResolve(
+    graph::Graph& graph,
+    const SurfaceLayer& raster,
+    const SortedBlocks& blocks,
+    graph::BufferHandle looks,
+    graph::ImageHandle target,
+    const PassParams& params
+) const {
+    if (!looks.isValid())
+        return target;
+
+    struct Data {
+        BlockLists lists;
+        graph::BufferHandle looks;
+        graph::ImageHandle target;
+    };
+
+    return graph
+        .addPass<Data>(
+            "resolve uniform",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                builder.read(raster.color, Access::SampledCompute);
+                data.looks = builder.read(looks, Access::StorageRead);
+                data.lists = {
+                    builder.read(blocks.lists.blocks, Access::StorageRead),
+                    builder.read(blocks.lists.arguments, Access::IndirectRead)};
+                data.target = builder.write(target, Access::StorageWrite);
+            },
+            [this, color = raster.color, params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                gpu::BindingList bindings;
+                bindings.sampled(resources.view(color), mDevice.linearSampler())
+                    .storage(resources.image(data.target))
+                    .buffer(resources.buffer(data.looks))
+                    .buffer(resources.buffer(data.lists.blocks));
+                dispatchList(
+                    context,
+                    mResolve.get(),
+                    bindings,
+                    params,
+                    data.lists.arguments,
+                    shader::kUniformList
+                );
+            }
+        )
+        .target;
+}
+
+} // namespace shutter::motion_blur

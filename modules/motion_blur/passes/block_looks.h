@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What the pixels of a block look at, found for all of them together: where they see one plane of
+// this frame's raster, that is known without a search.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/surface_layers.h"
+
+namespace shutter::motion_blur {
+
+/// Candidates of each tile, sorted.
+struct SortedCandidates {
+    graph::BufferHandle raster; ///< shader::TileCandidates[tile]
+    graph::BufferHandle last;   ///< `raster` where there is no last frame
+    bool hasLast = false;
+};
+
+struct BlockLookOutputs {
+    SortedBlocks blocks;       ///< kUniformList, kMixedList
+    graph::BufferHandle looks; ///< for each block a shader::BlockLook whose perX is how many
+                               ///< instants it takes, then one per instant; invalid: none is known
+};
+
+class BlockLooks {
+  public:
+    /// \param sortsUniform blocks that see a plane at every instant are in a list of their own
+    BlockLooks(gpu::Device& device, bool sortsUniform);
+
+    /// Whether there are few enough instants, and the device takes the buffer that the looks need.
+    [[nodiscard]] bool canFind(const PassParams& params) const;
+
+    /// Sorts the blocks that something moves in.
+    /// \param raster this frame's
+    /// \param empty BlockSorter::addEmpty()
+    /// \param params with shader::ResolvedParams; uniformMotionPx 0: each pixel searches for
+    /// itself, as it must unless canFind()
+    [[nodiscard]] BlockLookOutputs addFind(
+        graph::Graph& graph,
+        const SurfaceLayer& raster,
+        const SortedCandidates& candidates,
+        const SortedBlocks& empty,
+        const PassParams& params
+    ) const;
+
+    /// \param looks of addFind()
+    /// \return target with the uniform blocks written
+    [[nodiscard]] graph::ImageHandle addResolve(
+        graph::Graph& graph,
+        const SurfaceLayer& raster,
+        const SortedBlocks& blocks,
+        graph::BufferHandle looks,
+        graph::ImageHandle target,
+        const PassParams& params
+    ) const;
+
+  private:
+    /// \return shader::BlockPlane[block]
+    [[nodiscard]] graph::BufferHandle addFit(
+        graph::Graph& graph,
+        const SurfaceLayer& raster,
+        const SortedCandidates& candidates,
+        const PassParams& params
+    ) const;
+
+    gpu::Device& mDevice;
+    gpu::LazyPipeline mFit;
+    gpu::LazyPipeline mFind;
+    gpu::LazyPipeline mResolve;
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// What the pixels of a block look at, found for all of them together. Where all that they may see at an
+// instant is one plane of this frame's raster, where they look is an affine map, and nothing is searched.
+// At other instants the candidates are left out that this frame's raster does not show where the block
+// would see them. A thread per block.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/block_plane.glsl"
+#include "motion_blur/pixel_ray.glsl"
+
+layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
+
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    ResolvedParams method;
+};
+layout(binding = 0, scalar) readonly buffer RasterCandidates { TileCandidates uRaster[]; };
+layout(binding = 1, scalar) readonly buffer LastCandidates { TileCandidates uLast[]; };
+layout(binding = 2, scalar) readonly buffer Planes { BlockPlane uPlanes[]; };
+layout(binding = 3, scalar) writeonly buffer Looks { BlockLook uLooks[]; };
+layout(binding = 4, scalar) buffer BlockLists {
+    BlockHeader header;
+    uint entries[];
+} uBlocks;
+layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
+
+/// Beyond the places that are looked at: what a linear fetch reads.
+const float kFetchMarginPx = 1.0f;
+/// Most blocks of the raster, across and down, that a block may look at.
+const int kMostBlocksAcross = 4;
+const float kFarAway = 1.0e4f;
+const uint kLeastInstants = 3u;
+/// Instants at which a way is measured: what spins is seldom where it was at all of them.
+const uint kWayInstants = 5u;
+
+/// What a tile's candidates have in common in a part of the exposure.
+struct Shared {
+    uint mover;  // kNoMover: nothing
+    vec2 alongs; // least and greatest of all, at the instant
+};
+
+/// Least and greatest at the instant.
+vec2 alongsOf(Candidate candidate, bool perspective) {
+    float nearest = alongOf(uintBitsToFloat(candidate.nearest), perspective);
+    float farthest = alongOf(uintBitsToFloat(~candidate.farthestInverted), perspective);
+    return vec2(min(nearest, farthest), max(nearest, farthest));
+}
+
+Shared findShared(uint tile, uint slots, bool perspective) {
+    Shared seen = Shared(kNoMover, vec2(3.0e38f, 0.0f));
+    for (; slots != 0u; slots &= slots - 1u) {
+        Candidate candidate = uRaster[tile].candidates[findLSB(slots)];
+        vec2 alongs = alongsOf(candidate, perspective);
+        uint mover = candidate.mover;
+        if (perspective && mover == kSkyMover) {
+            mover = kWorldMover;
+            alongs = vec2(0.0f);
+        }
+        if (seen.mover != kNoMover && mover != seen.mover)
+            return Shared(kNoMover, vec2(0.0f));
+        seen.mover = mover;
+        seen.alongs = vec2(min(seen.alongs.x, alongs.x), max(seen.alongs.y, alongs.y));
+    }
+    if (seen.mover == kDeformedMover || seen.mover == kSkyMover) seen.mover = kNoMover;
+    return seen;
+}
+
+/// Bounds of the places that a block may look at.
+struct Reach {
+    bool isInFront; // of the camera, all of it
+    vec2 low;
+    vec2 high;
+};
+
+Reach findReach(vec4 rasterFromInstant[3], vec2 first, vec2 alongs, bool perspective) {
+    Reach reach = Reach(true, vec2(3.0e38f), vec2(-3.0e38f));
+    for (uint corner = 0u; corner < 4u; ++corner) {
+        vec2 x = first + float(kGroupSize) * vec2(corner & 1u, corner >> 1u);
+        PixelRay ray = findRay(rasterFromInstant, x, perspective);
+        for (uint end = 0u; end < 2u; ++end) {
+            vec3 point = ray.base + ray.slope * alongs[end];
+            reach.isInFront = reach.isInFront && (!perspective || point.z > kLeastDepthRatio);
+            vec2 place = projectPicture(point, perspective);
+            reach.low = min(reach.low, place);
+            reach.high = max(reach.high, place);
+        }
+    }
+    reach.low -= kFetchMarginPx;
+    reach.high += kFetchMarginPx;
+    return reach;
+}
+
+uvec2 countBlocks() { return (params.sizePx + kGroupSize - 1u) / kGroupSize; }
+
+BlockPlane getPlane(ivec2 block) { return uPlanes[block.y * int(countBlocks().x) + block.x]; }
+
+vec2 centreOf(ivec2 block) { return (vec2(block) + 0.5f) * float(kGroupSize); }
+
+/// \return where the block looks at the instant; isAffine: all that it may see is one plane
+PlaneMap lookAt(ivec2 block, uint mover, vec2 alongs, InstantMotion motion, bool perspective) {
+    PlaneMap none;
+    none.isAffine = false;
+    if (motion.instantFromRaster[2] == vec4(0.0f)) return none;
+    Reach reach = findReach(
+        motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongs, perspective
+    );
+    bool isInside = all(greaterThanEqual(reach.low, vec2(0.0f))) &&
+                    all(lessThan(reach.high, vec2(params.sizePx)));
+    if (!reach.isInFront || !isInside) return none;
+    ivec2 low = ivec2(reach.low) / int(kGroupSize);
+    ivec2 high = ivec2(reach.high) / int(kGroupSize);
+    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return none;
+    ivec2 middle = (low + high) / 2;
+    BlockPlane plane = getPlane(middle);
+    if (plane.mover != mover) return none;
+    PlaneMap map =
+        mapPlane(motion.instantFromRaster, plane, centreOf(middle), centreOf(block), perspective);
+    if (!map.isAffine) return none;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            BlockPlane other = getPlane(ivec2(x, y));
+            float gap = planeGap(plane, centreOf(middle), other, centreOf(ivec2(x, y)));
+            // Written so that NaN is not uniform.
+            bool isOne = other.mover == mover && gap * map.pxPerAlong <= params.uniformMotionPx;
+            if (!isOne) return none;
+        }
+    return map;
+}
+
+/// \return whether this frame's raster shows the candidate where the block would see it, as far as the
+/// keys of blocks say
+bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspective) {
+    uint bit = keyBit(candidate.key);
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
+    Reach reach = findReach(
+        motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongsOf(candidate, perspective),
+        perspective
+    );
+    if (!reach.isInFront) return true;
+    vec2 size = vec2(params.sizePx);
+    if (any(lessThan(reach.high, vec2(0.0f))) || any(greaterThanEqual(reach.low, size)))
+        return false;
+    ivec2 low = ivec2(max(reach.low, vec2(0.0f))) / int(kGroupSize);
+    ivec2 high = ivec2(min(reach.high, size - 1.0f)) / int(kGroupSize);
+    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return true;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x)
+            if ((getPlane(ivec2(x, y)).keys & bit) != 0u) return true;
+    return false;
+}
+
+/// Candidates that the block may see.
+uint findShown(
+    ivec2 block, uint tile, uint slots, uint instant, InstantMotionTable motions, bool perspective
+) {
+    uint shown = slots;
+    for (; slots != 0u; slots &= slots - 1u) {
+        uint slot = uint(findLSB(slots));
+        Candidate candidate = uRaster[tile].candidates[slot];
+        if (candidate.mover == kDeformedMover) continue;
+        InstantMotion motion = motions.motions[candidate.mover * params.sampleCount + instant];
+        if (!isShown(block, candidate, motion, perspective)) shown &= ~(1u << slot);
+    }
+    return shown;
+}
+
+Candidate getCandidate(uint layer, uint tile, uint slot) {
+    if (layer == kLastLayer) return uLast[tile].candidates[slot];
+    return uRaster[tile].candidates[slot];
+}
+
+/// How far the block looks along the layer's picture in the course of the exposure, by the candidate whose
+/// picture moves most: at a middle depth, at a few instants. Pixels.
+float measureWay(uint index, ivec2 block, uint tile, bool perspective) {
+    LayerMotion layer = getLayer(InstantMotionsRef(method.motions), index);
+    float longest = 0.0f;
+    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+        Candidate candidate = getCandidate(index, tile, slot);
+        if (candidate.key == kNoKey) break;
+        if (candidate.mover == kDeformedMover) return kFarAway;
+        vec2 alongs = alongsOf(candidate, perspective);
+        vec2 before = vec2(0.0f);
+        float way = 0.0f;
+        for (uint i = 0u; i < kWayInstants; ++i) {
+            uint instant = i * (params.sampleCount - 1u) / (kWayInstants - 1u);
+            InstantMotion motion = InstantMotionTable(layer.motions)
+                                       .motions[candidate.mover * params.sampleCount + instant];
+            if (motion.rasterFromInstant[2] == vec4(0.0f)) return kFarAway;
+            PixelRay ray = findRay(motion.rasterFromInstant, centreOf(block), perspective);
+            vec2 place = placeOn(ray, 0.5f * (alongs.x + alongs.y), perspective);
+            if (i > 0u) way += distance(place, before);
+            before = place;
+        }
+        longest = max(longest, way);
+    }
+    return longest;
+}
+
+/// How a block is to be resolved.
+struct Found {
+    uint instants;  // how many of them
+    bool isUniform; // it sees a plane at each
+};
+
+/// Finds what the block looks at, at each instant.
+Found findLooks(ivec2 block, uint tile, uint looks) {
+    InstantMotionsRef motions = InstantMotionsRef(method.motions);
+    LayerMotion layer = getLayer(motions, kRasterLayer);
+    InstantMotionTable table = InstantMotionTable(layer.motions);
+    bool perspective = motions.value.isPerspective != 0u;
+    uint parts = partsPerInstant(params.sampleCount);
+    uint planes = 0u;
+    vec2 before = vec2(0.0f);
+    float way = 0.0f;
+    for (uint instant = 0u; instant < params.sampleCount; ++instant) {
+        uint slots = uRaster[tile].parts[partOf(instant, parts)];
+        Shared seen = findShared(tile, slots, perspective);
+        // What stands still is no candidate: it may hide some of what moves.
+        if (layer.isStill != 0u && getPlane(block).mover != seen.mover) seen.mover = kNoMover;
+        PlaneMap map;
+        map.isAffine = false;
+        if (seen.mover != kNoMover) {
+            InstantMotion motion = table.motions[seen.mover * params.sampleCount + instant];
+            map = lookAt(block, seen.mover, seen.alongs, motion, perspective);
+        }
+        BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
+        if (map.isAffine) {
+            ++planes;
+            if (planes > 1u) way += distance(map.place, before);
+            before = map.place;
+        } else {
+            uint shown = findShown(block, tile, slots, instant, table, perspective);
+            look = BlockLook(vec2(0.0f), kSearchedLook, shown);
+        }
+        uLooks[looks + instant] = look;
+    }
+    Found found;
+    found.isUniform = planes == params.sampleCount;
+    if (!found.isUniform) {
+        way = measureWay(kRasterLayer, block, tile, perspective);
+        if (method.hasLast != 0u)
+            way = max(way, measureWay(kLastLayer, block, tile, perspective));
+    }
+    // About one for each pixel of the way, if that is few enough to leave some out evenly.
+    found.instants = uint(min(way, kFarAway)) + kLeastInstants;
+    if (2u * found.instants > params.sampleCount) found.instants = params.sampleCount;
+    return found;
+}
+
+void listBlock(uvec2 block, uvec2 blocks, uint list) {
+    uint index = list == kUniformList ? atomicAdd(uBlocks.header.uniformCount, 1u)
+                                      : atomicAdd(uBlocks.header.mixedCount, 1u);
+    uBlocks.entries[list * blocks.x * blocks.y + index] = block.x | block.y << 16;
+    atomicMax(uArguments[list].groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uArguments[list].groupsY, 1u);
+}
+
+void main() {
+    uvec2 block = gl_GlobalInvocationID.xy;
+    uvec2 blocks = countBlocks();
+    if (any(greaterThanEqual(block, blocks))) return;
+    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
+    uint tile = tileAt.y * tiles.x + tileAt.x;
+    bool moves = uRaster[tile].candidates[0].key != kNoKey;
+    if (method.hasLast != 0u) moves = moves || uLast[tile].candidates[0].key != kNoKey;
+    if (!moves) return;
+    bool isUniform = false;
+    if (params.uniformMotionPx > 0.0f) {
+        uint looks = (block.y * blocks.x + block.x) * (params.sampleCount + 1u);
+        Found found = findLooks(ivec2(block), tile, looks + 1u);
+        uLooks[looks].perX = found.instants;
+        isUniform = kSortsUniform && found.isUniform;
+    }
+    listBlock(block, blocks, isUniform ? kUniformList : kMixedList);
+}

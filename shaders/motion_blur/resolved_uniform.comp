@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// What each pixel of a block saw where all that the block may see is one plane of this frame's raster:
+// only colours are read.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/resolved.glsl"
+#define SHUTTER_BLOCK_LIST_BINDING 3
+#include "motion_blur/block_list.glsl"
+
+layout(local_size_x = kGroupSize, local_size_y_id = 1) in;
+layout(constant_id = 2) const uint kThreadRows = kGroupSize; // of a group
+layout(push_constant, scalar) uniform Push {
+    MotionBlurParams params;
+    ResolvedParams method;
+};
+layout(binding = 0) uniform sampler2D uColor;
+layout(binding = 1, rgba16f) uniform writeonly image2D uBlurred;
+layout(binding = 2, scalar) readonly buffer Looks { BlockLook uLooks[]; };
+
+/// Pixels of a block, in one column, that a thread takes: they share what is loaded.
+const uint kRows = kGroupSize / kThreadRows;
+
+void main() {
+    uvec2 block;
+    if (!findBlock(params.sizePx, block)) return;
+    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
+    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
+    uint looks = (block.y * blocks.x + block.x) * (params.sampleCount + 1u);
+    uint count = uLooks[looks].perX;
+    vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
+    vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
+    float perLook = float(params.sampleCount) / float(count);
+    vec3 sums[kRows];
+    for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
+    for (uint i = 0u; i < count; ++i) {
+        BlockLook look = uLooks[looks + 1u + uint((float(i) + 0.5f) * perLook)];
+        vec2 at = lookFrom(look, inBlock) * pixelsToUv;
+        vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows) * pixelsToUv;
+        for (uint row = 0u; row < kRows; ++row)
+            sums[row] += textureLod(uColor, at + step_ * float(row), 0.0f).rgb;
+    }
+    for (uint row = 0u; row < kRows; ++row) {
+        ivec2 to = pixel + ivec2(0, row * kThreadRows);
+        if (all(lessThan(uvec2(to), params.sizePx)))
+            imageStore(uBlurred, to, vec4(sums[row] / float(count), 1.0f));
+    }
+}
