@@ -70,8 +70,8 @@ std::vector<Row> makeTapRows() {
          &S::uniformMotionPx,
          "px",
          {.lowest = 0, .highest = 16},
-         "Deviation from the dominant motion within which taps read colour only. 0 turns "
-         "the fast path off; higher is faster and less exact.",
+         "Deviation from a block's common motion within which its pixels read colour only. 0 "
+         "turns the fast path off; higher is faster and less exact.",
          "Uniform motion"},
         {"halfResolutionPx",
          &S::halfResolutionPx,

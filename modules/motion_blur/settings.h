@@ -66,8 +66,8 @@ struct MotionBlurSettings {
                                    ///< which the second direction is the pixel's own
     uint32_t filterLevels = 5;     ///< passes of the denoiser, each twice as wide as the last
     float luminanceSigma = 4.0f;   ///< standard deviations that the denoiser takes for noise
-    float uniformMotionPx = 0.5f;  ///< deviation from the dominant motion within which taps of the
-                                   ///< gathers read colour only; 0: never
+    float uniformMotionPx = 0.5f;  ///< deviation from a block's common motion within which its
+                                   ///< pixels read colour only; 0: never
     float rayShare = 1.0f;         ///< of the masked pixels that trace; below 1 quads share a ray,
                                    ///< below 1/4 parts of the mask go without
     /// Uniform motion from which the gathers work at half of the resolution along it.

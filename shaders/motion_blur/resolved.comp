@@ -52,9 +52,8 @@ void main() {
     uint searched = params.sampleCount;
     // Rays may go to any of them.
     if (!kFindsEdges && params.uniformMotionPx > 0.0f) searched = uLooks[search.looks - 1u].perX;
-    float perSearch = float(params.sampleCount) / float(searched);
     for (uint i = 0u; i < searched; ++i) {
-        uint instant = uint((float(i) + 0.5f) * perSearch);
+        uint instant = takenInstant(i, searched, params.sampleCount);
         Doubt doubt = kNoDoubt;
         Seen seen = searchInstant(search, instant, guesses, doubt);
         vec3 color = vec3(0.0f);

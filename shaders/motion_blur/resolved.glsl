@@ -83,6 +83,14 @@ vec2 lookFrom(BlockLook look, vec2 inBlock) {
            unpackHalf2x16(look.perY) * inBlock.y;
 }
 
+/// The `index`th of `count` instants taken out of `all`: spread evenly, and alike in both directions of
+/// time, so that what is left out moves no picture.
+uint takenInstant(uint index, uint count, uint all) {
+    uint fromEnd = min(index, count - 1u - index);
+    uint taken = uint((float(fromEnd) + 0.5f) * (float(all) / float(count)));
+    return fromEnd == index ? taken : all - 1u - taken;
+}
+
 /// Nearest depth that counts as in front of a perspective camera, metres.
 const float kLeastDepth = 1.0e-6f;
 

@@ -133,6 +133,8 @@ PlaneMap lookAt(ivec2 block, uint mover, vec2 alongs, InstantMotion motion, bool
 /// keys of blocks say
 bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspective) {
     uint bit = keyBit(candidate.key);
+    // What hides the rest now is looked for wherever it goes: what lies beside it comes into sight.
+    if ((getPlane(block).keys & bit) != 0u) return true;
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
     Reach reach = findReach(
         motion.rasterFromInstant, vec2(block) * float(kGroupSize), alongsOf(candidate, perspective),

@@ -31,11 +31,10 @@ void main() {
     uint count = uLooks[looks].perX;
     vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    float perLook = float(params.sampleCount) / float(count);
     vec3 sums[kRows];
     for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
     for (uint i = 0u; i < count; ++i) {
-        BlockLook look = uLooks[looks + 1u + uint((float(i) + 0.5f) * perLook)];
+        BlockLook look = uLooks[looks + 1u + takenInstant(i, count, params.sampleCount)];
         vec2 at = lookFrom(look, inBlock) * pixelsToUv;
         vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows) * pixelsToUv;
         for (uint row = 0u; row < kRows; ++row)
