@@ -73,7 +73,7 @@ class Measured(unittest.TestCase):
     def test_the_claims_about_cost(self):
         # So small and once only, times say nothing: claims may break, but each is measured. Toggles
         # has a test of its own.
-        names = ["Still", "MovingShare", "Reveal", "Entities", "FullScreen", "HybridAgainstGather",
+        names = ["Still", "MovingShare", "Reveal", "Entities", "FullScreen", "MethodsAgainstGather",
                  "RevealTraversal"]
         cases = [word for name in names for word in ("--case", name)]
         results = self.measure("--suite", "demand", *cases, statuses=(0, 1), size="160x90")

@@ -25,6 +25,7 @@ struct TiledMethod {
 constexpr TiledMethod kMethods[] = {
     {"gather", true},
     {"hybrid", true},
+    {"resolved", true},
     {"mcguire2012", false},
     {"guertin2014", false},
     {"jimenez2014", false},

@@ -7,8 +7,8 @@ namespace shutter::demand {
 
 const std::array<Room, 2>& listRooms() {
     static constexpr std::array kRooms = {
-        Room{"vase", &generator::buildVaseScene},
-        Room{"courtyard", &generator::buildCourtyardScene}};
+        Room{"vase", &generator::buildVaseScene, 1.25},
+        Room{"courtyard", &generator::buildCourtyardScene, 1.8}};
     return kRooms;
 }
 

@@ -13,6 +13,7 @@ namespace shutter::demand {
 struct Room {
     const char* name;
     generator::GltfWriter (*build)();
+    double resolvedOverGather; ///< most that a frame of resolved may take
 };
 
 /// Vase and courtyard.

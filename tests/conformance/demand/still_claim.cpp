@@ -16,6 +16,8 @@ constexpr double kFrameRatio = 1.01;
 constexpr uint32_t kSmaller = 4;
 constexpr uint32_t kMoreRounds = 20;
 
+constexpr const char* kMethods[] = {"hybrid", "resolved"};
+
 struct StillScene {
     const char* name;
     const char* why; ///< it stands still
@@ -31,13 +33,28 @@ const StillScene kScenes[] = {
      generator::kScalingExposureSeconds},
 };
 
-core::Result<Subjects>
-makePair(gpu::Device& device, const Stage& stage, uint32_t width, uint32_t height) {
+/// A film of one method in one scene.
+struct Film {
+    gpu::Device& device;
+    const Stage& stage;
+    const DemandOptions& options;
+    const char* method;
+    const char* why;
+
+    [[nodiscard]] std::string nameCheck(const char* check) const {
+        return fmt::format("{}: {}: {}", why, method, check);
+    }
+};
+
+/// sharp and the film's method, frame after frame.
+core::Result<Subjects> makePair(const Film& film, uint32_t width, uint32_t height) {
     Subjects subjects;
-    for (const char* method : {"sharp", "hybrid"}) {
-        auto subject = Subject::create(device, stage, method, width, height);
+    for (const char* method : {"sharp", film.method}) {
+        auto subject = Subject::create(film.device, film.stage, method, width, height);
         if (!subject)
             return subject.error();
+        // Else a method that keeps the last frame would draw that one, too, before each picture.
+        subject.value()->setStep(scene::kStillFrameSeconds);
         subjects.push_back(std::move(subject).value());
     }
     return subjects;
@@ -53,15 +70,9 @@ uint64_t countValuesThatDiffer(const image::Image& a, const image::Image& b) {
 }
 
 /// What the frame is made of.
-core::Status addParts(
-    Findings& findings,
-    gpu::Device& device,
-    const Stage& stage,
-    const DemandOptions& options,
-    const std::string& why
-) {
-    const uint32_t levelsBefore = device.living().accelerationStructures;
-    auto subjects = makePair(device, stage, options.width, options.height);
+core::Status addParts(Findings& findings, const Film& film) {
+    const uint32_t levelsBefore = film.device.living().accelerationStructures;
+    auto subjects = makePair(film, film.options.width, film.options.height);
     if (!subjects)
         return subjects.error();
     std::vector<render::FrameResult> drawn;
@@ -73,30 +84,27 @@ core::Status addParts(
         drawn.push_back(std::move(frame).value());
     }
     const GraphParts sharp = readDump(drawn[0].dump);
-    const GraphParts hybrid = readDump(drawn[1].dump);
+    const GraphParts blurred = readDump(drawn[1].dump);
+    const uint64_t passCount = blurred.passes.size();
     const auto add = [&](const char* check, uint64_t found, const char* unit, uint64_t samples) {
-        findings.checks.push_back(
-            {fmt::format("{}: {}", why, check), double(found), 0.0, unit, samples}
-        );
+        findings.checks.push_back({film.nameCheck(check), double(found), 0.0, unit, samples});
     };
-    add("passes beyond sharp's", countBeyond(hybrid.passes, sharp.passes), "", hybrid.passes.size()
-    );
-    add("images beyond sharp's", countBeyond(hybrid.images, sharp.images), "", hybrid.images.size()
-    );
-    add("buffers beyond sharp's",
-        countBeyond(hybrid.buffers, sharp.buffers),
+    add("passes beyond sharp's", countBeyond(blurred.passes, sharp.passes), "", passCount);
+    add("images beyond sharp's",
+        countBeyond(blurred.images, sharp.images),
         "",
-        hybrid.passes.size());
+        blurred.images.size());
+    add("buffers beyond sharp's", countBeyond(blurred.buffers, sharp.buffers), "", passCount);
     const uint64_t most =
         std::max(drawn[0].statistics.transientBytes, drawn[1].statistics.transientBytes);
     const uint64_t least =
         std::min(drawn[0].statistics.transientBytes, drawn[1].statistics.transientBytes);
     add("memory that differs from sharp's", most - least, "bytes", most);
-    const uint32_t levels = device.living().accelerationStructures;
+    const uint32_t levels = film.device.living().accelerationStructures;
     add("acceleration structures made",
         levels - std::min(levels, levelsBefore), // earlier ones may have gone meanwhile
         "",
-        hybrid.passes.size());
+        passCount);
     add("values that differ from sharp's",
         countValuesThatDiffer(drawn[0].display, drawn[1].display),
         "",
@@ -104,37 +112,31 @@ core::Status addParts(
     return {};
 }
 
-core::Status addTime(
-    Findings& findings,
-    gpu::Device& device,
-    const Stage& stage,
-    const DemandOptions& options,
-    const std::string& why
-) {
-    const uint32_t width = std::max(options.width / kSmaller, 1u);
-    const uint32_t height = std::max(options.height / kSmaller, 1u);
-    auto subjects = makePair(device, stage, width, height);
+core::Status addTime(Findings& findings, const Film& film) {
+    const uint32_t width = std::max(film.options.width / kSmaller, 1u);
+    const uint32_t height = std::max(film.options.height / kSmaller, 1u);
+    auto subjects = makePair(film, width, height);
     if (!subjects)
         return subjects.error();
-    auto frames = takeTurns(subjects.value(), options.rounds * kMoreRounds);
+    auto frames = takeTurns(subjects.value(), film.options.rounds * kMoreRounds);
     if (!frames)
         return frames.error();
     // On a software device the frame is the processors' work, whoever else uses them.
-    const bool isSoftware = device.info().kind == "software";
+    const bool isSoftware = film.device.info().kind == "software";
     const Figure time = [isSoftware](const render::FrameStatistics& frame) {
         return isSoftware ? frame.measures.at(kProcessMilliseconds) : frame.wallMilliseconds;
     };
     const Frames& sharp = frames.value()[0];
-    const Frames& hybrid = frames.value()[1];
+    const Frames& blurred = frames.value()[1];
     findings.checks.push_back(checkMedian(
-        why + ": time of the frame",
-        compare(hybrid, sharp, time, time),
+        film.nameCheck("time of the frame"),
+        compare(blurred, sharp, time, time),
         kFrameRatio,
         "of sharp's",
-        hybrid.size(),
+        blurred.size(),
         fmt::format(
             "{:.4g} against {:.4g} ms {} at {}x{}",
-            summarize(hybrid, time).median,
+            summarize(blurred, time).median,
             summarize(sharp, time).median,
             isSoftware ? "of processors" : "on the wall's clock",
             width,
@@ -155,8 +157,9 @@ core::Result<Findings> measureStill(gpu::Device& device, const DemandOptions& op
         auto stage = loadStage(options, scene.name, scene.build, std::move(arguments));
         if (!stage)
             return stage.error();
-        for (const auto add : {addParts, addTime})
-            SHUTTER_TRY(add(findings, device, *stage.value(), options, scene.why));
+        for (const char* method : kMethods)
+            for (const auto add : {addParts, addTime})
+                SHUTTER_TRY(add(findings, {device, *stage.value(), options, method, scene.why}));
     }
     return findings;
 }
@@ -167,7 +170,8 @@ Claim makeStillClaim() {
     return {
         "Still",
         "Stillness costs nothing",
-        "Frames of hybrid against frames of sharp where nothing moves or nothing is exposed: what "
+        "Frames of hybrid and resolved against frames of sharp where nothing moves or nothing is "
+        "exposed: what "
         "they are made of, and their time with all that the CPU does.",
         measureStill};
 }
