@@ -14,8 +14,8 @@ namespace shutter::io {
 /// Whether it begins with `data:`, in any case; what follows need not be valid.
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
-/// Bytes of a data URI, base64 (the URL-safe alphabet as well, padding may lack) or
-/// percent-encoded; its media type is not looked at. An Error names what is malformed.
+/// Bytes of a data URI (RFC 2397), base64 (the URL-safe alphabet as well, padding may lack) or
+/// percent-encoded; which media type it tells does not matter. An Error names what is malformed.
 [[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
 
 /// The file that a relative URI names below `folder` (empty: the working folder). Refuses, without

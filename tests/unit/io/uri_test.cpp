@@ -29,6 +29,41 @@ TEST(DataUri, PercentEncodedTextDecodes) {
     EXPECT_EQ(decodeText("data:,a%20b%2C"), "a b,");
 }
 
+TEST(DataUri, MediaTypesAndParametersAreRead) {
+    EXPECT_EQ(decodeText("data:image/svg+xml;charset=utf-8;BASE64,Zg=="), "f");
+    EXPECT_EQ(decodeText("data:;charset=utf-8,a"), "a");
+    EXPECT_EQ(decodeText("data:;name=a%20b;base64,Zg%3D%3D"), "f");
+}
+
+TEST(DataUri, WhatIsNoMediaTypeOrParameterIsRefused) {
+    for (const char* header :
+         {";",
+          ";;base64",
+          ";base64;",
+          ";base64;charset=utf-8",
+          ";base64;base64",
+          ";base65",
+          ";charset",
+          ";=utf-8",
+          ";charset=",
+          ";charset=a=b",
+          ";charset=utf 8;base64",
+          "base64",
+          "text;base64",
+          "text/;base64",
+          "/plain;base64",
+          "text/plain/more;base64",
+          " ;base64"}) {
+        EXPECT_EQ(decodeText(std::string("data:") + header + ",Zg=="), "refused") << header;
+    }
+}
+
+TEST(DataUri, PaddingThatFillsNoGroupIsRefused) {
+    for (const char* data : {"Zg=", "Zg===", "Zm8==", "Zm9v=", "Zm9v====", "Z===", "=", "Z=g="})
+        EXPECT_EQ(decodeText(std::string("data:;base64,") + data), "refused") << data;
+    EXPECT_EQ(decodeText("data:;base64,Zh=="), "refused") << "bits after the last byte";
+}
+
 TEST(DataUri, MalformedOnesAreRefused) {
     EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
     EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
