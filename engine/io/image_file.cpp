@@ -135,14 +135,14 @@ core::Result<StoredImage> readStoredImage(const fs::path& path) {
     return stored;
 }
 
-core::Result<bool> isDisplayFormat(const fs::path& path) {
+core::Result<bool> isDisplayFormat(const fs::path& path, std::string_view known) {
     const std::string extension = lowerExtension(path);
     if (extension == ".exr")
         return false;
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
         return true;
     return core::makeError(
-        "'{}' has the unknown extension '{}': use .exr, .png or .jpg", path.string(), extension
+        "'{}' has the unknown extension '{}': use {}", path.string(), extension, known
     );
 }
 

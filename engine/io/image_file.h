@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace shutter::io {
 
@@ -26,7 +27,9 @@ struct StoredImage {
 
 /// True where the extension stores values in [0, 1] for display (.png .jpg .jpeg), false for .exr.
 /// An Error names the extension when it is neither.
-[[nodiscard]] core::Result<bool> isDisplayFormat(const std::filesystem::path& path);
+/// \param known the extensions that the error offers: the caller may take more, or fewer
+[[nodiscard]] core::Result<bool>
+isDisplayFormat(const std::filesystem::path& path, std::string_view known = ".exr, .png or .jpg");
 
 /// Checks, before hours of rendering, that `path` has a known extension and that its folder exists
 /// and can be written.
