@@ -142,20 +142,6 @@ core::Result<bool> parseDataHeader(std::string_view header) {
     return isBase64;
 }
 
-/// A link inside the folder may still point out of it.
-bool staysInside(const fs::path& folder, const fs::path& file) {
-    std::error_code failure;
-    const fs::path root = fs::weakly_canonical(folder, failure);
-    if (failure)
-        return false;
-    const fs::path target = fs::weakly_canonical(file, failure);
-    if (failure)
-        return false;
-    const auto [rootEnd, ignored] =
-        std::mismatch(root.begin(), root.end(), target.begin(), target.end());
-    return rootEnd == root.end();
-}
-
 } // namespace
 
 bool isDataUri(std::string_view uri) {
@@ -183,7 +169,7 @@ core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri) {
     return std::move(*bytes);
 }
 
-core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) {
+core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri, Reach reach) {
     if (uri.empty())
         return core::makeError("the URI is empty");
     if (uri.size() > kMaxUriBytes) {
@@ -199,7 +185,10 @@ core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) 
     if (decoded->find('\0') != std::string::npos) {
         return core::makeError("the URI '{}' holds a NUL", abbreviateUri(uri));
     }
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
     const fs::path relative(*decoded);
+    if (reach == Reach::Anywhere)
+        return base / relative;
     const bool climbs = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) {
         return part == "..";
     });
@@ -208,12 +197,25 @@ core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) 
     if (relative.is_absolute() || climbs || climbsOnWindows) {
         return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
     }
-    const fs::path base = folder.empty() ? fs::path(".") : folder;
-    const fs::path file = base / relative;
-    if (!staysInside(base, file)) {
+    // A link inside the folder may still point out of it.
+    if (!liesInside(base, relative)) {
         return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
     }
-    return file;
+    return base / relative;
+}
+
+bool liesInside(const fs::path& folder, const fs::path& path) {
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
+    std::error_code failure;
+    const fs::path root = fs::weakly_canonical(base, failure);
+    if (failure)
+        return false;
+    const fs::path target = fs::weakly_canonical(base / path, failure);
+    if (failure)
+        return false;
+    const auto [rootEnd, ignored] =
+        std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+    return rootEnd == root.end();
 }
 
 std::string abbreviateUri(std::string_view uri) {

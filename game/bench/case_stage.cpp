@@ -38,7 +38,8 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto scene = writeScene(shot, folder);
     if (!scene)
         return scene.error();
-    auto sceneHash = gltf::computeSceneHash(scene.value());
+    const io::Reach reach = shot.shot.allowOutside ? io::Reach::Anywhere : io::Reach::Folder;
+    auto sceneHash = gltf::computeSceneHash(scene.value(), reach);
     if (!sceneHash)
         return sceneHash.error();
     auto program = io::computeFileHash("/proc/self/exe");

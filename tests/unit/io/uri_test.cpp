@@ -128,6 +128,31 @@ TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
     EXPECT_TRUE(resolveUri(folder.path(), "in.bin"));
 }
 
+TEST(ResolveUri, PathsThatLeaveTheFolderAreTakenFromThoseWhoMayAndSchemesFromNobody) {
+    const TempFolder folder;
+    const auto resolve = [&](std::string_view uri) {
+        return resolveUri(folder.path(), uri, Reach::Anywhere);
+    };
+    EXPECT_EQ(resolve("../a.bin").value(), folder.path() / "../a.bin");
+    EXPECT_EQ(resolve("/etc/hostname").value(), "/etc/hostname");
+    for (const char* uri : {"file:///etc/hostname", "http://127.0.0.1/a.bin", "a%00.bin", ""})
+        EXPECT_FALSE(resolve(uri)) << uri;
+}
+
+TEST(LiesInside, FollowsLinksAndSteps) {
+    const TempFolder outside;
+    const TempFolder folder;
+    folder.write("sub/a.bin", "x");
+    fs::create_symlink(outside.path(), folder.path() / "out");
+    for (const char* inside : {"a", "sub/a.bin", "sub/../b", "no/such/folder"})
+        EXPECT_TRUE(liesInside(folder.path(), inside)) << inside;
+    EXPECT_TRUE(liesInside(folder.path(), folder.path() / "a"));
+    for (const char* away : {"..", "sub/../../a", "out/a", "/etc/hostname"})
+        EXPECT_FALSE(liesInside(folder.path(), away)) << away;
+    EXPECT_TRUE(liesInside("", "a"));
+    EXPECT_FALSE(liesInside("", "../a"));
+}
+
 } // namespace
 
 } // namespace shutter::io
