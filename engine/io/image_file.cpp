@@ -118,11 +118,13 @@ core::Result<StoredImage> readStoredImage(const fs::path& path) {
     if (!fs::is_regular_file(path, ignored)) {
         return core::makeError("cannot read '{}': it is not a file", path.string());
     }
-    if (::access(path.c_str(), R_OK) != 0) {
+    constexpr uint64_t kSignatureBytes = 16;
+    const auto begin = readFileBytes(path, kSignatureBytes);
+    if (!begin)
         return core::makeError("cannot read '{}': permission denied", path.string());
-    }
     oiio::FloatPixels pixels;
-    const std::string why = oiio::readFloats(path.string(), pixels);
+    const std::string why =
+        oiio::readFloats(path.string(), fs::file_size(path, ignored), begin.value(), pixels);
     if (!why.empty())
         return core::makeError("cannot read '{}': {}", path.string(), why);
     StoredImage stored;

@@ -13,7 +13,8 @@
 
 namespace shutter::io {
 
-/// Reads any picture OpenImageIO knows as floats (8-bit formats: value / 255, not linearised).
+/// Reads a PNG, JPEG, EXR or Radiance HDR, told apart by content, as floats (8-bit formats: value /
+/// 255, not linearised). Error: names the file and why.
 [[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
 
 /// A picture and what its file says of the values.

@@ -356,6 +356,45 @@ TEST(DecodeTexture, APictureAboveTheSizeLimitIsRefusedNamingBoth) {
     EXPECT_NE(texture.error().message.find("16384x16384"), std::string::npos);
 }
 
+// A grey PNG that claims 16000x16000 pixels and holds 16.
+const std::vector<uint8_t> kClaimingPng = {
+    137, 80, 78,  71,  13,  10, 26,  10,  0,   0,  0,  13, 73,  72,  68,  82, 0,
+    0,   62, 128, 0,   0,   62, 128, 8,   0,   0,  0,  0,  100, 21,  128, 2,  0,
+    0,   0,  11,  73,  68,  65, 84,  120, 156, 99, 96, 64, 5,   0,   0,   16, 0,
+    1,   57, 189, 143, 101, 0,  0,   0,   0,   73, 69, 78, 68,  174, 66,  96, 130};
+
+TEST(DecodeTexture, MorePixelsThanTheBytesCanHoldAreRefused) {
+    const auto texture = decodeTexture(kClaimingPng, "a");
+    ASSERT_FALSE(texture);
+    EXPECT_EQ(texture.error().message, "cannot decode a: it claims 16000x16000 pixels in 68 bytes");
+}
+
+TEST(ImageFile, MorePixelsThanTheFileCanHoldAreRefused) {
+    const TempFolder folder;
+    const std::string_view bytes(
+        reinterpret_cast<const char*>(kClaimingPng.data()), kClaimingPng.size()
+    );
+    const auto image = readImage(folder.write("a.png", bytes));
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find("claims 16000x16000"), std::string::npos)
+        << image.error().message;
+}
+
+TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {
+    const TempFolder folder;
+    const fs::path exr = folder.path() / "a.exr";
+    ASSERT_TRUE(writeImage(exr, makeRamp(2, 2, 3)));
+    fs::rename(exr, folder.path() / "a.png");
+    EXPECT_TRUE(readImage(folder.path() / "a.png"));
+    const auto other = readImage(folder.write("a.ppm", "P6\n1 1\n255\nabc"));
+    ASSERT_FALSE(other);
+    EXPECT_NE(other.error().message.find("neither PNG, JPEG, EXR nor HDR"), std::string::npos);
+    using namespace std::string_literals;
+    const std::string flat = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s;
+    const auto radiance = readImage(folder.write("a.hdr", flat));
+    EXPECT_TRUE(radiance) << radiance.error().message;
+}
+
 } // namespace
 
 } // namespace shutter::io
