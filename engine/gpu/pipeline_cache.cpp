@@ -34,14 +34,24 @@ uint64_t computeChecksum(std::span<const uint8_t> bytes) {
 }
 
 bool isOwnedBy(std::span<const uint8_t> blob, const PipelineCacheOwner& owner) {
-    VkPipelineCacheHeaderVersionOne header;
+    /// VkPipelineCacheHeaderVersionOne, whose version is an enum and so must not hold just any
+    /// value.
+    struct BlobHeader {
+        uint32_t headerSize = 0;
+        uint32_t headerVersion = 0;
+        uint32_t vendorId = 0;
+        uint32_t deviceId = 0;
+        std::array<uint8_t, VK_UUID_SIZE> uuid{};
+    } header;
+
+    static_assert(sizeof(header) == sizeof(VkPipelineCacheHeaderVersionOne));
     if (blob.size() < sizeof(header))
         return false;
     std::memcpy(&header, blob.data(), sizeof(header));
     return header.headerSize >= sizeof(header) &&
            header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
-           header.vendorID == owner.vendorId && header.deviceID == owner.deviceId &&
-           std::equal(owner.uuid.begin(), owner.uuid.end(), header.pipelineCacheUUID);
+           header.vendorId == owner.vendorId && header.deviceId == owner.deviceId &&
+           header.uuid == owner.uuid;
 }
 
 /// Nothing where the file cannot be read.

@@ -59,6 +59,10 @@ TEST(PipelineCacheFile, ThatOfAnotherDriverIsLeftAloneWithoutAnError) {
     const auto unpacked = unpackPipelineCache(file, kOwner);
     ASSERT_TRUE(unpacked);
     EXPECT_FALSE(unpacked.value());
+    std::vector<uint8_t> unversioned = makeBlob();
+    unversioned[5] = 0x30; // no value of the header's enum
+    const std::vector<uint8_t> packed = packPipelineCache(unversioned);
+    EXPECT_FALSE(unpackPipelineCache(packed, kOwner).value());
     const auto bare = unpackPipelineCache(makeBlob(), kOwner); // of a driver, without our header
     ASSERT_TRUE(bare);
     EXPECT_FALSE(bare.value());
