@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/oiio_codec.h"
 
+#include "engine/io/exr_header.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -243,6 +245,11 @@ std::string readFloats(
         reader = findReader(begin, kFloatSignatures);
     if (!reader)
         return "it is neither PNG, JPEG, EXR nor HDR";
+    if (std::string_view(reader) == "openexr") {
+        const std::string why = checkExrHeader(path, fileBytes, kMaxFloatSide);
+        if (!why.empty())
+            return why;
+    }
     // By the reader's name: open() would try all the others where this one fails.
     const auto input = ImageInput::create(reader);
     ImageSpec spec;

@@ -380,6 +380,41 @@ TEST(ImageFile, MorePixelsThanTheFileCanHoldAreRefused) {
         << image.error().message;
 }
 
+/// The last field of 32 bits of the attribute, `offset` bytes into its value, replaced.
+std::string replaceInExr(std::string exr, const std::string& name, size_t offset, uint32_t value) {
+    const size_t place = exr.find(name);
+    EXPECT_NE(place, std::string::npos);
+    for (size_t i = 0; i < 4; ++i)
+        exr[place + name.size() + offset + i] = char(value >> (8 * i));
+    return exr;
+}
+
+TEST(ImageFile, AnExrThatAsksForMoreThanItHoldsIsRefused) {
+    using namespace std::string_literals;
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> bytes = readAll(folder.path() / "a.exr");
+    const std::string whole(bytes.begin(), bytes.end());
+    const auto expectRefused = [&](const std::string& exr, const char* mention) {
+        const auto image = readImage(folder.write("b.exr", exr));
+        ASSERT_FALSE(image) << mention;
+        EXPECT_NE(image.error().message.find(mention), std::string::npos) << image.error().message;
+    };
+    const std::string window = "dataWindow\0box2i\0"s;
+    expectRefused(
+        replaceInExr(whole, "channels\0chlist\0"s, 0, 0x7FFFFFF0), "'channels' is longer"
+    );
+    expectRefused(replaceInExr(whole, window, 12, 0x7FFFFFF0), "too large");
+    expectRefused(replaceInExr(whole, window, 12, uint32_t(-5)), "no pixels");
+    expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x1002), "not a flat picture");
+    for (size_t size = 8; size < whole.find(window); size += 7)
+        EXPECT_FALSE(readImage(folder.write("b.exr", whole.substr(0, size)))) << size;
+    std::string tiled = whole;
+    tiled.insert(tiled.find("compression"), "tiles\0tiledesc\0\x09\0\0\0\1\0\0\0\1\0\0\0\0"s);
+    tiled = replaceInExr(tiled, window, 12, 60000);
+    expectRefused(tiled, "it claims 240004 tiles of 1x1 pixels");
+}
+
 TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {
     const TempFolder folder;
     const fs::path exr = folder.path() / "a.exr";
