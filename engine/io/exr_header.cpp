@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <ios>
+#include <iterator>
+#include <string_view>
 
 namespace shutter::io {
 
@@ -15,6 +18,24 @@ constexpr size_t kMaxNameBytes = 255;
 /// Of a tile's entry in the table of offsets, which stands after the header.
 constexpr uint64_t kOffsetBytes = 8;
 constexpr uint64_t kMaxTilePixels = uint64_t(1) << 24;
+
+/// Types whose values have one size, which OpenEXR reads whatever size the file tells: what follows
+/// would be taken for the next attribute there and skipped here.
+struct TypeSize {
+    std::string_view type;
+    uint64_t bytes;
+};
+
+constexpr TypeSize kTypeSizes[] = {
+    {"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},   {"envmap", 1},
+    {"float", 4},       {"int", 4},      {"keycode", 28},
+    {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+    {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+    {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+    {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+    {"v3f", 12},        {"v3i", 12},     {"deepImageState", 1},
+};
 
 class HeaderReader {
   public:
@@ -31,6 +52,9 @@ class HeaderReader {
             const auto begin = uint64_t(mStream.tellg());
             if (!mStream || bytes > mFileBytes - begin)
                 return "its attribute '" + makePrintable(name) + "' is longer than the file";
+            if (!hasItsSize(type, begin, begin + bytes))
+                return "its attribute '" + makePrintable(name) + "' is not of its type's size";
+            mStream.seekg(std::streamoff(begin));
             if (const std::string why = checkAttribute(name, type); !why.empty())
                 return why;
             mStream.seekg(std::streamoff(begin + bytes));
@@ -55,6 +79,40 @@ class HeaderReader {
         while (mStream.get(c) && c != '\0' && name.size() < kMaxNameBytes)
             name.push_back(c);
         return name;
+    }
+
+    /// Whether OpenEXR, which reads a value of `type` from `begin` on, comes to its end at `end`.
+    bool hasItsSize(const std::string& type, uint64_t begin, uint64_t end) {
+        if (type == "chlist")
+            return isChannelList(end);
+        if (type == "stringvector")
+            return isStringVector(begin, end);
+        if (type == "preview") {
+            const uint64_t width = readU32();
+            const uint64_t height = readU32();
+            return width * height == (end - begin - 8) / 4 && end - begin >= 8;
+        }
+        const auto* row =
+            std::find_if(std::begin(kTypeSizes), std::end(kTypeSizes), [&](const TypeSize& known) {
+                return known.type == type;
+            });
+        return row == std::end(kTypeSizes) || row->bytes == end - begin;
+    }
+
+    bool isChannelList(uint64_t end) {
+        constexpr std::streamoff kChannelBytes = 16; // after the name
+        while (mStream && !readName().empty())
+            mStream.seekg(kChannelBytes, std::ios::cur);
+        return mStream && uint64_t(mStream.tellg()) == end;
+    }
+
+    bool isStringVector(uint64_t begin, uint64_t end) {
+        uint64_t place = begin;
+        while (mStream && place < end) {
+            mStream.seekg(std::streamoff(place));
+            place += 4 + uint64_t(readU32());
+        }
+        return mStream && place == end;
     }
 
     static std::string makePrintable(std::string name) {

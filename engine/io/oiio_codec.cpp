@@ -7,9 +7,13 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <istream>
 #include <memory>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -137,21 +141,32 @@ const char* findReader(std::span<const uint8_t> file, std::span<const Signature>
 
 /// True when every chunk up to IEND is there. OpenImageIO leaks memory when libpng runs into the
 /// end of the bytes, and its message for that names no cause.
-bool isPngComplete(std::span<const uint8_t> encoded) {
-    constexpr size_t kSignatureBytes = 8;
-    constexpr size_t kChunkOverhead = 12; // length, type, checksum
-    size_t offset = kSignatureBytes;
-    while (encoded.size() - offset >= kChunkOverhead) {
-        const uint8_t* chunk = encoded.data() + offset;
-        const size_t length = size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 |
-                              size_t(chunk[2]) << 8 | size_t(chunk[3]);
-        if (length > encoded.size() - offset - kChunkOverhead)
+bool isPngComplete(std::istream& stream, uint64_t size) {
+    constexpr uint64_t kSignatureBytes = 8;
+    constexpr uint64_t kChunkOverhead = 12; // length, type, checksum
+    uint64_t offset = kSignatureBytes;
+    while (size >= offset + kChunkOverhead) {
+        std::array<uint8_t, 8> chunk{};
+        stream.seekg(std::streamoff(offset));
+        stream.read(reinterpret_cast<char*>(chunk.data()), std::streamsize(chunk.size()));
+        const uint64_t length = uint64_t(chunk[0]) << 24 | uint64_t(chunk[1]) << 16 |
+                                uint64_t(chunk[2]) << 8 | uint64_t(chunk[3]);
+        if (!stream || length > size - offset - kChunkOverhead)
             return false;
-        if (std::memcmp(chunk + 4, "IEND", 4) == 0)
+        if (std::memcmp(chunk.data() + 4, "IEND", 4) == 0)
             return true;
         offset += kChunkOverhead + length;
     }
     return false;
+}
+
+/// Returns an empty string, or what is wrong with the file before it is opened.
+std::string checkFile(const char* reader, const std::string& path, uint64_t fileBytes) {
+    const std::string_view name = reader;
+    if (name == "openexr")
+        return checkExrHeader(path, fileBytes, kMaxFloatSide);
+    std::ifstream stream(path, std::ios::binary);
+    return name != "png" || isPngComplete(stream, fileBytes) ? "" : "the PNG is cut off";
 }
 
 /// 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
@@ -245,11 +260,8 @@ std::string readFloats(
         reader = findReader(begin, kFloatSignatures);
     if (!reader)
         return "it is neither PNG, JPEG, EXR nor HDR";
-    if (std::string_view(reader) == "openexr") {
-        const std::string why = checkExrHeader(path, fileBytes, kMaxFloatSide);
-        if (!why.empty())
-            return why;
-    }
+    if (std::string wrong = checkFile(reader, path, fileBytes); !wrong.empty())
+        return wrong;
     // By the reader's name: open() would try all the others where this one fails.
     const auto input = ImageInput::create(reader);
     ImageSpec spec;
@@ -270,8 +282,12 @@ std::string decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba
     const char* reader = findReader(encoded, kTextureSignatures);
     if (!reader)
         return "it is neither PNG nor JPEG";
-    if (std::string_view(reader) == "png" && !isPngComplete(encoded))
-        return "the PNG is cut off";
+    if (std::string_view(reader) == "png") {
+        const auto* text = reinterpret_cast<const char*>(encoded.data());
+        std::istringstream stream(std::string(text, encoded.size()));
+        if (!isPngComplete(stream, encoded.size()))
+            return "the PNG is cut off";
+    }
     OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
     ImageSpec config = makeReadConfig();
     OIIO::Filesystem::IOProxy* proxy = &memory;

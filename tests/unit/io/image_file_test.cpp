@@ -380,7 +380,20 @@ TEST(ImageFile, MorePixelsThanTheFileCanHoldAreRefused) {
         << image.error().message;
 }
 
-/// The last field of 32 bits of the attribute, `offset` bytes into its value, replaced.
+TEST(ImageFile, APngThatIsCutOffAnywhereIsRefusedBeforeItIsDecoded) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.png", makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> bytes = readAll(folder.path() / "a.png");
+    const std::string whole(bytes.begin(), bytes.end());
+    for (size_t size = 8; size < whole.size(); ++size) {
+        const auto image = readImage(folder.write("b.png", whole.substr(0, size)));
+        ASSERT_FALSE(image) << size;
+        EXPECT_NE(image.error().message.find("the PNG is cut off"), std::string::npos)
+            << image.error().message;
+    }
+}
+
+/// The file with 32 bits changed, `offset` bytes after `name`.
 std::string replaceInExr(std::string exr, const std::string& name, size_t offset, uint32_t value) {
     const size_t place = exr.find(name);
     EXPECT_NE(place, std::string::npos);
@@ -400,18 +413,21 @@ TEST(ImageFile, AnExrThatAsksForMoreThanItHoldsIsRefused) {
         ASSERT_FALSE(image) << mention;
         EXPECT_NE(image.error().message.find(mention), std::string::npos) << image.error().message;
     };
-    const std::string window = "dataWindow\0box2i\0"s;
+    // After name, type and size.
+    const std::string window = "dataWindow\0box2i\0\x10\0\0\0"s;
     expectRefused(
         replaceInExr(whole, "channels\0chlist\0"s, 0, 0x7FFFFFF0), "'channels' is longer"
     );
-    expectRefused(replaceInExr(whole, window, 12, 0x7FFFFFF0), "too large");
-    expectRefused(replaceInExr(whole, window, 12, uint32_t(-5)), "no pixels");
+    expectRefused(replaceInExr(whole, "dataWindow\0box2i"s, 1, 17), "not of its type's size");
+    expectRefused(replaceInExr(whole, "channels\0chlist"s, 1, 20), "not of its type's size");
+    expectRefused(replaceInExr(whole, window, 8, 0x7FFFFFF0), "too large");
+    expectRefused(replaceInExr(whole, window, 8, uint32_t(-5)), "no pixels");
     expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x1002), "not a flat picture");
     for (size_t size = 8; size < whole.find(window); size += 7)
         EXPECT_FALSE(readImage(folder.write("b.exr", whole.substr(0, size)))) << size;
     std::string tiled = whole;
     tiled.insert(tiled.find("compression"), "tiles\0tiledesc\0\x09\0\0\0\1\0\0\0\1\0\0\0\0"s);
-    tiled = replaceInExr(tiled, window, 12, 60000);
+    tiled = replaceInExr(tiled, window, 8, 60000);
     expectRefused(tiled, "it claims 240004 tiles of 1x1 pixels");
 }
 
