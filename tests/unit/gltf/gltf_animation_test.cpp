@@ -132,7 +132,7 @@ TEST(GltfAnimation, RotationsWithoutABufferViewTurnNothing) {
     file.add(kTwoTimes, kFloat, "SCALAR");
     file.addAccessor(R"({"componentType":5126,"count":2,"type":"VEC4"})");
     const LoadedScene scene = expectLoads(loadClips(file, clip("rotation")));
-    EXPECT_EQ(scene.world.assets.clips[0].channels[0].values[1], vec4(0, 0, 0, 1));
+    EXPECT_EQ(scene.world.assets.clips.at(0).channels.at(0).values.at(1), vec4(0, 0, 0, 1));
     EXPECT_TRUE(hasWarning(scene, "output has no bufferView"));
 }
 
