@@ -16,10 +16,14 @@ function(shutter_target_defaults target)
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
                           -Wno-missing-field-initializers # Vulkan structs are opened by sType alone
-                          -Wno-restrict # false in GCC 12: https://gcc.gnu.org/PR105651
+                          # False in GCC 12: https://gcc.gnu.org/PR105651
+                          $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                           -ffp-contract=off)
     if(SHUTTER_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    if(SHUTTER_FUZZERS)
+        target_compile_options(${target} PUBLIC -fsanitize=fuzzer-no-link)
     endif()
     if(SHUTTER_SANITIZE)
         target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-sanitize=vptr)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/app/input_script.h"
 
+#include "engine/io/image_file.h"
 #include "engine/json/json_file.h"
 
 #include <array>
@@ -42,7 +43,19 @@ StickEvent readStick(const json::JsonNode& node, bool right) {
     return {right, {value[0], value[1]}};
 }
 
-ScriptEvent readEvent(const json::JsonNode& node) {
+ScreenshotEvent readScreenshot(const json::JsonNode& node, io::Reach reach) {
+    const std::filesystem::path file = node.readString();
+    const auto isDisplay = io::isDisplayFormat(file, ".png or .jpg");
+    if (!isDisplay)
+        node.fail(isDisplay.error().message);
+    else if (!isDisplay.value())
+        node.fail("'{}': a window's picture is no linear light", file.string());
+    else if (reach == io::Reach::Folder && !io::liesInside("", file))
+        node.fail("'{}' leaves the folder in which the program runs", file.string());
+    return {file};
+}
+
+ScriptEvent readEvent(const json::JsonNode& node, io::Reach reach) {
     const json::JsonObject object = node.readObject(
         {"time",
          "key",
@@ -87,7 +100,7 @@ ScriptEvent readEvent(const json::JsonNode& node) {
         return resize;
     });
     take("window", [](const json::JsonNode& n) { return n.readChoice(kWindowActions); });
-    take("screenshot", [](const json::JsonNode& n) { return ScreenshotEvent{n.readString()}; });
+    take("screenshot", [&](const json::JsonNode& n) { return readScreenshot(n, reach); });
     if (kinds != 1)
         node.fail(
             "must tell one of key, button, pointer, wheel, leftStick, rightStick, resize, window, "
@@ -99,7 +112,7 @@ ScriptEvent readEvent(const json::JsonNode& node) {
     return event;
 }
 
-InputScript readScript(const json::JsonNode& root) {
+InputScript readScript(const json::JsonNode& root, io::Reach reach) {
     const json::JsonObject object = root.readObject({"version", "frameSeconds", "events"});
     (void)object.require("version").readInteger(1, 1);
     InputScript script;
@@ -107,7 +120,7 @@ InputScript readScript(const json::JsonNode& root) {
         script.frameSeconds = seconds->readNumber({0.0, 1.0, true});
     double last = 0.0;
     for (const json::JsonNode& node : object.require("events").readArray(1, kMaxEvents)) {
-        script.events.push_back(readEvent(node));
+        script.events.push_back(readEvent(node, reach));
         if (script.events.back().seconds < last)
             node.fail("must not come before the event before it, at {} s", last);
         last = script.events.back().seconds;
@@ -117,8 +130,10 @@ InputScript readScript(const json::JsonNode& root) {
 
 } // namespace
 
-core::Result<InputScript> readInputScript(const std::filesystem::path& path) {
-    return json::readJsonFile(path, readScript);
+core::Result<InputScript> readInputScript(const std::filesystem::path& path, io::Reach reach) {
+    return json::readJsonFile(path, [&](const json::JsonNode& root) {
+        return readScript(root, reach);
+    });
 }
 
 std::span<const ScriptEvent>

@@ -4,6 +4,7 @@
 
 #include "engine/app/input.h"
 #include "engine/core/result.h"
+#include "engine/io/uri.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -46,7 +47,7 @@ struct ResizeEvent {
 };
 
 struct ScreenshotEvent {
-    std::filesystem::path file; ///< .png, beside where the program runs unless absolute
+    std::filesystem::path file; ///< .png or .jpg, from where the program runs
 };
 
 struct ScriptEvent {
@@ -70,7 +71,9 @@ struct InputScript {
 };
 
 /// Error: names the file, line and field.
-[[nodiscard]] core::Result<InputScript> readInputScript(const std::filesystem::path& path);
+/// \param reach the screenshots that it may write: those below where the program runs, or all
+[[nodiscard]] core::Result<InputScript>
+readInputScript(const std::filesystem::path& path, io::Reach reach = io::Reach::Folder);
 
 /// Hands out a script's events frame by frame.
 class ScriptPlayer {

@@ -101,16 +101,24 @@ template <class Channel> bool removeEqualTimes(Channel& channel) {
     return isChanged;
 }
 
-/// Restores the unit length that quantization loses. Throws GltfError for a zero quaternion.
-void normalizeRotations(scene::AnimationChannel& channel, const std::string& path) {
+/// Restores the unit length that quantization loses. Throws GltfError for a zero quaternion, unless
+/// it `mayBeZero`: it then turns nothing. Returns true where there was one.
+bool normalizeRotations(scene::AnimationChannel& channel, bool mayBeZero, const std::string& path) {
+    bool hasZero = false;
     const bool isCubic = channel.interpolation == scene::Interpolation::CubicSpline;
     const size_t step = isCubic ? 3 : 1;
     for (size_t i = isCubic ? 1 : 0; i < channel.values.size(); i += step) {
         const double length = glm::length(math::dvec4(channel.values[i]));
+        if (mayBeZero && length == 0.0) {
+            channel.values[i] = math::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+            hasZero = true;
+            continue;
+        }
         if (!(length > 1e-6))
             failGltf("{}.output: rotation {} has no length", path, i);
         channel.values[i] = math::vec4(math::dvec4(channel.values[i]) / length);
     }
+    return hasZero;
 }
 
 class ClipReader {
@@ -165,8 +173,9 @@ class ClipReader {
         channel.times = readTimes(mContext, sampler.input, at);
         channel.values = readValues(mContext, sampler.output, isRotation, at);
         finishKeys(channel, 1, at);
-        if (isRotation)
-            normalizeRotations(channel, at);
+        const bool mayBeZero = lacksView(mContext.model, size_t(sampler.output));
+        if (isRotation && normalizeRotations(channel, mayBeZero, at))
+            mContext.warnings.add(at + ".output has no bufferView: its zeros turn nothing");
         mClip.channels.push_back(std::move(channel));
     }
 

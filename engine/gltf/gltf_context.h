@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/gltf/gltf_document.h"
+#include "engine/gltf/gltf_loader.h"
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -49,22 +50,34 @@ class GltfWarnings {
     std::vector<std::string> mSentences;
 };
 
+/// "4 GiB", or in bytes.
+[[nodiscard]] inline std::string describeBytes(uint64_t bytes) {
+    constexpr uint64_t kGiB = uint64_t(1) << 30;
+    const bool isRound = bytes % kGiB == 0;
+    return fmt::format("{} {}", isRound ? bytes / kGiB : bytes, isRound ? "GiB" : "bytes");
+}
+
 /// What every reader of a part needs.
 struct GltfContext {
     const tinygltf::Model& model;
     const GltfResources& resources;
     GltfWarnings& warnings;
-    /// Bytes left for decoded vertices, skins and instances, and for decoded images. A small file
-    /// may name one buffer ten thousand times, or claim accessors that are all zeros; these budgets
-    /// bound the memory that it can make the loader allocate.
-    uint64_t vertexBytesLeft = uint64_t(4) << 30;
-    uint64_t imageBytesLeft = uint64_t(4) << 30;
+    const GltfLimits& limits;
+    uint64_t vertexBytes = 0; ///< spent, of limits.maxVertexBytes
+    uint64_t imageBytes = 0;  ///< spent, of limits.maxImageBytes
 
-    /// Throws GltfError when the budget for decoded vertices is spent.
+    /// Throws GltfError when the limit of decoded vertices, skins and instances is passed.
     void spendVertexBytes(uint64_t bytes) {
-        if (bytes > vertexBytesLeft)
-            failGltf("its meshes need over 4 GiB when decoded");
-        vertexBytesLeft -= bytes;
+        if (bytes > limits.maxVertexBytes - vertexBytes)
+            failGltf("its meshes need over {} when decoded", describeBytes(limits.maxVertexBytes));
+        vertexBytes += bytes;
+    }
+
+    /// The same for decoded pictures.
+    void spendImageBytes(uint64_t bytes) {
+        if (bytes > limits.maxImageBytes - imageBytes)
+            failGltf("its textures need over {} when decoded", describeBytes(limits.maxImageBytes));
+        imageBytes += bytes;
     }
 };
 

@@ -3,6 +3,8 @@
 // buffers and images that it names.
 #pragma once
 
+#include "engine/io/uri.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -55,18 +57,19 @@ void checkAssetAndExtensions(const nlohmann::json& root);
 /// written as 3.0 to 3, because tinygltf would drop them. Ignores unknown fields and `extras`.
 void checkGltfSchema(nlohmann::json& root);
 
+/// Where a file's URIs lead.
+struct GltfPlace {
+    std::filesystem::path folder; ///< of the file
+    io::Reach reach = io::Reach::Folder;
+};
+
 /// The bytes of buffers and images, wherever the file keeps them.
 class GltfResources {
   public:
     /// Moves the arrays `buffers` and `images` out of `root` and reads every buffer. `bin` is the
     /// GLB's binary chunk and must outlive this object. Throws GltfError, also for buffers that are
     /// shorter than their byteLength.
-    GltfResources(
-        nlohmann::json& root,
-        std::filesystem::path folder,
-        std::span<const uint8_t> bin,
-        bool hasBin
-    );
+    GltfResources(nlohmann::json& root, GltfPlace place, std::span<const uint8_t> bin, bool hasBin);
 
     /// Exactly byteLength bytes.
     [[nodiscard]] std::span<const uint8_t> buffer(size_t index) const { return mBuffers[index]; }
@@ -93,7 +96,7 @@ class GltfResources {
     void addBuffer(const nlohmann::json& json, std::span<const uint8_t> bin, bool hasBin);
     void addImage(const nlohmann::json& json);
 
-    std::filesystem::path mFolder;
+    GltfPlace mPlace;
     std::vector<std::vector<uint8_t>> mOwned; ///< the buffers that are not the GLB's binary chunk
     std::vector<std::span<const uint8_t>> mBuffers;
     std::vector<ImageEntry> mImages;

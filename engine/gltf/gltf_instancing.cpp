@@ -37,11 +37,13 @@ class InstanceReader {
         const std::vector<float> rotations =
             readAttribute("ROTATION", TINYGLTF_TYPE_VEC4, {kFloat32, kInt8, kInt16});
         const std::vector<float> scales = readAttribute("SCALE", TINYGLTF_TYPE_VEC3, {kFloat32});
+        const auto rotationAccessor = findIndex(*mAttributes, "ROTATION", mPath);
+        const bool mayBeZero = rotationAccessor && lacksView(mContext.model, *rotationAccessor);
         for (size_t i = 0; i < count; ++i) {
             if (!translations.empty())
                 transforms[i].translation = toVec3(&translations[i * 3]);
             if (!rotations.empty())
-                transforms[i].rotation = toRotation(&rotations[i * 4], i);
+                transforms[i].rotation = toRotation(&rotations[i * 4], mayBeZero, i);
             if (!scales.empty())
                 transforms[i].scale = toVec3(&scales[i * 3]);
         }
@@ -87,11 +89,16 @@ class InstanceReader {
 
     static dvec3 toVec3(const float* values) { return dvec3(values[0], values[1], values[2]); }
 
-    dquat toRotation(const float* values, size_t instance) const {
+    /// \param mayBeZero zeros turn nothing, with a warning
+    dquat toRotation(const float* values, bool mayBeZero, size_t instance) const {
         const dquat rotation(
             double{values[3]}, double{values[0]}, double{values[1]}, double{values[2]}
         );
         const double length = glm::length(rotation);
+        if (mayBeZero && length == 0.0) {
+            mContext.warnings.add(mPath + ".ROTATION has no bufferView: its zeros turn nothing");
+            return dquat(1.0, 0.0, 0.0, 0.0);
+        }
         if (!(length > 1e-6))
             failGltf("{}.ROTATION: rotation {} has no length", mPath, instance);
         return rotation / length;

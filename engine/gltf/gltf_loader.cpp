@@ -29,17 +29,19 @@ void warnIgnoredExtensions(GltfContext& context) {
 }
 
 /// Throws GltfError and whatever the libraries throw.
-LoadedScene buildScene(const std::filesystem::path& folder, std::span<const uint8_t> bytes) {
+LoadedScene buildScene(
+    const std::filesystem::path& folder, std::span<const uint8_t> bytes, const GltfLimits& limits
+) {
     const GltfChunks chunks = splitGltf(bytes);
     nlohmann::json root = parseGltfJson(chunks.json);
     checkAssetAndExtensions(root);
     checkGltfSchema(root);
-    const GltfResources resources(root, folder, chunks.bin, chunks.hasBin);
+    const GltfResources resources(root, {folder, limits.reach}, chunks.bin, chunks.hasBin);
     const tinygltf::Model model = parseGltfModel(std::move(root));
 
     LoadedScene loaded;
     GltfWarnings warnings;
-    GltfContext context{model, resources, warnings};
+    GltfContext context{model, resources, warnings, limits};
     checkAccessors(context);
     warnIgnoredExtensions(context);
     loadMaterials(context, loaded.world.assets);
@@ -71,8 +73,8 @@ void collectUris(const nlohmann::json& root, const char* array, std::vector<std:
     }
 }
 
-std::string hashUri(const std::filesystem::path& folder, const std::string& uri) {
-    const auto file = io::resolveUri(folder, uri);
+std::string hashUri(const std::filesystem::path& folder, const std::string& uri, io::Reach reach) {
+    const auto file = io::resolveUri(folder, uri, reach);
     if (!file)
         return "missing";
     const auto hash = io::computeFileHash(file.value());
@@ -81,12 +83,13 @@ std::string hashUri(const std::filesystem::path& folder, const std::string& uri)
 
 } // namespace
 
-core::Result<LoadedScene> loadGltf(const std::filesystem::path& path) try {
+core::Result<LoadedScene>
+loadGltf(const std::filesystem::path& path, const GltfLimits& limits) try {
     core::Result<std::vector<uint8_t>> bytes = io::readFileBytes(path, kMaxFileBytes);
     if (!bytes)
         return bytes.error();
     try {
-        return buildScene(path.parent_path(), bytes.value());
+        return buildScene(path.parent_path(), bytes.value(), limits);
     } catch (const GltfError& e) {
         return core::makeError("cannot load '{}': {}", path.string(), e.what());
     } catch (const std::bad_alloc&) {
@@ -99,7 +102,7 @@ core::Result<LoadedScene> loadGltf(const std::filesystem::path& path) try {
     return core::makeError("cannot load '{}': {}", path.string(), e.what());
 }
 
-core::Result<std::string> computeSceneHash(const std::filesystem::path& path) {
+core::Result<std::string> computeSceneHash(const std::filesystem::path& path, io::Reach reach) {
     const auto bytes = io::readFileBytes(path, std::numeric_limits<uint64_t>::max());
     if (!bytes)
         return bytes.error();
@@ -115,7 +118,7 @@ core::Result<std::string> computeSceneHash(const std::filesystem::path& path) {
         return core::makeError("cannot load '{}': {}", path.string(), error.what());
     }
     for (const std::string& uri : uris)
-        hashes += ' ' + hashUri(path.parent_path(), uri);
+        hashes += ' ' + hashUri(path.parent_path(), uri, reach);
     return io::computeContentHash(hashes);
 }
 

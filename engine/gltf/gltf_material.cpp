@@ -112,10 +112,7 @@ AssetIndex GltfTextures::addImage(size_t index) {
     if (mImageOf[index] != kNone)
         return mImageOf[index];
     scene::TextureImage image = decodeImage(index);
-    if (image.rgba.size() > mContext.imageBytesLeft) {
-        failGltf("its textures need over 4 GiB when decoded");
-    }
-    mContext.imageBytesLeft -= image.rgba.size();
+    mContext.spendImageBytes(image.rgba.size());
     mImageOf[index] = AssetIndex(mAssets.images.size());
     mAssets.images.push_back(std::move(image));
     return mImageOf[index];

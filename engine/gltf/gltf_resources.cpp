@@ -15,10 +15,7 @@ constexpr uint64_t kMaxImageBytes = uint64_t(1) << 30;
 
 /// Reads `uri`; `label` names the field in the message.
 std::vector<uint8_t> readUri(
-    const std::filesystem::path& folder,
-    const std::string& uri,
-    const std::string& label,
-    uint64_t maxBytes
+    const GltfPlace& place, const std::string& uri, const std::string& label, uint64_t maxBytes
 ) {
     if (io::isDataUri(uri)) {
         core::Result<std::vector<uint8_t>> bytes = io::decodeDataUri(uri);
@@ -26,7 +23,7 @@ std::vector<uint8_t> readUri(
             failGltf("{}: {}", label, bytes.error().message);
         return std::move(bytes).value();
     }
-    const core::Result<std::filesystem::path> file = io::resolveUri(folder, uri);
+    const core::Result<std::filesystem::path> file = io::resolveUri(place.folder, uri, place.reach);
     if (!file)
         failGltf("{}: {}", label, file.error().message);
     core::Result<std::vector<uint8_t>> bytes = io::readFileBytes(file.value(), maxBytes);
@@ -38,9 +35,9 @@ std::vector<uint8_t> readUri(
 } // namespace
 
 GltfResources::GltfResources(
-    nlohmann::json& root, std::filesystem::path folder, std::span<const uint8_t> bin, bool hasBin
+    nlohmann::json& root, GltfPlace place, std::span<const uint8_t> bin, bool hasBin
 )
-    : mFolder(std::move(folder)) {
+    : mPlace(std::move(place)) {
     if (const auto buffers = root.find("buffers"); buffers != root.end()) {
         for (const nlohmann::json& buffer : *buffers)
             addBuffer(buffer, bin, hasBin);
@@ -62,7 +59,7 @@ void GltfResources::addBuffer(
     std::span<const uint8_t> bytes;
     if (uri != json.end()) {
         const std::string label = fmt::format("buffers[{}].uri", index);
-        mOwned.push_back(readUri(mFolder, uri->get<std::string>(), label, byteLength));
+        mOwned.push_back(readUri(mPlace, uri->get<std::string>(), label, byteLength));
         bytes = mOwned.back();
     } else if (index == 0 && hasBin) {
         bytes = bin;
@@ -106,7 +103,7 @@ std::vector<uint8_t> GltfResources::readImageUri(size_t index) const {
     const ImageEntry& entry = mImages[index];
     if (!entry.hasUri)
         failGltf("images[{}] has neither a uri nor a bufferView", index);
-    return readUri(mFolder, entry.uri, fmt::format("images[{}].uri", index), kMaxImageBytes);
+    return readUri(mPlace, entry.uri, fmt::format("images[{}].uri", index), kMaxImageBytes);
 }
 
 } // namespace shutter::gltf

@@ -145,7 +145,8 @@ class InfluenceReader {
     std::vector<InfluenceSet> mSets;
 };
 
-math::dmat4 readBindMatrix(std::span<const float> values, const std::string& path) {
+/// \param mayBeZero all zeros are taken for a matrix that puts every vertex on its joint
+math::dmat4 readBindMatrix(std::span<const float> values, bool mayBeZero, const std::string& path) {
     constexpr double kRowTolerance = 1e-3; // exporters compute inverses in single precision
     math::dmat4 matrix(1.0);
     for (size_t i = 0; i < 16; ++i) {
@@ -153,6 +154,8 @@ math::dmat4 readBindMatrix(std::span<const float> values, const std::string& pat
             failGltf("{} holds {}", path, values[i]);
         matrix[glm::length_t(i / 4)][glm::length_t(i % 4)] = double(values[i]);
     }
+    if (mayBeZero && matrix == math::dmat4(0.0))
+        matrix[3][3] = 1.0;
     for (glm::length_t column = 0; column < 4; ++column) {
         const double expected = column == 3 ? 1.0 : 0.0;
         if (!(std::abs(matrix[column][3] - expected) <= kRowTolerance))
@@ -181,9 +184,14 @@ scene::Skin readSkin(GltfContext& context, size_t index) {
     );
     if (values.size() / 16 < jointCount)
         failGltf("{} has {} elements for {} joints", at, values.size() / 16, jointCount);
+    const bool mayBeZero = lacksView(context.model, size_t(source.inverseBindMatrices));
+    if (mayBeZero)
+        context.warnings.add(at + " has no bufferView: its zeros put vertices on their joints");
     for (size_t joint = 0; joint < jointCount; ++joint) {
         const std::span<const float> matrix(&values[joint * 16], 16);
-        skin.jointFromBind.push_back(readBindMatrix(matrix, fmt::format("{}[{}]", at, joint)));
+        skin.jointFromBind.push_back(
+            readBindMatrix(matrix, mayBeZero, fmt::format("{}[{}]", at, joint))
+        );
     }
     return skin;
 }

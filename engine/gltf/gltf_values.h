@@ -39,6 +39,12 @@ struct AccessorUse {
 /// Components of the accessor's type: 1 to 16.
 [[nodiscard]] size_t componentCount(const tinygltf::Accessor& accessor);
 
+/// Without a buffer view, what a sparse part does not give is zero (glTF 2.0, 3.6.2.3): such zeros
+/// are never a reason to refuse a file, even where a value of zero has no meaning.
+[[nodiscard]] inline bool lacksView(const tinygltf::Model& model, size_t accessor) {
+    return model.accessors[accessor].bufferView < 0;
+}
+
 /// All elements as floats, interleaved, with sparse values in place. Normalized integers are scaled
 /// to [0, 1] or [-1, 1], others keep their value. May hold NaN and infinity. Throws GltfError when
 /// the accessor is not what `use` accepts.

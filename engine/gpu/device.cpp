@@ -4,10 +4,12 @@
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "engine/gpu/device_features.h"
+#include "engine/gpu/pipeline_cache.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
-#include <iterator>
+#include <span>
 #include <system_error>
 #include <type_traits>
 #include <unistd.h>
@@ -240,11 +242,12 @@ std::string Device::cacheFileName() const {
 }
 
 void Device::loadPipelineCache() {
-    std::vector<char> data;
-    if (std::ifstream file(mCacheFile, std::ios::binary); !mCacheFile.empty() && file)
-        data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(mInfo.handle, &properties);
+    PipelineCacheOwner owner{.vendorId = properties.vendorID, .deviceId = properties.deviceID};
+    std::copy_n(properties.pipelineCacheUUID, VK_UUID_SIZE, owner.uuid.begin());
+    const std::vector<uint8_t> data = readPipelineCache(mCacheFile, owner);
     VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    // A blob of another driver or a damaged one is recognised by its header and ignored.
     info.initialDataSize = data.size();
     info.pInitialData = data.data();
     require(vkCreatePipelineCache(mDevice, &info, nullptr, &mPipelineCache), "making a cache");
@@ -256,15 +259,18 @@ void Device::savePipelineCache() const {
     size_t bytes = 0;
     if (vkGetPipelineCacheData(mDevice, mPipelineCache, &bytes, nullptr) != VK_SUCCESS)
         return;
-    std::vector<char> data(bytes);
+    std::vector<uint8_t> data(bytes);
     if (vkGetPipelineCacheData(mDevice, mPipelineCache, &bytes, data.data()) != VK_SUCCESS)
         return;
+    const std::vector<uint8_t> packed = packPipelineCache(std::span(data).first(bytes));
     // A cache that cannot be written costs time, nothing else: no error.
     std::error_code ignored;
     std::filesystem::create_directories(mCacheFile.parent_path(), ignored);
     const std::filesystem::path temporary = mCacheFile.string() + fmt::format(".{}", getpid());
     std::ofstream file(temporary, std::ios::binary);
-    file.write(data.data(), static_cast<std::streamsize>(bytes));
+    file.write(
+        reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size())
+    );
     file.close();
     if (file)
         std::filesystem::rename(temporary, mCacheFile, ignored);

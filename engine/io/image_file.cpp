@@ -118,11 +118,13 @@ core::Result<StoredImage> readStoredImage(const fs::path& path) {
     if (!fs::is_regular_file(path, ignored)) {
         return core::makeError("cannot read '{}': it is not a file", path.string());
     }
-    if (::access(path.c_str(), R_OK) != 0) {
+    constexpr uint64_t kSignatureBytes = 16;
+    const auto begin = readFileBytes(path, kSignatureBytes);
+    if (!begin)
         return core::makeError("cannot read '{}': permission denied", path.string());
-    }
     oiio::FloatPixels pixels;
-    const std::string why = oiio::readFloats(path.string(), pixels);
+    const std::string why =
+        oiio::readFloats(path.string(), fs::file_size(path, ignored), begin.value(), pixels);
     if (!why.empty())
         return core::makeError("cannot read '{}': {}", path.string(), why);
     StoredImage stored;
@@ -135,14 +137,14 @@ core::Result<StoredImage> readStoredImage(const fs::path& path) {
     return stored;
 }
 
-core::Result<bool> isDisplayFormat(const fs::path& path) {
+core::Result<bool> isDisplayFormat(const fs::path& path, std::string_view known) {
     const std::string extension = lowerExtension(path);
     if (extension == ".exr")
         return false;
     if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
         return true;
     return core::makeError(
-        "'{}' has the unknown extension '{}': use .exr, .png or .jpg", path.string(), extension
+        "'{}' has the unknown extension '{}': use {}", path.string(), extension, known
     );
 }
 

@@ -9,10 +9,12 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace shutter::io {
 
-/// Reads any picture OpenImageIO knows as floats (8-bit formats: value / 255, not linearised).
+/// Reads a PNG, JPEG, EXR or Radiance HDR, told apart by content, as floats (8-bit formats: value /
+/// 255, not linearised). Error: names the file and why.
 [[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
 
 /// A picture and what its file says of the values.
@@ -26,7 +28,9 @@ struct StoredImage {
 
 /// True where the extension stores values in [0, 1] for display (.png .jpg .jpeg), false for .exr.
 /// An Error names the extension when it is neither.
-[[nodiscard]] core::Result<bool> isDisplayFormat(const std::filesystem::path& path);
+/// \param known the extensions that the error offers: the caller may take more, or fewer
+[[nodiscard]] core::Result<bool>
+isDisplayFormat(const std::filesystem::path& path, std::string_view known = ".exr, .png or .jpg");
 
 /// Checks, before hours of rendering, that `path` has a known extension and that its folder exists
 /// and can be written.

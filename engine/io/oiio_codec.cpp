@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/oiio_codec.h"
 
+#include "engine/io/exr_header.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <exception>
+#include <fstream>
+#include <istream>
 #include <memory>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -23,6 +29,11 @@ using OIIO::TypeDesc;
 /// Largest side of a picture that readFloats takes; bounds the memory a damaged header can ask for.
 constexpr int kMaxFloatSide = 65536;
 constexpr uint64_t kMaxFloatValues = uint64_t(1) << 31; // 8 GiB
+
+/// Most values that a byte of a file stands for, rounded up: deflate's 1032 bytes a byte, and of an
+/// EXR's DWA an 8x8 block in two of those; of a PNG, 8 pixels a byte.
+constexpr uint64_t kMaxFloatsPerByte = 65536;
+constexpr uint64_t kMaxPixelsPerByte = 8 * 1032 + 64;
 
 /// libjpeg's JPEG_MAX_DIMENSION; above it, libjpeg ends the process.
 constexpr uint32_t kMaxJpegSide = 65500;
@@ -71,9 +82,15 @@ bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, std::vector<
     return true;
 }
 
-std::string readOpened(ImageInput& input, FloatPixels& out) {
+/// A picture of so many values or pixels cannot come from so many bytes.
+std::string refuseClaim(const ImageSpec& spec, uint64_t bytes) {
+    return "it claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
+           " pixels in " + std::to_string(bytes) + " bytes";
+}
+
+std::string readOpened(ImageInput& input, uint64_t fileBytes, FloatPixels& out) {
     const ImageSpec spec = input.spec();
-    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) {
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1 || spec.deep) {
         return "it is not a flat picture";
     }
     const uint64_t count = uint64_t(spec.width) * uint64_t(spec.height) * uint64_t(spec.nchannels);
@@ -81,6 +98,8 @@ std::string readOpened(ImageInput& input, FloatPixels& out) {
         return "it is too large (" + std::to_string(spec.width) + "x" +
                std::to_string(spec.height) + ")";
     }
+    if (count / kMaxFloatsPerByte > fileBytes)
+        return refuseClaim(spec, fileBytes);
     out.width = uint32_t(spec.width);
     out.height = uint32_t(spec.height);
     out.channels = uint32_t(spec.nchannels);
@@ -94,35 +113,60 @@ std::string readOpened(ImageInput& input, FloatPixels& out) {
     return done ? std::string() : oneLine(input.geterror(), "its pixels cannot be decoded");
 }
 
-const char* detectExtension(std::span<const uint8_t> encoded) {
-    constexpr uint8_t kPng[] = {0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0x1A, 0x0A};
-    constexpr uint8_t kJpeg[] = {0xFF, 0xD8, 0xFF};
-    if (encoded.size() >= sizeof(kPng) && std::memcmp(encoded.data(), kPng, sizeof(kPng)) == 0) {
-        return "png";
-    }
-    if (encoded.size() >= sizeof(kJpeg) && std::memcmp(encoded.data(), kJpeg, sizeof(kJpeg)) == 0) {
-        return "jpg";
-    }
+/// What a kind of file begins with, and OpenImageIO's name of its reader.
+struct Signature {
+    std::string_view begin;
+    const char* reader;
+};
+
+using namespace std::string_view_literals;
+
+constexpr Signature kTextureSignatures[] = {
+    {"\x89PNG\r\n\x1A\n"sv, "png"},
+    {"\xFF\xD8\xFF"sv, "jpeg"},
+};
+constexpr Signature kFloatSignatures[] = {
+    {"\x76\x2F\x31\x01"sv, "openexr"},
+    {"#?RADIANCE"sv, "hdr"},
+    {"#?RGBE"sv, "hdr"},
+};
+
+const char* findReader(std::span<const uint8_t> file, std::span<const Signature> signatures) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    for (const Signature& signature : signatures)
+        if (text.starts_with(signature.begin))
+            return signature.reader;
     return nullptr;
 }
 
 /// True when every chunk up to IEND is there. OpenImageIO leaks memory when libpng runs into the
 /// end of the bytes, and its message for that names no cause.
-bool isPngComplete(std::span<const uint8_t> encoded) {
-    constexpr size_t kSignatureBytes = 8;
-    constexpr size_t kChunkOverhead = 12; // length, type, checksum
-    size_t offset = kSignatureBytes;
-    while (encoded.size() - offset >= kChunkOverhead) {
-        const uint8_t* chunk = encoded.data() + offset;
-        const size_t length = size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 |
-                              size_t(chunk[2]) << 8 | size_t(chunk[3]);
-        if (length > encoded.size() - offset - kChunkOverhead)
+bool isPngComplete(std::istream& stream, uint64_t size) {
+    constexpr uint64_t kSignatureBytes = 8;
+    constexpr uint64_t kChunkOverhead = 12; // length, type, checksum
+    uint64_t offset = kSignatureBytes;
+    while (size >= offset + kChunkOverhead) {
+        std::array<uint8_t, 8> chunk{};
+        stream.seekg(std::streamoff(offset));
+        stream.read(reinterpret_cast<char*>(chunk.data()), std::streamsize(chunk.size()));
+        const uint64_t length = uint64_t(chunk[0]) << 24 | uint64_t(chunk[1]) << 16 |
+                                uint64_t(chunk[2]) << 8 | uint64_t(chunk[3]);
+        if (!stream || length > size - offset - kChunkOverhead)
             return false;
-        if (std::memcmp(chunk + 4, "IEND", 4) == 0)
+        if (std::memcmp(chunk.data() + 4, "IEND", 4) == 0)
             return true;
         offset += kChunkOverhead + length;
     }
     return false;
+}
+
+/// Returns an empty string, or what is wrong with the file before it is opened.
+std::string checkFile(const char* reader, const std::string& path, uint64_t fileBytes) {
+    const std::string_view name = reader;
+    if (name == "openexr")
+        return checkExrHeader(path, fileBytes, kMaxFloatSide);
+    std::ifstream stream(path, std::ios::binary);
+    return name != "png" || isPngComplete(stream, fileBytes) ? "" : "the PNG is cut off";
 }
 
 /// 1 to 4 channels (grey, grey and alpha, RGB, RGBA) to RGBA.
@@ -141,7 +185,8 @@ void expandToRgba(const std::vector<uint8_t>& source, size_t channels, std::vect
     }
 }
 
-std::string decodeOpened(ImageInput& input, uint32_t maxSide, Rgba8Pixels& out) {
+std::string
+decodeOpened(ImageInput& input, uint64_t encodedBytes, uint32_t maxSide, Rgba8Pixels& out) {
     const ImageSpec spec = input.spec();
     if (spec.width <= 0 || spec.height <= 0 || spec.nchannels < 1 || spec.nchannels > 4) {
         return "it has no pixels or an unknown channel layout";
@@ -151,6 +196,8 @@ std::string decodeOpened(ImageInput& input, uint32_t maxSide, Rgba8Pixels& out) 
                " pixels, above the limit of " + std::to_string(maxSide) + "x" +
                std::to_string(maxSide);
     }
+    if (uint64_t(spec.width) * uint64_t(spec.height) / kMaxPixelsPerByte > encodedBytes)
+        return refuseClaim(spec, encodedBytes);
     const size_t channels = size_t(spec.nchannels);
     std::vector<uint8_t> stored(size_t(spec.width) * size_t(spec.height) * channels);
     if (!input.read_image(0, 0, 0, spec.nchannels, TypeDesc::UINT8, stored.data())) {
@@ -205,12 +252,24 @@ TypeDesc memoryTypeOf(Storage storage) {
 
 } // namespace
 
-std::string readFloats(const std::string& path, FloatPixels& out) try {
-    const ImageSpec config = makeReadConfig();
-    const auto input = ImageInput::open(path, &config);
-    if (!input)
-        return oneLine(OIIO::geterror(), "no reader knows this format");
-    const std::string why = readOpened(*input, out);
+std::string readFloats(
+    const std::string& path, uint64_t fileBytes, std::span<const uint8_t> begin, FloatPixels& out
+) try {
+    const char* reader = findReader(begin, kTextureSignatures);
+    if (!reader)
+        reader = findReader(begin, kFloatSignatures);
+    if (!reader)
+        return "it is neither PNG, JPEG, EXR nor HDR";
+    if (std::string wrong = checkFile(reader, path, fileBytes); !wrong.empty())
+        return wrong;
+    // By the reader's name: open() would try all the others where this one fails.
+    const auto input = ImageInput::create(reader);
+    ImageSpec spec;
+    if (!input || !input->open(path, spec, makeReadConfig()))
+        return oneLine(
+            input ? input->geterror() : OIIO::geterror(), "its header cannot be decoded"
+        );
+    const std::string why = readOpened(*input, fileBytes, out);
     input->close();
     return why;
 
@@ -220,19 +279,26 @@ std::string readFloats(const std::string& path, FloatPixels& out) try {
 }
 
 std::string decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba8Pixels& out) try {
-    const char* extension = detectExtension(encoded);
-    if (!extension)
+    const char* reader = findReader(encoded, kTextureSignatures);
+    if (!reader)
         return "it is neither PNG nor JPEG";
-    if (std::string_view(extension) == "png" && !isPngComplete(encoded))
-        return "the PNG is cut off";
+    if (std::string_view(reader) == "png") {
+        const auto* text = reinterpret_cast<const char*>(encoded.data());
+        std::istringstream stream(std::string(text, encoded.size()));
+        if (!isPngComplete(stream, encoded.size()))
+            return "the PNG is cut off";
+    }
     OIIO::Filesystem::IOMemReader memory(encoded.data(), encoded.size());
     ImageSpec config = makeReadConfig();
     OIIO::Filesystem::IOProxy* proxy = &memory;
     config.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
-    const auto input = ImageInput::open(std::string("memory.") + extension, &config, &memory);
-    if (!input)
-        return oneLine(OIIO::geterror(), "its header cannot be decoded");
-    const std::string why = decodeOpened(*input, maxSide, out);
+    const auto input = ImageInput::create(reader);
+    ImageSpec spec;
+    if (!input || !input->open("memory", spec, config))
+        return oneLine(
+            input ? input->geterror() : OIIO::geterror(), "its header cannot be decoded"
+        );
+    const std::string why = decodeOpened(*input, encoded.size(), maxSide, out);
     input->close();
     return why;
 

@@ -40,12 +40,19 @@ struct EncodeRequest {
     const void* pixels = nullptr;
 };
 
-/// Unsigned 32-bit channels keep their value (exact to 2^24), 8 and 16-bit ones are scaled to
-/// [0, 1]. Alpha is not multiplied in. Returns an empty string, or why it failed.
-[[nodiscard]] std::string readFloats(const std::string& path, FloatPixels& out);
+/// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty
+/// more, not all of which bear damaged files. Unsigned 32-bit channels keep their value (exact to
+/// 2^24), 8 and 16-bit ones are scaled to [0, 1]. Alpha is not multiplied in. Refuses pictures that
+/// are too large, and those that no file of its size can hold, before decoding. Returns an empty
+/// string, or why it failed.
+/// \param fileBytes size of the file
+/// \param begin the first bytes of the file, 16 where it has as many
+[[nodiscard]] std::string readFloats(
+    const std::string& path, uint64_t fileBytes, std::span<const uint8_t> begin, FloatPixels& out
+);
 
-/// Decodes PNG or JPEG bytes; refuses pictures wider or higher than `maxSide` before decoding.
-/// Returns an empty string, or why it failed.
+/// Decodes PNG or JPEG bytes; refuses pictures wider or higher than `maxSide`, and those that these
+/// bytes cannot hold, before decoding. Returns an empty string, or why it failed.
 [[nodiscard]] std::string
 decodeRgba8(std::span<const uint8_t> encoded, uint32_t maxSide, Rgba8Pixels& out);
 

@@ -60,10 +60,13 @@ int base64Digit(char c) {
     return -1;
 }
 
+/// RFC 4648: padding may lack, but where there is some it fills the last group of four; the bits
+/// after the last byte are 0.
 std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
-    while (!text.empty() && text.back() == '=')
-        text.remove_suffix(1);
-    if (text.size() % 4 == 1)
+    const size_t digitsEnd = text.find_last_not_of('=') + 1; // npos + 1 is 0
+    const size_t padding = text.size() - digitsEnd;
+    text = text.substr(0, digitsEnd);
+    if (text.size() % 4 == 1 || (padding != 0 && (padding > 2 || (digitsEnd + padding) % 4 != 0)))
         return std::nullopt;
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
@@ -80,6 +83,8 @@ std::optional<std::vector<uint8_t>> base64Decode(std::string_view text) {
         bitCount -= 8;
         bytes.push_back(uint8_t(bits >> bitCount & 0xFFu));
     }
+    if ((bits & ((1u << bitCount) - 1u)) != 0)
+        return std::nullopt;
     return bytes;
 }
 
@@ -100,18 +105,41 @@ bool startsWithNoCase(std::string_view text, std::string_view prefix) {
            });
 }
 
-/// A link inside the folder may still point out of it.
-bool staysInside(const fs::path& folder, const fs::path& file) {
-    std::error_code failure;
-    const fs::path root = fs::weakly_canonical(folder, failure);
-    if (failure)
-        return false;
-    const fs::path target = fs::weakly_canonical(file, failure);
-    if (failure)
-        return false;
-    const auto [rootEnd, ignored] =
-        std::mismatch(root.begin(), root.end(), target.begin(), target.end());
-    return rootEnd == root.end();
+/// RFC 2045: at least one letter, digit or one of these signs; '%' begins an encoded one.
+bool isToken(std::string_view text) {
+    constexpr std::string_view kSigns = "!#$%&'*+-.^_`{|}~";
+    return !text.empty() && std::all_of(text.begin(), text.end(), [&](unsigned char c) {
+        return std::isalnum(c) || kSigns.find(char(c)) != std::string_view::npos;
+    });
+}
+
+/// Whether `separator` stands once in `text`, between two tokens.
+bool isPairOfTokens(std::string_view text, char separator) {
+    const size_t place = text.find(separator);
+    return place != std::string_view::npos && isToken(text.substr(0, place)) &&
+           isToken(text.substr(place + 1));
+}
+
+/// Reads `[type/subtype] *(;attribute=value) [;base64]` (RFC 2397). Returns whether the data are
+/// base64.
+core::Result<bool> parseDataHeader(std::string_view header) {
+    bool isFirst = true;
+    bool isBase64 = false;
+    while (isFirst || !header.empty()) {
+        const size_t length =
+            std::min(isFirst ? header.find(';') : header.find(';', 1), header.size());
+        const std::string_view part = header.substr(0, length);
+        header.remove_prefix(length);
+        if (isFirst && !part.empty() && !isPairOfTokens(part, '/'))
+            return core::makeError("the data URI's '{}' is no media type", abbreviateUri(part));
+        if (!isFirst) {
+            isBase64 = header.empty() && part.size() == 7 && startsWithNoCase(part, ";base64");
+            if (!isBase64 && !isPairOfTokens(part.substr(1), '='))
+                return core::makeError("the data URI's '{}' is no parameter", abbreviateUri(part));
+        }
+        isFirst = false;
+    }
+    return isBase64;
 }
 
 } // namespace
@@ -125,24 +153,23 @@ core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri) {
     if (!isDataUri(uri) || comma == std::string_view::npos) {
         return core::makeError("the data URI has no ','");
     }
-    const std::string_view header = uri.substr(0, comma);
-    const std::string_view payload = uri.substr(comma + 1);
-    constexpr std::string_view kBase64 = ";base64";
-    const bool isBase64 = header.size() >= kBase64.size() &&
-                          startsWithNoCase(header.substr(header.size() - kBase64.size()), kBase64);
-    if (isBase64) {
-        std::optional<std::vector<uint8_t>> bytes = base64Decode(payload);
-        if (!bytes)
-            return core::makeError("the data URI is not valid base64");
-        return std::move(*bytes);
-    }
-    const std::optional<std::string> text = percentDecode(payload);
+    constexpr size_t kScheme = 5; // "data:"
+    const core::Result<bool> isBase64 = parseDataHeader(uri.substr(kScheme, comma - kScheme));
+    if (!isBase64)
+        return isBase64.error();
+    // Base64 too: a URI may write any of its characters with percent signs.
+    const std::optional<std::string> text = percentDecode(uri.substr(comma + 1));
     if (!text)
         return core::makeError("the data URI has a broken percent-encoding");
-    return std::vector<uint8_t>(text->begin(), text->end());
+    if (!isBase64.value())
+        return std::vector<uint8_t>(text->begin(), text->end());
+    std::optional<std::vector<uint8_t>> bytes = base64Decode(*text);
+    if (!bytes)
+        return core::makeError("the data URI is not valid base64");
+    return std::move(*bytes);
 }
 
-core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) {
+core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri, Reach reach) {
     if (uri.empty())
         return core::makeError("the URI is empty");
     if (uri.size() > kMaxUriBytes) {
@@ -158,7 +185,10 @@ core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) 
     if (decoded->find('\0') != std::string::npos) {
         return core::makeError("the URI '{}' holds a NUL", abbreviateUri(uri));
     }
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
     const fs::path relative(*decoded);
+    if (reach == Reach::Anywhere)
+        return base / relative;
     const bool climbs = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) {
         return part == "..";
     });
@@ -167,12 +197,25 @@ core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri) 
     if (relative.is_absolute() || climbs || climbsOnWindows) {
         return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
     }
-    const fs::path base = folder.empty() ? fs::path(".") : folder;
-    const fs::path file = base / relative;
-    if (!staysInside(base, file)) {
+    // A link inside the folder may still point out of it.
+    if (!liesInside(base, relative)) {
         return core::makeError("the URI '{}' leaves the file's folder", abbreviateUri(uri));
     }
-    return file;
+    return base / relative;
+}
+
+bool liesInside(const fs::path& folder, const fs::path& path) {
+    const fs::path base = folder.empty() ? fs::path(".") : folder;
+    std::error_code failure;
+    const fs::path root = fs::weakly_canonical(base, failure);
+    if (failure)
+        return false;
+    const fs::path target = fs::weakly_canonical(base / path, failure);
+    if (failure)
+        return false;
+    const auto [rootEnd, ignored] =
+        std::mismatch(root.begin(), root.end(), target.begin(), target.end());
+    return rootEnd == root.end();
 }
 
 std::string abbreviateUri(std::string_view uri) {

@@ -14,16 +14,28 @@ namespace shutter::io {
 /// Whether it begins with `data:`, in any case; what follows need not be valid.
 [[nodiscard]] bool isDataUri(std::string_view uri);
 
-/// Bytes of a data URI, base64 (the URL-safe alphabet as well, padding may lack) or
-/// percent-encoded; its media type is not looked at. An Error names what is malformed.
+/// Bytes of a data URI (RFC 2397), base64 (the URL-safe alphabet as well, padding may lack) or
+/// percent-encoded; which media type it tells does not matter. An Error names what is malformed.
 [[nodiscard]] core::Result<std::vector<uint8_t>> decodeDataUri(std::string_view uri);
+
+/// Which files a file may name.
+enum class Reach : uint8_t {
+    Folder,   ///< those in its own folder and below
+    Anywhere, ///< all, as its reader has said
+};
 
 /// The file that a relative URI names below `folder` (empty: the working folder). Refuses, without
 /// touching the disk first: nothing at all, schemes (http:, file:, C:), absolute paths, any `..`,
-/// NUL, broken percent-encoding, over 4096 bytes; then links that lead out of the folder. The file
-/// itself need not exist. An Error says what is wrong with the URI.
+/// NUL, broken percent-encoding, over 4096 bytes; then links that lead out of the folder. With
+/// Reach::Anywhere, absolute paths, `..` and such links are taken. The file itself need not exist.
+/// An Error says what is wrong with the URI.
 [[nodiscard]] core::Result<std::filesystem::path>
-resolveUri(const std::filesystem::path& folder, std::string_view uri);
+resolveUri(const std::filesystem::path& folder, std::string_view uri, Reach reach = Reach::Folder);
+
+/// Whether `path`, from `folder` on unless it is absolute, lies in `folder` (empty: the working
+/// folder) or below, links and `..` followed. It need not exist.
+[[nodiscard]] bool
+liesInside(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 /// A URI as it may stand in a message: its first 80 bytes and "..." where it is longer.
 [[nodiscard]] std::string abbreviateUri(std::string_view uri);

@@ -78,6 +78,10 @@ void JsonNode::failKind(std::string_view wanted) const {
     fail("must be {}, not {}", wanted, describeKind(mTree->values[mIndex].kind));
 }
 
+bool JsonNode::isNull() const {
+    return mIndex != JsonTree::kAbsent && mTree->values[mIndex].kind == JsonKind::Null;
+}
+
 bool JsonNode::isNumber() const {
     return mIndex != JsonTree::kAbsent && mTree->values[mIndex].kind == JsonKind::Number;
 }
@@ -206,6 +210,19 @@ JsonObject JsonNode::readObject(std::span<const std::string_view> fields) const 
     }
     object.mNode = *this;
     return object;
+}
+
+std::vector<std::pair<std::string, JsonNode>> JsonNode::readFields() const {
+    std::vector<std::pair<std::string, JsonNode>> fields;
+    if (mIndex == JsonTree::kAbsent)
+        return fields;
+    const JsonValue& value = mTree->values[mIndex];
+    if (value.kind != JsonKind::Object)
+        failKind("an object");
+    else
+        for (const uint32_t child : value.children)
+            fields.emplace_back(mTree->values[child].key, JsonNode(*mTree, child));
+    return fields;
 }
 
 std::optional<JsonNode> JsonObject::find(std::string_view field) const {

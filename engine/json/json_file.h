@@ -84,6 +84,10 @@ class JsonNode {
         return choices[readWord(words)].second;
     }
 
+    /// The fields of an object of any names, in the order of the file.
+    [[nodiscard]] std::vector<std::pair<std::string, JsonNode>> readFields() const;
+
+    [[nodiscard]] bool isNull() const;
     [[nodiscard]] bool isNumber() const;
     [[nodiscard]] bool isString() const;
     [[nodiscard]] bool isObject() const;

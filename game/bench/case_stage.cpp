@@ -6,11 +6,12 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "game/bench/truth_cache.h"
 #include "game/options/render_arguments.h"
 
 #include <fmt/format.h>
 
-#include <system_error>
+#include <utility>
 
 namespace shutter::bench {
 
@@ -38,7 +39,8 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto scene = writeScene(shot, folder);
     if (!scene)
         return scene.error();
-    auto sceneHash = gltf::computeSceneHash(scene.value());
+    const io::Reach reach = shot.shot.allowOutside ? io::Reach::Anywhere : io::Reach::Folder;
+    auto sceneHash = gltf::computeSceneHash(scene.value(), reach);
     if (!sceneHash)
         return sceneHash.error();
     auto program = io::computeFileHash("/proc/self/exe");
@@ -102,19 +104,17 @@ Status CaseStage::provideTruth() {
     const fs::path file = mOptions.folder / mTruthImage;
     const fs::path cached =
         mOptions.truthCache.empty() ? fs::path() : mOptions.truthCache / (mTruthHash + ".png");
-    std::error_code missing;
-    const bool isCached = !cached.empty() && fs::exists(cached, missing);
-    if (isCached)
+    if (auto kept = readCachedTruth(cached, mShotOptions.width, mShotOptions.height)) {
         mProgress.advance(mOptions.truthSamples);
-    else if (Status drawn = drawTruth(file); !drawn)
-        return drawn;
+        mTruth = std::move(*kept);
+        return io::writeImage(file, mTruth);
+    }
+    SHUTTER_TRY(drawTruth(file));
     // What is compared is what the file holds: 8 bits a channel.
-    auto read = io::readImage(isCached ? cached : file);
+    auto read = io::readImage(file);
     if (!read)
         return read.error();
     mTruth = std::move(read.value());
-    if (isCached)
-        return io::writeImage(file, mTruth);
     return cached.empty() ? Status() : io::writeImage(cached, mTruth);
 }
 
@@ -193,7 +193,7 @@ core::Result<std::vector<Crop>> CaseStage::chooseCrops() const {
             return picture->error();
     std::vector<Crop> crops;
     const auto add = [&](const image::Image& a, const image::Image& b, const char* label) {
-        if (a.width != b.width || a.width == 0)
+        if (a.width != b.width || a.height != b.height || a.width == 0)
             return;
         for (Crop& crop : findLargestDifference(a, b, kCropSidePx, label, crops))
             crops.push_back(std::move(crop));

@@ -3,39 +3,39 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
+#include "engine/io/uri.h"
+#include "engine/json/json_file.h"
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace shutter::bench {
 
 namespace {
 
-using nlohmann::json;
-
 /// JSON has no infinity: null is written instead.
-json packMetric(double value) {
-    return std::isfinite(value) ? json(value) : json();
+nlohmann::json packMetric(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
-double unpackMetric(const json& value) {
-    return value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>();
-}
-
-json packRecord(const Record& record) {
-    json samples = json::array();
+nlohmann::json packRecord(const Record& record) {
+    auto samples = nlohmann::json::array();
     for (const Sample& sample : record.samples) {
-        json passes = json::array();
+        auto passes = nlohmann::json::array();
         for (const PassSample& pass : sample.passes)
             passes.push_back({pass.name, pass.milliseconds, render::describe(pass.owner)});
         samples.push_back({{"passes", passes}, {"wall", sample.wallMilliseconds}});
     }
-    json packed = {{"samples", samples}, {"skipped", record.skipped}};
+    nlohmann::json packed = {{"samples", samples}, {"skipped", record.skipped}};
     if (record.hasPicture) {
-        json metrics = json::object();
+        auto metrics = nlohmann::json::object();
         for (const auto& [id, value] : record.picture.metrics)
             metrics[id] = packMetric(value);
         packed["picture"] = {
@@ -47,55 +47,100 @@ json packRecord(const Record& record) {
     return packed;
 }
 
-render::PassOwner unpackOwner(const json& word) {
-    using Owner = render::PassOwner;
-    for (const Owner owner : {Owner::Scene, Owner::Rays, Owner::Effect})
-        if (word == render::describe(owner))
-            return owner;
-    return Owner::Display;
+double readMetric(const json::JsonNode& node) {
+    return node.isNull() ? std::numeric_limits<double>::infinity() : node.readNumber();
 }
 
-Record unpackRecord(const json& packed) {
-    Record record;
-    for (const json& from : packed.at("samples")) {
-        Sample sample;
-        sample.wallMilliseconds = from.at("wall");
-        for (const json& pass : from.at("passes"))
-            sample.passes.push_back({pass.at(0), pass.at(1), unpackOwner(pass.at(2))});
-        record.samples.push_back(std::move(sample));
+render::PassOwner readOwner(const json::JsonNode& node) {
+    using Owner = render::PassOwner;
+    constexpr std::array kOwners = {Owner::Scene, Owner::Rays, Owner::Effect, Owner::Display};
+    std::array<std::string_view, kOwners.size()> words;
+    for (size_t i = 0; i < kOwners.size(); ++i)
+        words[i] = render::describe(kOwners[i]);
+    return kOwners[node.readWord(words)];
+}
+
+Sample readSample(const json::JsonNode& node) {
+    const json::JsonObject object = node.readObject({"passes", "wall"});
+    Sample sample;
+    sample.wallMilliseconds = object.require("wall").readNumber();
+    for (const json::JsonNode& pass : object.require("passes").readArray()) {
+        const std::vector<json::JsonNode> parts = pass.readArray(3, 3);
+        if (parts.size() == 3)
+            sample.passes.push_back(
+                {parts[0].readString(), parts[1].readNumber(), readOwner(parts[2])}
+            );
     }
-    record.skipped = packed.at("skipped");
-    if (!packed.contains("picture"))
-        return record;
-    const json& picture = packed.at("picture");
-    record.hasPicture = true;
-    for (const auto& [id, value] : picture.at("metrics").items())
-        record.picture.metrics[id] = unpackMetric(value);
-    record.picture.image = picture.at("image");
-    record.picture.errorMap = picture.at("errorMap");
-    record.picture.counters = picture.at("counters");
+    return sample;
+}
+
+/// A picture that the journal names, which is read again: in the report's folder or below.
+std::string readPicturePath(const json::JsonNode& node, const std::filesystem::path& folder) {
+    std::string path = node.readString();
+    if (!io::liesInside(folder, path))
+        node.fail("'{}' leaves the report's folder", path);
+    return path;
+}
+
+PictureFacts readPicture(const json::JsonNode& node, const std::filesystem::path& folder) {
+    const json::JsonObject object = node.readObject({"metrics", "image", "errorMap", "counters"});
+    PictureFacts picture;
+    for (const auto& [id, value] : object.require("metrics").readFields())
+        picture.metrics[id] = readMetric(value);
+    picture.image = readPicturePath(object.require("image"), folder);
+    picture.errorMap = readPicturePath(object.require("errorMap"), folder);
+    for (const auto& [name, value] : object.require("counters").readFields())
+        picture.counters[name] = uint64_t(value.readInteger(0));
+    return picture;
+}
+
+Record readRecord(const json::JsonNode& node, const std::filesystem::path& folder) {
+    const json::JsonObject object = node.readObject({"samples", "skipped", "picture"});
+    Record record;
+    for (const json::JsonNode& sample : object.require("samples").readArray())
+        record.samples.push_back(readSample(sample));
+    record.skipped = object.require("skipped").readString();
+    if (const auto picture = object.find("picture")) {
+        record.hasPicture = true;
+        record.picture = readPicture(*picture, folder);
+    }
     return record;
+}
+
+/// The records of the journal; nothing where it has another fingerprint. Error: it is no journal.
+core::Result<std::optional<std::map<std::string, Record>>>
+readRecords(const std::filesystem::path& file, const std::string& fingerprint) {
+    using Records = std::map<std::string, Record>;
+    constexpr json::JsonLimits kLimits{.maxDepth = 8, .maxValues = 5'000'000};
+    const auto document = json::JsonDocument::load(file, kLimits);
+    if (!document)
+        return document.error();
+    const json::JsonObject root = document.value().root().readObject({"fingerprint", "records"});
+    const std::string found = root.require("fingerprint").readString();
+    // In a folder of its own below the report's.
+    const std::filesystem::path folder = file.parent_path() / "..";
+    Records records;
+    if (found == fingerprint)
+        for (const auto& [key, record] : root.require("records").readFields())
+            records[key] = readRecord(record, folder);
+    SHUTTER_TRY(document.value().finish());
+    return found == fingerprint ? std::optional(std::move(records)) : std::nullopt;
 }
 
 } // namespace
 
 Journal::Journal(std::filesystem::path file, std::string fingerprint)
     : mFile(std::move(file)), mFingerprint(std::move(fingerprint)) {
-    std::ifstream stream(mFile);
-    if (!stream)
+    std::error_code ignored;
+    if (!std::filesystem::exists(mFile, ignored))
         return;
-    try {
-        const json root = json::parse(stream);
-        if (root.at("fingerprint") != mFingerprint) {
-            core::logInfo("{}: measured with other settings, measured anew", mFile.string());
-            return;
-        }
-        for (const auto& [key, record] : root.at("records").items())
-            mRecords[key] = unpackRecord(record);
-    } catch (const json::exception&) {
-        core::logWarning("{}: not a journal of this version, measured anew", mFile.string());
-        mRecords.clear();
-    }
+    auto records = readRecords(mFile, mFingerprint);
+    if (!records)
+        core::logWarning("{}; measured anew", records.error().message);
+    else if (!records.value())
+        core::logInfo("{}: measured with other settings, measured anew", mFile.string());
+    else
+        mRecords = std::move(*records.value());
 }
 
 const Record& Journal::find(const std::string& key) const {
@@ -125,10 +170,10 @@ core::Status Journal::skip(const std::string& key, const std::string& reason) {
 }
 
 core::Status Journal::save() const {
-    json records = json::object();
+    auto records = nlohmann::json::object();
     for (const auto& [key, record] : mRecords)
         records[key] = packRecord(record);
-    const json root = {{"fingerprint", mFingerprint}, {"records", records}};
+    const nlohmann::json root = {{"fingerprint", mFingerprint}, {"records", records}};
     return io::writeFileText(mFile, root.dump(1) + "\n");
 }
 

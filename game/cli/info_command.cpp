@@ -19,6 +19,7 @@ namespace {
 
 struct InfoArguments {
     std::string scene;
+    bool allowOutside = false;
     bool devices = false;
     bool methods = false;
     bool schema = false;
@@ -49,8 +50,8 @@ core::Status printDevices() {
     return {};
 }
 
-core::Status printScene(const std::string& path) {
-    auto loaded = gltf::loadGltf(path);
+core::Status printScene(const std::string& path, io::Reach reach) {
+    auto loaded = gltf::loadGltf(path, {.reach = reach});
     if (!loaded)
         return loaded.error();
     const scene::World& world = loaded.value().world;
@@ -126,7 +127,9 @@ int runInfo(const InfoArguments& arguments) {
     if (arguments.devices)
         done = printDevices();
     if (done && !arguments.scene.empty())
-        done = printScene(arguments.scene);
+        done = printScene(
+            arguments.scene, arguments.allowOutside ? io::Reach::Anywhere : io::Reach::Folder
+        );
     if (!done)
         printError(done.error());
     return done ? kExitDone : kExitFailed;
@@ -140,6 +143,9 @@ void addInfoCommand(CLI::App& app, int& exitStatus) {
     );
     auto arguments = std::make_shared<InfoArguments>();
     command->add_option("scene", arguments->scene, "glTF 2.0 scene");
+    command->add_flag(
+        "--allow-outside", arguments->allowOutside, "let the scene read files outside its folder"
+    );
     command->add_flag("--devices", arguments->devices, "list the Vulkan devices");
     command->add_flag("--methods", arguments->methods, "list the methods, one per line");
     command->add_flag(

@@ -59,10 +59,11 @@ Status chooseMethod(const MethodArguments& arguments, MethodOptions& options) {
 }
 
 Status interpretSamples(const MethodArguments& arguments, MethodOptions& options) {
-    if (arguments.samples > kMaxSamples)
-        return makeError("--samples {} is above {}", arguments.samples, kMaxSamples);
-    if (arguments.samples > 0)
-        options.samples = arguments.samples;
+    const auto& row = core::getRow(motion_blur::listSettingRows(), "sampleCount");
+    const uint32_t most = options.method->blur ? uint32_t(row.range.highest) : kMaxSamples;
+    options.samples = arguments.samples.value_or(options.samples);
+    if (arguments.samples && (options.samples == 0 || options.samples > most))
+        return makeError("--samples {} must lie in [1, {}]", options.samples, most);
     if (!options.method->blur)
         return {};
     options.motionBlur.method = options.method->blur;

@@ -19,8 +19,8 @@ namespace shutter::game {
 
 struct MethodArguments {
     std::string method = "resolved";
-    std::string preset;   ///< chooses method and settings in place of `method`; empty: none
-    uint32_t samples = 0; ///< 0: the method's own number
+    std::string preset; ///< chooses method and settings in place of `method`; empty: none
+    std::optional<uint32_t> samples; ///< else the method's own number
     std::optional<double> error;
     std::vector<std::string> settings; ///< NAME=VALUE
     motion_blur::BlurBudget budget{};

@@ -101,7 +101,7 @@ Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, Output
 Status interpretOut(const RenderArguments& all, const ShotOptions& shot, OutputOptions& options) {
     options.out = all.output.out;
     SHUTTER_TRY(interpretFilm(all, shot, options));
-    auto display = io::isDisplayFormat(options.out);
+    auto display = io::isDisplayFormat(options.out, ".exr, .png, .jpg or .mp4");
     if (!display)
         return makeError("--out: {}", display.error().message);
     options.displayOut = display.value();

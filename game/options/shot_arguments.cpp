@@ -31,6 +31,12 @@ constexpr std::array kViewRows = {
     makeRow<&A::loop>("--loop", "restart clips when they end; default: hold the last pose"),
 };
 
+constexpr auto kOutsideRow = makeRow<&A::allowOutside>(
+    "--allow-outside",
+    "let the scene read, and a script write, files outside its folder",
+    Matters::ToNoPicture // what is read counts by its contents
+);
+
 constexpr std::array kLookRows = {
     makeWordRow<&A::pixel, kPixelWords>("--pixel", "pixel filter: centre (default) or box"),
     makeRow<&A::seed>(
@@ -110,7 +116,12 @@ Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
 
 } // namespace
 
+void defineOutsideOption(CLI::App& command, ShotArguments& arguments) {
+    kOutsideRow.define(command, kOutsideRow, arguments);
+}
+
 void defineShotOptions(CLI::App& command, ShotArguments& arguments) {
+    defineOutsideOption(command, arguments);
     defineRows(command, OptionRows<A>(kViewRows), arguments);
     defineShutterOptions(command, arguments.shutter);
     defineRows(command, OptionRows<A>(kLookRows), arguments);
@@ -140,6 +151,7 @@ core::Result<tonemap::TonemapSettings> interpretTonemap(const ShotArguments& arg
 core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     ShotOptions options;
     options.scene = arguments.scene;
+    options.reach = arguments.allowOutside ? io::Reach::Anywhere : io::Reach::Folder;
     options.camera = arguments.camera;
     options.clips = arguments.clips;
     options.loop = arguments.loop;

@@ -15,6 +15,7 @@ namespace shutter::game {
 
 struct ShotArguments {
     std::string scene;
+    bool allowOutside = false;
     std::string camera;
     double time = 0.0;
     std::string frames;
@@ -38,6 +39,8 @@ inline constexpr std::string_view kTonemapWords[] = {"none", "neutral"};
 
 /// The options that every shot has; not those of `shutter render` alone (defineFrameOptions).
 void defineShotOptions(CLI::App& command, ShotArguments& arguments);
+/// --allow-outside, which defineShotOptions() includes.
+void defineOutsideOption(CLI::App& command, ShotArguments& arguments);
 /// --tonemap and --ev, which defineShotOptions() includes.
 std::vector<CLI::Option*> defineTonemapOptions(CLI::App& command, ShotArguments& arguments);
 /// --size, --frames and --flythrough. To be called after defineShotOptions().

@@ -73,7 +73,7 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
 /// named from the first on, so their names depend on that.
 core::Result<std::string>
 computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) {
-    auto scene = gltf::computeSceneHash(options.shot.scene);
+    auto scene = gltf::computeSceneHash(options.shot.scene, options.shot.reach);
     if (!scene)
         return scene.error();
     auto program = io::computeFileHash("/proc/self/exe");

@@ -2,6 +2,7 @@
 #include "game/output/sequence_journal.h"
 
 #include "engine/io/file_bytes.h"
+#include "engine/io/uri.h"
 #include "engine/json/json_file.h"
 #include "game/output/render_options.h"
 
@@ -19,7 +20,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr uint64_t kMaxJournalBytes = uint64_t{1} << 30;
+/// A line takes some 200 bytes, of a frame with every intermediate 1 KiB. Of a larger file the
+/// first of them count.
+constexpr uint64_t kMaxJournalBytes = uint64_t{1} << 28;
+/// Far above a frame's picture and its intermediates.
+constexpr size_t kMaxFilesPerFrame = 64;
 constexpr std::string_view kJournalName = "shutter frames 1";
 /// File systems take 255.
 constexpr size_t kMaxNameBytes = 200;
@@ -122,9 +127,12 @@ bool SequenceJournal::readLines(std::string_view text, const std::string& finger
         const json::JsonObject line = document.value().root().readObject({"frame", "files"});
         const auto frame = int(line.require("frame").readInteger(INT32_MIN, INT32_MAX));
         std::vector<File> files;
-        for (const json::JsonNode& node : line.require("files").readArray(1)) {
+        for (const json::JsonNode& node : line.require("files").readArray(1, kMaxFilesPerFrame)) {
             const json::JsonObject file = node.readObject({"name", "hash"});
-            files.push_back({file.require("name").readString(), file.require("hash").readString()});
+            const json::JsonNode name = file.require("name");
+            files.push_back({name.readString(), file.require("hash").readString()});
+            if (!io::liesInside(folderOf(mFile), files.back().name))
+                name.fail("leaves the journal's folder");
         }
         if (document.value().finish())
             mFrames[frame] = std::move(files);

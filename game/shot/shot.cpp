@@ -137,7 +137,7 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& opt
 }
 
 core::Result<Shot> loadShot(const ShotOptions& options) {
-    auto loaded = gltf::loadGltf(options.scene);
+    auto loaded = gltf::loadGltf(options.scene, {.reach = options.reach});
     if (!loaded)
         return loaded.error();
     for (const std::string& warning : loaded.value().warnings)

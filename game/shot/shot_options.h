@@ -5,6 +5,7 @@
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/flythrough/flythrough.h"
+#include "engine/io/uri.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
@@ -27,8 +28,9 @@ inline constexpr double kMaxSeconds = 1.0e9;
 /// A scene, its camera, frames, light and look.
 struct ShotOptions {
     std::filesystem::path scene;
-    std::string camera;             ///< name or index; empty: the first
-    std::vector<std::string> clips; ///< names, or "none"; empty: all
+    io::Reach reach = io::Reach::Folder; ///< the files that the scene, or a script, may name
+    std::string camera;                  ///< name or index; empty: the first
+    std::vector<std::string> clips;      ///< names, or "none"; empty: all
     bool loop = false;
     std::vector<double> frameTimes; ///< seconds
     int firstFrame = 0;             ///< number of the first file of a sequence

@@ -18,7 +18,10 @@ test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb x
 # Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
 debian_test_packages=(chromium chromium-driver)
 # What scripts/check_*.sh judge the tree by; Debian 13 no longer has that version.
-check_packages=("clang-format-$llvm_version" "clang-tidy-$llvm_version")
+check_packages=(
+    "clang-format-$llvm_version" "clang-tidy-$llvm_version"
+    "clang-$llvm_version" "libclang-rt-$llvm_version-dev"
+)
 # lavapipe traces rays from this version of Mesa on.
 mesa_package=mesa-vulkan-drivers
 mesa_minimum=24.1

@@ -108,6 +108,7 @@ TEST_F(Cli, ANumberOutOfItsRangeIsRefused) {
         {"--fps", "-24"},
         {"--time", "1e300"},
         {"--samples", "-1"},
+        {"--samples", "0"},
         {"--samples", "257"},
         {"--samples", "99999999999"},
         {"--ev", "33"},

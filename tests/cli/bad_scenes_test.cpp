@@ -53,6 +53,16 @@ class CliScenes : public Cli {
 
 } // namespace
 
+TEST_F(CliScenes, AFileOutsideTheFolderIsReadOnlyWhereThatIsAllowed) {
+    fs::create_directory(path("sub"));
+    std::string scene = makeTriangle(36, "");
+    scene.replace(scene.find("points.bin"), 0, "../");
+    writeFile("sub/scene.gltf", scene);
+    writeFile("points.bin", std::string(36, '\0'));
+    expectSceneRefusal("sub/scene.gltf", {"sub/scene.gltf", "../points.bin", "leaves"});
+    expectSuccess({"info", "sub/scene.gltf", "--allow-outside"});
+}
+
 TEST_F(CliScenes, AMissingFileIsNamed) {
     expectSceneRefusal("nosuch.glb", {"nosuch.glb"});
     expectSceneRefusal("nosuch/scene.gltf", {"nosuch/scene.gltf"});

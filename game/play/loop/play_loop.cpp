@@ -64,7 +64,7 @@ core::Result<std::unique_ptr<PlayLoop>> PlayLoop::open(const PlayOptions& option
 
 core::Status PlayLoop::openScript() {
     if (!mOptions.script.empty()) {
-        auto script = app::readInputScript(mOptions.script);
+        auto script = app::readInputScript(mOptions.script, mOptions.shot.reach);
         if (!script)
             return script.error();
         mScript.emplace(std::move(script).value());

@@ -51,7 +51,7 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
         return {};
     if (options.film.extension() == ".mp4")
         return {};
-    auto isDisplay = io::isDisplayFormat(options.film);
+    auto isDisplay = io::isDisplayFormat(options.film, ".png, .jpg or .mp4");
     if (!isDisplay)
         return makeError("--film: {}", isDisplay.error().message);
     if (!isDisplay.value())
@@ -77,6 +77,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_flag(
         "--loop,!--no-loop", a.shot.loop, "restart the clips of a scene when they end (default)"
     );
+    defineOutsideOption(command, a.shot);
     defineRows(command, OptionRows<ShotArguments>(kShotRows), a.shot);
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"

@@ -79,6 +79,20 @@ TEST_F(InputScriptFile, WrongEventsAreRefusedByLineAndField) {
     expectRefused(R"({"time": 0, "keys": "w"})", "keys");
 }
 
+TEST_F(InputScriptFile, AScreenshotIsADisplayPictureBelowTheWorkingFolder) {
+    const auto shoot = [](const std::string& file) {
+        return "{\"time\": 0, \"screenshot\": \"" + file + "\"}";
+    };
+    EXPECT_TRUE(read("{\"version\": 1, \"events\": [" + shoot("sub/a.png") + "]}"));
+    expectRefused(shoot("a.bmp"), "events[0].screenshot: 'a.bmp' has the unknown extension");
+    expectRefused(shoot("a.exr"), "events[0].screenshot");
+    for (const char* outside : {"../a.png", "sub/../../a.png", "/a.png"}) {
+        expectRefused(shoot(outside), "leaves the folder");
+        std::ofstream(mPath) << "{\"version\": 1, \"events\": [" << shoot(outside) << "]}";
+        EXPECT_TRUE(readInputScript(mPath, io::Reach::Anywhere)) << outside;
+    }
+}
+
 TEST_F(InputScriptFile, TimesMustNotFallBack) {
     const auto script =
         read(R"({"version": 1, "events": [{"time": 1, "key": "w"}, {"time": 0.5, "key": "w"}]})");

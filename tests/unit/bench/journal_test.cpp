@@ -16,13 +16,16 @@ class JournalFile : public testing::Test {
   protected:
     JournalFile() {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        mFile = std::filesystem::path(testing::TempDir()) /
-                (std::string("journal_") + test->name() + ".json");
-        std::filesystem::remove(mFile);
+        mReport =
+            std::filesystem::path(testing::TempDir()) / (std::string("report_") + test->name());
+        std::filesystem::remove_all(mReport);
+        mFile = mReport / "journal" / "case.json";
+        std::filesystem::create_directories(mFile.parent_path());
     }
 
-    ~JournalFile() override { std::filesystem::remove(mFile); }
+    ~JournalFile() override { std::filesystem::remove_all(mReport); }
 
+    std::filesystem::path mReport;
     std::filesystem::path mFile;
 };
 
@@ -73,6 +76,48 @@ TEST_F(JournalFile, WhatIsNoJournalStartsAnew) {
         ASSERT_TRUE(io::writeFileText(mFile, text).ok());
         EXPECT_TRUE(Journal(mFile, "a").records().empty()) << text;
     }
+}
+
+TEST_F(JournalFile, WhatDoesNotFitStartsAnewAndNamesTheField) {
+    PictureFacts facts;
+    facts.image = "images/x.png";
+    facts.errorMap = "images/x.flip.png";
+    facts.counters = {{"rays traced", 7}};
+    {
+        Journal journal(mFile, "a");
+        ASSERT_TRUE(journal.addSample("x/1", {{{"gather", 1.5}}, 3.0}).ok());
+        ASSERT_TRUE(journal.setPicture("x/1", facts).ok());
+    }
+    const auto bytes = io::readFileBytes(mFile, 1 << 20);
+    ASSERT_TRUE(bytes);
+    const std::string whole(bytes.value().begin(), bytes.value().end());
+    const auto expectAnew = [&](const std::string& from, const std::string& to, const char* mention
+                            ) {
+        std::string text = whole;
+        const size_t place = text.find(from);
+        ASSERT_NE(place, std::string::npos) << from;
+        text.replace(place, from.size(), to);
+        ASSERT_TRUE(io::writeFileText(mFile, text).ok());
+        testing::internal::CaptureStderr();
+        EXPECT_TRUE(Journal(mFile, "a").records().empty()) << to;
+        const std::string told = testing::internal::GetCapturedStderr();
+        EXPECT_NE(told.find(mention), std::string::npos) << told;
+        EXPECT_NE(told.find(mFile.string()), std::string::npos) << told;
+    };
+    expectAnew("\"rays traced\": 7", "\"rays traced\": 1e300", "counters.rays traced");
+    expectAnew("\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced");
+    expectAnew("images/x.png", "/etc/hostname", "leaves the report's folder");
+    expectAnew("images/x.flip.png", "../../../../x.png", "leaves the report's folder");
+    expectAnew("\"gather\"", "\"gather\", 2", "must have 3 elements");
+    expectAnew("\"samples\"", "\"more\": 1, \"samples\"", "is not a field");
+    expectAnew("\"wall\": 3.0", "\"wall\": []", "wall");
+}
+
+TEST_F(JournalFile, AFolderInItsPlaceIsNoJournal) {
+    std::filesystem::create_directory(mFile);
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(Journal(mFile, "a").records().empty());
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("it is a folder"), std::string::npos);
 }
 
 TEST_F(JournalFile, AFileThatCannotBeWrittenIsNamed) {

@@ -127,6 +127,15 @@ TEST(GltfAnimation, OnlyTheValuesOfARotationSplineAreNormalized) {
     EXPECT_EQ(values[2], vec4(5));
 }
 
+TEST(GltfAnimation, RotationsWithoutABufferViewTurnNothing) {
+    GltfFile file;
+    file.add(kTwoTimes, kFloat, "SCALAR");
+    file.addAccessor(R"({"componentType":5126,"count":2,"type":"VEC4"})");
+    const LoadedScene scene = expectLoads(loadClips(file, clip("rotation")));
+    EXPECT_EQ(scene.world.assets.clips.at(0).channels.at(0).values.at(1), vec4(0, 0, 0, 1));
+    EXPECT_TRUE(hasWarning(scene, "output has no bufferView"));
+}
+
 TEST(GltfAnimation, KeysWithoutMeaningAreRefused) {
     const float nan = std::nanf("");
     const std::vector<float> zeroRotation = {0, 0, 0, 0};

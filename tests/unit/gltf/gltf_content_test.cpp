@@ -9,6 +9,8 @@
 namespace shutter::gltf {
 namespace {
 
+namespace fs = std::filesystem;
+
 TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
     const TempFolder folder;
     const std::string scene = R"({"asset": {"version": "2.0"},
@@ -35,6 +37,21 @@ TEST(SceneHash, ChangesWithTheSceneItsBuffersAndItsPictures) {
     folder.write("s.gltf", scene + " ");
     seen.insert(hash());
     EXPECT_EQ(seen.size(), 5u);
+}
+
+TEST(SceneHash, CountsFilesOutsideTheFolderWhereTheyAreRead) {
+    const TempFolder folder;
+    const fs::path scene = folder.write(
+        "sub/s.gltf",
+        R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "../a.bin", "byteLength": 1}]})"
+    );
+    folder.write("a.bin", "1");
+    const auto inside = computeSceneHash(scene);
+    const auto outside = computeSceneHash(scene, io::Reach::Anywhere);
+    EXPECT_NE(inside.value(), outside.value());
+    folder.write("a.bin", "2");
+    EXPECT_EQ(computeSceneHash(scene).value(), inside.value());
+    EXPECT_NE(computeSceneHash(scene, io::Reach::Anywhere).value(), outside.value());
 }
 
 TEST(SceneHash, WhatIsNoSceneIsNamed) {

@@ -8,6 +8,8 @@ namespace shutter::gltf {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string u32(uint32_t value) {
     std::string bytes(4, '\0');
     for (size_t i = 0; i < 4; ++i)
@@ -160,6 +162,31 @@ TEST(GltfDocument, BuffersComeFromFilesAndDataUris) {
     expectRefused(load(R"({"byteLength":1,"uri":"/etc/hostname"})"), "leaves");
     expectRefused(load(R"({"byteLength":1})"), "no uri");
     expectRefused(load(R"({"uri":"sub dir/b.bin"})"), "buffers[0].byteLength is missing");
+}
+
+TEST(GltfDocument, FilesOutsideTheFolderAreReadWhereTheCallerSaysSo) {
+    const TempFolder folder;
+    folder.write("b.bin", "0123");
+    for (const std::string& uri : {std::string("../b.bin"), (folder.path() / "b.bin").string()}) {
+        const fs::path file = folder.write(
+            "sub/test.gltf",
+            R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":")" + uri + R"("}]})"
+        );
+        expectRefused(loadGltf(file), "leaves the file's folder");
+        expectLoads(loadGltf(file, {.reach = io::Reach::Anywhere}));
+    }
+}
+
+TEST(GltfDocument, DecodedBytesAboveTheCallersLimitAreRefused) {
+    GltfFile file;
+    file.add(kTriangle, kFloat, "VEC3");
+    const TempFolder folder;
+    folder.write("data.bin", file.bin());
+    const fs::path path = folder.write(
+        "test.gltf", file.json(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}])")
+    );
+    expectLoads(loadGltf(path, {.maxVertexBytes = 1000}));
+    expectRefused(loadGltf(path, {.maxVertexBytes = 20}), "its meshes need over 20 bytes");
 }
 
 TEST(GltfDocument, WrongTypesAndIndicesAreNamedByTheirField) {

@@ -134,6 +134,14 @@ TEST(GltfInstancing, ASkinnedNodeIsDrawnOnce) {
     EXPECT_TRUE(hasWarning(scene, "EXT_mesh_gpu_instancing is ignored"));
 }
 
+TEST(GltfInstancing, RotationsWithoutABufferViewTurnNothing) {
+    GltfFile file = makeFile();
+    file.addAccessor(R"({"componentType":5126,"count":2,"type":"VEC4"})");
+    const LoadedScene scene = expectLoads(file.load(members(attributes(R"("ROTATION":5)"))));
+    EXPECT_EQ(findDrawn(scene.world).size(), 2u);
+    EXPECT_TRUE(hasWarning(scene, "ROTATION has no bufferView"));
+}
+
 TEST(GltfInstancing, DamagedInstancesAreRefused) {
     const auto load = [](const std::string& extension) {
         return makeFile().load(members(extension));

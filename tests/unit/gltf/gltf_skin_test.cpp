@@ -223,6 +223,23 @@ TEST(GltfSkin, InverseBindMatricesThatFitNoJointAreRefused) {
     expectRefused(vectors.load(kMesh + kNodes + skins), "inverseBindMatrices: accessors[3].type");
 }
 
+TEST(GltfSkin, InverseBindMatricesWithoutABufferViewAreZeros) {
+    GltfFile file = makeSkinned();
+    file.addAccessor(R"({"componentType":5126,"count":2,"type":"MAT4"})");
+    const std::string skin = R"("skins":[{"joints":[1,2],"inverseBindMatrices":3}])";
+    const std::string unskinned = R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},
+        {"children":[2]},{}],)";
+    expectLoads(file.load(kMesh + unskinned + skin)); // of a skin that no node uses
+    const LoadedScene scene = expectLoads(file.load(kMesh + kNodes + skin));
+    EXPECT_TRUE(hasWarning(scene, "skins[0].inverseBindMatrices has no bufferView"));
+    dmat4 collapsed(0.0);
+    collapsed[3][3] = 1.0;
+    EXPECT_EQ(scene.world.assets.skins.at(0).jointFromBind.at(1), collapsed);
+    GltfFile given = makeSkinned();
+    given.add(std::vector<float>(32, 0.0f), kFloat, "MAT4");
+    expectRefused(given.load(kMesh + kNodes + skin), "does not have 0 0 0 1");
+}
+
 TEST(GltfSkin, DamagedInfluencesAreRefused) {
     const GltfFile file = makeSkinned();
     expectRefused(

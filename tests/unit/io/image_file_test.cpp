@@ -356,6 +356,96 @@ TEST(DecodeTexture, APictureAboveTheSizeLimitIsRefusedNamingBoth) {
     EXPECT_NE(texture.error().message.find("16384x16384"), std::string::npos);
 }
 
+// A grey PNG that claims 16000x16000 pixels and holds 16.
+const std::vector<uint8_t> kClaimingPng = {
+    137, 80, 78,  71,  13,  10, 26,  10,  0,   0,  0,  13, 73,  72,  68,  82, 0,
+    0,   62, 128, 0,   0,   62, 128, 8,   0,   0,  0,  0,  100, 21,  128, 2,  0,
+    0,   0,  11,  73,  68,  65, 84,  120, 156, 99, 96, 64, 5,   0,   0,   16, 0,
+    1,   57, 189, 143, 101, 0,  0,   0,   0,   73, 69, 78, 68,  174, 66,  96, 130};
+
+TEST(DecodeTexture, MorePixelsThanTheBytesCanHoldAreRefused) {
+    const auto texture = decodeTexture(kClaimingPng, "a");
+    ASSERT_FALSE(texture);
+    EXPECT_EQ(texture.error().message, "cannot decode a: it claims 16000x16000 pixels in 68 bytes");
+}
+
+TEST(ImageFile, MorePixelsThanTheFileCanHoldAreRefused) {
+    const TempFolder folder;
+    const std::string_view bytes(
+        reinterpret_cast<const char*>(kClaimingPng.data()), kClaimingPng.size()
+    );
+    const auto image = readImage(folder.write("a.png", bytes));
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().message.find("claims 16000x16000"), std::string::npos)
+        << image.error().message;
+}
+
+TEST(ImageFile, APngThatIsCutOffAnywhereIsRefusedBeforeItIsDecoded) {
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.png", makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> bytes = readAll(folder.path() / "a.png");
+    const std::string whole(bytes.begin(), bytes.end());
+    for (size_t size = 8; size < whole.size(); ++size) {
+        const auto image = readImage(folder.write("b.png", whole.substr(0, size)));
+        ASSERT_FALSE(image) << size;
+        EXPECT_NE(image.error().message.find("the PNG is cut off"), std::string::npos)
+            << image.error().message;
+    }
+}
+
+/// The file with 32 bits changed, `offset` bytes after `name`.
+std::string replaceInExr(std::string exr, const std::string& name, size_t offset, uint32_t value) {
+    const size_t place = exr.find(name);
+    EXPECT_NE(place, std::string::npos);
+    for (size_t i = 0; i < 4; ++i)
+        exr[place + name.size() + offset + i] = char(value >> (8 * i));
+    return exr;
+}
+
+TEST(ImageFile, AnExrThatAsksForMoreThanItHoldsIsRefused) {
+    using namespace std::string_literals;
+    const TempFolder folder;
+    ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> bytes = readAll(folder.path() / "a.exr");
+    const std::string whole(bytes.begin(), bytes.end());
+    const auto expectRefused = [&](const std::string& exr, const char* mention) {
+        const auto image = readImage(folder.write("b.exr", exr));
+        ASSERT_FALSE(image) << mention;
+        EXPECT_NE(image.error().message.find(mention), std::string::npos) << image.error().message;
+    };
+    // After name, type and size.
+    const std::string window = "dataWindow\0box2i\0\x10\0\0\0"s;
+    expectRefused(
+        replaceInExr(whole, "channels\0chlist\0"s, 0, 0x7FFFFFF0), "'channels' is longer"
+    );
+    expectRefused(replaceInExr(whole, "dataWindow\0box2i"s, 1, 17), "not of its type's size");
+    expectRefused(replaceInExr(whole, "channels\0chlist"s, 1, 20), "not of its type's size");
+    expectRefused(replaceInExr(whole, window, 8, 0x7FFFFFF0), "too large");
+    expectRefused(replaceInExr(whole, window, 8, uint32_t(-5)), "no pixels");
+    expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x1002), "not a flat picture");
+    for (size_t size = 8; size < whole.find(window); size += 7)
+        EXPECT_FALSE(readImage(folder.write("b.exr", whole.substr(0, size)))) << size;
+    std::string tiled = whole;
+    tiled.insert(tiled.find("compression"), "tiles\0tiledesc\0\x09\0\0\0\1\0\0\0\1\0\0\0\0"s);
+    tiled = replaceInExr(tiled, window, 8, 60000);
+    expectRefused(tiled, "it claims 240004 tiles of 1x1 pixels");
+}
+
+TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {
+    const TempFolder folder;
+    const fs::path exr = folder.path() / "a.exr";
+    ASSERT_TRUE(writeImage(exr, makeRamp(2, 2, 3)));
+    fs::rename(exr, folder.path() / "a.png");
+    EXPECT_TRUE(readImage(folder.path() / "a.png"));
+    const auto other = readImage(folder.write("a.ppm", "P6\n1 1\n255\nabc"));
+    ASSERT_FALSE(other);
+    EXPECT_NE(other.error().message.find("neither PNG, JPEG, EXR nor HDR"), std::string::npos);
+    using namespace std::string_literals;
+    const std::string flat = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81"s;
+    const auto radiance = readImage(folder.write("a.hdr", flat));
+    EXPECT_TRUE(radiance) << radiance.error().message;
+}
+
 } // namespace
 
 } // namespace shutter::io

@@ -29,6 +29,41 @@ TEST(DataUri, PercentEncodedTextDecodes) {
     EXPECT_EQ(decodeText("data:,a%20b%2C"), "a b,");
 }
 
+TEST(DataUri, MediaTypesAndParametersAreRead) {
+    EXPECT_EQ(decodeText("data:image/svg+xml;charset=utf-8;BASE64,Zg=="), "f");
+    EXPECT_EQ(decodeText("data:;charset=utf-8,a"), "a");
+    EXPECT_EQ(decodeText("data:;name=a%20b;base64,Zg%3D%3D"), "f");
+}
+
+TEST(DataUri, WhatIsNoMediaTypeOrParameterIsRefused) {
+    for (const char* header :
+         {";",
+          ";;base64",
+          ";base64;",
+          ";base64;charset=utf-8",
+          ";base64;base64",
+          ";base65",
+          ";charset",
+          ";=utf-8",
+          ";charset=",
+          ";charset=a=b",
+          ";charset=utf 8;base64",
+          "base64",
+          "text;base64",
+          "text/;base64",
+          "/plain;base64",
+          "text/plain/more;base64",
+          " ;base64"}) {
+        EXPECT_EQ(decodeText(std::string("data:") + header + ",Zg=="), "refused") << header;
+    }
+}
+
+TEST(DataUri, PaddingThatFillsNoGroupIsRefused) {
+    for (const char* data : {"Zg=", "Zg===", "Zm8==", "Zm9v=", "Zm9v====", "Z===", "=", "Z=g="})
+        EXPECT_EQ(decodeText(std::string("data:;base64,") + data), "refused") << data;
+    EXPECT_EQ(decodeText("data:;base64,Zh=="), "refused") << "bits after the last byte";
+}
+
 TEST(DataUri, MalformedOnesAreRefused) {
     EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
     EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
@@ -91,6 +126,31 @@ TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
     fs::create_symlink("real.bin", folder.path() / "in.bin");
     EXPECT_FALSE(resolveUri(folder.path(), "out.bin"));
     EXPECT_TRUE(resolveUri(folder.path(), "in.bin"));
+}
+
+TEST(ResolveUri, PathsThatLeaveTheFolderAreTakenFromThoseWhoMayAndSchemesFromNobody) {
+    const TempFolder folder;
+    const auto resolve = [&](std::string_view uri) {
+        return resolveUri(folder.path(), uri, Reach::Anywhere);
+    };
+    EXPECT_EQ(resolve("../a.bin").value(), folder.path() / "../a.bin");
+    EXPECT_EQ(resolve("/etc/hostname").value(), "/etc/hostname");
+    for (const char* uri : {"file:///etc/hostname", "http://127.0.0.1/a.bin", "a%00.bin", ""})
+        EXPECT_FALSE(resolve(uri)) << uri;
+}
+
+TEST(LiesInside, FollowsLinksAndSteps) {
+    const TempFolder outside;
+    const TempFolder folder;
+    folder.write("sub/a.bin", "x");
+    fs::create_symlink(outside.path(), folder.path() / "out");
+    for (const char* inside : {"a", "sub/a.bin", "sub/../b", "no/such/folder"})
+        EXPECT_TRUE(liesInside(folder.path(), inside)) << inside;
+    EXPECT_TRUE(liesInside(folder.path(), folder.path() / "a"));
+    for (const char* away : {"..", "sub/../../a", "out/a", "/etc/hostname"})
+        EXPECT_FALSE(liesInside(folder.path(), away)) << away;
+    EXPECT_TRUE(liesInside("", "a"));
+    EXPECT_FALSE(liesInside("", "../a"));
 }
 
 } // namespace

@@ -85,6 +85,22 @@ TEST(JsonFile, ReadsEveryKindOfField) {
     EXPECT_EQ(film.value().place, (std::array<double, 3>{1.0, 2.0, 3.0}));
 }
 
+TEST(JsonFile, FieldsOfAnyNamesAreReadInTheirOrder) {
+    const auto document = JsonDocument::parse(R"({"b": 1, "a": null})", "film.json");
+    ASSERT_TRUE(document.ok());
+    const auto fields = document.value().root().readFields();
+    ASSERT_EQ(fields.size(), 2u);
+    EXPECT_EQ(fields[0].first, "b");
+    EXPECT_FALSE(fields[0].second.isNull());
+    EXPECT_EQ(fields[1].first, "a");
+    EXPECT_TRUE(fields[1].second.isNull());
+    EXPECT_TRUE(document.value().finish());
+    EXPECT_TRUE(fields[0].second.readFields().empty());
+    EXPECT_EQ(
+        document.value().finish().error().message, "film.json:1: b: must be an object, not a number"
+    );
+}
+
 TEST(JsonFile, OptionalFieldsKeepTheirDefaultsAndAByteOrderMarkIsSkipped) {
     const auto film = parseFilm("\xEF\xBB\xBF{\"name\": \"a\"}\r\n");
     ASSERT_TRUE(film.ok()) << film.error().message;

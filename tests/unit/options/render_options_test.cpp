@@ -124,6 +124,7 @@ TEST_F(RenderOptionsTest, BadFramesAreRefused) {
 
 TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
     refuse("--out", Words{"--frames=0:1"});
+    refuse(".png, .jpg or .mp4", Words{"--out=film.avi"});
     accept(Words{"--frames=3:3"});
     accept(Words{"--frames=0:1", "--out=" + (mFolder / "f%d.png").string()});
 }
@@ -171,12 +172,18 @@ TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     const auto samples = [&](const char* method, uint32_t count) {
         return accept(Words{"--method=" + wordOf(method), "--samples=" + wordOf(count)});
     };
-    EXPECT_EQ(samples("gather", 0).method.motionBlur.sampleCount, 15u);
+    EXPECT_EQ(accept(Words{"--method=gather"}).method.motionBlur.sampleCount, 15u);
     EXPECT_EQ(samples("gather", 256).method.motionBlur.sampleCount, 256u);
-    EXPECT_EQ(samples("accumulate", 0).method.samples, 256u);
+    EXPECT_EQ(accept(Words{"--method=accumulate"}).method.samples, 256u);
+    EXPECT_EQ(samples("accumulate", 1).method.samples, 1u);
     EXPECT_EQ(samples("accumulate", 65536).method.samples, 65536u);
-    EXPECT_EQ(samples("truth", 0).method.samples, 256u);
-    EXPECT_EQ(samples("sharp", 0).method.samples, 0u);
+    EXPECT_EQ(accept(Words{"--method=truth"}).method.samples, 256u);
+    EXPECT_EQ(accept(Words{"--method=sharp"}).method.samples, 0u);
+    refuse("--samples 0 must lie in [1, 256]", Words{"--method=gather", "--samples=0"});
+    for (const char* method : {"accumulate", "truth", "sharp"})
+        refuse(
+            "--samples 0 must lie in [1, 65536]", Words{"--method=" + wordOf(method), "--samples=0"}
+        );
     for (const char* method : {"gather", "hybrid"})
         refuse("--samples", Words{"--method=" + wordOf(method), "--samples=257"});
     refuse("--samples", Words{"--method=accumulate", "--samples=65537"});

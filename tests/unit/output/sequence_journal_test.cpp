@@ -116,6 +116,22 @@ TEST_F(JournalOfASequence, WhatIsNoJournalBeginsAnew) {
     }
 }
 
+TEST_F(JournalOfASequence, FilesOutsideTheFolderAreNoFrames) {
+    const fs::path outside = mFolder.parent_path() / "sequence_outside.png";
+    std::ofstream(outside) << "x";
+    const std::string hash = io::computeFileHash(outside).value();
+    (void)open("a");
+    const std::string header = text();
+    for (const std::string& name : {std::string("../sequence_outside.png"), outside.string()}) {
+        const std::string line = "{\"frame\": 0, \"files\": [{\"name\": \"" + name +
+                                 "\", \"hash\": \"" + hash + "\"}]}\n";
+        ASSERT_TRUE(io::writeFileText(file(), header + line).ok());
+        EXPECT_FALSE(open("a").isComplete(0)) << name;
+        EXPECT_EQ(text(), header) << "its line is gone";
+    }
+    fs::remove(outside);
+}
+
 TEST_F(JournalOfASequence, WhatCannotBeReadOrWrittenIsNamed) {
     const auto nowhere = SequenceJournal::open(mFolder / "no/such/.journal", "a");
     ASSERT_FALSE(nowhere.ok());

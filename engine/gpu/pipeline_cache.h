@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The file that keeps a device's compiled pipelines from one run to the next. Drivers trust what
+// they are given back: a blob that a full disk, a crash or another program has changed may end the
+// process inside of them. So the blob has a checksum, and reaches only the driver that made it.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/vulkan.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// Larger files are not read.
+inline constexpr uint64_t kMaxPipelineCacheBytes = uint64_t(256) << 20;
+
+/// What a blob names as the driver that made it.
+struct PipelineCacheOwner {
+    uint32_t vendorId = 0;
+    uint32_t deviceId = 0;
+    std::array<uint8_t, VK_UUID_SIZE> uuid{}; ///< VkPhysicalDeviceProperties::pipelineCacheUUID
+};
+
+/// The contents of a file that keeps `blob`.
+[[nodiscard]] std::vector<uint8_t> packPipelineCache(std::span<const uint8_t> blob);
+
+/// The blob in the contents of a file; nothing where another version of this program, or another
+/// driver, wrote it. Error: the file is damaged.
+[[nodiscard]] core::Result<std::optional<std::span<const uint8_t>>>
+unpackPipelineCache(std::span<const uint8_t> file, const PipelineCacheOwner& owner);
+
+/// The blob that `file` keeps; empty where there is none of use, with a warning where the file is
+/// damaged: what is compiled anew costs time alone.
+[[nodiscard]] std::vector<uint8_t>
+readPipelineCache(const std::filesystem::path& file, const PipelineCacheOwner& owner);
+
+} // namespace shutter::gpu

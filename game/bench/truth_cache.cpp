@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/truth_cache.h"
+
+#include "engine/core/log.h"
+#include "engine/io/image_file.h"
+
+#include <system_error>
+#include <utility>
+
+namespace shutter::bench {
+
+std::optional<image::Image>
+readCachedTruth(const std::filesystem::path& file, uint32_t width, uint32_t height) {
+    constexpr uint32_t kChannels = 3;
+    std::error_code ignored;
+    if (file.empty() || !std::filesystem::exists(file, ignored))
+        return std::nullopt;
+    auto read = io::readImage(file);
+    if (!read) {
+        core::logWarning("{}; the truth is drawn anew", read.error().message);
+        return std::nullopt;
+    }
+    const image::Image& truth = read.value();
+    if (truth.width == width && truth.height == height && truth.channels == kChannels)
+        return std::move(read).value();
+    core::logWarning(
+        "'{}' is {}x{} with {} channels, not {}x{} with {}; the truth is drawn anew",
+        file.string(),
+        truth.width,
+        truth.height,
+        truth.channels,
+        width,
+        height,
+        kChannels
+    );
+    return std::nullopt;
+}
+
+} // namespace shutter::bench
