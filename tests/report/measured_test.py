@@ -87,7 +87,7 @@ class Measured(unittest.TestCase):
             if "time" not in check["check"]:
                 self.assertTrue(check["held"], check)
         shares = [[p["x"] for p in curve["points"]] for curve in claims["MovingShare"]["curves"]]
-        self.assertEqual(len(shares), 5)
+        self.assertEqual(len(shares), 6)
         self.assertEqual([shares[0][0], shares[0][-1]], [0, 100])
         self.assertEqual(shares[0], sorted(shares[0]))
         masked = [p["x"] for p in claims["Reveal"]["curves"][0]["points"]]
