@@ -26,7 +26,7 @@ class RasterHistory;
 /// the exposure.
 struct InstantMotions {
     VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
-    uint32_t instantCount = 0; ///< MotionBlurSettings::sampleCount
+    uint32_t instantCount = 0; ///< countInstants() (settings.h)
     bool hasLast = false;      ///< of the raster that `history` keeps, too
     /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
     RasterHistory* history = nullptr;
@@ -44,6 +44,8 @@ struct MotionBlurInputs {
     std::optional<graph::RayScene> rays;
     std::optional<graph::TimedRays> timedRays;    ///< for methods of RayNeed::Query (CHECKed)
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
+    /// Of the frame, for InstantNoise::Turning: the next one's is one more.
+    int64_t frameNumber = 0;
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.

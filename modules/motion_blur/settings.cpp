@@ -2,6 +2,7 @@
 #include "modules/motion_blur/settings.h"
 
 #include "modules/motion_blur/methods.h"
+#include "shaders/motion_blur/resolved_shared.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@ using Row = core::SettingRow<MotionBlurSettings>;
 constexpr std::string_view kObjectTests[] = {"mesh_id", "luminance"};
 constexpr std::string_view kTraversals[] = {"single", "stepping"};
 constexpr std::string_view kMaskTests[] = {"paper", "relative"};
+constexpr std::string_view kInstantNoises[] = {"off", "fixed", "turning"};
 constexpr std::string_view kOccluderTests[] = {"none", "velocity"};
 
 std::vector<Row> makeTapRows() {
@@ -177,6 +179,14 @@ std::vector<Row> makeLookUpRows() {
          "Whether what this frame hides is looked up in the last frame. Off saves memory and "
          "leaves gaps behind what moves.",
          "Last frame"},
+        {"instantNoise",
+         makeWordField<&S::instantNoise>(kInstantNoises),
+         "",
+         {},
+         "Whether pixels see other instants than their neighbours where edges move farther than "
+         "there are instants: grain instead of copies of the edge. Turning has other grain in each "
+         "frame.",
+         "Noise"},
         {"raysPerPixel",
          &S::raysPerPixel,
          "rays",
@@ -257,6 +267,11 @@ MotionBlurSettings paperSettings() {
 
 uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height) {
     return settings.tileSizePx > 0 ? settings.tileSizePx : std::clamp(height / 12u, 40u, 256u);
+}
+
+uint32_t countInstants(const MotionBlurSettings& settings) {
+    const bool hasNoise = settings.instantNoise != InstantNoise::Off;
+    return settings.sampleCount * (hasNoise ? shader::kInstantSets : 1u);
 }
 
 core::Status validate(const MotionBlurSettings& settings) {

@@ -39,6 +39,14 @@ enum class OccluderTest : uint8_t {
     Velocity, ///< drops those whose own motion does not reach the pixel (Bevy)
 };
 
+/// Whether all pixels see the same instants of the exposure, which shows as copies of edges that
+/// move farther than there are instants, or each its own, which shows as grain.
+enum class InstantNoise : uint8_t {
+    Off,
+    Fixed,   ///< in every frame the same ones
+    Turning, ///< in each frame others
+};
+
 /// Defaults are what measures best; paperSettings() are the publication's. settings.cpp lists
 /// ranges and units, each method's file which fields it reads, and README.md what each costs.
 struct MotionBlurSettings {
@@ -73,6 +81,7 @@ struct MotionBlurSettings {
     /// Uniform motion from which the gathers work at half of the resolution along it.
     float halfResolutionPx = std::numeric_limits<float>::infinity();
     bool history = true; ///< the last frame's raster is looked up, too
+    InstantNoise instantNoise = InstantNoise::Off;
     /// Most rays for samples that no layer holds: on average over the picture. Infinity: as many as
     /// it takes to trace every sample of what moves.
     float raysPerPixel = 0.1f;
@@ -90,6 +99,10 @@ struct MotionBlurSettings {
 /// tileSizePx, or where that is 0 a twelfth of the picture's height, from the paper's 40 up to 256:
 /// the longest blur is then the same share of the picture at every resolution above 480 lines.
 [[nodiscard]] uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height);
+
+/// Instants of the exposure that the pixels choose theirs from: sampleCount, and several times as
+/// many with noise.
+[[nodiscard]] uint32_t countInstants(const MotionBlurSettings& settings);
 
 /// One row per field of MotionBlurSettings, except for `method`.
 [[nodiscard]] core::SettingRows<MotionBlurSettings> listSettingRows();

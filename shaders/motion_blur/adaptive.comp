@@ -33,9 +33,12 @@ void shareRays(out float shares[kSampleClasses]) {
 }
 
 /// The same samples in every frame of the same numbers, spread over the picture.
-bool isTraced(ivec2 pixel, uint instant, float share) {
-    return share >= 1.0f || unitFloat(hashPixel(uvec2(pixel), instant, 0u)) < share;
+bool isTraced(ivec2 pixel, uint index, float share) {
+    return share >= 1.0f || unitFloat(hashPixel(uvec2(pixel), index, 0u)) < share;
 }
+
+/// In the tables.
+uint instantOf(PixelSearch search, uint index) { return index * method.setCount + search.set; }
 
 /// What is known of a pixel's samples.
 struct Mean {
@@ -43,7 +46,7 @@ struct Mean {
     uint known;
 };
 
-/// Adds those of 32 instants that are not traced. \return those that are, a bit each
+/// Adds those of 32 samples that are not traced. \return those that are, a bit each
 uint addGuesses(
     PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
     inout Mean mean
@@ -51,7 +54,7 @@ uint addGuesses(
     uint traced = 0u;
     for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
         Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, first + i, guesses, doubt);
+        Seen seen = searchInstant(search, instantOf(search, first + i), guesses, doubt);
         vec3 color = vec3(0.0f);
         if (seen.isFound)
             color = colorOf(seen);
@@ -91,7 +94,7 @@ void main() {
         for (; traced != 0u; traced &= traced - 1u) {
             DistributedSample ray = traceDistributed(
                 uScene, FrameRef(method.frame), TimedRef(method.timed), search.x,
-                timeOf(motions, first + uint(findLSB(traced)))
+                timeOf(motions, instantOf(search, first + uint(findLSB(traced))))
             );
             mean.sum += storableColor(ray.radiance);
             ++mean.known;

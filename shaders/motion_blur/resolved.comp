@@ -53,7 +53,8 @@ void main() {
     // Rays may go to any of them.
     if (!kFindsEdges && params.uniformMotionPx > 0.0f) searched = uLooks[search.looks - 1u].perX;
     for (uint i = 0u; i < searched; ++i) {
-        uint instant = takenInstant(i, searched, params.sampleCount);
+        uint taken = takenInstant(i, searched, params.sampleCount);
+        uint instant = taken * method.setCount + search.set;
         Doubt doubt = kNoDoubt;
         Seen seen = searchInstant(search, instant, guesses, doubt);
         vec3 color = vec3(0.0f);

@@ -24,6 +24,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Ins
     float times[];
 };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer NoiseMask {
+    float shares[];
+};
+
 const uint kRasterLayer = 0u;
 const uint kLastLayer = 1u;
 
@@ -103,5 +107,15 @@ uint partsPerInstant(uint count) { return (kExposureParts << 16u) / max(count, k
 
 /// Part of the exposure that an instant belongs to.
 uint partOf(uint instant, uint partsPerInstant_) { return instant * partsPerInstant_ >> 16u; }
+
+/// Which of the sets of instants a pixel takes.
+/// \param amount of the noise, [0, 1]; 0: the middle set
+uint findSet(ResolvedParams method, ivec2 pixel, float amount) {
+    if (method.setCount == 1u) return 0u;
+    uvec2 at = uvec2(pixel) % kNoiseSidePx;
+    float share = fract(NoiseMask(method.noise).shares[at.y * kNoiseSidePx + at.x] + method.turn);
+    float sets = (0.5f + (share - 0.5f) * amount) * float(method.setCount);
+    return min(uint(sets), method.setCount - 1u);
+}
 
 #endif

@@ -127,26 +127,42 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
     atomicAdd(uCounters.overflown, 1u);
 }
 
-void enterBox(uint key, vec2 low, vec2 high, vec2 depths, uint bits) {
+/// Where an entity is seen at some instants, with the margin around it.
+struct SeenBox {
+    vec2 low;
+    vec2 high;
+    vec2 depths;
+    uint parts; // of the exposure, a bit each; 0: it is not seen
+};
+
+const SeenBox kNoBox = SeenBox(vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, 0.0f), 0u);
+
+void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
+    low -= kMarginPx;
+    high += kMarginPx;
+    if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, vec2(params.sizePx)))) return;
+    box.low = min(box.low, low);
+    box.high = max(box.high, high);
+    box.depths = vec2(min(box.depths.x, depths.x), max(box.depths.y, depths.y));
+    box.parts |= 1u << partOf(instant, partsPerInstant(method.instantCount));
+}
+
+void enterBox(uint key, SeenBox box) {
     vec2 size = vec2(params.sizePx);
-    if (any(lessThan(high + kMarginPx, vec2(0.0f))) || any(greaterThan(low - kMarginPx, size)))
-        return;
     uvec2 tiles = countTiles();
-    vec2 lowTile = clamp(low - kMarginPx, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
-    vec2 highTile = clamp(high + kMarginPx, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
+    vec2 lowTile = clamp(box.low, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
+    vec2 highTile = clamp(box.high, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
     uvec2 from = min(uvec2(lowTile), tiles - 1u);
     uvec2 to = min(uvec2(highTile), tiles - 1u);
     for (uint y = from.y; y <= to.y; ++y)
-        for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, depths, bits);
+        for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, box.depths, box.parts);
 }
 
-uint partBit(uint instant) {
-    return 1u << partOf(instant, partsPerInstant(params.sampleCount));
-}
-
-void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool perspective) {
+void addRigid(
+    LayerMotion layer, uint slot, uint mover, uint instant, bool perspective, inout SeenBox box
+) {
     InstantMotion motion =
-        InstantMotionTable(layer.motions).motions[mover * params.sampleCount + instant];
+        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
     if (motion.instantFromRaster[2] == vec4(0.0f)) return;
     vec2 low = vec2(1.0e9f);
     vec2 high = vec2(-1.0e9f);
@@ -165,18 +181,32 @@ void enterRigid(LayerMotion layer, uint slot, uint mover, uint instant, bool per
         depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
         isInFront = isInFront || seen.z > 0.0f || !perspective;
     }
-    if (!isInFront) return;
-    enterBox(sKeys[slot], low, high, depths, partBit(instant));
+    if (isInFront) addBox(instant, low, high, depths, box);
 }
 
-void enterDeformed(uint slot, uint instant) {
+void addDeformed(uint slot, uint instant, inout SeenBox box) {
     float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
     vec2 a = vec2(sMotionLowX[slot], sMotionLowY[slot]) / kMotionSteps * time;
     vec2 b = vec2(sMotionHighX[slot], sMotionHighY[slot]) / kMotionSteps * time;
     vec2 low = vec2(sLowX[slot], sLowY[slot]) + min(a, b);
     vec2 high = vec2(sHighX[slot] + 1, sHighY[slot] + 1) + max(a, b);
     vec2 depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
-    enterBox(sKeys[slot], low, high, depths, partBit(instant));
+    addBox(instant, low, high, depths, box);
+}
+
+/// Where an entity of the tile is seen at the instants of a sample: those of all sets, which follow one
+/// another. It is entered once for all of them, since that takes longest.
+SeenBox findBox(LayerMotion layer, uint slot, uint sample_, bool perspective) {
+    SeenBox box = kNoBox;
+    uint mover = findMover(layer, sKeys[slot]);
+    for (uint set = 0u; set < method.setCount; ++set) {
+        uint instant = sample_ * method.setCount + set;
+        if (mover == kDeformedMover)
+            addDeformed(slot, instant, box);
+        else
+            addRigid(layer, slot, mover, instant, perspective, box);
+    }
+    return box;
 }
 
 void main() {
@@ -205,17 +235,14 @@ void main() {
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;
         if (sKeys[slot] == kNoKey) break;
-        uint instant = pair - slot * params.sampleCount;
-        uint mover = findMover(layer, sKeys[slot]);
+        uint sample_ = pair - slot * params.sampleCount;
         // What is in the tile now must be looked at, even if at no instant it is.
-        if (kLayer == kRasterLayer && instant == 0u)
+        if (kLayer == kRasterLayer && sample_ == 0u)
             enter(
                 gl_WorkGroupID.y * countTiles().x + gl_WorkGroupID.x, sKeys[slot],
                 vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot])), 0u
             );
-        if (mover == kDeformedMover)
-            enterDeformed(slot, instant);
-        else
-            enterRigid(layer, slot, mover, instant, perspective);
+        SeenBox box = findBox(layer, slot, sample_, perspective);
+        if (box.parts != 0u) enterBox(sKeys[slot], box);
     }
 }

@@ -32,6 +32,12 @@ const float kFetchMarginPx = 1.0f;
 const int kMostBlocksAcross = 4;
 const float kFarAway = 1.0e4f;
 const uint kLeastInstants = 3u;
+/// Way from one instant to the next from which pixels have instants of their own, and how much more it
+/// takes until these spread over all of it, pixels. Copies of an edge that lie closer are not seen, and
+/// noise would only be an error. Above 1/2, or blocks with noise would take fewer instants than there
+/// are.
+const float kNoiseFromPx = 2.0f;
+const float kNoiseRampPx = 2.0f;
 /// Instants at which a way is measured: what spins is seldom where it was at all of them.
 const uint kWayInstants = 5u;
 
@@ -162,7 +168,7 @@ uint findShown(
         uint slot = uint(findLSB(slots));
         Candidate candidate = uRaster[tile].candidates[slot];
         if (candidate.mover == kDeformedMover) continue;
-        InstantMotion motion = motions.motions[candidate.mover * params.sampleCount + instant];
+        InstantMotion motion = motions.motions[candidate.mover * method.instantCount + instant];
         if (!isShown(block, candidate, motion, perspective)) shown &= ~(1u << slot);
     }
     return shown;
@@ -186,9 +192,9 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective) {
         vec2 before = vec2(0.0f);
         float way = 0.0f;
         for (uint i = 0u; i < kWayInstants; ++i) {
-            uint instant = i * (params.sampleCount - 1u) / (kWayInstants - 1u);
+            uint instant = i * (method.instantCount - 1u) / (kWayInstants - 1u);
             InstantMotion motion = InstantMotionTable(layer.motions)
-                                       .motions[candidate.mover * params.sampleCount + instant];
+                                       .motions[candidate.mover * method.instantCount + instant];
             if (motion.rasterFromInstant[2] == vec4(0.0f)) return kFarAway;
             PixelRay ray = findRay(motion.rasterFromInstant, centreOf(block), perspective);
             vec2 place = placeOn(ray, 0.5f * (alongs.x + alongs.y), perspective);
@@ -200,54 +206,79 @@ float measureWay(uint index, ivec2 block, uint tile, bool perspective) {
     return longest;
 }
 
-/// How a block is to be resolved.
-struct Found {
-    uint instants;  // how many of them
-    bool isUniform; // it sees a plane at each
+/// What the looks of one block share.
+struct BlockSearch {
+    ivec2 block;
+    uint tile;
+    uint looks; // index of the first
+    uint parts; // partsPerInstant()
+    bool perspective;
+    LayerMotion layer;
 };
 
-/// Finds what the block looks at, at each instant.
-Found findLooks(ivec2 block, uint tile, uint looks) {
-    InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    LayerMotion layer = getLayer(motions, kRasterLayer);
-    InstantMotionTable table = InstantMotionTable(layer.motions);
-    bool perspective = motions.value.isPerspective != 0u;
-    uint parts = partsPerInstant(params.sampleCount);
+/// Finds what the block looks at at an instant. \return where, if that is a plane
+PlaneMap findLook(BlockSearch search, uint instant) {
+    InstantMotionTable table = InstantMotionTable(search.layer.motions);
+    uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
+    Shared seen = findShared(search.tile, slots, search.perspective);
+    // What stands still is no candidate: it may hide some of what moves.
+    if (search.layer.isStill != 0u && getPlane(search.block).mover != seen.mover)
+        seen.mover = kNoMover;
+    PlaneMap map;
+    map.isAffine = false;
+    if (seen.mover != kNoMover) {
+        InstantMotion motion = table.motions[seen.mover * method.instantCount + instant];
+        map = lookAt(search.block, seen.mover, seen.alongs, motion, search.perspective);
+    }
+    BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
+    if (!map.isAffine) {
+        uint shown =
+            findShown(search.block, search.tile, slots, instant, table, search.perspective);
+        look = BlockLook(vec2(0.0f), kSearchedLook, shown);
+    }
+    uLooks[search.looks + instant] = look;
+    return map;
+}
+
+/// How a block is to be resolved.
+struct Found {
+    uint instants;  // how many each pixel takes
+    float noise;    // how much of it, [0, 1]
+    bool isUniform; // it sees a plane at each instant
+};
+
+/// Finds what the block looks at at each instant that its pixels may take.
+Found findLooks(BlockSearch search) {
+    uint middle = method.setCount / 2u;
     uint planes = 0u;
     vec2 before = vec2(0.0f);
     float way = 0.0f;
-    for (uint instant = 0u; instant < params.sampleCount; ++instant) {
-        uint slots = uRaster[tile].parts[partOf(instant, parts)];
-        Shared seen = findShared(tile, slots, perspective);
-        // What stands still is no candidate: it may hide some of what moves.
-        if (layer.isStill != 0u && getPlane(block).mover != seen.mover) seen.mover = kNoMover;
-        PlaneMap map;
-        map.isAffine = false;
-        if (seen.mover != kNoMover) {
-            InstantMotion motion = table.motions[seen.mover * params.sampleCount + instant];
-            map = lookAt(block, seen.mover, seen.alongs, motion, perspective);
-        }
-        BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
-        if (map.isAffine) {
-            ++planes;
-            if (planes > 1u) way += distance(map.place, before);
-            before = map.place;
-        } else {
-            uint shown = findShown(block, tile, slots, instant, table, perspective);
-            look = BlockLook(vec2(0.0f), kSearchedLook, shown);
-        }
-        uLooks[looks + instant] = look;
+    for (uint i = 0u; i < params.sampleCount; ++i) {
+        PlaneMap map = findLook(search, i * method.setCount + middle);
+        if (!map.isAffine) continue;
+        ++planes;
+        if (planes > 1u) way += distance(map.place, before);
+        before = map.place;
     }
     Found found;
     found.isUniform = planes == params.sampleCount;
     if (!found.isUniform) {
-        way = measureWay(kRasterLayer, block, tile, perspective);
+        way = measureWay(kRasterLayer, search.block, search.tile, search.perspective);
         if (method.hasLast != 0u)
-            way = max(way, measureWay(kLastLayer, block, tile, perspective));
+            way = max(
+                way, measureWay(kLastLayer, search.block, search.tile, search.perspective)
+            );
     }
     // About one for each pixel of the way, if that is few enough to leave some out evenly.
     found.instants = uint(min(way, kFarAway)) + kLeastInstants;
     if (2u * found.instants > params.sampleCount) found.instants = params.sampleCount;
+    float distancePx = way / float(params.sampleCount);
+    found.noise = 0.0f;
+    if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
+    if (found.noise == 0.0f) return found;
+    for (uint instant = 0u; instant < method.instantCount; ++instant)
+        if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
+            found.isUniform = false;
     return found;
 }
 
@@ -271,9 +302,15 @@ void main() {
     if (!moves) return;
     bool isUniform = false;
     if (params.uniformMotionPx > 0.0f) {
-        uint looks = (block.y * blocks.x + block.x) * (params.sampleCount + 1u);
-        Found found = findLooks(ivec2(block), tile, looks + 1u);
+        InstantMotionsRef motions = InstantMotionsRef(method.motions);
+        uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
+        BlockSearch search = BlockSearch(
+            ivec2(block), tile, looks + 1u, partsPerInstant(method.instantCount),
+            motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)
+        );
+        Found found = findLooks(search);
         uLooks[looks].perX = found.instants;
+        uLooks[looks].perY = floatBitsToUint(found.noise);
         isUniform = kSortsUniform && found.isUniform;
     }
     listBlock(block, blocks, isUniform ? kUniformList : kMixedList);

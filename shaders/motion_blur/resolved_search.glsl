@@ -251,6 +251,7 @@ struct PixelSearch {
     uint hiding; // key of what this frame's raster has at the pixel
     bool perspective;
     uint looks;  // index of the first BlockLook of its block
+    uint set;    // of instants
     vec2 inBlock; // from the block's centre
     uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
@@ -282,7 +283,7 @@ void searchLayer(
             searchDepths(
                 index, candidate,
                 InstantMotionTable(layer.motions)
-                    .motions[candidate.mover * params.sampleCount + instant],
+                    .motions[candidate.mover * method.instantCount + instant],
                 pixel.perspective, pixel.x, pixel.hiding, guess, best, doubt
             );
     }
@@ -306,10 +307,13 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.tile = tile.y * tiles.x + tile.x;
     uvec2 block = uvec2(pixel) / kGroupSize;
     uint blocksAcross = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
-    search.looks = (block.y * blocksAcross + block.x) * (params.sampleCount + 1u) + 1u;
+    search.looks = (block.y * blocksAcross + block.x) * (method.instantCount + 1u) + 1u;
     search.inBlock = search.x - vec2(block * kGroupSize) - 0.5f * float(kGroupSize);
+    float noise = 1.0f;
+    if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uLooks[search.looks - 1u].perY);
+    search.set = findSet(method, pixel, noise);
     search.perspective = motions.value.isPerspective != 0u;
-    search.partsPerInstant = partsPerInstant(params.sampleCount);
+    search.partsPerInstant = partsPerInstant(method.instantCount);
     search.raster = getLayer(motions, kRasterLayer);
     search.last = getLayer(motions, kLastLayer);
     search.still = findStill(kRasterLayer, search.raster, pixel);
@@ -328,6 +332,7 @@ Guesses beginGuesses(PixelSearch pixel) {
     );
 }
 
+/// \param instant of the tables
 Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
     uint slots = ~0u;
     if (params.uniformMotionPx > 0.0f) {

@@ -50,6 +50,9 @@ struct BlockPlane {
 /// Most instants for which what a block looks at is found for all its pixels together.
 SHUTTER_CONST uint kMostLooks = 32u;
 
+/// Before the looks of a block stands one whose perX is how many instants its pixels take, and perY
+/// the bits of a float: how much of InstantNoise they take them with, [0, 1].
+///
 /// What a block looks at in this frame's raster at an instant: a plane (PlaneMap), or candidates.
 struct BlockLook {
     vec2 place; // of the block's centre, pixels
@@ -71,12 +74,22 @@ SHUTTER_CONST uint kSampleClasses = 9u;
 
 SHUTTER_CONST uint kNoRayLimit = 0xFFFFFFFFu;
 
+/// Sets of instants that pixels choose from with noise. Odd: the middle one is that of all pixels
+/// without.
+SHUTTER_CONST uint kInstantSets = 5u;
+/// Side of the mask that they choose by; a power of two.
+SHUTTER_CONST uint kNoiseSidePx = 64u;
+
 struct ResolvedParams {
     uvec2 motions; // address of InstantMotions
     uint hasLast;  // 1: the last frame's raster is a layer
     uint rayLimit; // of the frame; kNoRayLimit: none
     uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
+    uvec2 noise;       // address of the mask, float[kNoiseSidePx^2] in [0, 1); 0: no noise
+    float turn;        // added to the mask, modulo 1
+    uint setCount;     // 1 without noise
+    uint instantCount; // of the tables: sampleCount of each set; set s has s, s + setCount, ...
 };
 
 /// What a frame counted.
@@ -99,7 +112,7 @@ static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
 static_assert(sizeof(shutter::shader::BlockLook) == 16);
-static_assert(sizeof(shutter::shader::ResolvedParams) == 32);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 52);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif
 

@@ -68,7 +68,7 @@ uint sortCandidates(uint layer, uint tile) {
 void transposeParts(uint layer, uint tile, uint count) {
     uint missing[kCandidatesPerTile];
     for (uint slot = 0u; slot < count; ++slot) missing[slot] = getParts(layer, tile, slot);
-    for (uint part = 0u; part < min(params.sampleCount, kExposureParts); ++part) {
+    for (uint part = 0u; part < min(method.instantCount, kExposureParts); ++part) {
         uint bits = 0u;
         for (uint slot = 0u; slot < count; ++slot) bits |= (~missing[slot] >> part & 1u) << slot;
         setParts(layer, tile, part, bits);

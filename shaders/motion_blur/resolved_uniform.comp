@@ -22,24 +22,48 @@ layout(binding = 2, scalar) readonly buffer Looks { BlockLook uLooks[]; };
 /// Pixels of a block, in one column, that a thread takes: they share what is loaded.
 const uint kRows = kGroupSize / kThreadRows;
 
-void main() {
-    uvec2 block;
-    if (!findBlock(params.sizePx, block)) return;
-    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
-    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    uint looks = (block.y * blocks.x + block.x) * (params.sampleCount + 1u);
-    uint count = uLooks[looks].perX;
-    vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
+/// What all pixels of the column see at the same instants.
+void addShared(uint looks, uint count, vec2 inBlock, inout vec3 sums[kRows]) {
     vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
-    vec3 sums[kRows];
-    for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
+    uint first = looks + method.setCount / 2u;
     for (uint i = 0u; i < count; ++i) {
-        BlockLook look = uLooks[looks + 1u + takenInstant(i, count, params.sampleCount)];
+        uint taken = takenInstant(i, count, params.sampleCount);
+        BlockLook look = uLooks[first + taken * method.setCount];
         vec2 at = lookFrom(look, inBlock) * pixelsToUv;
         vec2 step_ = unpackHalf2x16(look.perY) * float(kThreadRows) * pixelsToUv;
         for (uint row = 0u; row < kRows; ++row)
             sums[row] += textureLod(uColor, at + step_ * float(row), 0.0f).rgb;
     }
+}
+
+/// What each sees at its own instants: as many as there are.
+void addOwn(ivec2 pixel, uint looks, vec2 inBlock, float noise, inout vec3 sums[kRows]) {
+    vec2 pixelsToUv = 1.0f / vec2(params.sizePx);
+    for (uint row = 0u; row < kRows; ++row) {
+        ivec2 below = ivec2(0, row * kThreadRows);
+        uint first = looks + findSet(method, pixel + below, noise);
+        for (uint i = 0u; i < params.sampleCount; ++i) {
+            vec2 at = lookFrom(uLooks[first + i * method.setCount], inBlock + vec2(below));
+            sums[row] += textureLod(uColor, at * pixelsToUv, 0.0f).rgb;
+        }
+    }
+}
+
+void main() {
+    uvec2 block;
+    if (!findBlock(params.sizePx, block)) return;
+    ivec2 pixel = ivec2(block * kGroupSize + gl_LocalInvocationID.xy);
+    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
+    uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
+    uint count = uLooks[looks].perX;
+    float noise = uintBitsToFloat(uLooks[looks].perY);
+    vec2 inBlock = vec2(gl_LocalInvocationID.xy) + 0.5f - 0.5f * float(kGroupSize);
+    vec3 sums[kRows];
+    for (uint row = 0u; row < kRows; ++row) sums[row] = vec3(0.0f);
+    if (noise > 0.0f)
+        addOwn(pixel, looks + 1u, inBlock, noise, sums);
+    else
+        addShared(looks + 1u, count, inBlock, sums);
     for (uint row = 0u; row < kRows; ++row) {
         ivec2 to = pixel + ivec2(0, row * kThreadRows);
         if (all(lessThan(uvec2(to), params.sizePx)))

@@ -126,6 +126,26 @@ TEST_F(Sequence, KilledInTheMiddleAndStartedAgainItLeavesTheSameFiles) {
     }
 }
 
+TEST_F(Sequence, NoiseThatTurnsIsTheSameAfterAStop) {
+    std::string open = kFlight; // long enough for noise
+    open.replace(open.find("0.02"), 4, "0.25");
+    writeFile("flight.json", open);
+    const auto draw = [&](const std::string& noise, const Arguments& more) {
+        Arguments arguments = {"--method", "resolved", "--samples", "2", "--set"};
+        arguments.push_back("instantNoise=" + noise);
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectSuccess(fly(arguments));
+    };
+    for (const char* folder : {"fixed", "whole", "stopped"})
+        fs::create_directory(path(folder));
+    draw("fixed", {"--out", "fixed/f_%04d.png"});
+    draw("turning", {"--out", "whole/f_%04d.png"});
+    draw("turning", {"--frames", "-2:-1", "--out", "stopped/f_%04d.png"});
+    draw("turning", {"--out", "stopped/f_%04d.png"});
+    EXPECT_TRUE(readFrames("whole") == readFrames("stopped"));
+    EXPECT_TRUE(readFrames("whole") != readFrames("fixed"));
+}
+
 TEST_F(Sequence, AFilmHasEveryFrameAndIsTheSameEachTime) {
     if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0) // NOLINT(concurrency-mt-unsafe)
         GTEST_SKIP() << "ffmpeg is not installed";

@@ -22,6 +22,7 @@ namespace {
 using math::dmat4;
 using math::dvec3;
 using motion_blur::HostMotion;
+using motion_blur::InstantNoise;
 using motion_blur::MotionBlurSettings;
 using test::HostOfTheGBuffer;
 
@@ -30,10 +31,11 @@ constexpr uint32_t kHeight = 64;
 constexpr double kFrameSeconds = 0.25;
 constexpr uint32_t kInstants = 7;
 
-MotionBlurSettings resolved() {
+MotionBlurSettings resolved(InstantNoise noise = InstantNoise::Off) {
     MotionBlurSettings settings;
     settings.method = &motion_blur::getMethod("resolved");
     settings.sampleCount = kInstants;
+    settings.instantNoise = noise;
     return settings;
 }
 
@@ -67,15 +69,16 @@ class Teller {
     }
 
     bool followsLast = false;
+    uint32_t instantCount = kInstants;
     bool knowsMovers = true; ///< false: only which rows move, not how
 
   private:
     [[nodiscard]] std::vector<double> listTimes(const scene::ExposureInterval& exposure) const {
         std::vector<double> times = mTimes;
         if (times.empty())
-            for (uint32_t i = 0; i < kInstants; ++i)
+            for (uint32_t i = 0; i < instantCount; ++i)
                 times.push_back(
-                    scene::invertResponse(exposure.shutter.response, (i + 0.5) / kInstants)
+                    scene::invertResponse(exposure.shutter.response, (i + 0.5) / instantCount)
                 );
         if (std::find(times.begin(), times.end(), exposure.rasterTime) == times.end())
             times.push_back(exposure.rasterTime);
@@ -150,11 +153,12 @@ class Sequence {
         Scene& scene,
         motion_blur::EmbeddedMotionBlur& blur,
         Teller& teller,
-        scene::ShutterPhase phase
+        scene::ShutterPhase phase,
+        const MotionBlurSettings& settings = resolved()
     )
         : mScene(scene), mRenderer(device, scene.world.assets),
-          mHost(device, blur, resolved(), {kWidth, kHeight}),
-          mPlugin(device, mRenderer.scene(), resolved()) {
+          mHost(device, blur, settings, {kWidth, kHeight}),
+          mPlugin(device, mRenderer.scene(), settings) {
         mShutter.exposureSeconds = kFrameSeconds;
         mShutter.phase = phase;
         mHost.describeMotion = [&teller](const render::PostContext& context, HostMotion& motion) {
@@ -163,6 +167,7 @@ class Sequence {
     }
 
     Drawn draw(int frame) {
+        mHost.frameNumber = frame;
         render::FrameRequest request;
         request.view.camera = mScene.camera;
         request.view.exposure =
@@ -217,6 +222,22 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
                 expectSame(next);
             }
         }
+}
+
+TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
+    for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::Turning}) {
+        Scene scene;
+        const auto blur = create(describeHost());
+        ASSERT_TRUE(blur);
+        const MotionBlurSettings settings = resolved(noise);
+        Teller teller;
+        teller.instantCount = motion_blur::countInstants(settings);
+        Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End, settings);
+        for (const int frame : {0, 1, 2}) {
+            expectSame(sequence.draw(frame));
+            teller.followsLast = true;
+        }
+    }
 }
 
 TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {

@@ -8,6 +8,7 @@
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "tests/gpu/embedding_host.h"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -37,6 +38,7 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     Picture output;
     Picture inPlace;
+    int64_t frameNumber = 0;
     /// Says how things move in the frame. What it points to must last until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
@@ -56,6 +58,7 @@ class HostOfTheGBuffer : public render::PostEffect {
         inputs.height = context.facts.height;
         inputs.rasterTime = context.facts.rasterTime;
         inputs.response = context.response;
+        inputs.frameNumber = frameNumber;
         inputs.rays.frameConstants = context.frameConstants;
         if (context.rays) {
             inputs.rays.tlas = context.rays->tlas;

@@ -69,7 +69,7 @@ HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings
         {inputs.width, inputs.height},
         inputs.rasterTime,
         inputs.response != 0,
-        settings.sampleCount};
+        countInstants(settings)};
 }
 
 } // namespace
@@ -259,7 +259,7 @@ InstantMotions EmbeddedMotionBlur::describeInstants(
     HostInstants made = computeHostInstants(inputs.motion, describeFrame(inputs, settings), last);
     InstantMotions motions;
     motions.table = writeInstantLayers(*mDevice, made.layers, slot.instants);
-    motions.instantCount = settings.sampleCount;
+    motions.instantCount = countInstants(settings);
     motions.hasLast = made.layers.last.has_value();
     if (settings.history) {
         motions.history = &view.history;
@@ -302,6 +302,7 @@ core::Status EmbeddedMotionBlur::recordInto(
         own.target = own.color;
     own.rasterTime = inputs.rasterTime;
     own.response = gpu::splitAddress(inputs.response);
+    own.frameNumber = inputs.frameNumber;
     const Method& method = *settings.method;
     if (method.rays == RayNeed::Any || method.readsCamera) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};

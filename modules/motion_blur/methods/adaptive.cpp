@@ -74,7 +74,7 @@ MotionBlurOutputs AdaptivePasses::add(
     own.frame = gpu::splitAddress(inputs.timedRays->frameConstants);
     own.timed = gpu::splitAddress(inputs.timedRays->timedConstants);
     params.setMethod(own);
-    LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
+    LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
     addTrace(graph, *inputs.timedRays, found, params);
     return mLookUp.end(graph, inputs, found, params, shared);
 }
@@ -139,7 +139,7 @@ const Method kAdaptive = {
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 8, // the listed pixels
-    .settings = {"history", "raysPerPixel", "uniformMotionPx"},
+    .settings = {"history", "instantNoise", "raysPerPixel", "uniformMotionPx"},
     .views = {"last"},
     .addBudgetLevels = addAdaptiveLevels,
     .makePasses = [](gpu::Device& device,

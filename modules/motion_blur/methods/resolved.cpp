@@ -20,14 +20,14 @@ class ResolvedPasses : public MethodPasses {
     MotionBlurOutputs
     add(graph::Graph& graph,
         const MotionBlurInputs& inputs,
-        const MotionBlurSettings& /*settings*/,
+        const MotionBlurSettings& settings,
         const PassParams& common,
         SharedPasses& shared) override {
         PassParams params = common;
         shader::ResolvedParams own{};
         own.motions = gpu::splitAddress(inputs.instantMotions->table);
         params.setMethod(own);
-        const LookUpOutputs found = mLookUp.add(graph, inputs, params, shared);
+        const LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
         return mLookUp.end(graph, inputs, found, params, shared);
     }
 
@@ -49,7 +49,7 @@ const Method kResolved = {
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 3, // the candidates
-    .settings = {"history", "uniformMotionPx"},
+    .settings = {"history", "instantNoise", "uniformMotionPx"},
     .views = {"last"},
     .addBudgetLevels = [](BudgetLadder& ladder, const MotionBlurSettings& wanted
                        ) { addLookUpLevels(ladder, wanted, 1.0); },

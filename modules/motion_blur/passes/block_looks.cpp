@@ -40,7 +40,8 @@ VkDeviceSize countAllBlocks(const PassParams& params) {
 }
 
 VkDeviceSize countLookBytes(const PassParams& params) {
-    return countAllBlocks(params) * (params.sampleCount + 1) * sizeof(shader::BlockLook);
+    const uint32_t instants = params.getMethod<shader::ResolvedParams>().instantCount;
+    return countAllBlocks(params) * (VkDeviceSize(instants) + 1) * sizeof(shader::BlockLook);
 }
 
 } // namespace

@@ -20,8 +20,8 @@ struct SortedCandidates {
 
 struct BlockLookOutputs {
     SortedBlocks blocks;       ///< kUniformList, kMixedList
-    graph::BufferHandle looks; ///< for each block a shader::BlockLook whose perX is how many
-                               ///< instants it takes, then one per instant; invalid: none is known
+    graph::BufferHandle looks; ///< shader::BlockLook[block]: a head, then one per instant of the
+                               ///< tables; invalid: none is known
 };
 
 class BlockLooks {
@@ -29,7 +29,8 @@ class BlockLooks {
     /// \param sortsUniform blocks that see a plane at every instant are in a list of their own
     BlockLooks(gpu::Device& device, bool sortsUniform);
 
-    /// Whether there are few enough instants, and the device takes the buffer that the looks need.
+    /// Whether pixels take few enough instants, and the device takes the buffer that the looks
+    /// need.
     [[nodiscard]] bool canFind(const PassParams& params) const;
 
     /// Sorts the blocks that something moves in.

@@ -5,10 +5,14 @@
 #include "spirv/motion_blur/resolved_sort.comp.h"
 
 #include "engine/core/check.h"
+#include "engine/math/blue_noise.h"
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
+#include <cmath>
 #include <cstring>
+#include <span>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -23,6 +27,31 @@ gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
         describePass("resolve", motion_blur_resolved_comp, std::move(bindings));
     desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u};
     return desc;
+}
+
+/// Blue noise, [0, 1): nothing depends on chance.
+gpu::Buffer makeNoise(gpu::Device& device) {
+    constexpr uint32_t kSeed = 1;
+    std::vector<float> shares;
+    for (const uint32_t rank : math::makeBlueNoise(shader::kNoiseSidePx, kSeed))
+        shares.push_back((float(rank) + 0.5f) / float(shader::kNoiseSidePx * shader::kNoiseSidePx));
+    gpu::Buffer buffer(
+        device,
+        "instant noise",
+        shares.size() * sizeof(float),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        gpu::MemoryUse::Stream
+    );
+    buffer.write(std::span<const float>(shares));
+    return buffer;
+}
+
+/// What a pixel takes in frames that follow one another is spread evenly, however many they are: by
+/// the golden ratio (Wolfe et al. 2022, "Spatiotemporal Blue Noise Masks", compare with it).
+float turnOf(int64_t frameNumber) {
+    constexpr double kGoldenRatio = 0.61803398874989485;
+    const double turns = double(frameNumber) * kGoldenRatio;
+    return static_cast<float>(turns - std::floor(turns));
 }
 
 struct ClearData {
@@ -126,14 +155,19 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
 }
 
 LookUpOutputs LookUp::add(
-    graph::Graph& graph, const MotionBlurInputs& inputs, PassParams& params, SharedPasses& shared
+    graph::Graph& graph,
+    const MotionBlurInputs& inputs,
+    const MotionBlurSettings& settings,
+    PassParams& params,
+    SharedPasses& shared
 ) {
     const InstantMotions& motions = *inputs.instantMotions;
-    SHUTTER_CHECK_EQ(motions.instantCount, params.sampleCount);
+    SHUTTER_CHECK_EQ(motions.instantCount, countInstants(settings));
     const RasterHistory* const history = motions.history;
     const bool hasLast = motions.hasLast && history && history->holds(params.sizePx);
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
+    describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
         params.uniformMotionPx = 0.0f;
@@ -175,6 +209,20 @@ LookUpOutputs LookUp::add(
         );
     addResolve(graph, outputs, params);
     return outputs;
+}
+
+void LookUp::describeInstants(
+    const MotionBlurInputs& inputs, const MotionBlurSettings& settings, shader::ResolvedParams& own
+) {
+    own.instantCount = inputs.instantMotions->instantCount;
+    own.setCount = own.instantCount / settings.sampleCount;
+    if (settings.instantNoise == InstantNoise::Off)
+        return;
+    if (!mNoise)
+        mNoise = makeNoise(mDevice);
+    own.noise = gpu::splitAddress(mNoise.address());
+    if (settings.instantNoise == InstantNoise::Turning)
+        own.turn = turnOf(inputs.frameNumber);
 }
 
 SortedCandidates LookUp::addSort(

@@ -50,11 +50,12 @@ class LookUp {
   public:
     LookUp(gpu::Device& device, bool listsPixels);
 
-    /// \param params with shader::ResolvedParams, `hasLast` not set; comes back with it, and with
-    /// uniformMotionPx 0 where each pixel searches for itself
+    /// \param params with shader::ResolvedParams as the method knows it; comes back with the rest
+    /// of it, and with uniformMotionPx 0 where each pixel searches for itself
     [[nodiscard]] LookUpOutputs
     add(graph::Graph& graph,
         const MotionBlurInputs& inputs,
+        const MotionBlurSettings& settings,
         PassParams& params,
         SharedPasses& shared);
 
@@ -70,6 +71,11 @@ class LookUp {
     void count(uint32_t slot, Counters& counters) const;
 
   private:
+    void describeInstants(
+        const MotionBlurInputs& inputs,
+        const MotionBlurSettings& settings,
+        shader::ResolvedParams& own
+    );
     void readCounters(graph::Graph& graph, graph::BufferHandle counters, uint32_t slot) const;
     /// Nearest first.
     [[nodiscard]] SortedCandidates
@@ -83,6 +89,7 @@ class LookUp {
     gpu::LazyPipeline mSort;
     BlockLooks mBlocks;
     gpu::LazyPipeline mResolve;
+    gpu::Buffer mNoise;         ///< the mask; empty until a frame has noise
     gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot
     uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };

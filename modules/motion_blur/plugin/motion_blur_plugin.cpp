@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace shutter::motion_blur {
 
 namespace {
@@ -19,6 +21,14 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
                            "{} ms are too few: gave up {}", budget.budget().milliseconds, gaveUp
                        );
     explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
+}
+
+/// By its time, so that a frame has the same number however it was reached. Where frames differ in
+/// length, their numbers need not follow one another.
+int64_t numberFrame(const scene::ExposureInterval& exposure) {
+    constexpr double kMost = 9.0e15; // whole numbers are exact below
+    const double number = exposure.raster / exposure.frameSeconds;
+    return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
 }
 
 } // namespace
@@ -73,6 +83,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.normal = context.gbuffer.normal;
     inputs.entityId = context.gbuffer.entityId;
     inputs.rasterTime = context.facts.rasterTime;
+    inputs.frameNumber = numberFrame(context.view.exposure);
     inputs.response = gpu::splitAddress(context.response);
     inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
@@ -87,7 +98,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             context.world,
             context.view,
             context.frame,
-            settings().sampleCount,
+            countInstants(settings()),
             settings().history,
             context.slot
         );
