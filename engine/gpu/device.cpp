@@ -33,7 +33,7 @@ std::string describe(VkResult result) {
     case VK_ERROR_FEATURE_NOT_PRESENT:
         return "a feature is not there";
     case VK_ERROR_INCOMPATIBLE_DRIVER:
-        return "no usable Vulkan driver";
+        return "no usable Vulkan driver (Mesa's is the package mesa-vulkan-drivers)";
     case VK_ERROR_TOO_MANY_OBJECTS:
         return "too many objects";
     default:

@@ -76,6 +76,29 @@ void buildMipLevels(VkCommandBuffer commands, const Image& target) {
         );
 }
 
+/// A pool for one submission, whatever becomes of it.
+class TransferPool {
+  public:
+    explicit TransferPool(Device& device) : mDevice(device) {
+        VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        info.queueFamilyIndex = device.queueFamily();
+        require(
+            vkCreateCommandPool(device.handle(), &info, nullptr, &mPool), "starting a transfer"
+        );
+    }
+
+    ~TransferPool() { vkDestroyCommandPool(mDevice.handle(), mPool, nullptr); }
+
+    TransferPool(const TransferPool&) = delete;
+    TransferPool& operator=(const TransferPool&) = delete;
+
+    [[nodiscard]] VkCommandPool handle() const { return mPool; }
+
+  private:
+    Device& mDevice;
+    VkCommandPool mPool = VK_NULL_HANDLE;
+};
+
 } // namespace
 
 void fullBarrier(VkCommandBuffer commands) {
@@ -91,12 +114,9 @@ void fullBarrier(VkCommandBuffer commands) {
 }
 
 void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record) {
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    pool.queueFamilyIndex = device.queueFamily();
-    VkCommandPool handle = VK_NULL_HANDLE;
-    require(vkCreateCommandPool(device.handle(), &pool, nullptr, &handle), "starting a transfer");
+    const TransferPool pool(device);
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = handle;
+    allocate.commandPool = pool.handle();
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -108,7 +128,6 @@ void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record)
     fullBarrier(commands);
     require(vkEndCommandBuffer(commands), "ending a transfer");
     device.wait(device.submit(commands));
-    vkDestroyCommandPool(device.handle(), handle, nullptr);
 }
 
 std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit) {

@@ -60,7 +60,7 @@ TextureLimit findTextureLimit(const VkPhysicalDeviceLimits& limits) {
 TextureTable::TextureTable(
     gpu::Device& device, const scene::Assets& assets, const std::vector<bool>& used
 )
-    : mDevice(device) {
+    : TextureTable(device) { // made from here on: what throws below leaves nothing behind
     const auto count = static_cast<uint32_t>(used.size());
     const TextureLimit limit = findTextureLimit(device.limits());
     if (count > limit.count)

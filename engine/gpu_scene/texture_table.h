@@ -37,6 +37,8 @@ class TextureTable {
     [[nodiscard]] VkDescriptorSet set() const { return mSet; }
 
   private:
+    explicit TextureTable(gpu::Device& device) : mDevice(device) {}
+
     void createSet(uint32_t count);
     /// \return by place in the set, null where no image is
     std::vector<VkImageView>

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <string_view>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
-
-extern char** environ;
+#include <utility>
 
 namespace shutter::io {
 
@@ -27,7 +27,17 @@ constexpr size_t kMaxErrorBytes = size_t{64} << 10;
 /// Both ends close when it goes.
 class Pipe {
   public:
-    Pipe() { mOpened = ::pipe2(mEnds.data(), O_CLOEXEC) == 0; }
+    Pipe() {
+        mOpened = ::pipe2(mEnds.data(), O_CLOEXEC) == 0;
+        // Where a standard stream is closed an end may have taken its place, which the child needs.
+        for (int& end : mEnds)
+            if (mOpened && end <= STDERR_FILENO) {
+                const int low =
+                    std::exchange(end, ::fcntl(end, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+                ::close(low);
+                mOpened = end >= 0;
+            }
+    }
 
     ~Pipe() {
         closeEnd(0);
@@ -54,21 +64,45 @@ class Pipe {
     bool mOpened = false;
 };
 
-/// What the child does before it becomes the program.
-class SpawnActions {
-  public:
-    SpawnActions() { posix_spawn_file_actions_init(&mActions); }
-
-    ~SpawnActions() { posix_spawn_file_actions_destroy(&mActions); }
-
-    SpawnActions(const SpawnActions&) = delete;
-    SpawnActions& operator=(const SpawnActions&) = delete;
-
-    [[nodiscard]] posix_spawn_file_actions_t* get() { return &mActions; }
-
-  private:
-    posix_spawn_file_actions_t mActions{};
+/// What a child needs to become the program.
+struct Child {
+    const char* program;
+    char* const* arguments;
+    const char* folder;
+    int output;
+    int errors;
+    int failure; ///< where it writes the errno that kept it from becoming the program
+    pid_t parent;
 };
+
+/// Runs in the copy of a program with threads: calls nothing but the system.
+[[noreturn]] void become(const Child& child) {
+    // It ends when we do, even by SIGKILL; nobody would take the film that it goes on encoding.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != child.parent)
+        ::_exit(127); // we ended before it was told
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    if (nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
+        ::dup2(child.output, STDOUT_FILENO) >= 0 && ::dup2(child.errors, STDERR_FILENO) >= 0 &&
+        ::chdir(child.folder) == 0) {
+        if (nothing > STDERR_FILENO)
+            ::close(nothing);
+        ::execv(child.program, child.arguments);
+    }
+    const int why = errno;
+    // Who would read it is there, or has ended us.
+    [[maybe_unused]] const ssize_t written = ::write(child.failure, &why, sizeof(why));
+    ::_exit(127);
+}
+
+/// The errno that the child wrote; 0 once it is the program.
+int readFailure(Pipe& failure) {
+    failure.closeEnd(1);
+    int why = 0;
+    while (::read(failure.reading(), &why, sizeof(why)) < 0 && errno == EINTR) {
+    }
+    return why;
+}
 
 /// Reads both until their ends.
 void collect(Pipe& output, Pipe& errors, ProcessResult& result) {
@@ -131,7 +165,8 @@ core::Result<ProcessResult> runProcess(
     };
     Pipe output;
     Pipe errors;
-    if (!output.isOpen() || !errors.isOpen())
+    Pipe failed;
+    if (!output.isOpen() || !errors.isOpen() || !failed.isOpen())
         return failure(errno);
     // The program's own path may be relative to where we are, not to where it will run.
     std::error_code ignored;
@@ -142,16 +177,23 @@ core::Result<ProcessResult> runProcess(
     for (std::string& word : words)
         argv.push_back(word.data());
     argv.push_back(nullptr);
-    SpawnActions actions;
-    posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(actions.get(), output.writing(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(actions.get(), errors.writing(), STDERR_FILENO);
-    posix_spawn_file_actions_addchdir_np(actions.get(), folder.c_str());
-    pid_t process = 0;
-    const int failed =
-        ::posix_spawn(&process, absolute.c_str(), actions.get(), nullptr, argv.data(), environ);
-    if (failed != 0)
-        return failure(failed);
+    const Child child{
+        absolute.c_str(),
+        argv.data(),
+        folder.c_str(),
+        output.writing(),
+        errors.writing(),
+        failed.writing(),
+        ::getpid()};
+    const pid_t process = ::fork();
+    if (process < 0)
+        return failure(errno);
+    if (process == 0)
+        become(child);
+    if (const int why = readFailure(failed); why != 0) {
+        waitFor(process);
+        return failure(why);
+    }
     output.closeEnd(1);
     errors.closeEnd(1);
     ProcessResult result;

@@ -20,7 +20,8 @@ struct ProcessResult {
 /// The program that a shell would find on PATH.
 [[nodiscard]] std::optional<std::filesystem::path> findProgram(const std::string& name);
 
-/// Runs `program` with nothing on its stdin and waits for its end.
+/// Runs `program` with nothing on its stdin and waits for its end. It is killed if this thread ends
+/// first, however that comes about.
 /// \param folder where it runs
 /// Error: it cannot be started.
 [[nodiscard]] core::Result<ProcessResult> runProcess(

@@ -155,12 +155,12 @@ Status measureSuite(
     std::vector<const MethodInfo*> methods,
     game::ShotOptions shot
 ) {
-    SHUTTER_TRY(makeFolders(arguments));
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
         return device.error();
+    SHUTTER_TRY(makeFolders(arguments));
     std::signal(SIGINT, stopOnInterrupt);
     RunOptions options;
     options.suite = std::move(suite);

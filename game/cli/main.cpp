@@ -8,7 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <new>
+#include <system_error>
 
 using namespace shutter;
 
@@ -30,16 +32,23 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help
-        return app.exit(success);
+        return game::finishOutput(app.exit(success));
     } catch (const CLI::ParseError& error) {
         game::printError({error.what()});
         return game::kExitUsage;
     } catch (const gpu::DeviceError& error) {
         game::printError({error.what()});
         return game::kExitFailed;
+    } catch (const std::system_error& error) { // what printing throws where there is no room
+        return game::fail(
+            game::kExitFailed,
+            std::ferror(stdout) != 0
+                ? core::makeError("cannot write to standard output: {}", error.code().message())
+                : core::Error{error.what()}
+        );
     } catch (const std::bad_alloc&) {
         game::printError({"out of main memory"});
         return game::kExitFailed;
     }
-    return exitStatus;
+    return game::finishOutput(exitStatus);
 }

@@ -2,6 +2,7 @@
 #include "game/options/program.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
@@ -31,6 +32,21 @@ void printError(const core::Error& error) {
 int fail(int status, const core::Error& error) {
     printError(error);
     return status;
+}
+
+int finishOutput(int status) {
+    errno = 0;
+    const bool isWritten = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (isWritten)
+        return status;
+    const int why = errno;
+    return fail(
+        kExitFailed,
+        core::makeError(
+            "cannot write to standard output: {}",
+            why != 0 ? std::generic_category().message(why) : "some of it is lost"
+        )
+    );
 }
 
 fs::path findCacheFolder() {

@@ -25,6 +25,9 @@ inline constexpr int kExitUsage = 2;  ///< the command line was wrong
 /// Prints the error and returns `status`.
 [[nodiscard]] int fail(int status, const core::Error& error);
 
+/// Returns `status`, or kExitFailed with a sentence where something printed to stdout was lost.
+[[nodiscard]] int finishOutput(int status);
+
 /// The user's cache folder for this program: XDG_CACHE_HOME/shutter, else ~/.cache/shutter (XDG
 /// base directory specification). Empty if neither variable is set.
 [[nodiscard]] std::filesystem::path findCacheFolder();

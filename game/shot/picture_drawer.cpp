@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace shutter::game {
@@ -67,8 +68,10 @@ PictureDrawer::PictureDrawer(gpu::Device& device, render::Renderer& renderer)
 PictureDrawer::~PictureDrawer() {
     try {
         finishUntil(0);
-    } catch (const gpu::DeviceError& error) { // the device was lost before
-        core::logWarning("{}", error.what());
+    } catch (const gpu::DeviceError& error) {
+        // The error on its way, if any, says already that the device was lost.
+        if (std::uncaught_exceptions() == 0)
+            core::logWarning("{}", error.what());
     }
 }
 

@@ -51,6 +51,8 @@ def check_installed(prefix):
                  "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
         if not (prefix / file).is_file():
             fail(f"{file} is not installed")
+    if layers := [file.name for file in prefix.rglob("*fault_layer*")]:
+        fail(f"{layers[0]} belongs to the tests and is installed")
     # Nothing may lead back to where it was built.
     for file in prefix.rglob("*.cmake"):
         for folder in (str(ROOT), str(BUILD)):

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace shutter::faults {
+
+/// The calls of one kind that fail, counted from 1.
+struct FailingCalls {
+    uint32_t first = 0; ///< 0: none
+    bool andAllLater = false;
+
+    [[nodiscard]] bool holds(uint32_t call) const {
+        return first != 0 && (call == first || (andAllLater && call > first));
+    }
+};
+
+/// What the environment asks for; README.md lists the variables.
+struct FaultPlan {
+    FailingCalls allocations;
+    uint32_t lostSubmission = 0;               ///< 0: none; this one is refused
+    uint32_t lostExecution = 0;                ///< 0: none; this one is taken and never ends well
+    std::map<uint32_t, VkResult> acquisitions; ///< by the number of the call
+    std::map<uint32_t, VkResult> presentations;
+    std::set<std::string> hidden; ///< extensions and features that are said to be missing
+    std::map<std::string, uint32_t> limits;
+    std::vector<VkMemoryPropertyFlags> memoryTypes; ///< empty: the device's own
+    std::string countsFile;                         ///< empty: none
+    uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`
+    uint32_t fileBytes = 0;
+
+    /// Reads it once. What cannot be understood ends the process: a test that asks for nothing
+    /// would pass.
+    [[nodiscard]] static const FaultPlan& get();
+};
+
+/// Prints a sentence and ends the process.
+[[noreturn]] void refuse(const std::string& sentence);
+
+} // namespace shutter::faults

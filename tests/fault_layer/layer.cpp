@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Where the loader enters.
+#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/fault_plan.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+namespace shutter::faults {
+
+namespace {
+
+/// The loader's own part of a chain.
+template <class Info> Info* findLink(const void* chain, VkStructureType type) {
+    for (auto* info = static_cast<const Info*>(chain); info;
+         info = static_cast<const Info*>(info->pNext))
+        if (info->sType == type && info->function == VK_LAYER_LINK_INFO)
+            return const_cast<Info*>(info);
+    return nullptr;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(
+    const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator, VkInstance* instance
+) {
+    auto* link = findLink<VkLayerInstanceCreateInfo>(
+        info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO
+    );
+    if (!link)
+        return VK_ERROR_INITIALIZATION_FAILED;
+    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext; // the next layer looks for its own
+    const auto create =
+        reinterpret_cast<PFN_vkCreateInstance>(getProcAddr(VK_NULL_HANDLE, "vkCreateInstance"));
+    const VkResult result = create(info, allocator, instance);
+    if (result == VK_SUCCESS)
+        addInstance(*instance, getProcAddr);
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(
+    VkPhysicalDevice physical,
+    const VkDeviceCreateInfo* info,
+    const VkAllocationCallbacks* allocator,
+    VkDevice* device
+) {
+    auto* link =
+        findLink<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    if (!link)
+        return VK_ERROR_INITIALIZATION_FAILED;
+    const auto ofInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    const auto getProcAddr = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto create = reinterpret_cast<PFN_vkCreateDevice>(
+        ofInstance(findInstance(physical).instance, "vkCreateDevice")
+    );
+    const VkResult result = create(physical, info, allocator, device);
+    if (result == VK_SUCCESS)
+        addDevice(*device, getProcAddr);
+    return result;
+}
+
+/// What a test needs to know to fail each call in turn.
+void writeCounts(const DeviceTable& table) {
+    const std::string& path = FaultPlan::get().countsFile;
+    if (path.empty())
+        return;
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    if (!file)
+        refuse("cannot write '" + path + "'");
+    std::fprintf(
+        file,
+        "{\"allocations\": %u, \"submissions\": %u, \"acquisitions\": %u, \"presentations\": %u}\n",
+        table.allocationCount.load(),
+        table.submissionCount.load(),
+        table.acquisitionCount.load(),
+        table.presentationCount.load()
+    );
+    std::fclose(file);
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCallbacks* allocator) {
+    if (device == VK_NULL_HANDLE)
+        return;
+    DeviceTable& table = findDevice(device);
+    writeCounts(table);
+    table.DestroyDevice(device, allocator);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name);
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name);
+
+PFN_vkVoidFunction findEntry(std::span<const Entry> entries, const char* name) {
+    for (const Entry& entry : entries)
+        if (std::strcmp(entry.name, name) == 0)
+            return entry.function;
+    return nullptr;
+}
+
+PFN_vkVoidFunction findOfDevice(const char* name) {
+    static const std::array sOwn{
+        SHUTTER_ENTRY(GetDeviceProcAddr, getDeviceProcAddr),
+        SHUTTER_ENTRY(DestroyDevice, destroyDevice),
+    };
+    for (const auto entries :
+         {std::span<const Entry>(sOwn),
+          listMemoryFaults(),
+          listLostDevice(),
+          listSwapchainFaults()})
+        if (const PFN_vkVoidFunction found = findEntry(entries, name))
+            return found;
+    return nullptr;
+}
+
+PFN_vkVoidFunction findOfInstance(const char* name) {
+    static const std::array sOwn{
+        SHUTTER_ENTRY(GetInstanceProcAddr, getInstanceProcAddr),
+        SHUTTER_ENTRY(CreateInstance, createInstance),
+        SHUTTER_ENTRY(CreateDevice, createDevice),
+    };
+    const PFN_vkVoidFunction own = findEntry(sOwn, name);
+    return own ? own : findEntry(listReports(), name);
+}
+
+PFN_vkVoidFunction getDeviceProcAddr(VkDevice device, const char* name) {
+    const DeviceTable& table = findDevice(device);
+    const PFN_vkVoidFunction next = table.getProcAddr(device, name);
+    const PFN_vkVoidFunction own = findOfDevice(name);
+    return next && own ? own : next; // what the device lacks stays missing
+}
+
+PFN_vkVoidFunction getInstanceProcAddr(VkInstance instance, const char* name) {
+    if (const PFN_vkVoidFunction own = findOfInstance(name))
+        return own;
+    if (instance == VK_NULL_HANDLE)
+        return nullptr;
+    const PFN_vkVoidFunction next = findInstance(instance).getProcAddr(instance, name);
+    const PFN_vkVoidFunction own = findOfDevice(name);
+    return next && own ? own : next;
+}
+
+} // namespace
+
+} // namespace shutter::faults
+
+extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
+    version->loaderLayerInterfaceVersion = CURRENT_LOADER_LAYER_INTERFACE_VERSION;
+    version->pfnGetInstanceProcAddr = shutter::faults::getInstanceProcAddr;
+    version->pfnGetDeviceProcAddr = shutter::faults::getDeviceProcAddr;
+    version->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}

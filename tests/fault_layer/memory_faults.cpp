@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/fault_plan.h"
+
+#include <array>
+
+namespace shutter::faults {
+
+namespace {
+
+/// All reported types are one of the device's own: its first, which must fit every use.
+constexpr uint32_t kOwnType = 0;
+
+bool isVisible(uint32_t type) {
+    return (FaultPlan::get().memoryTypes[type] & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(
+    VkDevice device,
+    const VkMemoryAllocateInfo* info,
+    const VkAllocationCallbacks* allocator,
+    VkDeviceMemory* memory
+) {
+    const FaultPlan& plan = FaultPlan::get();
+    DeviceTable& table = findDevice(device);
+    if (plan.allocations.holds(++table.allocationCount))
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    const auto limit = plan.limits.find("maxMemoryAllocationCount");
+    if (limit != plan.limits.end() && table.livingMemories >= limit->second)
+        return VK_ERROR_TOO_MANY_OBJECTS;
+    VkMemoryAllocateInfo own = *info;
+    if (!plan.memoryTypes.empty())
+        own.memoryTypeIndex = kOwnType;
+    const VkResult result = table.AllocateMemory(device, &own, allocator, memory);
+    if (result != VK_SUCCESS)
+        return result;
+    ++table.livingMemories;
+    const std::lock_guard lock(table.hiddenMutex);
+    if (!plan.memoryTypes.empty() && !isVisible(info->memoryTypeIndex))
+        table.hiddenMemory.insert(*memory);
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL
+freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+    DeviceTable& table = findDevice(device);
+    if (memory != VK_NULL_HANDLE)
+        --table.livingMemories;
+    {
+        const std::lock_guard lock(table.hiddenMutex);
+        table.hiddenMemory.erase(memory);
+    }
+    table.FreeMemory(device, memory, allocator);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL mapMemory(
+    VkDevice device,
+    VkDeviceMemory memory,
+    VkDeviceSize offset,
+    VkDeviceSize size,
+    VkMemoryMapFlags flags,
+    void** data
+) {
+    DeviceTable& table = findDevice(device);
+    {
+        const std::lock_guard lock(table.hiddenMutex);
+        if (table.hiddenMemory.contains(memory))
+            return VK_ERROR_MEMORY_MAP_FAILED;
+    }
+    return table.MapMemory(device, memory, offset, size, flags, data);
+}
+
+void reportTypes(VkMemoryRequirements& needs) {
+    const size_t count = FaultPlan::get().memoryTypes.size();
+    if (count == 0)
+        return;
+    if ((needs.memoryTypeBits & (1u << kOwnType)) == 0)
+        refuse("the device's first type of memory does not fit everything");
+    needs.memoryTypeBits = count == 32 ? UINT32_MAX : (1u << count) - 1;
+}
+
+/// Stands in for a function that says which types of memory an object can lie in.
+template <auto next> struct AskNeeds;
+
+template <
+    class Object,
+    void (VKAPI_PTR* DeviceTable::*next)(VkDevice, Object, VkMemoryRequirements*)>
+struct AskNeeds<next> {
+    static VKAPI_ATTR void VKAPI_CALL
+    call(VkDevice device, Object object, VkMemoryRequirements* needs) {
+        (findDevice(device).*next)(device, object, needs);
+        reportTypes(*needs);
+    }
+};
+
+template <class Info, void (VKAPI_PTR* DeviceTable::*next)(VkDevice, Info, VkMemoryRequirements2*)>
+struct AskNeeds<next> {
+    static VKAPI_ATTR void VKAPI_CALL
+    call(VkDevice device, Info info, VkMemoryRequirements2* needs) {
+        (findDevice(device).*next)(device, info, needs);
+        reportTypes(needs->memoryRequirements);
+    }
+};
+
+} // namespace
+
+std::span<const Entry> listMemoryFaults() {
+#define SHUTTER_ASK_NEEDS(name) SHUTTER_ENTRY(name, AskNeeds<&DeviceTable::name>::call)
+    static const std::array sEntries{
+        SHUTTER_ENTRY(AllocateMemory, allocateMemory),
+        SHUTTER_ENTRY(FreeMemory, freeMemory),
+        SHUTTER_ENTRY(MapMemory, mapMemory),
+        SHUTTER_ASK_NEEDS(GetBufferMemoryRequirements),
+        SHUTTER_ASK_NEEDS(GetBufferMemoryRequirements2),
+        SHUTTER_ASK_NEEDS(GetImageMemoryRequirements),
+        SHUTTER_ASK_NEEDS(GetImageMemoryRequirements2),
+    };
+#undef SHUTTER_ASK_NEEDS
+    return sEntries;
+}
+
+} // namespace shutter::faults

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/fault_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+namespace shutter::faults {
+
+namespace {
+
+struct Limit {
+    const char* name;
+    uint32_t VkPhysicalDeviceLimits::*value;
+};
+
+#define SHUTTER_LIMIT(name)                                                                        \
+    Limit {                                                                                        \
+#name, &VkPhysicalDeviceLimits::name                                                       \
+    }
+constexpr std::array kLimits{
+    SHUTTER_LIMIT(maxImageDimension2D),
+    SHUTTER_LIMIT(maxStorageBufferRange),
+    SHUTTER_LIMIT(maxMemoryAllocationCount),
+    SHUTTER_LIMIT(maxSamplerAllocationCount),
+    SHUTTER_LIMIT(maxPerStageDescriptorSamplers),
+    SHUTTER_LIMIT(maxPerStageDescriptorSampledImages),
+};
+#undef SHUTTER_LIMIT
+
+void reportLimits(VkPhysicalDeviceLimits& limits) {
+    for (const auto& [name, value] : FaultPlan::get().limits) {
+        const auto known = std::find_if(kLimits.begin(), kLimits.end(), [&](const Limit& limit) {
+            return limit.name == name;
+        });
+        if (known == kLimits.end())
+            refuse("'" + name + "' is no limit that this layer knows");
+        limits.*known->value = std::min(limits.*known->value, value);
+    }
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getProperties(VkPhysicalDevice device, VkPhysicalDeviceProperties* properties) {
+    findInstance(device).GetPhysicalDeviceProperties(device, properties);
+    reportLimits(properties->limits);
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* properties) {
+    findInstance(device).GetPhysicalDeviceProperties2(device, properties);
+    reportLimits(properties->properties.limits);
+}
+
+/// A feature, at its place in a struct of a chain.
+struct Feature {
+    const char* name;
+    VkStructureType type;
+    size_t offset;
+};
+
+#define SHUTTER_FEATURE(name, Struct, type)                                                        \
+    Feature {                                                                                      \
+#name, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_##type, offsetof(Struct, name)                    \
+    }
+constexpr std::array kFeatures{
+    SHUTTER_FEATURE(timelineSemaphore, VkPhysicalDeviceVulkan12Features, VULKAN_1_2_FEATURES),
+    SHUTTER_FEATURE(bufferDeviceAddress, VkPhysicalDeviceVulkan12Features, VULKAN_1_2_FEATURES),
+    SHUTTER_FEATURE(scalarBlockLayout, VkPhysicalDeviceVulkan12Features, VULKAN_1_2_FEATURES),
+    SHUTTER_FEATURE(hostQueryReset, VkPhysicalDeviceVulkan12Features, VULKAN_1_2_FEATURES),
+    SHUTTER_FEATURE(dynamicRendering, VkPhysicalDeviceVulkan13Features, VULKAN_1_3_FEATURES),
+    SHUTTER_FEATURE(synchronization2, VkPhysicalDeviceVulkan13Features, VULKAN_1_3_FEATURES),
+    SHUTTER_FEATURE(maintenance4, VkPhysicalDeviceVulkan13Features, VULKAN_1_3_FEATURES),
+    SHUTTER_FEATURE(
+        accelerationStructure,
+        VkPhysicalDeviceAccelerationStructureFeaturesKHR,
+        ACCELERATION_STRUCTURE_FEATURES_KHR
+    ),
+    SHUTTER_FEATURE(rayQuery, VkPhysicalDeviceRayQueryFeaturesKHR, RAY_QUERY_FEATURES_KHR),
+    SHUTTER_FEATURE(
+        rayTracingPipeline,
+        VkPhysicalDeviceRayTracingPipelineFeaturesKHR,
+        RAY_TRACING_PIPELINE_FEATURES_KHR
+    ),
+    SHUTTER_FEATURE(
+        rayTracingPipelineTraceRaysIndirect,
+        VkPhysicalDeviceRayTracingPipelineFeaturesKHR,
+        RAY_TRACING_PIPELINE_FEATURES_KHR
+    ),
+};
+#undef SHUTTER_FEATURE
+
+bool isHidden(const char* name) {
+    return FaultPlan::get().hidden.contains(name);
+}
+
+void hideCoreFeatures(VkPhysicalDeviceFeatures& features) {
+    if (isHidden("shaderStorageImageExtendedFormats"))
+        features.shaderStorageImageExtendedFormats = VK_FALSE;
+    if (isHidden("independentBlend"))
+        features.independentBlend = VK_FALSE;
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getFeatures(VkPhysicalDevice device, VkPhysicalDeviceFeatures* features) {
+    findInstance(device).GetPhysicalDeviceFeatures(device, features);
+    hideCoreFeatures(*features);
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getFeatures2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* features) {
+    findInstance(device).GetPhysicalDeviceFeatures2(device, features);
+    hideCoreFeatures(features->features);
+    for (auto* part = static_cast<VkBaseOutStructure*>(features->pNext); part; part = part->pNext)
+        for (const Feature& feature : kFeatures)
+            if (part->sType == feature.type && isHidden(feature.name))
+                std::memset(
+                    reinterpret_cast<char*>(part) + feature.offset, 0, sizeof(VkBool32) // VK_FALSE
+                );
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL enumerateExtensions(
+    VkPhysicalDevice device, const char* layer, uint32_t* count, VkExtensionProperties* properties
+) {
+    const InstanceTable& next = findInstance(device);
+    uint32_t all = 0;
+    VkResult result = next.EnumerateDeviceExtensionProperties(device, layer, &all, nullptr);
+    std::vector<VkExtensionProperties> extensions(all);
+    if (result == VK_SUCCESS)
+        result = next.EnumerateDeviceExtensionProperties(device, layer, &all, extensions.data());
+    if (result != VK_SUCCESS)
+        return result;
+    std::erase_if(extensions, [](const VkExtensionProperties& extension) {
+        return isHidden(extension.extensionName);
+    });
+    const auto shown = static_cast<uint32_t>(extensions.size());
+    if (!properties) {
+        *count = shown;
+        return VK_SUCCESS;
+    }
+    *count = std::min(*count, shown);
+    std::copy_n(extensions.begin(), *count, properties);
+    return *count < shown ? VK_INCOMPLETE : VK_SUCCESS;
+}
+
+/// One heap each, as large as the device's first.
+void reportMemory(VkPhysicalDeviceMemoryProperties& memory) {
+    const auto& types = FaultPlan::get().memoryTypes;
+    if (types.empty())
+        return;
+    const VkMemoryHeap heap = memory.memoryHeaps[0];
+    memory.memoryTypeCount = static_cast<uint32_t>(types.size());
+    memory.memoryHeapCount = 2;
+    memory.memoryHeaps[0] = {heap.size, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+    memory.memoryHeaps[1] = {heap.size, 0};
+    for (uint32_t i = 0; i < types.size(); ++i)
+        memory.memoryTypes[i] = {
+            types[i], (types[i] & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) != 0 ? 0u : 1u};
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getMemory(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties* memory) {
+    findInstance(device).GetPhysicalDeviceMemoryProperties(device, memory);
+    reportMemory(*memory);
+}
+
+VKAPI_ATTR void VKAPI_CALL
+getMemory2(VkPhysicalDevice device, VkPhysicalDeviceMemoryProperties2* memory) {
+    findInstance(device).GetPhysicalDeviceMemoryProperties2(device, memory);
+    reportMemory(memory->memoryProperties);
+}
+
+} // namespace
+
+std::span<const Entry> listReports() {
+    static const std::array sEntries{
+        SHUTTER_ENTRY(EnumerateDeviceExtensionProperties, enumerateExtensions),
+        SHUTTER_ENTRY(GetPhysicalDeviceFeatures, getFeatures),
+        SHUTTER_ENTRY(GetPhysicalDeviceFeatures2, getFeatures2),
+        SHUTTER_ENTRY(GetPhysicalDeviceMemoryProperties, getMemory),
+        SHUTTER_ENTRY(GetPhysicalDeviceMemoryProperties2, getMemory2),
+        SHUTTER_ENTRY(GetPhysicalDeviceProperties, getProperties),
+        SHUTTER_ENTRY(GetPhysicalDeviceProperties2, getProperties2),
+    };
+    return sEntries;
+}
+
+} // namespace shutter::faults

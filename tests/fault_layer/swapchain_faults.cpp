@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/fault_plan.h"
+
+#include <array>
+
+namespace shutter::faults {
+
+namespace {
+
+VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(
+    VkDevice device,
+    VkSwapchainKHR swapchain,
+    uint64_t timeout,
+    VkSemaphore semaphore,
+    VkFence fence,
+    uint32_t* index
+) {
+    DeviceTable& table = findDevice(device);
+    const auto& planned = FaultPlan::get().acquisitions;
+    const auto found = planned.find(++table.acquisitionCount);
+    if (table.isLost)
+        return VK_ERROR_DEVICE_LOST;
+    // An error acquires nothing and leaves the semaphore alone.
+    if (found != planned.end() && found->second < 0)
+        return found->second;
+    const VkResult result =
+        table.AcquireNextImageKHR(device, swapchain, timeout, semaphore, fence, index);
+    return result == VK_SUCCESS && found != planned.end() ? found->second : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKHR* info) {
+    DeviceTable& table = findDevice(queue);
+    const auto& planned = FaultPlan::get().presentations;
+    const auto found = planned.find(++table.presentationCount);
+    if (table.isLost)
+        return VK_ERROR_DEVICE_LOST;
+    // These answers wait for the semaphores as success does, and give the image back.
+    const VkResult result = table.QueuePresentKHR(queue, info);
+    return result == VK_SUCCESS && found != planned.end() ? found->second : result;
+}
+
+} // namespace
+
+std::span<const Entry> listSwapchainFaults() {
+    static const std::array sEntries{
+        SHUTTER_ENTRY(AcquireNextImageKHR, acquireNextImage),
+        SHUTTER_ENTRY(QueuePresentKHR, queuePresent),
+    };
+    return sEntries;
+}
+
+} // namespace shutter::faults

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Devices that can do less, none at all, and no Vulkan."""
+
+import unittest
+
+from fault_case import ASSETS, FaultCase
+
+QUERY = "VK_KHR_ray_query"
+PIPELINE = "VK_KHR_ray_tracing_pipeline"
+
+
+class Devices(FaultCase):
+    def expect_refusal(self, arguments, faults, *mentions):
+        self.expect_sentence(self.run_faulty(arguments, faults), *mentions)
+        self.assertEqual(self.list_files(), set())
+
+    def test_without_rays_the_methods_that_need_none_draw_the_same(self):
+        for method in ("resolved", "gather"):
+            pictures = []
+            for faults in ({}, {"hide": f"{QUERY},{PIPELINE}"}):
+                self.expect_done(self.run_faulty(
+                    self.render("--out", "a.png", "--validate", method=method), faults))
+                pictures.append((self.folder / "a.png").read_bytes())
+            self.assertEqual(*pictures)
+
+    def test_without_rays_the_methods_that_need_them_say_so(self):
+        for hidden in (f"{QUERY},{PIPELINE}", "accelerationStructure", "rayQuery,rayTracingPipeline",
+                       "VK_KHR_acceleration_structure", "VK_KHR_deferred_host_operations"):
+            for method in ("hybrid", "adaptive"):
+                with self.subTest(hidden=hidden, method=method):
+                    self.expect_refusal(
+                        self.render("--out", "a.png", method=method), {"hide": hidden},
+                        f"--method {method} needs", "resolved and gather do without")
+
+    def test_hybrid_traces_with_pipelines_where_there_are_no_queries(self):
+        for hidden in (QUERY, "rayQuery", f"{QUERY},rayTracingPipelineTraceRaysIndirect"):
+            with self.subTest(hidden=hidden):
+                self.expect_done(self.run_faulty(
+                    self.render("--out", "a.png", "--validate", method="hybrid"),
+                    {"hide": hidden}))
+
+    def test_play_takes_another_method_where_its_own_needs_rays(self):
+        result = self.run_faulty(
+            ["play", "rally", "--assets", ASSETS, "--no-window", "--frames", "2", "--size", "32x18",
+             "--method", "hybrid"], {"hide": f"{QUERY},{PIPELINE}"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("hybrid", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_a_feature_that_everything_needs_is_named(self):
+        for feature, words in (("timelineSemaphore", "timeline semaphores"),
+                               ("bufferDeviceAddress", "buffer device addresses"),
+                               ("scalarBlockLayout", "scalar block layout"),
+                               ("hostQueryReset", "host query reset"),
+                               ("dynamicRendering", "dynamic rendering"),
+                               ("synchronization2", "synchronization2"),
+                               ("maintenance4", "maintenance4"),
+                               ("independentBlend", "independent blending"),
+                               ("shaderStorageImageExtendedFormats", "extended storage formats")):
+            with self.subTest(feature=feature):
+                self.expect_refusal(
+                    self.render("--out", "a.png"), {"hide": feature}, f"lacks {words}")
+
+    def test_a_limit_that_does_not_suffice_is_named_before_anything_is_drawn(self):
+        # The least values that Vulkan allows.
+        for limit, size, mentions in (
+            ("maxImageDimension2D=4096", "5000x16", ("--size 5000x16", "4096 pixels")),
+            ("maxStorageBufferRange=134217728", "7680x4320", ("--size 7680x4320", "buffer")),
+            ("maxPerStageDescriptorSamplers=16", "16x9", ("maxPerStageDescriptorSamplers",)),
+            ("maxPerStageDescriptorSampledImages=16", "16x9",
+             ("maxPerStageDescriptorSampledImages",)),
+        ):
+            with self.subTest(limit=limit):
+                self.expect_refusal(
+                    self.render("--out", "a.png", size=size), {"limits": limit}, *mentions)
+
+    def test_without_a_driver_each_command_names_the_package(self):
+        nowhere = {"VK_DRIVER_FILES": str(self.folder / "none.json"), "VK_ICD_FILENAMES": ""}
+        for command in (self.render("--out", "a.png"), ["info", "--devices"],
+                        ["play", "rally", "--assets", ASSETS, "--no-window", "--frames", "1"],
+                        ["bench", "--suite", "paper", "--out", "report"]):
+            with self.subTest(command=command[0]):
+                result = self.run_shutter(command, nowhere)
+                self.expect_sentence(result, "mesa-vulkan-drivers")
+                self.assertEqual(self.list_files(), set())
+
+    def test_without_a_loader_the_linker_names_it(self):
+        # A library that is none stands for one that is missing, which needs no change of the system.
+        (self.folder / "libvulkan.so.1").write_text("none\n", encoding="utf-8")
+        result = self.run_shutter(["info", "--devices"], {"LD_LIBRARY_PATH": str(self.folder)})
+        self.assertEqual(result.returncode, 127)
+        self.assertIn("libvulkan.so.1", result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+    def test_the_layer_refuses_what_it_does_not_know(self):
+        for faults in ({"limits": "maxWidth=3"}, {"allocation": "third"}, {"present": "2=WET"}):
+            with self.subTest(faults=faults):
+                self.assertEqual(
+                    self.run_faulty(self.render("--out", "a.png"), faults).returncode, 99)
+
+
+if __name__ == "__main__":
+    unittest.main()

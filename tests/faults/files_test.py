@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""Full and read-only disks, and death in the middle of a write: files are whole or not there."""
+
+import shutil
+import signal
+import subprocess
+import unittest
+
+from fault_case import ASSETS, EXECUTABLE, FaultCase
+
+OLDER = b"what was here before"
+# Runs a command in a folder that is a disk of its own, and lists what it left there.
+ON_SMALL_DISK = ("mount -t tmpfs -o size=$0 none . && cd . && "
+                 '{ "$@"; status=$?; find . -type f; exit $status; }')
+
+
+def ignore_large_files():
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+
+class Files(FaultCase):
+    def environment(self, more=()):
+        # Mesa's own files shall not be the ones that are too large.
+        return super().environment({"MESA_SHADER_CACHE_DISABLE": "true", **dict(more)})
+
+    def setUp(self):
+        super().setUp()
+        self.outputs = ["--out", "a.png", "--stats", "s.json", "--aov", "motion"]
+        self.names = {"a.png", "a.motion.exr", "s.json"}
+
+    def write_older(self):
+        for name in self.names:
+            (self.folder / name).write_bytes(OLDER)
+
+    def draw_good(self, frame):
+        """The bytes of its files; of statistics, which tell of time, none."""
+        last = self.count_calls(frame)["submissions"]
+        good = {name: (self.folder / name).read_bytes() for name in self.names - {"s.json"}}
+        return last, good
+
+    def expect_whole(self, good):
+        for name in self.names:
+            held = (self.folder / name).read_bytes()
+            if name in good:
+                self.assertIn(held, (OLDER, good[name]), name)
+            else:
+                self.assertTrue(held == OLDER or held.endswith(b"}\n"), name)
+
+    def sizes(self, good):
+        """Limits at which each file in turn is the first that is too large, and one in its middle."""
+        lengths = {len(content) for content in good.values()}
+        return sorted({0, 1} | lengths | {length - 1 for length in lengths})
+
+    def test_a_full_disk_is_told_and_the_files_from_before_stay(self):
+        frame = self.render(*self.outputs, method="sharp")
+        last, good = self.draw_good(frame)
+        for size in self.sizes(good):
+            with self.subTest(bytes=size):
+                self.write_older()
+                result = self.run_faulty(frame, {"files": f"{last}={size}"}, restore_signals=False,
+                                         preexec_fn=ignore_large_files)
+                self.expect_sentence(result, "cannot write", "File too large")
+                self.assertEqual(self.list_files(), self.names)
+                self.expect_whole(good)
+
+    def test_who_is_killed_in_the_middle_of_a_write_leaves_whole_files(self):
+        frame = self.render(*self.outputs, method="sharp")
+        last, good = self.draw_good(frame)
+        for size in self.sizes(good):
+            with self.subTest(bytes=size):
+                self.write_older()
+                result = self.run_faulty(frame, {"files": f"{last}={size}"})
+                self.assertEqual(result.returncode, -signal.SIGXFSZ, result.stderr)
+                self.expect_whole(good)
+                for extra in self.list_files() - self.names:
+                    self.assertTrue(extra.startswith(".shutter-"), extra)
+
+    def test_a_sequence_killed_in_its_journal_goes_on_to_the_same_frames(self):
+        sequence = self.render("--frames", "0:1", "--out", "f_%d.png", method="sharp")
+        last = self.count_calls(sequence)["submissions"]
+        frames = [self.folder / f"f_{i}.png" for i in range(2)]
+        whole = [frame.read_bytes() for frame in frames]
+        journal = self.folder / ".f_%d.png.journal"
+        length = journal.stat().st_size
+        for size in (length - 1, length - 60):
+            for frame in frames:
+                frame.unlink(missing_ok=True)
+            journal.unlink(missing_ok=True)
+            with self.subTest(bytes=size):
+                killed = self.run_faulty(sequence, {"files": f"{last}={size}"})
+                self.assertEqual(killed.returncode, -signal.SIGXFSZ, killed.stderr)
+                self.assertEqual(self.run_shutter(sequence).returncode, 0)
+                self.assertEqual([frame.read_bytes() for frame in frames], whole)
+
+    def test_a_disk_that_is_really_full(self):
+        on_disk = ["unshare", "--map-root-user", "--mount", "sh", "-c", ON_SMALL_DISK]
+        if not shutil.which("unshare") or subprocess.run([*on_disk, "16k", "true"], cwd=self.folder,
+                                                         capture_output=True).returncode != 0:
+            self.skipTest("this user may not mount a small disk")
+        large = self.render("--out", "a.exr", size="64x36", method="sharp")
+        result = self.run_shutter(large, before=[*on_disk, "8k"])
+        self.expect_sentence(result, "cannot write 'a.exr'", "No space left on device")
+        self.assertEqual(result.stdout, "")
+        # Kept pipelines are a convenience: without room for them all else is well.
+        result = self.run_shutter(self.render("--out", "a.png", method="sharp"),
+                                  {"XDG_CACHE_HOME": "."}, before=[*on_disk, "4k"])
+        self.expect_done(result)
+        self.assertEqual(result.stdout, "./a.png\n")
+
+    def test_a_folder_that_takes_no_files(self):
+        # /proc takes none, not even from root.
+        result = self.run_shutter(self.render("--out", "/proc/a.png", method="sharp"))
+        self.expect_sentence(result, "cannot write '/proc/a.png'")
+        result = self.run_shutter(self.render("--out", "a.png", "--stats", "/proc/s.json",
+                                              method="sharp"))
+        self.expect_sentence(result, "/proc/s.json")
+
+    def test_a_cache_that_cannot_be_written_costs_time_and_nothing_else(self):
+        (self.folder / "cache").write_bytes(b"a file")
+        self.expect_done(self.run_shutter(self.render("--out", "a.png", method="sharp"),
+                                          {"XDG_CACHE_HOME": str(self.folder / "cache")}))
+
+    def test_statistics_that_do_not_fit_are_told(self):
+        result = self.run_shutter(self.render("--out", "a.png", "--stats", "/dev/full",
+                                              method="sharp"))
+        self.expect_sentence(result, "/dev/full", "No space left on device")
+
+    def test_what_is_printed_and_lost_is_told(self):
+        self.expect_done(self.run_shutter(self.render("--out", "a.png", method="sharp")))
+        for command in (["info", "--methods"], ["info", "--devices"], ["--help"],
+                        ["info", f"{ASSETS}/vase.glb"], ["compare", "a.png", "a.png"],
+                        self.render("--out", "b.png", "--explain", method="sharp"),
+                        self.render("--out", "b.png", "--dump-graph", method="hybrid")):
+            with self.subTest(command=command), open("/dev/full", "wb") as full:
+                result = subprocess.run([EXECUTABLE, *command], cwd=self.folder, stdout=full,
+                                        env=self.environment(), stderr=subprocess.PIPE, text=True)
+                self.expect_sentence(result, "standard output", "No space left on device")
+
+
+if __name__ == "__main__":
+    unittest.main()

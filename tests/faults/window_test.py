@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""Windows that change and go away between any two pictures, and devices lost before one."""
+
+import json
+import shutil
+import sys
+import unittest
+
+if not shutil.which("xvfb-run"):
+    print("skipped: xvfb-run is missing (package xvfb)")
+    sys.exit(77)
+
+from fault_case import ASSETS, FaultCase
+
+FRAMES = 8
+ON_DISPLAY = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
+SESSION = ["play", "rally", "--assets", ASSETS, "--frames", str(FRAMES), "--size", "64x36"]
+
+
+class Window(FaultCase):
+    def play(self, faults, *more):
+        return self.run_faulty([*SESSION, *more], faults, before=ON_DISPLAY)
+
+    def test_play_goes_on_after_every_answer_of_the_window(self):
+        counts = self.folder / "counts.json"
+        for call in ("acquire", "present"):
+            for answers in (
+                "1=SUBOPTIMAL,2=SUBOPTIMAL,3=SUBOPTIMAL,4=SUBOPTIMAL",
+                "1=OUT_OF_DATE,2=OUT_OF_DATE,4=OUT_OF_DATE",
+                "1=SURFACE_LOST,2=SURFACE_LOST,4=SURFACE_LOST",
+                "2=SUBOPTIMAL,3=OUT_OF_DATE,4=SURFACE_LOST,5=SUBOPTIMAL,6=SURFACE_LOST",
+            ):
+                with self.subTest(call=call, answers=answers):
+                    result = self.play({call: answers, "counts": counts}, "--validate")
+                    self.expect_done(result)
+                    counted = json.loads(counts.read_text(encoding="utf-8"))
+                    self.assertEqual(counted["presentations"], FRAMES)
+
+    def test_a_lost_device_is_told_once(self):
+        counts = self.folder / "counts.json"
+        self.expect_done(self.play({"counts": counts}))
+        last = json.loads(counts.read_text(encoding="utf-8"))["submissions"]
+        for kind in ("submission", "execution"):
+            with self.subTest(kind=kind):
+                self.expect_sentence(self.play({kind: last - 2}), "the device was lost")
+
+    def test_a_device_that_shows_no_pictures_is_told(self):
+        result = self.play({"hide": "VK_KHR_swapchain"})
+        self.assertNotEqual(result.returncode, 0)
+        # xvfb-run complains, too, of a program that ends before its display is up.
+        self.assertIn("shutter: no device can run the engine", result.stderr)
+        self.assertIn("lacks VK_KHR_swapchain\n", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
