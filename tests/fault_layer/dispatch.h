@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <mutex>
 #include <set>
+#include <span>
 
 namespace shutter::faults {
 
@@ -88,5 +89,19 @@ struct Entry {
     Entry {                                                                                        \
         "vk" #name, reinterpret_cast<PFN_vkVoidFunction>(static_cast<PFN_vk##name>(function))      \
     }
+
+// The functions that the layer stands in for, by what they fail at.
+
+/// Other limits, features, extensions and types of memory.
+[[nodiscard]] std::span<const Entry> listReports();
+
+/// Allocations that fail, and memory of the reported types.
+[[nodiscard]] std::span<const Entry> listMemoryFaults();
+
+/// Submissions, and everything that tells of a lost device.
+[[nodiscard]] std::span<const Entry> listLostDevice();
+
+/// Windows that change and go away.
+[[nodiscard]] std::span<const Entry> listSwapchainFaults();
 
 } // namespace shutter::faults

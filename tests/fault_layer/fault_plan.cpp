@@ -33,7 +33,7 @@ uint32_t readNumber(const std::string& text) {
     const char* const end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, number);
     if (text.empty() || read.ec != std::errc() || read.ptr != end)
-        refuse("'" + text + "' is no number");
+        refuse("'" + text + "' is not a number");
     return number;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the loader enters.
-#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/dispatch.h"
 #include "tests/fault_layer/fault_plan.h"
 
 #include <array>

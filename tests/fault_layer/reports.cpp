@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/fault_layer/entries.h"
+#include "tests/fault_layer/dispatch.h"
 #include "tests/fault_layer/fault_plan.h"
 
 #include <algorithm>
