@@ -103,7 +103,7 @@ TEST_F(ResolvedLooks, WhatStandsStillBeforeAMoverIsNotPaintedOver) {
     EXPECT_EQ(test::computeMaxDifferenceWhere(drawn.color, sharp.color, isPost), 0.0);
 }
 
-TEST_F(ResolvedLooks, WhatMovesLittleTakesFewerInstants) {
+TEST_F(ResolvedLooks, FewerInstantsShowNoLessOfWhatMovesLittle) {
     // Two pixels in all: five instants instead of 15 miss no texel.
     const Both both = drawBoth(makeRoom({.angularVelocity = {0.0, 0.5, 0.0}}));
     EXPECT_GT(countUniform(both.together), 0u);

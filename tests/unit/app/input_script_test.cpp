@@ -23,7 +23,7 @@ class InputScriptFile : public testing::Test {
         EXPECT_NE(script.error().message.find(":2"), std::string::npos) << script.error().message;
     }
 
-    // Of its own: tests run side by side.
+    // Each test has a file of its own, because tests run in parallel.
     std::filesystem::path mPath = testing::TempDir() +
                                   testing::UnitTest::GetInstance()->current_test_info()->name() +
                                   ".input_script.json";
