@@ -36,7 +36,7 @@ struct WheelEvent {
     double steps = 0.0;
 };
 
-/// Of a gamepad, which is then there.
+/// A gamepad's stick; the gamepad counts as connected from then on.
 struct StickEvent {
     bool right = false;
     math::dvec2 value{0.0}; ///< [-1, 1], right and up positive

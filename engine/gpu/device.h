@@ -147,7 +147,7 @@ class Device {
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
 
-    /// Of the classes Buffer, Image, MemoryBlock and AccelerationStructure, which keep the books.
+    /// How many objects live: counted by Buffer, Image, MemoryBlock and AccelerationStructure.
     [[nodiscard]] const LivingObjects& living() const { return mLiving; }
 
     [[nodiscard]] LivingObjects& living() { return mLiving; }

@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t kDeepBit = 0x800;
 constexpr uint32_t kManyPartsBit = 0x1000;
 constexpr size_t kMaxNameBytes = 255;
-/// Of a tile's entry in the table of offsets, which stands after the header.
+/// Size of a tile's entry in the table of offsets, which follows the header.
 constexpr uint64_t kOffsetBytes = 8;
 constexpr uint64_t kMaxTilePixels = uint64_t(1) << 24;
 

@@ -13,7 +13,7 @@ namespace shutter::math {
 namespace {
 
 constexpr uint32_t kNoRank = 0xFFFFFFFFu;
-/// Of the Gaussian by which points crowd each other, pixels (Ulichney: 1.5).
+/// Standard deviation of the Gaussian by which points crowd each other, pixels (Ulichney: 1.5).
 constexpr double kSigmaPx = 1.5;
 /// The Gaussian at 0. Sums of all weights stay far below 2^32.
 constexpr double kWeightScale = 1 << 20;

@@ -44,7 +44,7 @@ struct MotionBlurInputs {
     std::optional<graph::RayScene> rays;
     std::optional<graph::TimedRays> timedRays;    ///< for methods of RayNeed::Query (CHECKed)
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
-    /// Of the frame, for InstantNoise::Turning: the next one's is one more.
+    /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
     int64_t frameNumber = 0;
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where

@@ -216,7 +216,7 @@ struct BlockSearch {
     LayerMotion layer;
 };
 
-/// Finds what the block looks at at an instant. \return where, if that is a plane
+/// Finds and keeps the look of one instant. \return where the block looks, if that is a plane
 PlaneMap findLook(BlockSearch search, uint instant) {
     InstantMotionTable table = InstantMotionTable(search.layer.motions);
     uint slots = uRaster[search.tile].parts[partOf(instant, search.parts)];
@@ -247,7 +247,7 @@ struct Found {
     bool isUniform; // it sees a plane at each instant
 };
 
-/// Finds what the block looks at at each instant that its pixels may take.
+/// Finds the look of each instant that the block's pixels may take.
 Found findLooks(BlockSearch search) {
     uint middle = method.setCount / 2u;
     uint planes = 0u;

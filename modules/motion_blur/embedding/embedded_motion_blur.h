@@ -66,7 +66,7 @@ struct HostInputs {
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
     HostRays rays;                ///< for methods of RayNeed::Any
-    int64_t frameNumber = 0;      ///< for InstantNoise::Turning: the next frame's is one more
+    int64_t frameNumber = 0;      ///< for InstantNoise::Turning; the next frame has the next number
     HostMotion motion;            ///< for Method::readsInstantMotions; its `view` for all
 };
 

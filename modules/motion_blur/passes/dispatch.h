@@ -27,7 +27,7 @@ namespace shutter::motion_blur {
     return desc;
 }
 
-/// Its threads are a processor's: fewer that do more each are faster.
+/// Whether shaders run on the CPU, where fewer threads that do more each are faster.
 [[nodiscard]] inline bool isSoftware(const gpu::Device& device) {
     return device.info().kind == "software";
 }
