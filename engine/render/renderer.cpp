@@ -7,7 +7,6 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
-#include "engine/scene/shutter.h"
 
 #include <chrono>
 #include <cstring>
@@ -20,10 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 double nowMilliseconds() {
     return std::chrono::duration<double, std::milli>(Clock::now().time_since_epoch()).count();
-}
-
-VkDeviceSize alignTable(VkDeviceSize bytes) {
-    return (bytes + 255) / 256 * 256;
 }
 
 ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device& device) {
@@ -56,7 +51,7 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
 } // namespace
 
 Renderer::Slot::Slot(gpu::Device& device)
-    : frame(device), readback(device), entityTable(device), deformation(device), frameTlas(device),
+    : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
       timedScene(device) {}
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
@@ -92,48 +87,6 @@ Renderer::RunningEffects Renderer::askEffects(
         join(running.timedRays, effect->name(), timedRays);
     }
     return running;
-}
-
-Renderer::TableAddresses Renderer::uploadTables(
-    Slot& slot,
-    extract::ExtractedFrame& frame,
-    const extract::ViewRequest& view,
-    std::span<const shader::Geometry> deformed
-) {
-    const std::span<const shader::Geometry> own = mScene.geometryRows();
-    const VkDeviceSize lightsAt = alignTable(sizeof(shader::FrameConstants));
-    const VkDeviceSize lightBytes = frame.lights.size() * sizeof(shader::LightRow);
-    const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
-    const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
-    const VkDeviceSize total =
-        deformed.empty() ? geometriesAt
-                         : geometriesAt + (own.size() + deformed.size()) * sizeof(shader::Geometry);
-    const auto response = scene::computeResponseTable(view.exposure.shutter.response);
-    gpu::Buffer& tables = slot.tables;
-    if (tables.bytes() < total)
-        tables = gpu::Buffer(
-            mDevice,
-            "frame tables",
-            total + total / 2,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Stream
-        );
-    frame.constants.entities = gpu::splitAddress(slot.entityTable.rows());
-    frame.constants.entityMotions = gpu::splitAddress(slot.entityTable.motions());
-    frame.constants.lights = gpu::splitAddress(tables.address() + lightsAt);
-    frame.constants.geometries = gpu::splitAddress(
-        deformed.empty() ? mScene.geometryTable() : tables.address() + geometriesAt
-    );
-    frame.constants.materials = gpu::splitAddress(mScene.materialTable());
-    tables.writeBytes(&frame.constants, sizeof(frame.constants), 0);
-    tables.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
-    if (response)
-        tables.writeBytes(&*response, sizeof(*response), responseAt);
-    if (!deformed.empty()) {
-        tables.write(own, geometriesAt);
-        tables.write(deformed, geometriesAt + own.size_bytes());
-    }
-    return {tables.address(), response ? tables.address() + responseAt : 0};
 }
 
 void Renderer::declareTlas(
@@ -330,9 +283,10 @@ Renderer::Tickets Renderer::declareFrame(
         mTlasMilliseconds = nowMilliseconds() - start;
     }
     const double start = nowMilliseconds();
-    mWritten = slot.entityTable.update(frame);
+    mWritten = slot.tables.updateEntities(frame);
     mTableMilliseconds = nowMilliseconds() - start;
-    const TableAddresses tables = uploadTables(slot, frame, request.view, deformed);
+    const FrameTables::Addresses tables =
+        slot.tables.upload(frame, request.view, mScene, deformed);
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();

@@ -6,13 +6,13 @@
 #include "engine/extract/frame_extractor.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu_scene/deformation_pass.h"
-#include "engine/gpu_scene/entity_table.h"
 #include "engine/gpu_scene/gpu_scene.h"
 #include "engine/graph/transient_pool.h"
 #include "engine/image/image.h"
 #include "engine/rays/timed_scene.h"
 #include "engine/rays/tlas.h"
 #include "engine/render/frame_statistics.h"
+#include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
@@ -137,9 +137,7 @@ class Renderer {
 
         gpu::Frame frame;
         Readback readback;
-        gpu_scene::EntityTable entityTable;
-        /// Constants, lights and, where meshes are deformed, geometries of the frame, mapped.
-        gpu::Buffer tables;
+        FrameTables tables;
         // Made anew once they were idle (releaseIdle).
         std::optional<gpu_scene::DeformationPass> deformation;
         std::optional<rays::FrameTlas> frameTlas;
@@ -182,19 +180,6 @@ class Renderer {
     /// Gives back what no frame wanted for a while.
     void releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running);
 
-    /// Where the frame's tables are.
-    struct TableAddresses {
-        VkDeviceAddress constants = 0;
-        VkDeviceAddress response = 0; ///< 0: the shutter's response is a box
-    };
-
-    /// \param deformed geometries that stand behind the scene's own
-    TableAddresses uploadTables(
-        Slot& slot,
-        extract::ExtractedFrame& frame,
-        const extract::ViewRequest& view,
-        std::span<const shader::Geometry> deformed
-    );
     void declareTlas(
         Slot& slot,
         graph::Graph& graph,

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/frame_tables.h"
+
+#include "engine/gpu/vulkan.h"
+#include "engine/scene/shutter.h"
+
+namespace shutter::render {
+
+namespace {
+
+VkDeviceSize alignTable(VkDeviceSize bytes) {
+    return (bytes + 255) / 256 * 256;
+}
+
+} // namespace
+
+FrameTables::Addresses FrameTables::upload(
+    extract::ExtractedFrame& frame,
+    const extract::ViewRequest& view,
+    const gpu_scene::GpuScene& scene,
+    std::span<const shader::Geometry> deformed
+) {
+    const std::span<const shader::Geometry> own = scene.geometryRows();
+    const VkDeviceSize lightsAt = alignTable(sizeof(shader::FrameConstants));
+    const VkDeviceSize lightBytes = frame.lights.size() * sizeof(shader::LightRow);
+    const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
+    const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
+    const VkDeviceSize total =
+        deformed.empty() ? geometriesAt
+                         : geometriesAt + (own.size() + deformed.size()) * sizeof(shader::Geometry);
+    const auto response = scene::computeResponseTable(view.exposure.shutter.response);
+    if (mBuffer.bytes() < total)
+        mBuffer = gpu::Buffer(
+            mDevice,
+            "frame tables",
+            total + total / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Stream
+        );
+    frame.constants.entities = gpu::splitAddress(mEntityTable.rows());
+    frame.constants.entityMotions = gpu::splitAddress(mEntityTable.motions());
+    frame.constants.lights = gpu::splitAddress(mBuffer.address() + lightsAt);
+    frame.constants.geometries = gpu::splitAddress(
+        deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt
+    );
+    frame.constants.materials = gpu::splitAddress(scene.materialTable());
+    mBuffer.writeBytes(&frame.constants, sizeof(frame.constants), 0);
+    mBuffer.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    if (response)
+        mBuffer.writeBytes(&*response, sizeof(*response), responseAt);
+    if (!deformed.empty()) {
+        mBuffer.write(own, geometriesAt);
+        mBuffer.write(deformed, geometriesAt + own.size_bytes());
+    }
+    return {mBuffer.address(), response ? mBuffer.address() + responseAt : 0};
+}
+
+} // namespace shutter::render
