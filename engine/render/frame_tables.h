@@ -21,7 +21,7 @@ class FrameTables {
 
     struct Addresses {
         VkDeviceAddress constants = 0; ///< shader::FrameConstants
-        VkDeviceAddress response = 0;  ///< shader::ResponseTable; 0: the shutter's response is a box
+        VkDeviceAddress response = 0; ///< shader::ResponseTable; 0: the shutter's response is a box
     };
 
     /// Writes the rows that changed.

@@ -122,6 +122,7 @@ GBufferPass::GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene)
 
 GBuffer GBufferPass::declare(
     graph::Graph& graph,
+    const std::string& name,
     const extract::ExtractedFrame& frame,
     const gpu_scene::GpuScene& scene,
     graph::BufferHandle shapes,
@@ -139,7 +140,7 @@ GBuffer GBufferPass::declare(
     struct Data {};
 
     graph.addPass<Data>(
-        "G-buffer",
+        name,
         graph::PassKind::Raster,
         [&](graph::PassBuilder& builder, Data&) {
             if (shapes.isValid())

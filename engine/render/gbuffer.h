@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 
 #include <cstdint>
+#include <string>
 
 namespace shutter::render {
 
@@ -36,9 +37,11 @@ class GBufferPass {
     GBufferPass(gpu::Device& device, const gpu_scene::GpuScene& scene);
 
     /// Declares the pass. `frame` and `scene` must live until it has been recorded.
+    /// \param name of the pass
     /// \param shapes vertices of deformed meshes; invalid: there are none
     [[nodiscard]] GBuffer declare(
         graph::Graph& graph,
+        const std::string& name,
         const extract::ExtractedFrame& frame,
         const gpu_scene::GpuScene& scene,
         graph::BufferHandle shapes,

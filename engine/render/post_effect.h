@@ -58,6 +58,13 @@ class Intermediates {
     std::map<std::string, graph::ImageHandle> mImages;
 };
 
+/// The world at the other end of the exposure.
+struct SecondRasterView {
+    GBuffer gbuffer;
+    const extract::ExtractedFrame* frame = nullptr; ///< lives as long as the graph
+    double instant = 0.0;                           ///< shutter time, [0, 1]
+};
+
 struct PostContext {
     graph::Graph& graph;
     const scene::World& world;
@@ -65,10 +72,11 @@ struct PostContext {
     const extract::ExtractedFrame& frame;
     const ViewFacts& facts;
     const GBuffer& gbuffer;
-    const graph::RayScene* rays;       ///< null where no effect asked for rays
-    const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
-    graph::ImageHandle color;          ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display;        ///< display-encoded, once somebody made it
+    const graph::RayScene* rays;          ///< null where no effect asked for rays
+    const graph::TimedRays* timedRays;    ///< null where no effect asked for moving rays
+    const SecondRasterView* secondRaster; ///< null where the effect does not ask for it
+    graph::ImageHandle color;             ///< linear HDR so far; an effect replaces it
+    graph::ImageHandle display;           ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
@@ -103,6 +111,10 @@ class PostEffect {
 
     /// The same for rays at any time of the exposure.
     [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
+
+    /// The same for a raster of the world at the other end of the exposure
+    /// (PostContext::secondRaster).
+    [[nodiscard]] virtual core::Decision askSecondRaster(const ViewFacts&) const { return {}; }
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;

@@ -52,7 +52,7 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
 
 Renderer::Slot::Slot(gpu::Device& device)
     : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
-      timedScene(device) {}
+      timedScene(device), secondRaster(device) {}
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
@@ -70,6 +70,7 @@ Renderer::RunningEffects Renderer::askEffects(
 ) {
     RunningEffects running;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
+    running.secondRaster = {false, "no effect that runs looks anything up in it"};
     for (PostEffect* effect : effects) {
         core::Decision decision = effect->ask(facts);
         const core::Decision rays = effect->askRays(facts);
@@ -81,10 +82,12 @@ Renderer::RunningEffects Renderer::askEffects(
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
         if (!decision.run)
             continue;
-        running.effects.push_back({effect});
+        const core::Decision secondRaster = effect->askSecondRaster(facts);
+        running.effects.push_back({effect, secondRaster.run});
         running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
         join(running.timedRays, effect->name(), timedRays);
+        join(running.secondRaster, effect->name(), secondRaster);
     }
     return running;
 }
@@ -144,6 +147,7 @@ core::Status Renderer::submitFrame(
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
         explainer.decide(ExplainedKind::Work, "rays at any time", running.timedRays);
+        explainer.decide(ExplainedKind::Work, "second raster", running.secondRaster);
     }
 
     std::optional<extract::TimedTables> moving;
@@ -153,6 +157,9 @@ core::Status Renderer::submitFrame(
             return computed.error();
         moving = std::move(computed).value();
     }
+
+    if (running.secondRaster.run)
+        SHUTTER_TRY(slot.secondRaster->extract(world, mScene.layout(), request.view));
 
     slot.frame.begin();
     slot.readback.reset();
@@ -240,6 +247,7 @@ void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEf
     const bool deformationIdle = mDeformationIdle.advance(!frame.deformed.empty());
     const bool raysIdle = mRaysIdle.advance(running.rays.run);
     const bool timedRaysIdle = mTimedRaysIdle.advance(running.timedRays.run);
+    const bool secondRasterIdle = mSecondRasterIdle.advance(running.secondRaster.run);
     for (const auto& slot : mSlots) {
         if (deformationIdle)
             slot->deformation.emplace(mDevice);
@@ -247,6 +255,8 @@ void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEf
             slot->frameTlas.emplace(mDevice);
         if (timedRaysIdle)
             slot->timedScene.emplace(mDevice);
+        if (secondRasterIdle)
+            slot->secondRaster.emplace(mDevice);
     }
     if (mBlasIdle.advance(anyRays))
         mScene.releaseBlas();
@@ -285,8 +295,7 @@ Renderer::Tickets Renderer::declareFrame(
     const double start = nowMilliseconds();
     mWritten = slot.tables.updateEntities(frame);
     mTableMilliseconds = nowMilliseconds() - start;
-    const FrameTables::Addresses tables =
-        slot.tables.upload(frame, request.view, mScene, deformed);
+    const FrameTables::Addresses tables = slot.tables.upload(frame, request.view, mScene, deformed);
     rays.frameConstants = tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
@@ -305,7 +314,7 @@ Renderer::Tickets Renderer::declareFrame(
     }
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     const GBuffer gbuffer =
-        mGBufferPass.declare(graph, frame, mScene, shapes.buffer, rays.frameConstants);
+        mGBufferPass.declare(graph, "G-buffer", frame, mScene, shapes.buffer, rays.frameConstants);
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
     Intermediates intermediates(std::move(wanted));
@@ -319,6 +328,7 @@ Renderer::Tickets Renderer::declareFrame(
         gbuffer,
         running.rays.run ? &rays : nullptr,
         moving ? &timedRays : nullptr,
+        nullptr,
         gbuffer.color,
         {},
         intermediates,
@@ -326,9 +336,15 @@ Renderer::Tickets Renderer::declareFrame(
         tables.constants,
         explainer,
         mNextSlot};
+    std::optional<SecondRasterView> second;
     for (RunningEffect& one : running.effects) {
-        explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
         one.firstPass = graph.passes().size();
+        if (one.readsSecondRaster && !second) {
+            explainer.beginPasses(graph, one.effect->owner(), running.secondRaster.reason);
+            second = slot.secondRaster->declare(graph, mScene, mGBufferPass);
+            context.secondRaster = &*second;
+        }
+        explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
         one.effect->declare(context);
         one.endPass = graph.passes().size();
     }

@@ -16,6 +16,7 @@
 #include "engine/render/gbuffer.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
+#include "engine/render/second_raster.h"
 
 #include <cstdint>
 #include <deque>
@@ -119,6 +120,7 @@ class Renderer {
 
     struct RunningEffect {
         PostEffect* effect = nullptr;
+        bool readsSecondRaster = false;
         size_t firstPass = 0; ///< of its own: indices into Graph::passes()
         size_t endPass = 0;
     };
@@ -128,6 +130,7 @@ class Renderer {
         std::vector<RunningEffect> effects;
         core::Decision rays;
         core::Decision timedRays;
+        core::Decision secondRaster;
         bool mayTrace = false; ///< in another frame, if not in this
     };
 
@@ -142,6 +145,7 @@ class Renderer {
         std::optional<gpu_scene::DeformationPass> deformation;
         std::optional<rays::FrameTlas> frameTlas;
         std::optional<rays::TimedScene> timedScene;
+        std::optional<SecondRaster> secondRaster;
     };
 
     /// An effect of an unfinished frame, and which of the frame's times are its own.
@@ -200,6 +204,7 @@ class Renderer {
     IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;
+    IdleCounter mSecondRasterIdle;
     IdleCounter mBlasIdle;
     // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
