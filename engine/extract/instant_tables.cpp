@@ -45,14 +45,21 @@ class Builder {
         mRasterPicture = pictureAt(view.exposure.rasterTime);
     }
 
-    InstantTables run(const RasterRecord* last) {
+    InstantTables run(const RasterRecord* last, const InstantFrame* second) {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
-        tables.record = makeRecord();
+        tables.record = makeRecord(mFrame, mView.exposure.raster, mRasterPicture);
         tables.raster = describeRaster();
         if (last && mayUse(*last))
             tables.last = describeLast(*last, tables.record);
+        if (second)
+            tables.second = describeSecond(
+                makeRecord(
+                    second->frame, mView.exposure.at(second->instant), pictureAt(second->instant)
+                ),
+                tables.record
+            );
         return tables;
     }
 
@@ -66,19 +73,20 @@ class Builder {
         return math::pictureFromView(clip, sizePx, mView.jitterPx) * glm::inverse(worldFromView);
     }
 
-    RasterRecord makeRecord() const {
+    RasterRecord
+    makeRecord(const ExtractedFrame& frame, double seconds, const dmat4& pictureFromWorld) const {
         RasterRecord record;
-        record.seconds = mView.exposure.raster;
+        record.seconds = seconds;
         record.camera = mView.camera;
         record.width = mView.width;
         record.height = mView.height;
-        record.pictureFromWorld = mRasterPicture;
+        record.pictureFromWorld = pictureFromWorld;
         // Rows of others' making stand behind those that were drawn.
-        const auto drawn = std::ptrdiff_t(mFrame.worldFromObject.size());
-        record.entities.assign(mFrame.entityHandles.begin(), mFrame.entityHandles.begin() + drawn);
-        record.worldFromObject = mFrame.worldFromObject;
-        record.deforms.assign(mFrame.worldFromObject.size(), false);
-        for (const DeformedEntity& one : mFrame.deformed)
+        const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
+        record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
+        record.worldFromObject = frame.worldFromObject;
+        record.deforms.assign(frame.worldFromObject.size(), false);
+        for (const DeformedEntity& one : frame.deformed)
             record.deforms[one.row] = one.changes;
         return record;
     }
@@ -159,29 +167,45 @@ class Builder {
     }
 
     LayerTables describeLast(const RasterRecord& last, const RasterRecord& now) const {
-        const size_t count = last.entities.size();
-        LayerBuilder layer = begin(last.pictureFromWorld, count);
-        const std::vector<uint32_t> rows = findRows(last, now);
         const scene::TimeSpan span{
             last.seconds + kFrameSlack * mView.exposure.frameSeconds,
             std::max(mView.exposure.raster, mView.exposure.close)};
+        return describeOther(last, now, [&](ecs::Entity entity) {
+            return scene::hasNoPast(mWorld, entity, span);
+        });
+    }
+
+    /// What has no past stands still during the exposure, and is in both of its rasters.
+    LayerTables describeSecond(const RasterRecord& second, const RasterRecord& now) const {
+        return describeOther(second, now, [](ecs::Entity) { return false; });
+    }
+
+    /// A raster that is not the frame's own.
+    /// \param isUnknown (ecs::Entity) -> bool: where it was does not say where it is
+    template <class IsUnknown>
+    LayerTables describeOther(
+        const RasterRecord& other, const RasterRecord& now, const IsUnknown& isUnknown
+    ) const {
+        const size_t count = other.entities.size();
+        LayerBuilder layer = begin(other.pictureFromWorld, count);
+        const std::vector<uint32_t> rows = findRows(other, now);
         std::vector<bool> mayMove(now.entities.size(), mayScaleMotion(mWorld, mView.exposure));
         for (const uint32_t row : mFrame.movingRows)
             mayMove[row] = true;
         for (size_t row = 0; row < count; ++row) {
             const uint32_t current = rows[row];
-            if (current == kNoRow || last.deforms[row] || now.deforms[current]) {
+            if (current == kNoRow || other.deforms[row] || now.deforms[current]) {
                 layer.setMover(row, shader::kNoMover);
                 continue;
             }
-            const bool wasMoved = last.worldFromObject[row] != now.worldFromObject[current];
-            const ecs::Entity entity = last.entities[row];
+            const bool wasMoved = other.worldFromObject[row] != now.worldFromObject[current];
+            const ecs::Entity entity = other.entities[row];
             if (!wasMoved && !(mayMove[current] && mMotion.mayObjectMove(entity)))
                 continue;
-            if (scene::hasNoPast(mWorld, entity, span))
+            if (isUnknown(entity))
                 layer.setMover(row, shader::kNoMover);
             else
-                addMover(layer, row, entity, last.worldFromObject[row]);
+                addMover(layer, row, entity, other.worldFromObject[row]);
         }
         return layer.take();
     }
@@ -203,10 +227,11 @@ InstantTables computeInstantTables(
     const ViewRequest& view,
     const ExtractedFrame& frame,
     uint32_t instantCount,
-    const RasterRecord* last
+    const RasterRecord* last,
+    const InstantFrame* second
 ) {
     SHUTTER_CHECK(instantCount > 0, "no instants");
-    return Builder(world, view, frame, instantCount).run(last);
+    return Builder(world, view, frame, instantCount).run(last, second);
 }
 
 } // namespace shutter::extract

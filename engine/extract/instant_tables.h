@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the surfaces that a raster image holds are seen at other instants of the exposure, on the
-// CPU: of this frame's raster and of the last one's. Exact for whatever moves rigidly, along any
+// CPU: of this frame's rasters and of the last one's. Exact for whatever moves rigidly, along any
 // path and before any camera; what deforms is left to motion vectors.
 #pragma once
 
@@ -31,17 +31,25 @@ struct InstantTables : math::InstantLayers {
     RasterRecord record; ///< of this frame's raster, for the frame after
 };
 
+/// Another raster of the frame, of another instant of its exposure.
+struct InstantFrame {
+    double instant = 0.0; ///< shutter time, [0, 1]
+    const ExtractedFrame& frame;
+};
+
 /// Instants are the middles of equal shares of the light, by the shutter's response.
 /// \param instantCount above 0
 /// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
 /// same camera, in the same size and without a cut in between; of what has appeared, was teleported
 /// or deforms, nothing counts
+/// \param second drawn for the same view, or null; nothing of it that deforms counts
 [[nodiscard]] InstantTables computeInstantTables(
     const scene::World& world,
     const ViewRequest& view,
     const ExtractedFrame& frame,
     uint32_t instantCount,
-    const RasterRecord* last
+    const RasterRecord* last,
+    const InstantFrame* second = nullptr
 );
 
 } // namespace shutter::extract

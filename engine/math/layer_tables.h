@@ -24,12 +24,13 @@ struct LayerTables {
     bool isStill = false;
 };
 
-/// What a frame's own raster and the one of the frame before hold.
+/// What a frame's rasters and the one of the frame before hold.
 struct InstantLayers {
     LayerTables raster;
-    std::optional<LayerTables> last; ///< nothing: the last raster says nothing about this frame
-    std::vector<float> times;        ///< shutter time of each instant, [0, 1]
-    bool isPerspective = true;       ///< the camera is, at every instant; false: orthographic
+    std::optional<LayerTables> second; ///< of the exposure's other end; nothing: there is none
+    std::optional<LayerTables> last;   ///< nothing: the last raster says nothing about this frame
+    std::vector<float> times;          ///< shutter time of each instant, [0, 1]
+    bool isPerspective = true;         ///< the camera is, at every instant; false: orthographic
 };
 
 /// Picture space from a view space that looks down -Z.

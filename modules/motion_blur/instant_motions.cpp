@@ -61,6 +61,9 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     const VkDeviceSize headAt = layout.add(head);
     const VkDeviceSize times = layout.add(layers.times);
     const PlacedLayer raster = place(layout, layers.raster);
+    std::optional<PlacedLayer> second;
+    if (layers.second)
+        second = place(layout, *layers.second);
     std::optional<PlacedLayer> last;
     if (layers.last)
         last = place(layout, *layers.last);
@@ -74,6 +77,8 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
         );
     buffer.write(std::span<const float>(layers.times), times);
     head[0].raster = write(buffer, raster);
+    if (second)
+        head[0].second = write(buffer, *second);
     if (last)
         head[0].last = write(buffer, *last);
     head[0].times = gpu::splitAddress(buffer.address() + times);

@@ -28,9 +28,10 @@ struct LayerMotion {
     uint isStill;  // 1: what stands still in the world is where the raster has it, at all instants
 };
 
-/// What a frame's own raster and the one of the frame before hold.
+/// What a frame's rasters and the one of the frame before hold.
 struct InstantMotions {
     LayerMotion raster;
+    LayerMotion second; // of the exposure's other end
     LayerMotion last;
     uvec2 times;        // address of float[]: shutter time of each instant
     uint isPerspective; // 1: the camera is; 0: orthographic
@@ -50,7 +51,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
-static_assert(sizeof(shutter::shader::InstantMotions) == 64);
+static_assert(sizeof(shutter::shader::InstantMotions) == 88);
 #endif
 
 #endif

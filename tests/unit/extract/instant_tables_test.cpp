@@ -54,6 +54,15 @@ class InstantTablesTest : public Extraction {
         return computeInstantTables(world, request, extract(), kInstants, last);
     }
 
+    /// With a raster of shutter open.
+    InstantTables computeWithSecond() {
+        ViewRequest atOpen = request;
+        atOpen.instant = 0.0;
+        const auto second = extractFrame(world, layout, atOpen);
+        const InstantFrame frame{0.0, second.value()};
+        return computeInstantTables(world, request, extract(), kInstants, nullptr, &frame);
+    }
+
     /// The tables of the frame at 1 s, after one at 1 s - kFrameSeconds.
     InstantTables computeSecondFrame() {
         setTime(1.0 - kFrameSeconds);
@@ -162,6 +171,27 @@ TEST_F(InstantTablesTest, TheLastRasterShowsWhereItsSurfacesAreNow) {
     expectMaps(*tables.last, 0, tumblerThen, tumbler, corner);
     expectMaps(*tables.last, 1, wallThen, wall, corner);
     EXPECT_EQ(tables.last->movers.at(1), shader::kWorldMover);
+}
+
+TEST_F(InstantTablesTest, TheSecondRasterShowsWhereItsSurfacesAre) {
+    moveCamera();
+    const ecs::Entity tumbler = addTumbler();
+    const ecs::Entity wall = addBox({0.0, 0.0, -20.0});
+    const dvec3 corner(0.9, -0.7, 0.3);
+    const InstantTables tables = computeWithSecond();
+    ASSERT_TRUE(tables.second.has_value());
+    expectMaps(*tables.second, 0, project(tumbler, corner, 0.0), tumbler, corner);
+    expectMaps(*tables.second, 1, project(wall, corner, 0.0), wall, corner);
+    EXPECT_EQ(tables.second->movers.at(1), shader::kWorldMover);
+    EXPECT_EQ(tables.record.seconds, 1.0) << "the frame after looks into the frame's own raster";
+}
+
+TEST_F(InstantTablesTest, WhatAppearsDuringTheExposureIsInBothOfItsRasters) {
+    const ecs::Entity tumbler = addTumbler();
+    scene::appear(world, tumbler, 1.0 - 0.5 * kExposureSeconds);
+    const InstantTables tables = computeWithSecond();
+    ASSERT_TRUE(tables.second.has_value());
+    EXPECT_EQ(tables.second->movers.at(0), shader::kWorldMover) << "without a past it stands still";
 }
 
 TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {
