@@ -28,6 +28,7 @@ const std::map<std::string, std::vector<Channel>>& channelTable() {
         {"mask", {{0, "mask"}}},
         {"reveal", {{0, "R"}, {1, "G"}, {2, "B"}}},
         {"error", {{0, "R"}, {1, "G"}, {2, "B"}}},
+        {"second", {{0, "R"}, {1, "G"}, {2, "B"}}},
         {"last", {{0, "R"}, {1, "G"}, {2, "B"}}},
         {"noisy", {{0, "R"}, {1, "G"}, {2, "B"}}},
     };

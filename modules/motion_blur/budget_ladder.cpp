@@ -39,6 +39,14 @@ void BudgetLadder::shareRays(float share, double cost) {
     add(cost);
 }
 
+void BudgetLadder::dropSecondRaster(double cost) {
+    if (!mNext.secondRaster)
+        return;
+    mNext.secondRaster = false;
+    mRaster = "the second raster";
+    add(cost);
+}
+
 void BudgetLadder::reduceSamples(uint32_t count, double cost) {
     if (count >= mNext.sampleCount)
         return;
@@ -75,7 +83,7 @@ std::vector<BudgetLevel> BudgetLadder::finish() {
 
 void BudgetLadder::add(double cost) {
     std::string gaveUp;
-    for (const std::string& part : {mResolution, mRays, mSamples})
+    for (const std::string& part : {mResolution, mRaster, mRays, mSamples})
         if (!part.empty())
             gaveUp += (gaveUp.empty() ? "" : ", ") + part;
     mLevels.push_back({mNext, true, cost, gaveUp});
@@ -86,6 +94,10 @@ uint32_t shareOfSamples(uint32_t samples, double share) {
 }
 
 void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost) {
+    if (wanted.secondRaster) {
+        cost *= 0.6; // drawing it takes as long as a sharp picture
+        ladder.dropSecondRaster(cost);
+    }
     ladder.reduceSamples(shareOfSamples(wanted.sampleCount, 0.8), 0.85 * cost);
     ladder.reduceSamples(shareOfSamples(wanted.sampleCount, 0.6), 0.7 * cost);
     constexpr uint32_t kTaps = 15;

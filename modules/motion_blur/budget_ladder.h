@@ -19,6 +19,7 @@ class BudgetLadder {
     /// Half of the resolution where motion is long and uniform.
     void halveResolution(double cost);
     void shareRays(float share, double cost);
+    void dropSecondRaster(double cost);
     void reduceSamples(uint32_t count, double cost);
     /// To 80, 60 and 40 % of `wanted`, then to the fewest that still blur; for a filter whose time
     /// is proportional to its samples. \param cost of the level before
@@ -38,15 +39,15 @@ class BudgetLadder {
     MotionBlurSettings mWanted;
     MotionBlurSettings mNext = mWanted;
     uint32_t mMostSamples = mWanted.sampleCount; ///< of the method that the levels have now
-    std::string mResolution, mRays, mSamples;
+    std::string mResolution, mRaster, mRays, mSamples;
     std::vector<BudgetLevel> mLevels;
 };
 
 /// That share of the samples, but as many as it takes to blur at all.
 [[nodiscard]] uint32_t shareOfSamples(uint32_t samples, double share);
 
-/// Levels of a method that looks samples up: fewer instants, then `gather`, which sees no
-/// background where it was hidden. \param cost of the level before
+/// Levels of a method that looks samples up: no second raster, fewer instants, then `gather`, which
+/// sees no background where it was hidden. \param cost of the level before
 void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
 
 /// Method::addBudgetLevels of a method that has nothing to give up but samples.

@@ -22,7 +22,14 @@ namespace shutter::motion_blur {
 
 class RasterHistory;
 
-/// Where the surfaces of this frame's raster, and of the one before, are seen at each instant of
+/// A raster of the world at the other end of the exposure, with entity ids of its own.
+struct SecondRaster {
+    graph::ImageHandle color;       ///< RGBA16F
+    graph::ImageHandle motionDepth; ///< RGBA32F, of which only the depth is read
+    graph::ImageHandle entityId;    ///< R32_UINT
+};
+
+/// Where the surfaces of this frame's rasters, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
     VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
@@ -30,6 +37,7 @@ struct InstantMotions {
     bool hasLast = false;      ///< of the raster that `history` keeps, too
     /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
     RasterHistory* history = nullptr;
+    std::optional<SecondRaster> second; ///< `table` says where its surfaces are seen, too
 };
 
 struct MotionBlurInputs {

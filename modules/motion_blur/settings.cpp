@@ -179,6 +179,13 @@ std::vector<Row> makeLookUpRows() {
          "Whether what this frame hides is looked up in the last frame. Off saves memory and "
          "leaves gaps behind what moves.",
          "Last frame"},
+        {"secondRaster",
+         &S::secondRaster,
+         "",
+         {},
+         "Whether the world is drawn at the other end of the exposure, too, for what this frame "
+         "hides: for films, and for devices without rays. Takes as long as a sharp picture.",
+         "Second raster"},
         {"instantNoise",
          makeWordField<&S::instantNoise>(kInstantNoises),
          "",

@@ -80,7 +80,8 @@ struct MotionBlurSettings {
                                    ///< below 1/4 parts of the mask go without
     /// Uniform motion from which the gathers work at half of the resolution along it.
     float halfResolutionPx = std::numeric_limits<float>::infinity();
-    bool history = true; ///< the last frame's raster is looked up, too
+    bool history = true;       ///< the last frame's raster is looked up, too
+    bool secondRaster = false; ///< so is one that is drawn at the other end of the exposure
     InstantNoise instantNoise = InstantNoise::Off;
     /// Most rays for samples that no layer holds: on average over the picture. Infinity: as many as
     /// it takes to trace every sample of what moves.

@@ -19,8 +19,8 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_search.glsl"
 
-layout(binding = 12, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 13) uniform accelerationStructureEXT uScene;
+layout(binding = 16, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 17) uniform accelerationStructureEXT uScene;
 
 /// Share of the samples of each class that the frame's rays are enough for, the most harmful first.
 void shareRays(out float shares[kSampleClasses]) {

@@ -17,11 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_search.glsl"
 
-#define SHUTTER_BLOCK_LIST_BINDING 12
+#define SHUTTER_BLOCK_LIST_BINDING 16
 #include "motion_blur/block_list.glsl"
 
-layout(binding = 13, scalar) buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 14, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+layout(binding = 17, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 18, scalar) buffer ListArguments { DispatchArguments uListArguments; };
 
 /// For the pass that traces: the pixel and which classes its samples have.
 void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {
@@ -48,6 +48,7 @@ void main() {
     vec3 sum = vec3(0.0f);
     uint found = 0u;
     uint guessed = 0u;
+    uint fromSecond = 0u;
     uint fromLast = 0u;
     uint searched = params.sampleCount;
     // Rays may go to any of them.
@@ -60,6 +61,7 @@ void main() {
         vec3 color = vec3(0.0f);
         if (seen.isFound) {
             color = colorOf(seen);
+            fromSecond += seen.layer == kSecondLayer ? 1u : 0u;
             fromLast += seen.layer == kLastLayer ? 1u : 0u;
             ++found;
         } else if (doubt.hasBeside) {
@@ -69,6 +71,7 @@ void main() {
         sum += color;
         if (kFindsEdges) ++counts[classify(seen, color, doubt)];
     }
+    if (fromSecond > 0u) atomicAdd(uCounters.fromSecond, fromSecond);
     if (fromLast > 0u) atomicAdd(uCounters.fromLast, fromLast);
     if (found < searched) atomicAdd(uCounters.unresolved, searched - found);
     // What nothing is known of counts as what the pixel saw else.

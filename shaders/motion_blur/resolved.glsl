@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where a layer's surfaces are at an instant of the exposure (common/instant_motion_shared.h). A
-// layer is a raster image: this frame's or the last one's.
+// layer is a raster image: one of this frame's or the last one's.
 #ifndef SHUTTER_RESOLVED_GLSL
 #define SHUTTER_RESOLVED_GLSL
 
@@ -30,10 +30,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer No
 
 const uint kRasterLayer = 0u;
 const uint kLastLayer = 1u;
+const uint kSecondLayer = 2u; // the exposure's other end
 
 LayerMotion getLayer(InstantMotionsRef motions, uint index) {
     LayerMotion layer = motions.value.raster;
     if (index == kLastLayer) layer = motions.value.last;
+    if (index == kSecondLayer) layer = motions.value.second;
     return layer;
 }
 

@@ -24,6 +24,15 @@ layout(binding = 8, scalar) buffer Counters { ResolvedCounters uCounters; };
 layout(binding = 9) uniform sampler2D uColorLinear;
 layout(binding = 10) uniform sampler2D uLastColorLinear;
 layout(binding = 11, scalar) readonly buffer Looks { BlockLook uLooks[]; };
+layout(binding = 12) uniform sampler2D uSecondColor;
+layout(binding = 13) uniform usampler2D uSecondSurface;
+layout(binding = 14, scalar) readonly buffer SecondCandidates { ReadTile uSecondTiles[]; };
+layout(binding = 15) uniform sampler2D uSecondColorLinear;
+
+/// Whether the raster of the exposure's other end is a layer.
+layout(constant_id = 2) const bool kHasSecond = false;
+
+bool isSecond(uint layer) { return kHasSecond && layer == kSecondLayer; }
 
 /// A surface that a pixel saw at an instant.
 struct Seen {
@@ -48,11 +57,13 @@ Probe fetchSurface(uint layer, ivec2 at) {
     vec2 uv = uvOf(vec2(at) + 0.5f);
     uvec2 read = layer == kRasterLayer ? textureLod(uSurface, uv, 0.0f).xy
                                        : textureLod(uLastSurface, uv, 0.0f).xy;
+    if (isSecond(layer)) read = textureLod(uSecondSurface, uv, 0.0f).xy;
     return Probe(keyOf(read), uintBitsToFloat(read.x), innerCornersOf(read));
 }
 
 vec3 fetchColor(uint layer, ivec2 at) {
     vec2 uv = uvOf(vec2(at) + 0.5f);
+    if (isSecond(layer)) return textureLod(uSecondColor, uv, 0.0f).rgb;
     return layer == kRasterLayer ? textureLod(uColor, uv, 0.0f).rgb
                                  : textureLod(uLastColor, uv, 0.0f).rgb;
 }
@@ -88,6 +99,7 @@ vec2 gatherPlace(Footprint footprint) {
 
 vec4 gatherDepths(uint layer, Footprint footprint) {
     vec2 uv = gatherPlace(footprint);
+    if (isSecond(layer)) return uintBitsToFloat(textureGather(uSecondSurface, uv, 0));
     return uintBitsToFloat(
         layer == kRasterLayer ? textureGather(uSurface, uv, 0) : textureGather(uLastSurface, uv, 0)
     );
@@ -98,6 +110,7 @@ bvec4 gatherMatches(uint layer, uint key, Footprint footprint) {
     vec2 uv = gatherPlace(footprint);
     uvec4 keys = layer == kRasterLayer ? textureGather(uSurface, uv, 1)
                                        : textureGather(uLastSurface, uv, 1);
+    if (isSecond(layer)) keys = textureGather(uSecondSurface, uv, 1);
     return equal(keys & kKeyBits, uvec4(key));
 }
 
@@ -114,6 +127,11 @@ float interpolateDepth(uint layer, uint key, vec2 at, bool perspective) {
 
 /// One channel of the four pixels' colours.
 vec4 gatherChannel(uint layer, vec2 uv, int channel) {
+    if (isSecond(layer)) {
+        if (channel == 0) return textureGather(uSecondColor, uv, 0);
+        if (channel == 1) return textureGather(uSecondColor, uv, 1);
+        return textureGather(uSecondColor, uv, 2);
+    }
     if (channel == 0)
         return layer == kRasterLayer ? textureGather(uColor, uv, 0)
                                      : textureGather(uLastColor, uv, 0);
@@ -127,6 +145,7 @@ vec4 gatherChannel(uint layer, vec2 uv, int channel) {
 vec3 interpolateColor(Seen seen) {
     if (seen.isInner) {
         vec2 uv = uvOf(seen.at);
+        if (isSecond(seen.layer)) return textureLod(uSecondColorLinear, uv, 0.0f).rgb;
         return seen.layer == kRasterLayer ? textureLod(uColorLinear, uv, 0.0f).rgb
                                           : textureLod(uLastColorLinear, uv, 0.0f).rgb;
     }
@@ -151,11 +170,13 @@ vec3 colorOf(Seen seen) {
 Candidate getCandidate(uint layer, uint tile, uint slot) {
     uvec4 read = layer == kLastLayer ? uLastTiles[tile].candidates[slot]
                                      : uRasterTiles[tile].candidates[slot];
+    if (isSecond(layer)) read = uSecondTiles[tile].candidates[slot];
     return Candidate(read.x, read.y, read.z, read.w);
 }
 
 /// A bit for each candidate that the tile may see in that part of the exposure.
 uint getPart(uint layer, uint tile, uint part) {
+    if (isSecond(layer)) return uSecondTiles[tile].parts[part];
     return layer == kLastLayer ? uLastTiles[tile].parts[part] : uRasterTiles[tile].parts[part];
 }
 

@@ -25,6 +25,7 @@ layout(binding = 4, scalar) buffer BlockLists {
     uint entries[];
 } uBlocks;
 layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
+layout(binding = 6, scalar) readonly buffer SecondCandidates { TileCandidates uSecond[]; };
 
 /// Beyond the places that are looked at: what a linear fetch reads.
 const float kFetchMarginPx = 1.0f;
@@ -176,6 +177,7 @@ uint findShown(
 
 Candidate getCandidate(uint layer, uint tile, uint slot) {
     if (layer == kLastLayer) return uLast[tile].candidates[slot];
+    if (layer == kSecondLayer) return uSecond[tile].candidates[slot];
     return uRaster[tile].candidates[slot];
 }
 
@@ -268,6 +270,10 @@ Found findLooks(BlockSearch search) {
             way = max(
                 way, measureWay(kLastLayer, search.block, search.tile, search.perspective)
             );
+        if (method.hasSecond != 0u)
+            way = max(
+                way, measureWay(kSecondLayer, search.block, search.tile, search.perspective)
+            );
     }
     // About one for each pixel of the way, if that is few enough to leave some out evenly.
     found.instants = uint(min(way, kFarAway)) + kLeastInstants;
@@ -299,6 +305,7 @@ void main() {
     uint tile = tileAt.y * tiles.x + tileAt.x;
     bool moves = uRaster[tile].candidates[0].key != kNoKey;
     if (method.hasLast != 0u) moves = moves || uLast[tile].candidates[0].key != kNoKey;
+    if (method.hasSecond != 0u) moves = moves || uSecond[tile].candidates[0].key != kNoKey;
     if (!moves) return;
     bool isUniform = false;
     if (params.uniformMotionPx > 0.0f) {

@@ -92,6 +92,7 @@ struct Guess {
 
 struct Guesses {
     Guess raster;
+    Guess second;
     Guess last;
 };
 
@@ -255,8 +256,10 @@ struct PixelSearch {
     vec2 inBlock; // from the block's centre
     uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
+    LayerMotion second;
     LayerMotion last;
     Seen still; // what stands still there, at all instants
+    Seen secondStill;
     Seen lastStill;
 };
 
@@ -315,9 +318,13 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.perspective = motions.value.isPerspective != 0u;
     search.partsPerInstant = partsPerInstant(method.instantCount);
     search.raster = getLayer(motions, kRasterLayer);
+    search.second = getLayer(motions, kSecondLayer);
     search.last = getLayer(motions, kLastLayer);
     search.still = findStill(kRasterLayer, search.raster, pixel);
     search.hiding = search.still.key;
+    search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false);
+    if (kHasSecond && !search.still.isFound)
+        search.secondStill = findStill(kSecondLayer, search.second, pixel);
     search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false);
     if (method.hasLast != 0u && !search.still.isFound)
         search.lastStill = findStill(kLastLayer, search.last, pixel);
@@ -328,7 +335,7 @@ PixelSearch beginSearch(ivec2 pixel) {
 Guesses beginGuesses(PixelSearch pixel) {
     return Guesses(
         Guess(pixel.hiding, alongOf(depthOfKey(pixel.hiding, pixel.still.depth), pixel.perspective)),
-        Guess(kNoKey, 0.0f)
+        Guess(kNoKey, 0.0f), Guess(kNoKey, 0.0f)
     );
 }
 
@@ -343,6 +350,12 @@ Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout
     }
     Seen seen = pixel.still;
     searchLayer(kRasterLayer, pixel.raster, pixel, instant, slots, guesses.raster, seen, doubt);
+    if (kHasSecond && !seen.isFound) {
+        seen = pixel.secondStill;
+        searchLayer(
+            kSecondLayer, pixel.second, pixel, instant, ~0u, guesses.second, seen, doubt
+        );
+    }
     if (!seen.isFound && method.hasLast != 0u) {
         seen = pixel.lastStill;
         searchLayer(kLastLayer, pixel.last, pixel, instant, ~0u, guesses.last, seen, doubt);

@@ -81,10 +81,11 @@ SHUTTER_CONST uint kInstantSets = 5u;
 SHUTTER_CONST uint kNoiseSidePx = 64u;
 
 struct ResolvedParams {
-    uvec2 motions; // address of InstantMotions
-    uint hasLast;  // 1: the last frame's raster is a layer
-    uint rayLimit; // of the frame; kNoRayLimit: none
-    uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
+    uvec2 motions;  // address of InstantMotions
+    uint hasLast;   // 1: the last frame's raster is a layer
+    uint hasSecond; // 1: the raster of the exposure's other end is a layer
+    uint rayLimit;  // of the frame; kNoRayLimit: none
+    uvec2 frame;    // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
     uvec2 noise;       // address of the mask, float[kNoiseSidePx^2] in [0, 1); 0: no noise
     float turn;        // added to the mask, modulo 1
@@ -95,13 +96,13 @@ struct ResolvedParams {
 /// What a frame counted.
 struct ResolvedCounters {
     uint unresolved; // instants of pixels that no layer explains
+    uint fromSecond; // instants of pixels that the raster of the exposure's other end explains
     uint fromLast;   // instants of pixels that the last frame's raster explains
     uint overflown;  // candidates that found no place in a tile's list
     uint rays;       // traced
     uint classes[kSampleClasses];
     uint listedPixels; // entries of the list of pixels that rays may go to
     uint padding0;
-    uint padding1;
 };
 
 SHUTTER_SHADER_END
@@ -112,7 +113,7 @@ static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
 static_assert(sizeof(shutter::shader::BlockLook) == 16);
-static_assert(sizeof(shutter::shader::ResolvedParams) == 52);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 56);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif
 

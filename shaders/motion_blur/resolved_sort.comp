@@ -12,25 +12,34 @@ layout(push_constant, scalar) uniform Push {
 };
 layout(binding = 0, scalar) buffer RasterCandidates { TileCandidates uRaster[]; };
 layout(binding = 1, scalar) buffer LastCandidates { TileCandidates uLast[]; };
+layout(binding = 2, scalar) buffer SecondCandidates { TileCandidates uSecond[]; };
+
 Candidate getCandidate(uint layer, uint tile, uint slot) {
     if (layer == kLastLayer) return uLast[tile].candidates[slot];
+    if (layer == kSecondLayer) return uSecond[tile].candidates[slot];
     return uRaster[tile].candidates[slot];
 }
 
 void setCandidate(uint layer, uint tile, uint slot, Candidate candidate) {
     if (layer == kLastLayer)
         uLast[tile].candidates[slot] = candidate;
+    else if (layer == kSecondLayer)
+        uSecond[tile].candidates[slot] = candidate;
     else
         uRaster[tile].candidates[slot] = candidate;
 }
 
 uint getParts(uint layer, uint tile, uint index) {
-    return layer == kLastLayer ? uLast[tile].parts[index] : uRaster[tile].parts[index];
+    if (layer == kLastLayer) return uLast[tile].parts[index];
+    if (layer == kSecondLayer) return uSecond[tile].parts[index];
+    return uRaster[tile].parts[index];
 }
 
 void setParts(uint layer, uint tile, uint index, uint bits) {
     if (layer == kLastLayer)
         uLast[tile].parts[index] = bits;
+    else if (layer == kSecondLayer)
+        uSecond[tile].parts[index] = bits;
     else
         uRaster[tile].parts[index] = bits;
 }
@@ -84,4 +93,5 @@ void main() {
     uint index = tile.y * tiles.x + tile.x;
     prepareTile(kRasterLayer, index);
     if (method.hasLast != 0u) prepareTile(kLastLayer, index);
+    if (method.hasSecond != 0u) prepareTile(kSecondLayer, index);
 }

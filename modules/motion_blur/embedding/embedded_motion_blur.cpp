@@ -164,6 +164,10 @@ core::Status EmbeddedMotionBlur::checkMethod(
         SHUTTER_TRY(checkImage("normal", inputs.normal));
     if (method.readsEntityId)
         SHUTTER_TRY(checkImage("entityId", inputs.entityId));
+    if (method.readsInstantMotions && settings.secondRaster)
+        return makeError(
+            "motion blur: secondRaster is true, but hosts have one raster; it must be false"
+        );
     if (method.readsInstantMotions)
         SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
     if (method.rays == RayNeed::None && !method.readsCamera)

@@ -20,18 +20,22 @@ namespace {
 
 using graph::Access;
 
+gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout, bool hasSecond) {
+    std::vector<VkDescriptorType> bindings = listSearchBindings();
+    bindings.push_back(kBuffer);
+    bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+    gpu::ComputePipelineDesc desc =
+        describePass("trace samples", motion_blur_adaptive_comp, std::move(bindings));
+    desc.interface.sceneLayout = sceneLayout;
+    desc.specialization = {0, 0, hasSecond ? 1u : 0u}; // the shader has the third alone
+    return desc;
+}
+
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mLookUp(device, true), mTrace(device, [sceneLayout] {
-              std::vector<VkDescriptorType> bindings = listSearchBindings();
-              bindings.push_back(kBuffer);
-              bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
-              gpu::ComputePipelineDesc desc =
-                  describePass("trace samples", motion_blur_adaptive_comp, std::move(bindings));
-              desc.interface.sceneLayout = sceneLayout;
-              return desc;
-          }()) {}
+        : mDevice(device), mLookUp(device, true), mTrace(device, describeTrace(sceneLayout, false)),
+          mTraceSecond(device, describeTrace(sceneLayout, true)) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -53,6 +57,7 @@ class AdaptivePasses : public MethodPasses {
     gpu::Device& mDevice;
     LookUp mLookUp;
     gpu::LazyPipeline mTrace;
+    gpu::LazyPipeline mTraceSecond; ///< with a second raster
 };
 
 uint32_t countRays(float perPixel, glm::uvec2 sizePx) {
@@ -113,7 +118,9 @@ void AdaptivePasses::addTrace(
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
-            context.frame.bind(mTrace.get(), bindings, &params, sizeof(params), textures);
+            const bool hasSecond = data.search.candidates.second.isValid();
+            const gpu::LazyPipeline& pipeline = hasSecond ? mTraceSecond : mTrace;
+            context.frame.bind(pipeline.get(), bindings, &params, sizeof(params), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }
     );
@@ -139,8 +146,8 @@ const Method kAdaptive = {
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 8, // the listed pixels
-    .settings = {"history", "instantNoise", "raysPerPixel", "uniformMotionPx"},
-    .views = {"last"},
+    .settings = {"history", "instantNoise", "raysPerPixel", "secondRaster", "uniformMotionPx"},
+    .views = {"last", "second"},
     .addBudgetLevels = addAdaptiveLevels,
     .makePasses = [](gpu::Device& device,
                      VkDescriptorSetLayout sceneLayout) -> std::unique_ptr<MethodPasses> {

@@ -49,8 +49,8 @@ const Method kResolved = {
     .readsInstantMotions = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 3, // the candidates
-    .settings = {"history", "instantNoise", "uniformMotionPx"},
-    .views = {"last"},
+    .settings = {"history", "instantNoise", "secondRaster", "uniformMotionPx"},
+    .views = {"last", "second"},
     .addBudgetLevels = [](BudgetLadder& ladder, const MotionBlurSettings& wanted
                        ) { addLookUpLevels(ladder, wanted, 1.0); },
     .makePasses = [](gpu::Device& device, VkDescriptorSetLayout) -> std::unique_ptr<MethodPasses> {

@@ -28,7 +28,7 @@ gpu::ComputePipelineDesc describeFind(bool sortsUniform) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks",
         motion_blur_resolved_looks_comp,
-        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
+        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
     );
     desc.specialization = {sortsUniform ? 1u : 0u};
     return desc;
@@ -121,9 +121,10 @@ BlockLookOutputs BlockLooks::addFind(
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 data.candidates = candidates;
-                builder.read(candidates.raster, Access::StorageRead);
-                if (candidates.hasLast)
-                    builder.read(candidates.last, Access::StorageRead);
+                for (const graph::BufferHandle layer :
+                     {candidates.raster, candidates.second, candidates.last})
+                    if (layer.isValid())
+                        builder.read(layer, Access::StorageRead);
                 if (planes.isValid()) {
                     data.planes = builder.read(planes, Access::StorageRead);
                     data.sorted.looks = builder.write(looks, Access::StorageWrite);
@@ -138,14 +139,16 @@ BlockLookOutputs BlockLooks::addFind(
                 const BlockLists& lists = data.sorted.blocks.lists;
                 // Bindings that the shader does not use are some buffer all the same.
                 const bool hasPlanes = data.planes.isValid();
+                const SortedCandidates& layers = data.candidates;
                 gpu::BindingList bindings;
                 for (const graph::BufferHandle buffer :
-                     {data.candidates.raster,
-                      data.candidates.last,
+                     {layers.raster,
+                      layers.last.isValid() ? layers.last : layers.raster,
                       hasPlanes ? data.planes : lists.blocks,
                       hasPlanes ? data.sorted.looks : lists.blocks,
                       lists.blocks,
-                      lists.arguments})
+                      lists.arguments,
+                      layers.second.isValid() ? layers.second : layers.raster})
                     bindings.buffer(resources.buffer(buffer));
                 dispatchPixels(context, mFind.get(), bindings, params, countBlocks(params));
             }

@@ -14,8 +14,8 @@ namespace shutter::motion_blur {
 /// Candidates of each tile, sorted.
 struct SortedCandidates {
     graph::BufferHandle raster; ///< shader::TileCandidates[tile]
-    graph::BufferHandle last;   ///< `raster` where there is no last frame
-    bool hasLast = false;
+    graph::BufferHandle second; ///< invalid: there is no such layer
+    graph::BufferHandle last;   ///< the same
 };
 
 struct BlockLookOutputs {

@@ -12,9 +12,21 @@ namespace {
 
 using graph::Access;
 
+const char* namePass(LayerIndex layer) {
+    switch (layer) {
+    case LayerIndex::Raster:
+        return "list candidates";
+    case LayerIndex::Last:
+        return "list candidates, last frame";
+    case LayerIndex::Second:
+        break;
+    }
+    return "list candidates, second raster";
+}
+
 gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex layer) {
     gpu::ComputePipelineDesc desc = describePass(
-        layer == LayerIndex::Raster ? "list candidates" : "list candidates, last frame",
+        namePass(layer),
         motion_blur_resolved_candidates_comp,
         {kSampled, kSampled, kBuffer, kBuffer}
     );
@@ -52,8 +64,11 @@ graph::BufferHandle addClear(graph::Graph& graph, graph::BufferHandle lists) {
 } // namespace
 
 CandidateLists::CandidateLists(gpu::Device& device)
-    : mSampler(device.nearestSampler()), mRaster(device, describeList(device, LayerIndex::Raster)),
-      mLast(device, describeList(device, LayerIndex::Last)) {}
+    : mSampler(device.nearestSampler()),
+      mPipelines{
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Raster)),
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Last)),
+          gpu::LazyPipeline(device, describeList(device, LayerIndex::Second))} {}
 
 CandidateOutputs CandidateLists::add(
     graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params
@@ -63,7 +78,7 @@ CandidateOutputs CandidateLists::add(
     const graph::BufferHandle lists =
         addClear(graph, graph.createBuffer("candidates", {bytes, kListUsage}));
     return graph.addPass<CandidateOutputs>(
-        layer == LayerIndex::Raster ? "list candidates" : "list candidates, last frame",
+        namePass(layer),
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, CandidateOutputs& data) {
             builder.read(inputs.surface, Access::SampledCompute);
@@ -80,7 +95,7 @@ CandidateOutputs CandidateLists::add(
                 .sampled(resources.view(inputs.motionDepth), mSampler)
                 .buffer(resources.buffer(data.candidates))
                 .buffer(resources.buffer(data.counters));
-            const gpu::LazyPipeline& pipeline = layer == LayerIndex::Raster ? mRaster : mLast;
+            const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
             context.frame.bind(pipeline.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(context.commands, tiles.x, tiles.y, 1);
         }

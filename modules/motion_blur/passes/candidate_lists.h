@@ -7,11 +7,14 @@
 #include "modules/motion_blur/params.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
+#include <array>
+
 namespace shutter::motion_blur {
 
-enum class LayerIndex : uint8_t { Raster, Last };
+/// As kRasterLayer and the others in resolved.glsl.
+enum class LayerIndex : uint8_t { Raster, Last, Second };
 
-/// Handles of a frame: the passes of both layers count into one.
+/// Handles of a frame: the passes of all layers count into one.
 struct CandidateInputs {
     graph::ImageHandle surface;     ///< of the layer
     graph::ImageHandle motionDepth; ///< of this frame's raster
@@ -41,8 +44,7 @@ class CandidateLists {
 
   private:
     VkSampler mSampler;
-    gpu::LazyPipeline mRaster;
-    gpu::LazyPipeline mLast;
+    std::array<gpu::LazyPipeline, 3> mPipelines; ///< by layer
 };
 
 } // namespace shutter::motion_blur

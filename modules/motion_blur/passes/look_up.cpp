@@ -20,12 +20,12 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
+gpu::ComputePipelineDesc describeResolve(bool listsPixels, bool hasSecond) {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.insert(bindings.end(), 3, kBuffer);
     gpu::ComputePipelineDesc desc =
         describePass("resolve", motion_blur_resolved_comp, std::move(bindings));
-    desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u};
+    desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u, hasSecond ? 1u : 0u};
     return desc;
 }
 
@@ -106,34 +106,50 @@ std::vector<VkDescriptorType> listSearchBindings() {
         kBuffer,
         kSampled,
         kSampled,
-        kBuffer};
+        kBuffer,
+        kSampled,
+        kSampled,
+        kBuffer,
+        kSampled};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
-    for (size_t i = 0; i < images.size(); ++i)
-        if (i < 3 || candidates.hasLast) // else the last two are the first two again
-            builder.read(images[i], Access::SampledCompute);
-    builder.read(candidates.raster, Access::StorageRead);
-    if (candidates.hasLast)
-        builder.read(candidates.last, Access::StorageRead);
-    if (looks.isValid())
-        builder.read(looks, Access::StorageRead);
+    builder.read(motionDepth, Access::SampledCompute);
+    for (const SurfaceLayer& layer : {layers.raster, layers.second, layers.last})
+        for (const graph::ImageHandle image : {layer.color, layer.surface})
+            if (image.isValid())
+                builder.read(image, Access::SampledCompute);
+    for (const graph::BufferHandle buffer :
+         {candidates.raster, candidates.second, candidates.last, looks})
+        if (buffer.isValid())
+            builder.read(buffer, Access::StorageRead);
     counters = builder.write(counters, Access::StorageWrite);
 }
 
 gpu::BindingList SearchResources::bind(
     const graph::PassResources& resources, gpu::Device& device, graph::ImageHandle target
 ) const {
+    // Bindings that the shader does not use are something all the same.
+    const SurfaceLayer& last = layers.last.color.isValid() ? layers.last : layers.raster;
+    const SurfaceLayer& second = layers.second.color.isValid() ? layers.second : layers.raster;
+    const auto bufferOr = [&](graph::BufferHandle buffer, graph::BufferHandle other) {
+        return resources.buffer(buffer.isValid() ? buffer : other);
+    };
     gpu::BindingList bindings;
-    for (const graph::ImageHandle image : images)
+    for (const graph::ImageHandle image :
+         {layers.raster.color, motionDepth, layers.raster.surface, last.color, last.surface})
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.storage(resources.image(target));
-    for (const graph::BufferHandle buffer : {candidates.raster, candidates.last, counters})
-        bindings.buffer(resources.buffer(buffer));
-    for (const graph::ImageHandle color : {images[0], images[3]})
+    bindings.buffer(resources.buffer(candidates.raster))
+        .buffer(bufferOr(candidates.last, candidates.raster))
+        .buffer(resources.buffer(counters));
+    for (const graph::ImageHandle color : {layers.raster.color, last.color})
         bindings.sampled(resources.view(color), device.linearSampler());
-    // A binding that the shader does not use is some buffer all the same.
-    bindings.buffer(resources.buffer(looks.isValid() ? looks : counters));
+    bindings.buffer(bufferOr(looks, counters));
+    for (const graph::ImageHandle image : {second.color, second.surface})
+        bindings.sampled(resources.view(image), device.nearestSampler());
+    bindings.buffer(bufferOr(candidates.second, candidates.raster))
+        .sampled(resources.view(second.color), device.linearSampler());
     return bindings;
 }
 
@@ -141,9 +157,12 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
       mSort(
           device,
-          describePass("sort candidates", motion_blur_resolved_sort_comp, {kBuffer, kBuffer})
+          describePass(
+              "sort candidates", motion_blur_resolved_sort_comp, {kBuffer, kBuffer, kBuffer}
+          )
       ),
-      mBlocks(device, !listsPixels), mResolve(device, describeResolve(listsPixels)),
+      mBlocks(device, !listsPixels), mResolve(device, describeResolve(listsPixels, false)),
+      mResolveSecond(device, describeResolve(listsPixels, true)),
       mRead(
           device,
           "resolved counters",
@@ -167,21 +186,23 @@ LookUpOutputs LookUp::add(
     const bool hasLast = motions.hasLast && history && history->holds(params.sizePx);
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
+    own.hasSecond = motions.second ? 1 : 0;
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
         params.uniformMotionPx = 0.0f;
     LookUpOutputs outputs;
-    outputs.layers = mLayers.add(graph, inputs, params, hasLast);
+    SearchResources& search = outputs.search;
+    search.layers = mLayers.add(graph, inputs, params, hasLast);
+    search.motionDepth = inputs.motionDepth;
     mHistoryBytes = history ? history->bytes() : 0;
-    const SurfaceLayer& raster = outputs.layers.raster;
-    const SurfaceLayer& last = hasLast ? outputs.layers.last : raster;
+    const SurfaceLayer& raster = search.layers.raster;
     const ClearData cleared = addClear(graph, params, mListsPixels);
     outputs.listed = cleared.listed;
-    SearchResources& search = outputs.search;
-    search.images = {raster.color, inputs.motionDepth, raster.surface, last.color, last.surface};
     search.counters = cleared.counters;
-    const auto list = [&](const SurfaceLayer& layer, LayerIndex index) {
+    const auto list = [&](const SurfaceLayer& layer, LayerIndex index) -> graph::BufferHandle {
+        if (!layer.surface.isValid())
+            return {};
         const CandidateOutputs listed = mCandidates.add(
             graph, {layer.surface, inputs.motionDepth, search.counters}, index, params
         );
@@ -189,10 +210,9 @@ LookUpOutputs LookUp::add(
         return listed.candidates;
     };
     SortedCandidates candidates;
-    candidates.hasLast = hasLast;
-    candidates.raster = candidates.last = list(raster, LayerIndex::Raster);
-    if (hasLast)
-        candidates.last = list(last, LayerIndex::Last);
+    candidates.raster = list(raster, LayerIndex::Raster);
+    candidates.second = list(search.layers.second, LayerIndex::Second);
+    candidates.last = list(search.layers.last, LayerIndex::Last);
     search.candidates = addSort(graph, candidates, params);
     const BlockLookOutputs looks = mBlocks.addFind(
         graph, raster, search.candidates, shared.sorter.addEmpty(graph, params), params
@@ -232,15 +252,16 @@ SortedCandidates LookUp::addSort(
         "sort candidates",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, SortedCandidates& data) {
-            data.hasLast = listed.hasLast;
-            data.raster = data.last = builder.write(listed.raster, Access::StorageWrite);
-            if (listed.hasLast)
+            data.raster = builder.write(listed.raster, Access::StorageWrite);
+            if (listed.second.isValid())
+                data.second = builder.write(listed.second, Access::StorageWrite);
+            if (listed.last.isValid())
                 data.last = builder.write(listed.last, Access::StorageWrite);
         },
         [this, params](const SortedCandidates& data, graph::PassContext& context) {
             gpu::BindingList bindings;
-            for (const graph::BufferHandle buffer : {data.raster, data.last})
-                bindings.buffer(context.resources.buffer(buffer));
+            for (const graph::BufferHandle buffer : {data.raster, data.last, data.second})
+                bindings.buffer(context.resources.buffer(buffer.isValid() ? buffer : data.raster));
             dispatchPixels(context, mSort.get(), bindings, params, countCandidateTiles(params));
         }
     );
@@ -278,8 +299,14 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
             const bool isListed = data.listed.pixels.isValid();
             for (const graph::BufferHandle buffer : {data.listed.pixels, data.listed.arguments})
                 bindings.buffer(resources.buffer(isListed ? buffer : data.search.counters));
+            const bool hasSecond = data.search.candidates.second.isValid();
             dispatchList(
-                context, mResolve.get(), bindings, params, data.blocks.arguments, shader::kMixedList
+                context,
+                (hasSecond ? mResolveSecond : mResolve).get(),
+                bindings,
+                params,
+                data.blocks.arguments,
+                shader::kMixedList
             );
         }
     );
@@ -300,8 +327,10 @@ MotionBlurOutputs LookUp::end(
     outputs.color = shared.stillPixels.end(
         graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
     );
-    if (found.search.candidates.hasLast)
-        outputs.views = {{"last", found.layers.last.color}};
+    const SurfaceLayersOutputs& layers = found.search.layers;
+    for (const View& view : {View{"second", layers.second.color}, View{"last", layers.last.color}})
+        if (view.image.isValid())
+            outputs.views.push_back(view);
     return outputs;
 }
 
@@ -340,6 +369,7 @@ void LookUp::count(uint32_t slot, Counters& counters) const {
         &counted, static_cast<const char*>(mRead.mapped()) + slot * sizeof(counted), sizeof(counted)
     );
     counters["unresolved samples"] = counted.unresolved;
+    counters["samples from the second raster"] = counted.fromSecond;
     counters["samples from the last frame"] = counted.fromLast;
     counters["candidates dropped"] = counted.overflown;
     counters["history bytes"] = mHistoryBytes;

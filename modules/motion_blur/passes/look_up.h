@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What each pixel saw at each instant, looked up by the entities' own motion in this frame's raster
-// and in the last one's.
+// and in others.
 #pragma once
 
 #include "engine/gpu/memory.h"
@@ -12,15 +12,16 @@
 #include "modules/motion_blur/shared_passes.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
-#include <array>
 #include <cstdint>
+#include <vector>
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 11 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 15 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
-    std::array<graph::ImageHandle, 5> images;
+    SurfaceLayersOutputs layers;
+    graph::ImageHandle motionDepth; ///< of this frame's raster
     SortedCandidates candidates;
     graph::BufferHandle looks;    ///< of BlockLooks
     graph::BufferHandle counters; ///< shader::ResolvedCounters
@@ -43,7 +44,6 @@ struct LookUpOutputs {
     SortedBlocks blocks;
     ListedPixels listed;        ///< invalid unless pixels were listed
     graph::ImageHandle picture; ///< with all blocks that move written
-    SurfaceLayersOutputs layers;
 };
 
 class LookUp {
@@ -89,12 +89,13 @@ class LookUp {
     gpu::LazyPipeline mSort;
     BlockLooks mBlocks;
     gpu::LazyPipeline mResolve;
-    gpu::Buffer mNoise;         ///< the mask; empty until a frame has noise
-    gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot
-    uint64_t mHistoryBytes = 0; ///< of the frame declared last
+    gpu::LazyPipeline mResolveSecond; ///< with a second raster
+    gpu::Buffer mNoise;               ///< the mask; empty until a frame has noise
+    gpu::Buffer mRead;                ///< shader::ResolvedCounters by slot
+    uint64_t mHistoryBytes = 0;       ///< of the frame declared last
 };
 
-/// Bindings 0 to 11 of a pipeline that searches.
+/// Bindings 0 to 15 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur

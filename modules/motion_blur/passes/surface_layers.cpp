@@ -38,6 +38,10 @@ addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle k
         .target;
 }
 
+graph::ImageHandle createSurface(graph::Graph& graph, const PassParams& params) {
+    return graph.createImage("surface", {params.sizePx.x, params.sizePx.y, kSurfaceFormat});
+}
+
 SurfaceLayer
 importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLayout layout) {
     return {
@@ -68,20 +72,27 @@ SurfaceLayersOutputs SurfaceLayers::add(
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
         graph.markOutput(addKeepColor(graph, inputs.color, target.color));
-        outputs.raster.surface = addPack(graph, inputs, target.surface, params);
+        outputs.raster.surface =
+            addPack(graph, inputs.motionDepth, inputs.entityId, target.surface, params);
         graph.markOutput(outputs.raster.surface);
     } else {
-        const glm::uvec2 size = params.sizePx;
         outputs.raster.surface = addPack(
-            graph, inputs, graph.createImage("surface", {size.x, size.y, kSurfaceFormat}), params
+            graph, inputs.motionDepth, inputs.entityId, createSurface(graph, params), params
         );
     }
+    if (const auto& second = inputs.instantMotions->second)
+        outputs.second = {
+            second->color,
+            addPack(
+                graph, second->motionDepth, second->entityId, createSurface(graph, params), params
+            )};
     return outputs;
 }
 
 graph::ImageHandle SurfaceLayers::addPack(
     graph::Graph& graph,
-    const MotionBlurInputs& inputs,
+    graph::ImageHandle motionDepth,
+    graph::ImageHandle entityId,
     graph::ImageHandle target,
     const PassParams& params
 ) const {
@@ -94,15 +105,15 @@ graph::ImageHandle SurfaceLayers::addPack(
             "pack surface",
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
-                builder.read(inputs.motionDepth, Access::SampledCompute);
-                builder.read(inputs.entityId, Access::SampledCompute);
+                builder.read(motionDepth, Access::SampledCompute);
+                builder.read(entityId, Access::SampledCompute);
                 data.surface = builder.write(target, Access::StorageWrite);
             },
-            [this, inputs, params](const Data& data, graph::PassContext& context) {
+            [this, motionDepth, entityId, params](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;
                 gpu::BindingList bindings;
-                bindings.sampled(resources.view(inputs.motionDepth), mSampler)
-                    .sampled(resources.view(inputs.entityId), mSampler)
+                bindings.sampled(resources.view(motionDepth), mSampler)
+                    .sampled(resources.view(entityId), mSampler)
                     .storage(resources.image(data.surface));
                 dispatchPixels(context, mPack.get(), bindings, params, params.sizePx);
             }

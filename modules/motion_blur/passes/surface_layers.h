@@ -16,7 +16,8 @@ struct SurfaceLayer {
 
 struct SurfaceLayersOutputs {
     SurfaceLayer raster;
-    SurfaceLayer last; ///< invalid handles: there is none, or none was wanted
+    SurfaceLayer second; ///< of the exposure's other end; invalid handles: there is none
+    SurfaceLayer last;   ///< invalid handles: there is none, or none was wanted
 };
 
 class SurfaceLayers {
@@ -30,9 +31,11 @@ class SurfaceLayers {
     ) const;
 
   private:
+    /// \param motionDepth, entityId of the raster to be packed
     [[nodiscard]] graph::ImageHandle addPack(
         graph::Graph& graph,
-        const MotionBlurInputs& inputs,
+        graph::ImageHandle motionDepth,
+        graph::ImageHandle entityId,
         graph::ImageHandle target,
         const PassParams& params
     ) const;

@@ -6,21 +6,34 @@
 namespace shutter::motion_blur {
 
 InstantMotions InstantMotionBuffers::update(
-    const scene::World& world,
-    const extract::ViewRequest& view,
-    const extract::ExtractedFrame& frame,
-    uint32_t instantCount,
-    bool keepsRaster,
-    uint32_t slot
+    const render::PostContext& context, uint32_t instantCount, bool keepsRaster
 ) {
     if (!keepsRaster)
         forget();
-    extract::InstantTables tables =
-        extract::computeInstantTables(world, view, frame, instantCount, mLast ? &*mLast : nullptr);
-    const VkDeviceAddress address = writeInstantLayers(mDevice, tables, mBuffers.at(slot));
-    if (keepsRaster)
+    const render::SecondRasterView* const second = context.secondRaster;
+    std::optional<extract::InstantFrame> secondFrame;
+    if (second)
+        secondFrame.emplace(second->instant, *second->frame);
+    extract::InstantTables tables = extract::computeInstantTables(
+        context.world,
+        context.view,
+        context.frame,
+        instantCount,
+        mLast ? &*mLast : nullptr,
+        secondFrame ? &*secondFrame : nullptr
+    );
+    InstantMotions motions;
+    motions.table = writeInstantLayers(mDevice, tables, mBuffers.at(context.slot));
+    motions.instantCount = instantCount;
+    motions.hasLast = tables.last.has_value();
+    if (second)
+        motions.second = SecondRaster{
+            second->gbuffer.color, second->gbuffer.motionDepth, second->gbuffer.entityId};
+    if (keepsRaster) {
+        motions.history = &mHistory;
         mLast = std::move(tables.record);
-    return {address, instantCount, tables.last.has_value(), keepsRaster ? &mHistory : nullptr};
+    }
+    return motions;
 }
 
 void InstantMotionBuffers::forget() {

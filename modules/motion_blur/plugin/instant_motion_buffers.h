@@ -5,6 +5,7 @@
 #include "engine/extract/instant_tables.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
+#include "engine/render/post_effect.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/instant_motions.h"
 
@@ -18,16 +19,10 @@ class InstantMotionBuffers {
   public:
     explicit InstantMotionBuffers(gpu::Device& device) : mDevice(device), mHistory(device) {}
 
+    /// \param context the slot's last frame must be finished
     /// \param keepsRaster the next frame may look things up in this one's raster
-    /// \param slot of the frames in flight; its last frame must be finished
-    [[nodiscard]] InstantMotions update(
-        const scene::World& world,
-        const extract::ViewRequest& view,
-        const extract::ExtractedFrame& frame,
-        uint32_t instantCount,
-        bool keepsRaster,
-        uint32_t slot
-    );
+    [[nodiscard]] InstantMotions
+    update(const render::PostContext& context, uint32_t instantCount, bool keepsRaster);
 
     /// The next frame has none before it.
     void forget();

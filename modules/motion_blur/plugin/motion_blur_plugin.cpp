@@ -76,6 +76,12 @@ core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts&) const {
     return {true, "its method has rays with times of their own"};
 }
 
+core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts&) const {
+    if (!settings().method->readsInstantMotions || !settings().secondRaster)
+        return {};
+    return {true, "secondRaster is set"};
+}
+
 void MotionBlurPlugin::declare(render::PostContext& context) {
     MotionBlurInputs inputs;
     inputs.color = context.color;
@@ -94,14 +100,8 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     if (context.timedRays)
         inputs.timedRays = *context.timedRays;
     if (settings().method->readsInstantMotions)
-        inputs.instantMotions = mInstantMotions.update(
-            context.world,
-            context.view,
-            context.frame,
-            countInstants(settings()),
-            settings().history,
-            context.slot
-        );
+        inputs.instantMotions =
+            mInstantMotions.update(context, countInstants(settings()), settings().history);
     else
         mInstantMotions.forget();
     mDrawnLevels.at(context.slot) = mBudget.level();

@@ -37,6 +37,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// For methods of RayNeed::Query.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
+    /// With MotionBlurSettings::secondRaster, for methods that read it.
+    [[nodiscard]] core::Decision askSecondRaster(const render::ViewFacts& facts) const override;
+
     void declare(render::PostContext& context) override;
     /// Measures what the effect took and, under a budget, its level.
     void finish(render::FinishedFrame& frame) override;

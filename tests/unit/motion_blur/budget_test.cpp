@@ -124,6 +124,15 @@ TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
     EXPECT_EQ(levels[4].gaveUp, "all rays, 3 of 15 samples");
 }
 
+TEST(Budget, TheSecondRasterIsGivenUpFirst) {
+    MotionBlurSettings settings = settingsOf(&getMethod("resolved"));
+    settings.secondRaster = true;
+    const auto levels = makeLevels(settings);
+    EXPECT_EQ(levels[1].gaveUp, "the second raster");
+    EXPECT_FALSE(levels[1].settings.secondRaster);
+    EXPECT_EQ(levels[2].gaveUp, "the second raster, 3 of 15 samples");
+}
+
 TEST(Budget, WithoutAUniformPathThereIsNoResolutionToGiveUp) {
     MotionBlurSettings settings = settingsOf(&getMethod("hybrid"));
     settings.uniformMotionPx = 0.0f;
