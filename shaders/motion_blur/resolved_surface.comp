@@ -7,6 +7,10 @@
 #include "motion_blur/resolved.glsl"
 #include "render/scene_shared.h"
 
+/// Whether pixels with motion vectors of 0 get no corners. No sample is looked up in them as a rule; one
+/// that is all the same takes the way for edges, which is longer.
+layout(constant_id = 0) const bool kSkipsStill = false;
+
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push { MotionBlurParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
@@ -36,10 +40,12 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
     uint key = fetchKey(pixel);
-    float depth = textureLod(uMotionDepth, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).z;
-    uint corners = findInnerCorners(pixel, key);
+    vec3 motionDepth =
+        textureLod(uMotionDepth, (vec2(pixel) + 0.5f) / vec2(params.sizePx), 0.0f).xyz;
+    uint corners = 0u;
+    if (!kSkipsStill || motionDepth.xy != vec2(0.0f)) corners = findInnerCorners(pixel, key);
     imageStore(
         uSurface, pixel,
-        uvec4(floatBitsToUint(max(depth, 0.0f)), key | corners << kCornerShift, 0u, 0u)
+        uvec4(floatBitsToUint(max(motionDepth.z, 0.0f)), key | corners << kCornerShift, 0u, 0u)
     );
 }

@@ -15,6 +15,14 @@ using graph::Access;
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32_UINT;
 constexpr VkImageLayout kKeptLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
+gpu::ComputePipelineDesc describePack(bool skipsStill) {
+    gpu::ComputePipelineDesc desc = describePass(
+        "pack surface", motion_blur_resolved_surface_comp, {kSampled, kSampled, kStorage}
+    );
+    desc.specialization = {skipsStill ? 1u : 0u};
+    return desc;
+}
+
 /// Copies the colour as it is before the blur.
 graph::ImageHandle
 addKeepColor(graph::Graph& graph, graph::ImageHandle color, graph::ImageHandle kept) {
@@ -52,13 +60,8 @@ importRaster(graph::Graph& graph, const RasterHistory::Raster& raster, VkImageLa
 } // namespace
 
 SurfaceLayers::SurfaceLayers(gpu::Device& device)
-    : mSampler(device.nearestSampler()),
-      mPack(
-          device,
-          describePass(
-              "pack surface", motion_blur_resolved_surface_comp, {kSampled, kSampled, kStorage}
-          )
-      ) {}
+    : mSampler(device.nearestSampler()), mPack(device, describePack(true)),
+      mPackWhole(device, describePack(false)) {}
 
 SurfaceLayersOutputs SurfaceLayers::add(
     graph::Graph& graph, const MotionBlurInputs& inputs, const PassParams& params, bool wantLast
@@ -73,24 +76,30 @@ SurfaceLayersOutputs SurfaceLayers::add(
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
         graph.markOutput(addKeepColor(graph, inputs.color, target.color));
         outputs.raster.surface =
-            addPack(graph, inputs.motionDepth, inputs.entityId, target.surface, params);
+            addPack(graph, mPack, inputs.motionDepth, inputs.entityId, target.surface, params);
         graph.markOutput(outputs.raster.surface);
     } else {
         outputs.raster.surface = addPack(
-            graph, inputs.motionDepth, inputs.entityId, createSurface(graph, params), params
+            graph, mPack, inputs.motionDepth, inputs.entityId, createSurface(graph, params), params
         );
     }
     if (const auto& second = inputs.instantMotions->second)
         outputs.second = {
             second->color,
             addPack(
-                graph, second->motionDepth, second->entityId, createSurface(graph, params), params
+                graph,
+                mPackWhole,
+                second->motionDepth,
+                second->entityId,
+                createSurface(graph, params),
+                params
             )};
     return outputs;
 }
 
 graph::ImageHandle SurfaceLayers::addPack(
     graph::Graph& graph,
+    const gpu::LazyPipeline& pack,
     graph::ImageHandle motionDepth,
     graph::ImageHandle entityId,
     graph::ImageHandle target,
@@ -109,13 +118,15 @@ graph::ImageHandle SurfaceLayers::addPack(
                 builder.read(entityId, Access::SampledCompute);
                 data.surface = builder.write(target, Access::StorageWrite);
             },
-            [this, motionDepth, entityId, params](const Data& data, graph::PassContext& context) {
+            [this, &pack, motionDepth, entityId, params](
+                const Data& data, graph::PassContext& context
+            ) {
                 const graph::PassResources& resources = context.resources;
                 gpu::BindingList bindings;
                 bindings.sampled(resources.view(motionDepth), mSampler)
                     .sampled(resources.view(entityId), mSampler)
                     .storage(resources.image(data.surface));
-                dispatchPixels(context, mPack.get(), bindings, params, params.sizePx);
+                dispatchPixels(context, pack.get(), bindings, params, params.sizePx);
             }
         )
         .surface;

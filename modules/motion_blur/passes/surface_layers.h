@@ -31,9 +31,11 @@ class SurfaceLayers {
     ) const;
 
   private:
+    /// \param pack mPack or mPackWhole
     /// \param motionDepth, entityId of the raster to be packed
     [[nodiscard]] graph::ImageHandle addPack(
         graph::Graph& graph,
+        const gpu::LazyPipeline& pack,
         graph::ImageHandle motionDepth,
         graph::ImageHandle entityId,
         graph::ImageHandle target,
@@ -42,6 +44,7 @@ class SurfaceLayers {
 
     VkSampler mSampler;
     gpu::LazyPipeline mPack;
+    gpu::LazyPipeline mPackWhole; ///< of rasters whose motion vectors say nothing
 };
 
 } // namespace shutter::motion_blur
