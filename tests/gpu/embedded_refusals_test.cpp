@@ -110,9 +110,14 @@ TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
 
 TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {
     settings.method = &getMethod("resolved");
+    settings.secondRaster = true;
+    const gpu::Image ids = makeImage(device(), "entity id", VK_FORMAT_R32_UINT, 40, 24);
+    inputs.entityId = {ids.handle(), kSampled, kSampled};
+    expectRefusal(record(), "secondRaster is true, but hosts have one raster");
+    settings.secondRaster = false;
+    inputs.entityId = {};
     expectRefusal(record(), "entityId.image is null");
-    const gpu::Image entityId = makeImage(device(), "entity id", VK_FORMAT_R32_UINT, 40, 24);
-    inputs.entityId = {entityId.handle(), kSampled, kSampled};
+    inputs.entityId = {ids.handle(), kSampled, kSampled};
     expectRefusal(record(), "motion.keys holds 0"); // tests/unit/motion_blur has each of its fields
     inputs.motion.view = 2;
     expectRefusal(record(), "motion.view is 2, framesInFlight 2");
