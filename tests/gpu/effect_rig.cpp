@@ -31,6 +31,7 @@ EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, ui
           gbuffer,
           nullptr,
           nullptr,
+          nullptr,
           color,
           {},
           intermediates,

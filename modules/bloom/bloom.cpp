@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "modules/bloom/bloom.h"
+
+#include "spirv/bloom/bloom_down.comp.h"
+#include "spirv/bloom/bloom_up.comp.h"
+
+#include "engine/gpu/frame.h"
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/execute.h"
+#include "shaders/bloom/bloom_shared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace shutter::bloom {
+
+namespace {
+
+using graph::Access;
+
+constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr uint32_t kLeastSidePx = 4; ///< of the smallest image
+constexpr uint32_t kMostLevels = 10;
+/// Levels that light is spread over. Each but the coarsest has kOwnShare of what the finer ones
+/// leave.
+constexpr int kSpreadLevels = 8;
+constexpr float kOwnShare = 0.3f;
+
+/// Share of the coarser levels in what leaves a level. Light spreads over the same share of the
+/// picture at every resolution: of more levels the finest have none of their own, of fewer the
+/// finest has that of all that are missing. \param level 1: the finest, below `count`
+float findCoarserShare(int level, int count) {
+    const int extra = count - kSpreadLevels;
+    if (level <= extra)
+        return 1.0f;
+    return std::pow(1.0f - kOwnShare, float(level == 1 && extra < 0 ? 1 - extra : 1));
+}
+
+gpu::ComputePipelineDesc describeDown(bool fetchesTexels) {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "bloom down";
+    desc.spirv = bloom_bloom_down_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::BloomParams);
+    desc.specialization = {fetchesTexels ? 1u : 0u};
+    return desc;
+}
+
+gpu::ComputePipelineDesc describeUp() {
+    gpu::ComputePipelineDesc desc;
+    desc.name = "bloom up";
+    desc.spirv = bloom_bloom_up_comp;
+    desc.interface.bindings = {
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+        VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    desc.interface.pushConstantBytes = sizeof(shader::BloomParams);
+    return desc;
+}
+
+glm::uvec2 sizeOf(const graph::Graph& graph, graph::ImageHandle image) {
+    const graph::TransientImageDesc& desc = graph.describeImage(image);
+    return {desc.width, desc.height};
+}
+
+void dispatch(
+    graph::PassContext& recording,
+    const gpu::Pipeline& pipeline,
+    const gpu::BindingList& bindings,
+    const shader::BloomParams& params
+) {
+    recording.frame.bind(pipeline, bindings, &params, sizeof(params));
+    vkCmdDispatch(recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1);
+}
+
+} // namespace
+
+core::Status validate(const BloomSettings& settings) {
+    if (!(settings.share >= 0.0f && settings.share <= 1.0f)) // NaN too
+        return core::makeError("bloom: share is {}, it must be 0 to 1", settings.share);
+    return {};
+}
+
+uint32_t countLevels(uint32_t width, uint32_t height) {
+    uint32_t levels = 0;
+    for (uint32_t side = std::min(width, height) / 2; side >= kLeastSidePx; side /= 2)
+        ++levels;
+    return std::min(levels, kMostLevels);
+}
+
+Bloom::Bloom(gpu::Device& device, const BloomSettings& settings)
+    : mDevice(device), mSettings(settings), mDown(device, describeDown(false)),
+      mDownFetched(device, describeDown(true)), mUp(device, describeUp()) {}
+
+void Bloom::configure(const BloomSettings& settings) {
+    mSettings = settings;
+}
+
+core::Decision Bloom::ask(const render::ViewFacts& facts) const {
+    if (!(mSettings.share > 0.0f))
+        return {false, "the lens scatters no light"};
+    if (countLevels(facts.width, facts.height) == 0)
+        return {false, "the picture is too small"};
+    return {true, "the lens scatters light"};
+}
+
+void Bloom::declare(render::PostContext& context) {
+    graph::Graph& graph = context.graph;
+    std::vector<graph::ImageHandle> levels{context.color};
+    VkExtent2D size{context.facts.width, context.facts.height};
+    for (uint32_t i = countLevels(size.width, size.height); i > 0; --i) {
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        levels.push_back(addDown(graph, levels.back(), size));
+    }
+    graph::ImageHandle scattered = levels.back();
+    const int count = static_cast<int>(levels.size()) - 1;
+    for (int i = count - 1; i > 0; --i)
+        scattered = addUp(graph, levels[size_t(i)], scattered, findCoarserShare(i, count));
+    context.color = addUp(graph, context.color, scattered, mSettings.share);
+}
+
+graph::ImageHandle
+Bloom::addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size) const {
+    struct Data {
+        graph::ImageHandle source;
+        graph::ImageHandle half;
+    };
+
+    const shader::BloomParams params{{size.width, size.height}, sizeOf(graph, source), 0.0f};
+    const bool isFiltered = graph.describeImage(source).format == kFormat;
+    return graph
+        .addPass<Data>(
+            "bloom down",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.source = builder.read(source, Access::SampledCompute);
+                data.half = builder.write(
+                    graph.createImage("bloom", {size.width, size.height, kFormat}),
+                    Access::StorageWrite
+                );
+            },
+            [this, params, isFiltered](const Data& data, graph::PassContext& recording) {
+                const VkSampler sampler =
+                    isFiltered ? mDevice.linearSampler() : mDevice.nearestSampler();
+                gpu::BindingList bindings;
+                bindings.sampled(recording.resources.view(data.source), sampler)
+                    .storage(recording.resources.image(data.half));
+                dispatch(recording, (isFiltered ? mDown : mDownFetched).get(), bindings, params);
+            }
+        )
+        .half;
+}
+
+graph::ImageHandle Bloom::addUp(
+    graph::Graph& graph, graph::ImageHandle fine, graph::ImageHandle coarse, float share
+) const {
+    struct Data {
+        graph::ImageHandle fine;
+        graph::ImageHandle coarse;
+        graph::ImageHandle mixed;
+    };
+
+    const shader::BloomParams params{sizeOf(graph, fine), sizeOf(graph, coarse), share};
+    return graph
+        .addPass<Data>(
+            "bloom up",
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.fine = builder.read(fine, Access::SampledCompute);
+                data.coarse = builder.read(coarse, Access::SampledCompute);
+                data.mixed = builder.write(
+                    graph.createImage("bloom", {params.sizePx.x, params.sizePx.y, kFormat}),
+                    Access::StorageWrite
+                );
+            },
+            [this, params](const Data& data, graph::PassContext& recording) {
+                gpu::BindingList bindings;
+                bindings.sampled(recording.resources.view(data.fine), mDevice.nearestSampler())
+                    .sampled(recording.resources.view(data.coarse), mDevice.linearSampler())
+                    .storage(recording.resources.image(data.mixed));
+                dispatch(recording, mUp.get(), bindings, params);
+            }
+        )
+        .mixed;
+}
+
+} // namespace shutter::bloom

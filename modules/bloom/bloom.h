@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Light that the lens scatters: bright things glow, and their streaks read as light.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "engine/render/post_effect.h"
+
+#include <cstdint>
+
+namespace shutter::bloom {
+
+struct BloomSettings {
+    float share = 0.0f; ///< of a pixel's light that is scattered, [0, 1]; 0: there is no bloom
+};
+
+/// One sentence where a setting is out of its range.
+[[nodiscard]] core::Status validate(const BloomSettings& settings);
+
+/// Images of the pyramid below a picture, each half as large as the one before; 0 for pictures that
+/// are too small to have any. The smallest is a few pixels high, so that light spreads over the
+/// same share of the picture at every resolution.
+[[nodiscard]] uint32_t countLevels(uint32_t width, uint32_t height);
+
+/// Pyramid of Jimenez 2014 ("Next Generation Post Processing in Call of Duty: Advanced Warfare"),
+/// with shares instead of sums and without a threshold: the picture keeps its light. Runs on the
+/// linear picture, after the motion blur and before the tone map; writes RGBA16F.
+class Bloom : public render::PostEffect {
+  public:
+    /// \param settings valid
+    Bloom(gpu::Device& device, const BloomSettings& settings);
+
+    /// For the frames to come.
+    void configure(const BloomSettings& settings);
+
+    [[nodiscard]] std::string name() const override { return "bloom"; }
+
+    [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    void declare(render::PostContext& context) override;
+
+  private:
+    [[nodiscard]] graph::ImageHandle
+    addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size) const;
+    /// \param share of `coarse` in the result, which has the size of `fine`
+    [[nodiscard]] graph::ImageHandle addUp(
+        graph::Graph& graph, graph::ImageHandle fine, graph::ImageHandle coarse, float share
+    ) const;
+
+    gpu::Device& mDevice;
+    BloomSettings mSettings;
+    gpu::LazyPipeline mDown;
+    gpu::LazyPipeline mDownFetched; ///< from images that the device may not filter
+    gpu::LazyPipeline mUp;
+};
+
+} // namespace shutter::bloom
