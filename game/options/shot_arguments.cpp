@@ -55,6 +55,9 @@ constexpr std::array kTonemapRows = {
 };
 
 constexpr std::array kFrameRows = {
+    makeRow<&A::bloom>(
+        "--bloom", "share of the light that the lens scatters, 0 to 1; default 0: no bloom"
+    ),
     makeRow<&A::size>("--size", "picture size WxH; default 1280x720"),
     makeRow<&A::frames>(
         "--frames",
@@ -168,6 +171,9 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     if (!shutter)
         return shutter.error();
     options.shutter = std::move(shutter).value();
+    options.bloom.share = arguments.bloom;
+    if (!bloom::validate(options.bloom).ok())
+        return makeError("--bloom {} must lie in [0, 1]", arguments.bloom);
     auto tonemap = interpretTonemap(arguments);
     if (!tonemap)
         return tonemap.error();

@@ -30,6 +30,7 @@ struct ShotArguments {
     bool unlit = false;
     math::vec3 background{0.18f};
     math::vec3 ambient{0.25f};
+    float bloom = 0.0f; ///< share of the light
     double exposureValue = 0.0;
     tonemap::Operator tonemap = tonemap::Operator::Neutral;
 };
@@ -43,7 +44,7 @@ void defineShotOptions(CLI::App& command, ShotArguments& arguments);
 void defineOutsideOption(CLI::App& command, ShotArguments& arguments);
 /// --tonemap and --ev, which defineShotOptions() includes.
 std::vector<CLI::Option*> defineTonemapOptions(CLI::App& command, ShotArguments& arguments);
-/// --size, --frames and --flythrough. To be called after defineShotOptions().
+/// --size, --frames, --flythrough and --bloom. To be called after defineShotOptions().
 void defineFrameOptions(CLI::App& command, ShotArguments& arguments);
 
 /// Checks everything that needs no file. The flythrough is named but not read:

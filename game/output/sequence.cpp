@@ -122,6 +122,7 @@ class Sequence {
             return able;
         mShot = &shot;
         mRenderer.emplace(device, shot.world.assets);
+        mBloom.emplace(device, mOptions.shot.bloom);
         mTonemap.emplace(device, mOptions.shot.tonemap);
         mDrawer.emplace(device, *mRenderer);
         return {};
@@ -179,7 +180,7 @@ class Sequence {
         request.frame.wantDisplay = mOptions.output.displayOut;
         request.frame.wantDump = mOptions.output.dumpGraph;
         request.frame.wantReasons = mOptions.output.explain;
-        request.ending = {&*mTonemap};
+        request.ending = {&*mBloom, &*mTonemap};
         return mDrawer->draw(mShot->world, request, [&] { progress.advance(); });
     }
 
@@ -228,6 +229,7 @@ class Sequence {
     const RenderOptions& mOptions;
     const Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
+    std::optional<bloom::Bloom> mBloom;
     std::optional<tonemap::Tonemap> mTonemap;
     std::optional<PictureDrawer> mDrawer;
     std::optional<SequenceJournal> mJournal;

@@ -10,6 +10,7 @@
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
 #include "game/shot/methods.h"
+#include "modules/bloom/bloom.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 #include "modules/tonemap/tonemap.h"
@@ -48,6 +49,7 @@ struct ShotOptions {
     bool unlit = false;
     math::vec3 background{0.0f}; ///< linear
     math::vec3 ambient{0.0f};    ///< linear
+    bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t seed = 0; ///< of random times and places in the pixel

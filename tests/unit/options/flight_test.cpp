@@ -153,6 +153,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--ambient", {"--ambient", "1,1,1"}},
         {"--aov", {"--aov", "motion"}},
         {"--background", {"--background", "1,1,1"}},
+        {"--bloom", {"--bloom", "0.1"}},
         {"--budget", {"--budget", "8"}},
         {"--camera", {"--camera", "x"}},
         {"--camera-rotation-blur", {"--camera-rotation-blur", "0.5"}},

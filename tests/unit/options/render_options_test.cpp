@@ -355,6 +355,13 @@ TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
     EXPECT_TRUE(fs::is_empty(mFolder));
 }
 
+TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
+    EXPECT_EQ(accept(Words{}).shot.bloom.share, 0.0f);
+    EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.bloom.share, 0.05f);
+    for (const double value : {-0.01, 1.5, kNan, kInfinity})
+        refuse("--bloom", Words{"--bloom=" + wordOf(value)});
+}
+
 TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
     EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(accept(Words{"--unlit"}).shot.tonemap.op, tonemap::Operator::None);
