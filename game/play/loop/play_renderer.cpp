@@ -13,8 +13,9 @@ constexpr uint32_t kFramesInFlight = 2;
 } // namespace
 
 PlayRenderer::PlayRenderer(gpu::Device& device, const scene::Assets& assets)
-    : mRenderer(device, assets, kFramesInFlight), mTonemap(device, {}), mLeftView(device),
-      mRightView(device), mKept(device), mWindow(device), mDrawer(device, mRenderer) {}
+    : mRenderer(device, assets, kFramesInFlight), mBloom(device, {}), mTonemap(device, {}),
+      mLeftView(device), mRightView(device), mKept(device), mWindow(device),
+      mDrawer(device, mRenderer) {}
 
 void PlayRenderer::takeFinished() {
     while (std::optional<FinishedPicture> finished = mDrawer.takeFinished()) {
@@ -79,6 +80,7 @@ core::Status PlayRenderer::draw(
     frame.wantReasons = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
+    mBloom.configure({settings.bloomShare});
     // Both sides of a split share the view, so one measurement serves.
     const auto cap = mDrawer.measureCap(world, frame.view);
     if (!cap)
@@ -90,7 +92,7 @@ core::Status PlayRenderer::draw(
             return left.error();
         mLeftView.setView(settings.view);
         left.value().cap = cap.value();
-        left.value().ending = {&mTonemap, &mLeftView, &mKept};
+        left.value().ending = {&mBloom, &mTonemap, &mLeftView, &mKept};
         SHUTTER_TRY(mDrawer.submit(world, left.value()));
         window.left = mKept.image();
         window.dividerShare = settings.dividerShare;
@@ -107,7 +109,7 @@ core::Status PlayRenderer::draw(
     mRightView.setView(settings.view);
     mWindow.setTarget(window);
     right.value().cap = cap.value();
-    right.value().ending = {&mTonemap, &mRightView, &mWindow};
+    right.value().ending = {&mBloom, &mTonemap, &mRightView, &mWindow};
     core::Status drawn = mDrawer.submit(world, right.value());
     takeFinished();
     return drawn;

@@ -8,6 +8,7 @@
 #include "engine/render/renderer.h"
 #include "game/play/panel/play_settings.h"
 #include "game/shot/picture_drawer.h"
+#include "modules/bloom/bloom.h"
 #include "modules/debug_view/debug_view.h"
 #include "modules/tonemap/tonemap.h"
 
@@ -70,6 +71,7 @@ class PlayRenderer {
     void takeFinished();
 
     render::Renderer mRenderer;
+    bloom::Bloom mBloom;
     tonemap::Tonemap mTonemap;
     debug_view::DebugView mLeftView;
     debug_view::DebugView mRightView;

@@ -158,7 +158,9 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         "An intermediate in the picture's place. Key V.",
         settings.view
     );
-    drawPlayRows("display", settings, std::vector<std::string_view>{"resolutionScale", "vsync"});
+    drawPlayRows(
+        "display", settings, std::vector<std::string_view>{"bloomShare", "resolutionScale", "vsync"}
+    );
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

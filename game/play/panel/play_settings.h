@@ -38,6 +38,7 @@ struct PlaySettings {
     uint32_t rays = 4;            ///< rays per pixel and frame of `truth`, [1, 256]
     uint32_t denoisedRays = 1;    ///< rays per pixel and frame of `denoised`, in place of
                                   ///< blur.sampleCount, [1, 256]
+    float bloomShare = 0.0f;      ///< bloom::BloomSettings::share, [0, 1]
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     bool showPanel = true;
