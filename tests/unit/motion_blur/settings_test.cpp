@@ -197,7 +197,7 @@ TEST(MotionBlurSettings, EachSettingOfAMethodReachesItsShaders) {
             // The number of passes, how many layers there are, the tables, and a share of the
             // picture's size.
             if (name == "filterLevels" || name == "history" || name == "instantNoise" ||
-                name == "raysPerPixel")
+                name == "raysPerPixel" || name == "secondRaster")
                 continue;
             const auto* row = core::findRow(listSettingRows(), name);
             ASSERT_TRUE(row) << method->name << " " << name;
