@@ -51,6 +51,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     try {
         SHUTTER_TRY(device->createInstance(options));
         SHUTTER_TRY(device->choosePhysicalDevice(options));
+        device->mBounds =
+            options.bounds.value_or(options.validate ? Bounds::Checked : Bounds::Trusted);
         device->createLogicalDevice();
         device->loadFunctions();
         device->loadLimits();
@@ -142,17 +144,20 @@ void Device::createLogicalDevice() {
     if (hasRays())
         features.v13.pNext = &structure;
 
-    std::vector<const char*> extensions;
-    if (hasRays())
-        extensions = {
-            VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-            VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-            hasRayQuery() ? VK_KHR_RAY_QUERY_EXTENSION_NAME
-                          : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+    VkPhysicalDeviceRobustness2FeaturesEXT robust{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT};
+    robust.robustBufferAccess2 = VK_TRUE;
+    robust.robustImageAccess2 = VK_TRUE;
+    if (checksBounds()) {
+        features.core.features.robustBufferAccess = VK_TRUE; // which every device has
+        if (mInfo.hasRobustness2) {
+            robust.pNext = features.v13.pNext;
+            features.v13.pNext = &robust;
+        }
+    }
 
-    if (mSurface != VK_NULL_HANDLE)
-        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-
+    const std::vector<const char*> extensions =
+        listDeviceExtensions(mInfo, mSurface != VK_NULL_HANDLE, mBounds);
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;

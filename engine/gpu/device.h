@@ -11,7 +11,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +32,9 @@ struct DeviceOptions {
     std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
+    /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
+    /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
+    std::optional<Bounds> bounds;
     /// Instance extensions of the window system.
     std::vector<std::string> surfaceExtensions;
     /// Makes the surface on which the device shall show pictures (swapchain.h): it comes before the
@@ -125,6 +130,9 @@ class Device {
 
     /// Whether shaders of every kind may trace rays, and traversals be nested.
     [[nodiscard]] bool hasRayQuery() const { return mInfo.rayTier == RayTier::RayQuery; }
+
+    /// What shaders load past the end of a bound buffer is 0, and stores there do nothing.
+    [[nodiscard]] bool checksBounds() const { return mBounds == Bounds::Checked; }
 
     [[nodiscard]] const ExtensionFunctions& functions() const { return mFunctions; }
 
@@ -223,6 +231,7 @@ class Device {
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
+    Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };
 
