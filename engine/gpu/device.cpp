@@ -192,6 +192,11 @@ void Device::loadFunctions() {
             "vkGetAccelerationStructureDeviceAddressKHR"
         );
         load(mFunctions.cmdBuildAccelerationStructures, "vkCmdBuildAccelerationStructuresKHR");
+        load(
+            mFunctions.cmdWriteAccelerationStructuresProperties,
+            "vkCmdWriteAccelerationStructuresPropertiesKHR"
+        );
+        load(mFunctions.cmdCopyAccelerationStructure, "vkCmdCopyAccelerationStructureKHR");
     }
     if (mInfo.rayTier == RayTier::Pipeline) {
         load(mFunctions.createRayTracingPipelines, "vkCreateRayTracingPipelinesKHR");

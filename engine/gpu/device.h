@@ -64,6 +64,9 @@ struct ExtensionFunctions {
     PFN_vkGetAccelerationStructureBuildSizesKHR getAccelerationStructureBuildSizes = nullptr;
     PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureDeviceAddress = nullptr;
     PFN_vkCmdBuildAccelerationStructuresKHR cmdBuildAccelerationStructures = nullptr;
+    PFN_vkCmdWriteAccelerationStructuresPropertiesKHR cmdWriteAccelerationStructuresProperties =
+        nullptr;
+    PFN_vkCmdCopyAccelerationStructureKHR cmdCopyAccelerationStructure = nullptr;
     PFN_vkCreateRayTracingPipelinesKHR createRayTracingPipelines = nullptr;
     PFN_vkGetRayTracingShaderGroupHandlesKHR getRayTracingShaderGroupHandles = nullptr;
     PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
