@@ -62,6 +62,9 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
         device->loadPipelineCache();
+        device->mMakesPipelinesAhead =
+            options.pipelinesAhead == PipelinesAhead::Always ||
+            (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
     }
@@ -80,7 +83,8 @@ Device::~Device() {
             vkDeviceWaitIdle(mDevice);
         destroyRetired();
         savePipelineCache();
-        vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
+        if (mOwnsPipelineCache)
+            vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
         vkDestroySampler(mDevice, mLinearSampler, nullptr);
         vkDestroySemaphore(mDevice, mTimeline, nullptr);

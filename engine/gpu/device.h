@@ -20,6 +20,14 @@
 
 namespace shutter::gpu {
 
+/// Whether pipelines that a frame may want soon are made before, on other threads, so that no frame
+/// waits for a compiler.
+enum class PipelinesAhead : uint8_t {
+    Never,  ///< each is made when it is first used, and waited for: pictures do not depend on time
+    OnGpus, ///< not on software devices, whose pictures need the same cores
+    Always,
+};
+
 struct DeviceOptions {
     std::string wanted;    ///< see chooseDevice
     bool validate = false; ///< core and synchronization validation; needs the layer installed
@@ -32,6 +40,7 @@ struct DeviceOptions {
     std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
+    PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
     /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
     /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
     std::optional<Bounds> bounds;
@@ -54,7 +63,12 @@ struct HostDevice {
     VkDevice device = VK_NULL_HANDLE;
     /// The tier of rays whose extension and features the host enabled.
     RayTier rayTier = RayTier::None;
+    /// rayTracingPipelineTraceRaysIndirect is enabled (RayTier::Pipeline).
+    bool tracesIndirect = false;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
+    /// Where pipelines are looked up and kept; null: in one that is not kept on disk. Other threads
+    /// may use it meanwhile, unless it was made to be synchronized by its users.
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 
 /// Entry points of extensions, loaded once.
@@ -151,6 +165,13 @@ class Device {
 
     [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
 
+    /// Of DeviceOptions. Pipelines alone may be made on other threads.
+    [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
+
+    /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is
+    /// kept even where the program does not end well.
+    void savePipelineCache() const;
+
     [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
 
     [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
@@ -209,7 +230,6 @@ class Device {
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
     void loadPipelineCache();
-    void savePipelineCache() const;
 
     bool mIsAdopted = false;
     std::set<uint64_t> mHandedOver; ///< adopted: values the host has not said to be done
@@ -227,6 +247,7 @@ class Device {
     VkSemaphore mTimeline = VK_NULL_HANDLE;
     uint64_t mLastSubmitted = 0;
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
+    bool mOwnsPipelineCache = true;
     std::filesystem::path mCacheFile;
     VkSampler mNearestSampler = VK_NULL_HANDLE;
     VkSampler mLinearSampler = VK_NULL_HANDLE;
@@ -234,6 +255,7 @@ class Device {
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
+    bool mMakesPipelinesAhead = false;
     Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

@@ -15,6 +15,8 @@ namespace shutter::game {
 
 namespace {
 
+/// After as many pictures all that the first view needs has been compiled.
+constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
 /// The divider can be grabbed this far beside it.
 constexpr double kGrabPx = 8.0;
@@ -386,6 +388,8 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
 void PlayLoop::notePicture() {
     mFiles.notePicture();
     mHasDrawn = true;
+    if (mRecord.pictureCount() == kPicturesOfTheStart)
+        mScreen.keepPipelines();
     mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());
     mRecord.addAllocations(mTime.seconds, mScreen.device().allocationCount());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))

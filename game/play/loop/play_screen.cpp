@@ -20,6 +20,7 @@ core::Status PlayScreen::open(const PlayOptions& options, bool vsync) {
     const ShotOptions& shot = options.shot;
     gpu::DeviceOptions wanted = options.device;
     wanted.cacheFolder = findCacheFolder();
+    wanted.pipelinesAhead = gpu::PipelinesAhead::OnGpus;
     mHeadlessSize = {shot.width, shot.height};
     if (options.hasWindow) {
         auto window = app::Window::open({"Shutter", shot.width, shot.height});
@@ -105,6 +106,11 @@ void PlayScreen::apply(app::WindowAction action) {
 void PlayScreen::toggleFullScreen() {
     if (mWindow)
         mWindow->setFullScreen(!mWindow->isFullScreen());
+}
+
+void PlayScreen::keepPipelines() {
+    mKeeping =
+        std::async(std::launch::async, [device = mDevice.get()] { device->savePipelineCache(); });
 }
 
 void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& renderer) {

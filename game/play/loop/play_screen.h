@@ -10,6 +10,7 @@
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/play_renderer.h"
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,9 @@ class PlayScreen {
     /// Shows an acquired image that was drawn on.
     void present(const gpu::SwapchainImage& image) { mSwapchain->present(image); }
 
+    /// Writes the pipelines that are made by now to disk, on another thread. Once.
+    void keepPipelines();
+
     /// Null without a window.
     [[nodiscard]] const gpu::Swapchain* swapchain() const { return mSwapchain.get(); }
 
@@ -71,6 +75,7 @@ class PlayScreen {
     std::unique_ptr<app::Window> mWindow;
     app::InputCollector mInput; ///< a script's, and that of a session without a window
     std::unique_ptr<gpu::Device> mDevice;
+    std::future<void> mKeeping; ///< of keepPipelines(); ends before the device
     std::unique_ptr<gpu::Swapchain> mSwapchain;
     std::unique_ptr<app::Ui> mUi;
     math::uvec2 mHeadlessSize{1u};

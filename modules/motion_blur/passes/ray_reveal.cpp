@@ -62,30 +62,29 @@ gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasB
 } // namespace
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-    : mDevice(device), mSceneLayout(sceneLayout), mSampler(device.nearestSampler()),
+    : mDevice(device), mSampler(device.nearestSampler()), mSky(device, describeSky()),
       mHeaders(
           device,
           "ray mask counters",
           gpu::kMaxFramesInFlight * sizeof(shader::MaskHeader),
           0,
           gpu::MemoryUse::Readback
-      ) {}
+      ) {
+    for (const bool hasBlended : {false, true})
+        if (device.hasRayQuery())
+            mPipelines.emplace_back(device, describeReveal(sceneLayout, hasBlended));
+        else
+            mPipelines.emplace_back(device, describeTracer(sceneLayout, hasBlended));
+}
 
 const gpu::Pipeline& RayReveal::findPipeline(const graph::RayScene& rays) {
-    if (rays.tlas == VK_NULL_HANDLE) {
-        if (!mSky)
-            mSky.emplace(mDevice, describeSky());
-        return *mSky;
-    }
-    if (mDevice.hasRayQuery()) {
-        auto& query = mQueries[rays.hasBlended];
-        if (!query)
-            query.emplace(mDevice, describeReveal(mSceneLayout, rays.hasBlended));
-        return *query;
-    }
+    if (rays.tlas == VK_NULL_HANDLE)
+        return mSky.get();
+    if (mDevice.hasRayQuery())
+        return mPipelines[rays.hasBlended].get();
     auto& tracer = mTracers[rays.hasBlended];
     if (!tracer)
-        tracer.emplace(mDevice, describeTracer(mSceneLayout, rays.hasBlended));
+        tracer.emplace(mDevice, mPipelines[rays.hasBlended].take());
     return tracer->pipeline();
 }
 
