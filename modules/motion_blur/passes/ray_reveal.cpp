@@ -223,6 +223,7 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
     };
 
     SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
+    mTraces.at(inputs.slot) = !skyOnly;
     const VkDeviceSize headerAt = inputs.slot * sizeof(shader::MaskHeader);
     const auto header =
         graph.importBuffer("ray mask counters", mHeaders.handle(), mHeaders.bytes());
@@ -248,8 +249,11 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
     return revealed.out;
 }
 
-shader::MaskHeader RayReveal::lastHeader(uint32_t slot) const {
-    return static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
+RayReveal::Counts RayReveal::count(uint32_t slot) const {
+    const auto& header = static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
+    return {
+        header.listedPixels + header.sharingPixels,
+        mTraces.at(slot) ? header.listedPixels + header.raysBeyondOne : 0};
 }
 
 } // namespace shutter::motion_blur

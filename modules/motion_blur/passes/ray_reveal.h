@@ -41,8 +41,13 @@ class RayReveal {
     RayRevealOutputs
     add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params);
 
+    struct Counts {
+        uint32_t maskedPixels = 0;
+        uint32_t raysTraced = 0;
+    };
+
     /// What the slot's last frame counted; valid once the GPU is done with it.
-    [[nodiscard]] shader::MaskHeader lastHeader(uint32_t slot) const;
+    [[nodiscard]] Counts count(uint32_t slot) const;
 
   private:
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
