@@ -79,8 +79,13 @@ graph::ImageHandle ScreenFilter::add(
 }
 
 BlockFilter::BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc)
+    : BlockFilter(
+          device, list, desc, desc.hasTapConstants ? chooseTapVariants(device) : TapVariants::None
+      ) {}
+
+BlockFilter::BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc, TapVariants taps)
     : mName(desc.name), mInputCount(desc.inputCount), mList(list),
-      mSampler(device.nearestSampler()), mPipeline(device, describe(desc, list)) {}
+      mSampler(device.nearestSampler()), mPipelines(device, describe(desc, list), taps) {}
 
 graph::ImageHandle BlockFilter::add(
     graph::Graph& graph,
@@ -104,7 +109,7 @@ graph::ImageHandle BlockFilter::add(
                 auto bindings = bindImages(data, context.resources, mSampler);
                 bindings.buffer(context.resources.buffer(data.lists.blocks));
                 dispatchList(
-                    context, mPipeline.get(), bindings, params, data.lists.arguments, mList
+                    context, mPipelines.find(params), bindings, params, data.lists.arguments, mList
                 );
             }
         )
