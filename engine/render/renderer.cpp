@@ -225,7 +225,7 @@ core::Status Renderer::submitFrame(
     pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
-    if (!effects.empty()) // a look that measures something is no frame
+    if (!effects.empty() && !request.isLook)
         releaseIdle(frame, running);
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();
