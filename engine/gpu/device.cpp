@@ -292,10 +292,10 @@ void Device::savePipelineCache() const {
         std::filesystem::remove(temporary, ignored);
 }
 
-uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores) {
+uint64_t
+Device::submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores) {
     SHUTTER_CHECK(!mIsAdopted, "what is recorded for a host is submitted by the host");
-    VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-    buffer.commandBuffer = commands;
+    SHUTTER_CHECK(!batches.empty(), "nothing is submitted");
     const auto at = [](VkSemaphore semaphore, uint64_t value) {
         VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
         info.semaphore = semaphore;
@@ -305,14 +305,28 @@ uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaph
     };
     const VkSemaphoreSubmitInfo wait = at(semaphores.wait, 0);
     const std::array signals{at(mTimeline, mLastSubmitted + 1), at(semaphores.signal, 0)};
-    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-    info.commandBufferInfoCount = 1;
-    info.pCommandBufferInfos = &buffer;
-    info.waitSemaphoreInfoCount = semaphores.wait ? 1 : 0;
-    info.pWaitSemaphoreInfos = &wait;
-    info.signalSemaphoreInfoCount = semaphores.signal ? 2 : 1;
-    info.pSignalSemaphoreInfos = signals.data();
-    require(vkQueueSubmit2(mQueue, 1, &info, VK_NULL_HANDLE), "submitting a frame");
+    std::vector<VkCommandBufferSubmitInfo> buffers;
+    for (const VkCommandBuffer commands : batches) {
+        VkCommandBufferSubmitInfo& buffer = buffers.emplace_back();
+        buffer = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+        buffer.commandBuffer = commands;
+    }
+    std::vector<VkSubmitInfo2> infos;
+    for (const VkCommandBufferSubmitInfo& buffer : buffers) {
+        VkSubmitInfo2& info = infos.emplace_back();
+        info = {VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+        info.commandBufferInfoCount = 1;
+        info.pCommandBufferInfos = &buffer;
+    }
+    VkSubmitInfo2& last = infos.back();
+    last.waitSemaphoreInfoCount = semaphores.wait ? 1 : 0;
+    last.pWaitSemaphoreInfos = &wait;
+    last.signalSemaphoreInfoCount = semaphores.signal ? 2 : 1;
+    last.pSignalSemaphoreInfos = signals.data();
+    require(
+        vkQueueSubmit2(mQueue, static_cast<uint32_t>(infos.size()), infos.data(), VK_NULL_HANDLE),
+        "submitting a frame"
+    );
     return ++mLastSubmitted;
 }
 

@@ -53,7 +53,7 @@ struct DeviceOptions {
 
 /// Semaphores of one submission; null: none.
 struct SubmitSemaphores {
-    VkSemaphore wait = VK_NULL_HANDLE;   ///< the submission starts once it is signalled
+    VkSemaphore wait = VK_NULL_HANDLE;   ///< the last batch starts once it is signalled
     VkSemaphore signal = VK_NULL_HANDLE; ///< signalled when the submission is done
 };
 
@@ -190,9 +190,11 @@ class Device {
 
     void countAllocation() { ++mAllocationCount; }
 
-    /// Submits and returns the timeline value that is reached when it is done. Not for adopted
-    /// devices (CHECKed).
-    uint64_t submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores = {});
+    /// Submits batches, one command buffer each, which start in this order.
+    /// \return the timeline value that is reached when all are done
+    /// Not for adopted devices (CHECKed).
+    uint64_t
+    submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores = {});
     /// Adopted devices wait for nothing: there the value must be complete (CHECKed).
     void wait(uint64_t timelineValue);
     void waitIdle();

@@ -78,6 +78,11 @@ class Swapchain {
     /// Shows an image once its submission's semaphore is signalled, and notes the state().
     void present(const SwapchainImage& image);
 
+    /// Whether acquire() may give an image.
+    [[nodiscard]] bool hasImages() const {
+        return !mImages.empty() && mState == SwapchainState::Fits;
+    }
+
     /// As the window system answered last.
     [[nodiscard]] SwapchainState state() const { return mState; }
 

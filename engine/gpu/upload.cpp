@@ -127,7 +127,7 @@ void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record)
     record(commands);
     fullBarrier(commands);
     require(vkEndCommandBuffer(commands), "ending a transfer");
-    device.wait(device.submit(commands));
+    device.wait(device.submit(std::span(&commands, 1)));
 }
 
 std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit) {

@@ -186,10 +186,12 @@ core::Result<Plan> execute(const Graph& graph, gpu::Frame& frame, TransientPool&
     pool.realize(graph, plan);
 
     const PassResources resources(graph, pool);
-    const VkCommandBuffer commands = frame.commands();
-    PassContext context{frame, resources, commands};
+    PassContext context{frame, resources, VK_NULL_HANDLE};
     for (const PlannedPass& planned : plan.passes) {
         const PassRecord& pass = graph.passes()[planned.pass];
+        if (pass.startsBatch)
+            frame.startBatch();
+        const VkCommandBuffer commands = context.commands = frame.commands();
         frame.beginSpan(pass.name);
         recordBarriers(commands, resources, planned.imageBarriers, planned.bufferBarriers);
         if (pass.kind == PassKind::Raster)
@@ -199,7 +201,7 @@ core::Result<Plan> execute(const Graph& graph, gpu::Frame& frame, TransientPool&
             vkCmdEndRendering(commands);
         frame.endSpan();
     }
-    recordBarriers(commands, resources, plan.finalImageBarriers, plan.finalBufferBarriers);
+    recordBarriers(frame.commands(), resources, plan.finalImageBarriers, plan.finalBufferBarriers);
     return compiled;
 }
 

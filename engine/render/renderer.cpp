@@ -217,7 +217,7 @@ core::Status Renderer::submitFrame(
         slot.frameTlas.emplace(mDevice); // what was to be built was not
         return plan.error();
     }
-    slot.frame.submit(request.semaphores);
+    slot.frame.submit(pending.tickets.semaphores);
     statistics.cpuMilliseconds = nowMilliseconds() - pending.startMilliseconds;
     statistics.transientBytes = mPool.heldBytes();
     statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
@@ -381,6 +381,7 @@ Renderer::Tickets Renderer::declareFrame(
 
     explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
     Tickets tickets;
+    tickets.semaphores = context.semaphores;
     for (const auto& [name, image] : intermediates.images())
         if (request.intermediates.contains(name))
             tickets.intermediates[name] = slot.readback.add(graph, name, image);

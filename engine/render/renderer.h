@@ -40,10 +40,9 @@ struct FrameRequest {
     bool wantDisplay = false; ///< read the display-encoded picture back
     /// An effect shows the display-encoded picture: it is made although it is not read back.
     bool showsDisplay = false;
-    gpu::SubmitSemaphores semaphores{}; ///< of the submission
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
-    bool wantDump = false;              ///< describe the graph in FrameResult::dump
+    bool wantDump = false; ///< describe the graph in FrameResult::dump
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };
@@ -118,6 +117,7 @@ class Renderer {
         std::optional<size_t> color;
         std::optional<size_t> display;
         std::map<std::string, size_t> intermediates;
+        gpu::SubmitSemaphores semaphores; ///< of the submission
     };
 
     struct RunningEffect {

@@ -124,15 +124,11 @@ void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& r
         mSwapchain->resize(desc, surface.value());
 }
 
-std::optional<gpu::SwapchainImage>
-PlayScreen::acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
+bool PlayScreen::fit(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
     const gpu::SwapchainDesc wanted{sizePx.x, sizePx.y, vsync};
     if (mSwapchain->wanted() != wanted || mSwapchain->state() != gpu::SwapchainState::Fits)
         remakeSwapchain(wanted, renderer);
-    auto image = mSwapchain->acquire();
-    if (!image) // between two sizes, or out of sight
-        remakeSwapchain(wanted, renderer);
-    return image;
+    return mSwapchain->hasImages();
 }
 
 } // namespace shutter::game
