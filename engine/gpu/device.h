@@ -176,6 +176,9 @@ class Device {
 
     [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
 
+    /// DeviceOptions::validate.
+    [[nodiscard]] bool isValidated() const { return mMessenger != VK_NULL_HANDLE; }
+
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
 

@@ -7,7 +7,8 @@
 
 namespace shutter::graph {
 
-core::Result<Plan> compile(const Graph& graph, const RequirementFunction& requirement) {
+core::Result<Plan>
+compile(const Graph& graph, const RequirementFunction& requirement, DisjointWrites disjoint) {
     SHUTTER_TRY(checkDeclaration(graph));
     const VersionTable versions(graph);
     Culling culling = cull(graph, versions);
@@ -21,7 +22,7 @@ core::Result<Plan> compile(const Graph& graph, const RequirementFunction& requir
     for (uint32_t pass : order.value())
         plan.passes.push_back({pass, {}, {}});
     placeTransients(graph, requirement, plan);
-    placeBarriers(graph, plan);
+    placeBarriers(graph, plan, disjoint);
     return plan;
 }
 

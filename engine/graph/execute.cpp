@@ -179,7 +179,9 @@ void beginRendering(
 } // namespace
 
 core::Result<Plan> execute(const Graph& graph, gpu::Frame& frame, TransientPool& pool) {
-    core::Result<Plan> compiled = compile(graph, pool.requirementFunction());
+    const auto disjoint =
+        frame.device().isValidated() ? DisjointWrites::Ordered : DisjointWrites::Overlap;
+    core::Result<Plan> compiled = compile(graph, pool.requirementFunction(), disjoint);
     if (!compiled)
         return compiled;
     const Plan& plan = compiled.value();

@@ -48,7 +48,9 @@ class ScreenFilter {
 };
 
 /// Filters the blocks of one list; the shader has the lists at the binding behind its output, and
-/// the list's number as specialization constant 0 (block_list.glsl).
+/// the list's number as specialization constant 0 (block_list.glsl). Filters that write one target
+/// after another run at once: no block is in two lists, and who goes over candidates leaves out
+/// those that are masked.
 class BlockFilter {
   public:
     /// \param list shader::kUniformList, ...
