@@ -3,6 +3,7 @@
 
 #include "engine/graph/compile_stages.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace shutter::graph {
@@ -24,6 +25,19 @@ compile(const Graph& graph, const RequirementFunction& requirement, DisjointWrit
     placeTransients(graph, requirement, plan);
     placeBarriers(graph, plan, disjoint);
     return plan;
+}
+
+bool isWantedAfter(const Graph& graph, const Plan& plan, uint32_t resource, uint32_t position) {
+    const auto& outputs = graph.outputs();
+    if (std::any_of(outputs.begin(), outputs.end(), [&](const auto& output) {
+            return output.first == resource;
+        }))
+        return true;
+    const auto placed =
+        std::find_if(plan.images.begin(), plan.images.end(), [&](const auto& image) {
+            return image.resource == resource;
+        });
+    return placed == plan.images.end() || placed->lastPass > position; // imported ones stay
 }
 
 } // namespace shutter::graph

@@ -94,6 +94,11 @@ enum class DisjointWrites : uint8_t {
     DisjointWrites disjoint = DisjointWrites::Overlap
 );
 
+/// Whether an image's contents are wanted after the pass at a position of the plan: by a later
+/// pass, or outside of the frame. A target of which nothing is wanted need not be stored.
+[[nodiscard]] bool
+isWantedAfter(const Graph& graph, const Plan& plan, uint32_t resource, uint32_t position);
+
 /// The plan as text for a person: passes in order with what each reads and writes, barriers with
 /// layouts, what was culled and why, images with size, format, lifetime and place in memory.
 [[nodiscard]] std::string dump(const Graph& graph, const Plan& plan);
