@@ -187,10 +187,19 @@ void beginRendering(
 
 } // namespace
 
+namespace {
+
+/// lavapipe gains nothing by passes that overlap, and its timestamps do not wait for them.
+DisjointWrites chooseDisjointWrites(const gpu::Device& device) {
+    const bool isSoftware = device.info().kind == "software";
+    return isSoftware || device.isValidated() ? DisjointWrites::Ordered : DisjointWrites::Overlap;
+}
+
+} // namespace
+
 core::Result<Plan> execute(const Graph& graph, gpu::Frame& frame, TransientPool& pool) {
-    const auto disjoint =
-        frame.device().isValidated() ? DisjointWrites::Ordered : DisjointWrites::Overlap;
-    core::Result<Plan> compiled = compile(graph, pool.requirementFunction(), disjoint);
+    core::Result<Plan> compiled =
+        compile(graph, pool.requirementFunction(), chooseDisjointWrites(frame.device()));
     if (!compiled)
         return compiled;
     const Plan& plan = compiled.value();
