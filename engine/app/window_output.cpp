@@ -92,15 +92,19 @@ void WindowOutput::declare(render::PostContext& context) {
     graph::Graph& graph = context.graph;
     const graph::TransientImageDesc& picture = graph.describeImage(context.display);
     const math::uvec2 size(picture.width, picture.height);
-    const VkFormat format = target.image ? target.image->desc().format : VK_FORMAT_R8G8B8A8_UNORM;
-    const auto window = target.image
-                            ? graph.importImage(
-                                  "window",
-                                  *target.image,
-                                  VK_IMAGE_LAYOUT_UNDEFINED,
-                                  VK_IMAGE_LAYOUT_PRESENT_SRC_KHR
-                              )
-                            : graph.createImage("window", {target.size.x, target.size.y, format});
+    std::optional<gpu::SwapchainImage> shown;
+    if (target.acquire)
+        shown = target.acquire();
+    if (shown)
+        context.semaphores = shown->semaphores;
+    const VkFormat format = shown ? shown->image->desc().format : VK_FORMAT_R8G8B8A8_UNORM;
+    const auto window = shown ? graph.importImage(
+                                    "window",
+                                    *shown->image,
+                                    VK_IMAGE_LAYOUT_UNDEFINED,
+                                    VK_IMAGE_LAYOUT_PRESENT_SRC_KHR
+                                )
+                              : graph.createImage("window", {target.size.x, target.size.y, format});
     constexpr VkImageLayout kRead = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     const auto left = target.left ? graph.importImage("kept picture", *target.left, kRead, kRead)
                                   : context.display;
@@ -118,6 +122,8 @@ void WindowOutput::declare(render::PostContext& context) {
                 data.left = builder.read(left, graph::Access::SampledFragment);
             data.window = builder.colorTarget(window, graph::ClearColor::floats(0, 0, 0, 1));
             graph.markOutput(data.window);
+            if (shown)
+                builder.startBatch();
         },
         [params, sampler, over, &pipeline, overlay = target.overlay](
             const Data& data, graph::PassContext& recording

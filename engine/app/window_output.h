@@ -5,10 +5,12 @@
 
 #include "engine/gpu/frame.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/swapchain.h"
 #include "engine/math/math.h"
 #include "engine/render/post_effect.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,8 +47,10 @@ class Overlay {
 
 /// One frame's window.
 struct WindowTarget {
-    /// The window system's image, in PRESENT_SRC layout afterwards; null: a transient is made.
-    const gpu::Image* image = nullptr;
+    /// Asks for the window system's image, which is left in PRESENT_SRC layout. Called while the
+    /// frame is declared, after its work on the CPU, since the answer may take as long as a picture
+    /// is on the display. Empty, or no answer: the frame draws on a transient.
+    std::function<std::optional<gpu::SwapchainImage>()> acquire;
     math::uvec2 size{1u};             ///< pixels; of the image, where there is one
     const gpu::Image* left = nullptr; ///< in SHADER_READ_ONLY layout; null: no split
     double dividerShare = 0.5;        ///< of the window's width that shows `left`, [0, 1]

@@ -51,6 +51,8 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     try {
         SHUTTER_TRY(device->createInstance(options));
         SHUTTER_TRY(device->choosePhysicalDevice(options));
+        device->mBounds =
+            options.bounds.value_or(options.validate ? Bounds::Checked : Bounds::Trusted);
         device->createLogicalDevice();
         device->loadFunctions();
         device->loadLimits();
@@ -60,6 +62,9 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
         device->loadPipelineCache();
+        device->mMakesPipelinesAhead =
+            options.pipelinesAhead == PipelinesAhead::Always ||
+            (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
     }
@@ -78,7 +83,8 @@ Device::~Device() {
             vkDeviceWaitIdle(mDevice);
         destroyRetired();
         savePipelineCache();
-        vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
+        if (mOwnsPipelineCache)
+            vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);
         vkDestroySampler(mDevice, mNearestSampler, nullptr);
         vkDestroySampler(mDevice, mLinearSampler, nullptr);
         vkDestroySemaphore(mDevice, mTimeline, nullptr);
@@ -142,17 +148,20 @@ void Device::createLogicalDevice() {
     if (hasRays())
         features.v13.pNext = &structure;
 
-    std::vector<const char*> extensions;
-    if (hasRays())
-        extensions = {
-            VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-            VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-            hasRayQuery() ? VK_KHR_RAY_QUERY_EXTENSION_NAME
-                          : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+    VkPhysicalDeviceRobustness2FeaturesEXT robust{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT};
+    robust.robustBufferAccess2 = VK_TRUE;
+    robust.robustImageAccess2 = VK_TRUE;
+    if (checksBounds()) {
+        features.core.features.robustBufferAccess = VK_TRUE; // which every device has
+        if (mInfo.hasRobustness2) {
+            robust.pNext = features.v13.pNext;
+            features.v13.pNext = &robust;
+        }
+    }
 
-    if (mSurface != VK_NULL_HANDLE)
-        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-
+    const std::vector<const char*> extensions =
+        listDeviceExtensions(mInfo, mSurface != VK_NULL_HANDLE, mBounds);
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
@@ -187,6 +196,11 @@ void Device::loadFunctions() {
             "vkGetAccelerationStructureDeviceAddressKHR"
         );
         load(mFunctions.cmdBuildAccelerationStructures, "vkCmdBuildAccelerationStructuresKHR");
+        load(
+            mFunctions.cmdWriteAccelerationStructuresProperties,
+            "vkCmdWriteAccelerationStructuresPropertiesKHR"
+        );
+        load(mFunctions.cmdCopyAccelerationStructure, "vkCmdCopyAccelerationStructureKHR");
     }
     if (mInfo.rayTier == RayTier::Pipeline) {
         load(mFunctions.createRayTracingPipelines, "vkCreateRayTracingPipelinesKHR");
@@ -278,10 +292,10 @@ void Device::savePipelineCache() const {
         std::filesystem::remove(temporary, ignored);
 }
 
-uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores) {
+uint64_t
+Device::submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores) {
     SHUTTER_CHECK(!mIsAdopted, "what is recorded for a host is submitted by the host");
-    VkCommandBufferSubmitInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
-    buffer.commandBuffer = commands;
+    SHUTTER_CHECK(!batches.empty(), "nothing is submitted");
     const auto at = [](VkSemaphore semaphore, uint64_t value) {
         VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
         info.semaphore = semaphore;
@@ -291,14 +305,28 @@ uint64_t Device::submit(VkCommandBuffer commands, const SubmitSemaphores& semaph
     };
     const VkSemaphoreSubmitInfo wait = at(semaphores.wait, 0);
     const std::array signals{at(mTimeline, mLastSubmitted + 1), at(semaphores.signal, 0)};
-    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-    info.commandBufferInfoCount = 1;
-    info.pCommandBufferInfos = &buffer;
-    info.waitSemaphoreInfoCount = semaphores.wait ? 1 : 0;
-    info.pWaitSemaphoreInfos = &wait;
-    info.signalSemaphoreInfoCount = semaphores.signal ? 2 : 1;
-    info.pSignalSemaphoreInfos = signals.data();
-    require(vkQueueSubmit2(mQueue, 1, &info, VK_NULL_HANDLE), "submitting a frame");
+    std::vector<VkCommandBufferSubmitInfo> buffers;
+    for (const VkCommandBuffer commands : batches) {
+        VkCommandBufferSubmitInfo& buffer = buffers.emplace_back();
+        buffer = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+        buffer.commandBuffer = commands;
+    }
+    std::vector<VkSubmitInfo2> infos;
+    for (const VkCommandBufferSubmitInfo& buffer : buffers) {
+        VkSubmitInfo2& info = infos.emplace_back();
+        info = {VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+        info.commandBufferInfoCount = 1;
+        info.pCommandBufferInfos = &buffer;
+    }
+    VkSubmitInfo2& last = infos.back();
+    last.waitSemaphoreInfoCount = semaphores.wait ? 1 : 0;
+    last.pWaitSemaphoreInfos = &wait;
+    last.signalSemaphoreInfoCount = semaphores.signal ? 2 : 1;
+    last.pSignalSemaphoreInfos = signals.data();
+    require(
+        vkQueueSubmit2(mQueue, static_cast<uint32_t>(infos.size()), infos.data(), VK_NULL_HANDLE),
+        "submitting a frame"
+    );
     return ++mLastSubmitted;
 }
 

@@ -11,12 +11,22 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace shutter::gpu {
+
+/// Whether pipelines that a frame may want soon are made before, on other threads, so that no frame
+/// waits for a compiler.
+enum class PipelinesAhead : uint8_t {
+    Never,  ///< each is made when it is first used, and waited for: pictures do not depend on time
+    OnGpus, ///< not on software devices, whose pictures need the same cores
+    Always,
+};
 
 struct DeviceOptions {
     std::string wanted;    ///< see chooseDevice
@@ -30,6 +40,10 @@ struct DeviceOptions {
     std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
+    PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
+    /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
+    /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
+    std::optional<Bounds> bounds;
     /// Instance extensions of the window system.
     std::vector<std::string> surfaceExtensions;
     /// Makes the surface on which the device shall show pictures (swapchain.h): it comes before the
@@ -39,7 +53,7 @@ struct DeviceOptions {
 
 /// Semaphores of one submission; null: none.
 struct SubmitSemaphores {
-    VkSemaphore wait = VK_NULL_HANDLE;   ///< the submission starts once it is signalled
+    VkSemaphore wait = VK_NULL_HANDLE;   ///< the last batch starts once it is signalled
     VkSemaphore signal = VK_NULL_HANDLE; ///< signalled when the submission is done
 };
 
@@ -49,7 +63,12 @@ struct HostDevice {
     VkDevice device = VK_NULL_HANDLE;
     /// The tier of rays whose extension and features the host enabled.
     RayTier rayTier = RayTier::None;
+    /// rayTracingPipelineTraceRaysIndirect is enabled (RayTier::Pipeline).
+    bool tracesIndirect = false;
     bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
+    /// Where pipelines are looked up and kept; null: in one that is not kept on disk. Other threads
+    /// may use it meanwhile, unless it was made to be synchronized by its users.
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 
 /// Entry points of extensions, loaded once.
@@ -59,6 +78,9 @@ struct ExtensionFunctions {
     PFN_vkGetAccelerationStructureBuildSizesKHR getAccelerationStructureBuildSizes = nullptr;
     PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureDeviceAddress = nullptr;
     PFN_vkCmdBuildAccelerationStructuresKHR cmdBuildAccelerationStructures = nullptr;
+    PFN_vkCmdWriteAccelerationStructuresPropertiesKHR cmdWriteAccelerationStructuresProperties =
+        nullptr;
+    PFN_vkCmdCopyAccelerationStructureKHR cmdCopyAccelerationStructure = nullptr;
     PFN_vkCreateRayTracingPipelinesKHR createRayTracingPipelines = nullptr;
     PFN_vkGetRayTracingShaderGroupHandlesKHR getRayTracingShaderGroupHandles = nullptr;
     PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
@@ -126,6 +148,9 @@ class Device {
     /// Whether shaders of every kind may trace rays, and traversals be nested.
     [[nodiscard]] bool hasRayQuery() const { return mInfo.rayTier == RayTier::RayQuery; }
 
+    /// What shaders load past the end of a bound buffer is 0, and stores there do nothing.
+    [[nodiscard]] bool checksBounds() const { return mBounds == Bounds::Checked; }
+
     [[nodiscard]] const ExtensionFunctions& functions() const { return mFunctions; }
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return mLimits; }
@@ -140,9 +165,19 @@ class Device {
 
     [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
 
+    /// Of DeviceOptions. Pipelines alone may be made on other threads.
+    [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
+
+    /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is
+    /// kept even where the program does not end well.
+    void savePipelineCache() const;
+
     [[nodiscard]] VkSampler nearestSampler() const { return mNearestSampler; } ///< clamp to edge
 
     [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
+
+    /// DeviceOptions::validate.
+    [[nodiscard]] bool isValidated() const { return mMessenger != VK_NULL_HANDLE; }
 
     /// Messages of the validation layers (warnings and errors) so far.
     [[nodiscard]] uint32_t validationMessageCount() const { return mValidationMessages; }
@@ -158,9 +193,11 @@ class Device {
 
     void countAllocation() { ++mAllocationCount; }
 
-    /// Submits and returns the timeline value that is reached when it is done. Not for adopted
-    /// devices (CHECKed).
-    uint64_t submit(VkCommandBuffer commands, const SubmitSemaphores& semaphores = {});
+    /// Submits batches, one command buffer each, which start in this order.
+    /// \return the timeline value that is reached when all are done
+    /// Not for adopted devices (CHECKed).
+    uint64_t
+    submit(std::span<const VkCommandBuffer> batches, const SubmitSemaphores& semaphores = {});
     /// Adopted devices wait for nothing: there the value must be complete (CHECKed).
     void wait(uint64_t timelineValue);
     void waitIdle();
@@ -198,7 +235,6 @@ class Device {
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
     void loadPipelineCache();
-    void savePipelineCache() const;
 
     bool mIsAdopted = false;
     std::set<uint64_t> mHandedOver; ///< adopted: values the host has not said to be done
@@ -216,6 +252,7 @@ class Device {
     VkSemaphore mTimeline = VK_NULL_HANDLE;
     uint64_t mLastSubmitted = 0;
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
+    bool mOwnsPipelineCache = true;
     std::filesystem::path mCacheFile;
     VkSampler mNearestSampler = VK_NULL_HANDLE;
     VkSampler mLinearSampler = VK_NULL_HANDLE;
@@ -223,6 +260,8 @@ class Device {
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
+    bool mMakesPipelinesAhead = false;
+    Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };
 

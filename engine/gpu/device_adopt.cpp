@@ -28,13 +28,17 @@ core::Status Device::adoptHost(const HostDevice& host) {
             "host device: rayTier is {}, which {} does not have", describe(host.rayTier), mInfo.name
         );
     mInfo.rayTier = host.rayTier;
-    mInfo.tracesIndirect = false; // a feature of its own, which the host need not have enabled
+    // A feature of its own, which the host need not have enabled.
+    mInfo.tracesIndirect = mInfo.tracesIndirect && host.tracesIndirect;
     mDevice = host.device;
     mHasDebugUtils = host.hasDebugUtils;
     loadFunctions();
     loadLimits();
     createSamplers();
-    loadPipelineCache();
+    mOwnsPipelineCache = host.pipelineCache == VK_NULL_HANDLE;
+    mPipelineCache = host.pipelineCache;
+    if (mOwnsPipelineCache)
+        loadPipelineCache();
     return {};
 }
 

@@ -48,6 +48,13 @@ bool hasInstanceExtension(const char* wanted, const char* layer = nullptr) {
 
 } // namespace
 
+void listPortableDrivers(VkInstanceCreateFlags& flags, std::vector<const char*>& extensions) {
+    if (!hasInstanceExtension(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME))
+        return;
+    flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+}
+
 core::Status Device::createInstance(const DeviceOptions& options) {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "shutter";
@@ -90,6 +97,7 @@ core::Status Device::createInstance(const DeviceOptions& options) {
     features.pEnabledValidationFeatures = enabled.data();
 
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    listPortableDrivers(info.flags, extensions);
     if (options.validate)
         info.pNext = &features;
     info.pApplicationInfo = &application;

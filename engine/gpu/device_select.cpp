@@ -59,8 +59,20 @@ std::vector<VkExtensionProperties> listExtensions(VkPhysicalDevice device) {
     return extensions;
 }
 
-void findRays(DeviceInfo& info) {
-    const auto extensions = listExtensions(info.handle);
+/// Of the beta headers, where it is not named unless all of them are wanted.
+constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
+
+void findRobustness(DeviceInfo& info, const std::vector<VkExtensionProperties>& extensions) {
+    if (!hasExtension(extensions, VK_EXT_ROBUSTNESS_2_EXTENSION_NAME))
+        return;
+    VkPhysicalDeviceRobustness2FeaturesEXT robust{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &robust};
+    vkGetPhysicalDeviceFeatures2(info.handle, &features);
+    info.hasRobustness2 = robust.robustBufferAccess2 && robust.robustImageAccess2;
+}
+
+void findRays(DeviceInfo& info, const std::vector<VkExtensionProperties>& extensions) {
     if (!hasExtension(extensions, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) ||
         !hasExtension(extensions, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME))
         return;
@@ -194,7 +206,10 @@ DeviceInfo describeDevice(VkPhysicalDevice device, VkSurfaceKHR surface) {
     info.kind = describeKind(properties.properties.deviceType);
     info.apiVersion = properties.properties.apiVersion;
     findMissing(info, surface);
-    findRays(info);
+    const auto extensions = listExtensions(device);
+    info.isPortable = hasExtension(extensions, kPortabilitySubset);
+    findRobustness(info, extensions);
+    findRays(info, extensions);
     info.rayTier = chooseTier(info, RayTier::RayQuery);
     return info;
 }
@@ -209,6 +224,24 @@ std::vector<DeviceInfo> listDevices(VkInstance instance, VkSurfaceKHR surface) {
     for (VkPhysicalDevice handle : handles)
         devices.push_back(describeDevice(handle, surface));
     return devices;
+}
+
+std::vector<const char*>
+listDeviceExtensions(const DeviceInfo& device, bool presents, Bounds bounds) {
+    std::vector<const char*> extensions;
+    if (device.rayTier != RayTier::None)
+        extensions = {
+            VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+            VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+            device.rayTier == RayTier::RayQuery ? VK_KHR_RAY_QUERY_EXTENSION_NAME
+                                                : VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+    if (presents)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (device.isPortable) // a device that has it must be made with it
+        extensions.push_back(kPortabilitySubset);
+    if (bounds == Bounds::Checked && device.hasRobustness2)
+        extensions.push_back(VK_EXT_ROBUSTNESS_2_EXTENSION_NAME);
+    return extensions;
 }
 
 core::Result<DeviceInfo>

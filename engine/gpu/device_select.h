@@ -33,8 +33,22 @@ struct DeviceInfo {
         false;                ///< launches of ray-tracing pipelines may read their size from memory
     std::string missing;      ///< why the engine cannot use it, empty where it can
     uint32_t queueFamily = 0; ///< that the engine uses, where nothing is missing
-    uint32_t timestampBits = 0; ///< of that family's timestamps: how many count
+    uint32_t timestampBits = 0;  ///< of that family's timestamps: how many count
+    bool isPortable = false;     ///< it brings Vulkan to another interface (portability subset)
+    bool hasRobustness2 = false; ///< accesses past the end of a buffer or image can read as 0
 };
+
+/// Lets an instance list drivers that bring Vulkan to another interface, such as MoltenVK: loaders
+/// that know of the difference hide them otherwise.
+void listPortableDrivers(VkInstanceCreateFlags& flags, std::vector<const char*>& extensions);
+
+/// Whether accesses past the end of what a pass binds are caught: loads give 0, stores do nothing.
+enum class Bounds : uint8_t { Trusted, Checked };
+
+/// The extensions that a device is made with.
+/// \param presents it shows pictures on a window
+[[nodiscard]] std::vector<const char*>
+listDeviceExtensions(const DeviceInfo& device, bool presents, Bounds bounds);
 
 /// A queue family, as far as one is chosen by it.
 struct QueueFamily {

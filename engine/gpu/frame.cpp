@@ -5,6 +5,7 @@
 #include "engine/gpu/upload.h"
 
 #include <chrono>
+#include <span>
 
 namespace shutter::gpu {
 
@@ -31,8 +32,10 @@ Frame::Frame(Device& device) : mDevice(device), mDescriptors(device) {
     VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     commands.commandPool = mPool;
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands.commandBufferCount = 1;
-    require(vkAllocateCommandBuffers(device.handle(), &commands, &mCommands), "creating a frame");
+    commands.commandBufferCount = static_cast<uint32_t>(mBuffers.size());
+    require(
+        vkAllocateCommandBuffers(device.handle(), &commands, mBuffers.data()), "creating a frame"
+    );
     VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = 2 * kMaxSpans;
@@ -66,13 +69,26 @@ void Frame::begin() {
     vkResetQueryPool(mDevice.handle(), mQueries, 0, 2 * kMaxSpans);
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    mCommands = mBuffers[0];
+    mBatches = 1;
     require(vkBeginCommandBuffer(mCommands, &info), "starting a frame");
     fullBarrier(mCommands);
 }
 
+void Frame::startBatch() {
+    SHUTTER_CHECK(mPool != VK_NULL_HANDLE, "a host's frame is submitted by the host");
+    SHUTTER_CHECK(mBatches < mBuffers.size(), "a frame has {} batches at most", mBuffers.size());
+    require(vkEndCommandBuffer(mCommands), "ending a part of a frame");
+    mCommands = mBuffers[mBatches++];
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    require(vkBeginCommandBuffer(mCommands, &info), "starting a part of a frame");
+}
+
 void Frame::submit(const SubmitSemaphores& semaphores) {
     require(vkEndCommandBuffer(mCommands), "ending a frame");
-    mSubmittedValue = mDevice.submit(mCommands, semaphores);
+    mSubmittedValue =
+        mDevice.submit(std::span<const VkCommandBuffer>(mBuffers).first(mBatches), semaphores);
 }
 
 void Frame::wait() {

@@ -67,6 +67,10 @@ class Frame {
     /// One for a host: starts recording into `commands`, which are being recorded. The GPU must be
     /// done with this frame's last use.
     void beginIn(VkCommandBuffer commands);
+    /// What is recorded from here on is a batch of its own, which alone waits for the semaphore of
+    /// the submission. Once a frame; not between beginSpan() and endSpan(), nor while rendering,
+    /// and commands() is another command buffer afterwards.
+    void startBatch();
     /// Ends recording and submits.
     void submit(const SubmitSemaphores& semaphores = {});
     /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
@@ -82,7 +86,9 @@ class Frame {
     Device& mDevice;
     // Null for a host.
     VkCommandPool mPool = VK_NULL_HANDLE;
-    VkCommandBuffer mCommands = VK_NULL_HANDLE;
+    VkCommandBuffer mCommands = VK_NULL_HANDLE; ///< that is being recorded
+    std::array<VkCommandBuffer, 2> mBuffers{};  ///< one a batch
+    size_t mBatches = 1;
     VkQueryPool mQueries = VK_NULL_HANDLE;
     DescriptorArena mDescriptors;
     std::vector<PassTime> mSpans;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 namespace shutter::gpu {
@@ -302,6 +303,44 @@ void Pipeline::release() {
         }
     );
     mDevice = nullptr;
+}
+
+LazyPipeline::LazyPipeline(Device& device, std::function<Pipeline()> make)
+    : mMake(std::move(make)) {
+    if (device.makesPipelinesAhead())
+        prepare();
+}
+
+LazyPipeline::LazyPipeline(Device& device, ComputePipelineDesc desc)
+    : LazyPipeline(device, [&device, own = std::move(desc)] { return Pipeline(device, own); }) {}
+
+LazyPipeline::LazyPipeline(Device& device, RayPipelineDesc desc)
+    : LazyPipeline(device, [&device, own = std::move(desc)] { return Pipeline(device, own); }) {}
+
+LazyPipeline::~LazyPipeline() {
+    if (mUnderWay.valid())
+        mUnderWay.wait();
+}
+
+void LazyPipeline::prepare() const {
+    if (!mPipeline && !mUnderWay.valid())
+        mUnderWay = std::async(std::launch::async, mMake);
+}
+
+bool LazyPipeline::isReady() const {
+    return mPipeline || (mUnderWay.valid() &&
+                         mUnderWay.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
+}
+
+const Pipeline& LazyPipeline::get() const {
+    if (!mPipeline)
+        mPipeline.emplace(mUnderWay.valid() ? mUnderWay.get() : mMake());
+    return *mPipeline;
+}
+
+Pipeline LazyPipeline::take() {
+    (void)get();
+    return std::move(*mPipeline);
 }
 
 } // namespace shutter::gpu

@@ -5,10 +5,11 @@
 #include "engine/gpu/vulkan.h"
 
 #include <cstdint>
+#include <functional>
+#include <future>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace shutter::gpu {
@@ -109,21 +110,32 @@ class Pipeline {
     std::vector<VkFormat> mStorageFormats; ///< by binding; the rest have none
 };
 
-/// A compute pipeline that is created when it is first used.
+/// A compute or ray-tracing pipeline that is made when it is first used or, on a device that makes
+/// pipelines ahead, from the start on a thread of its own. It is used by one thread, like
+/// everything else that is made from a device.
 class LazyPipeline {
   public:
-    LazyPipeline(Device& device, ComputePipelineDesc desc)
-        : mDevice(&device), mDesc(std::move(desc)) {}
+    LazyPipeline(Device& device, ComputePipelineDesc desc);
+    LazyPipeline(Device& device, RayPipelineDesc desc);
+    /// Waits for what prepare() started.
+    ~LazyPipeline();
+    LazyPipeline(LazyPipeline&&) noexcept = default;
+    LazyPipeline& operator=(LazyPipeline&&) = delete;
 
-    [[nodiscard]] const Pipeline& get() const {
-        if (!mPipeline)
-            mPipeline.emplace(*mDevice, mDesc);
-        return *mPipeline;
-    }
+    /// Starts to make it on a thread of its own, unless it is made or under way.
+    void prepare() const;
+    /// Whether get() returns at once.
+    [[nodiscard]] bool isReady() const;
+    /// Makes it, or waits for it. Throws DeviceError.
+    [[nodiscard]] const Pipeline& get() const;
+    /// The same, handed over. Once.
+    [[nodiscard]] Pipeline take();
 
   private:
-    Device* mDevice;
-    ComputePipelineDesc mDesc;
+    LazyPipeline(Device& device, std::function<Pipeline()> make);
+
+    std::function<Pipeline()> mMake;
+    mutable std::future<Pipeline> mUnderWay; ///< of prepare(), until get()
     mutable std::optional<Pipeline> mPipeline;
 };
 

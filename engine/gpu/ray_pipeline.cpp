@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/acceleration_structure.h"
 
+#include <utility>
 #include <vector>
 
 namespace shutter::gpu {
@@ -18,11 +19,22 @@ BindingTableLayout computeTableLayout(const ShaderGroupLimits& limits) {
     return layout;
 }
 
-RayPipeline::RayPipeline(Device& device, const RayPipelineDesc& desc) : mDevice(&device) {
+namespace {
+
+const RayPipelineDesc& checkTier(const Device& device, const RayPipelineDesc& desc) {
     SHUTTER_CHECK(
         device.info().rayTier == RayTier::Pipeline, "'{}' needs ray-tracing pipelines", desc.name
     );
-    mPipeline = Pipeline(device, desc);
+    return desc;
+}
+
+} // namespace
+
+RayPipeline::RayPipeline(Device& device, const RayPipelineDesc& desc)
+    : RayPipeline(device, Pipeline(device, checkTier(device, desc))) {}
+
+RayPipeline::RayPipeline(Device& device, Pipeline made)
+    : mDevice(&device), mPipeline(std::move(made)) {
     const ShaderGroupLimits& limits = device.shaderGroupLimits();
     const BindingTableLayout layout = computeTableLayout(limits);
     const auto count = static_cast<uint32_t>(layout.offsets.size());
@@ -31,11 +43,11 @@ RayPipeline::RayPipeline(Device& device, const RayPipelineDesc& desc) : mDevice(
         device.functions().getRayTracingShaderGroupHandles(
             device.handle(), mPipeline.handle(), 0, count, handles.size(), handles.data()
         ),
-        fmt::format("reading the shader groups of '{}'", desc.name)
+        fmt::format("reading the shader groups of '{}'", mPipeline.name())
     );
     mTable = Buffer(
         device,
-        desc.name + " binding table",
+        mPipeline.name() + " binding table",
         layout.bytes + limits.baseAlignment,
         VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR,
         MemoryUse::Stream

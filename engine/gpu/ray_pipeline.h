@@ -23,6 +23,8 @@ struct BindingTableLayout {
 class RayPipeline {
   public:
     RayPipeline(Device& device, const RayPipelineDesc& desc);
+    /// \param made of a RayPipelineDesc
+    RayPipeline(Device& device, Pipeline made);
 
     [[nodiscard]] const Pipeline& pipeline() const { return mPipeline; }
 

@@ -40,6 +40,18 @@ SwapchainState judgeSwapchain(VkResult result, const VkExtent2D& made, const VkE
                                                                : SwapchainState::Fits;
 }
 
+std::optional<VkSurfaceFormatKHR> chooseSurfaceFormat(std::span<const VkSurfaceFormatKHR> formats) {
+    for (const VkFormat wanted :
+         {VK_FORMAT_B8G8R8A8_UNORM,
+          VK_FORMAT_R8G8B8A8_UNORM,
+          VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+          VK_FORMAT_A2R10G10B10_UNORM_PACK32})
+        for (const VkSurfaceFormatKHR& format : formats)
+            if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR)
+                return format;
+    return std::nullopt;
+}
+
 core::Result<std::unique_ptr<Swapchain>>
 Swapchain::create(Device& device, VkSurfaceKHR surface, const SwapchainDesc& desc) {
     std::unique_ptr<Swapchain> swapchain(new Swapchain(device, surface));
@@ -64,13 +76,13 @@ core::Status Swapchain::chooseFormat() {
     vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical(), mSurface, &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
     vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical(), mSurface, &count, formats.data());
-    for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM})
-        for (const VkSurfaceFormatKHR& format : formats)
-            if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
-                mFormat = format;
-                return {};
-            }
-    return core::makeError("{} shows no 8-bit sRGB pictures here", mDevice.info().name);
+    const auto chosen = chooseSurfaceFormat(formats);
+    if (!chosen)
+        return core::makeError(
+            "{} shows no 8-bit or 10-bit sRGB pictures here", mDevice.info().name
+        );
+    mFormat = *chosen;
+    return {};
 }
 
 VkPresentModeKHR Swapchain::chooseMode(bool vsync) const {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shutter::gpu {
@@ -38,6 +39,11 @@ enum class SwapchainState : uint8_t {
 [[nodiscard]] SwapchainState
 judgeSwapchain(VkResult result, const VkExtent2D& made, const VkExtent2D& surface);
 
+/// The format that pictures are shown in, of those that a surface takes: 8 bits a channel before
+/// 10, which is all that some displays of 30 bits list; never one that converts on writing.
+[[nodiscard]] std::optional<VkSurfaceFormatKHR>
+chooseSurfaceFormat(std::span<const VkSurfaceFormatKHR> formats);
+
 /// An image of the window to draw a frame on.
 struct SwapchainImage {
     const Image* image = nullptr; ///< contents undefined; to be left in PRESENT_SRC layout
@@ -45,8 +51,8 @@ struct SwapchainImage {
     SubmitSemaphores semaphores;  ///< of the submission that draws on it
 };
 
-/// The images are 8-bit, not converted on writing: who draws encodes for the display. They can be
-/// drawn on and copied from.
+/// The images have 8 or 10 bits a channel, not converted on writing: who draws encodes for the
+/// display. They can be drawn on and copied from.
 class Swapchain {
   public:
     /// \param surface that the device was chosen for (Device::takeSurface); taken over, destroyed
@@ -71,6 +77,11 @@ class Swapchain {
 
     /// Shows an image once its submission's semaphore is signalled, and notes the state().
     void present(const SwapchainImage& image);
+
+    /// Whether acquire() may give an image.
+    [[nodiscard]] bool hasImages() const {
+        return !mImages.empty() && mState == SwapchainState::Fits;
+    }
 
     /// As the window system answered last.
     [[nodiscard]] SwapchainState state() const { return mState; }

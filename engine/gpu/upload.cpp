@@ -127,7 +127,7 @@ void runOnce(Device& device, const std::function<void(VkCommandBuffer)>& record)
     record(commands);
     fullBarrier(commands);
     require(vkEndCommandBuffer(commands), "ending a transfer");
-    device.wait(device.submit(commands));
+    device.wait(device.submit(std::span(&commands, 1)));
 }
 
 std::vector<UploadPart> splitUpload(VkDeviceSize total, VkDeviceSize unit) {
@@ -160,39 +160,111 @@ uint32_t countMipLevels(uint32_t width, uint32_t height) {
     return static_cast<uint32_t>(std::bit_width(std::max({width, height, 1u})));
 }
 
-void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels) {
-    const ImageDesc& desc = target.desc();
-    SHUTTER_CHECK_EQ(texels.size(), size_t(desc.width) * desc.height * texelBytes(desc.format));
-    const auto parts = splitUpload(texels.size(), desc.width * texelBytes(desc.format));
-    Buffer staging(device, "staging", parts.front().bytes, 0, MemoryUse::Staging);
-    for (const UploadPart& part : parts) {
-        staging.write(texels.subspan(part.offset, part.bytes));
-        runOnce(device, [&](VkCommandBuffer commands) {
-            if (part.offset == 0)
-                transition(
-                    commands,
-                    target.handle(),
-                    0,
-                    VK_IMAGE_LAYOUT_UNDEFINED,
-                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
-                );
-            const VkDeviceSize rowBytes = texels.size() / desc.height;
-            VkBufferImageCopy region{};
-            region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-            region.imageOffset.y = static_cast<int32_t>(part.offset / rowBytes);
-            region.imageExtent = {desc.width, static_cast<uint32_t>(part.bytes / rowBytes), 1};
-            vkCmdCopyBufferToImage(
-                commands,
-                staging.handle(),
-                target.handle(),
-                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                1,
-                &region
-            );
-            if (part.offset + part.bytes == texels.size())
-                buildMipLevels(commands, target);
-        });
+namespace {
+
+/// Rows of a texture that wait in the staging buffer.
+struct StagedRows {
+    const Image* target = nullptr;
+    VkDeviceSize offset = 0; ///< in the staging buffer
+    uint32_t firstRow = 0;
+    uint32_t rowCount = 0;
+};
+
+/// Offsets of copies are multiples of a texel; this is one of all of them.
+constexpr VkDeviceSize kStagedAlignment = 16;
+
+/// A staging buffer that many textures share, so that they share submissions.
+class TextureStaging {
+  public:
+    TextureStaging(Device& device, VkDeviceSize bytes)
+        : mDevice(device), mBuffer(device, "staging", bytes, 0, MemoryUse::Staging) {}
+
+    void add(const Image& target, std::span<const std::byte> texels) {
+        const ImageDesc& desc = target.desc();
+        const VkDeviceSize rowBytes = VkDeviceSize(desc.width) * texelBytes(desc.format);
+        for (uint32_t row = 0; row < desc.height;) {
+            const VkDeviceSize free = mBuffer.bytes() - std::min(mUsed, mBuffer.bytes());
+            const auto rows =
+                static_cast<uint32_t>(std::min<VkDeviceSize>(free / rowBytes, desc.height - row));
+            if (rows == 0) {
+                flush();
+                continue;
+            }
+            mBuffer.writeBytes(texels.data() + row * rowBytes, rows * rowBytes, mUsed);
+            mStaged.push_back({&target, mUsed, row, rows});
+            mUsed = (mUsed + rows * rowBytes + kStagedAlignment - 1) / kStagedAlignment *
+                    kStagedAlignment;
+            row += rows;
+        }
     }
+
+    /// Copies what was added, and waits.
+    void flush() {
+        runOnce(mDevice, [&](VkCommandBuffer commands) {
+            for (const StagedRows& rows : mStaged)
+                record(commands, rows);
+        });
+        mStaged.clear();
+        mUsed = 0;
+    }
+
+  private:
+    void record(VkCommandBuffer commands, const StagedRows& rows) const {
+        const ImageDesc& desc = rows.target->desc();
+        if (rows.firstRow == 0)
+            transition(
+                commands,
+                rows.target->handle(),
+                0,
+                VK_IMAGE_LAYOUT_UNDEFINED,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
+            );
+        VkBufferImageCopy region{};
+        region.bufferOffset = rows.offset;
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageOffset.y = static_cast<int32_t>(rows.firstRow);
+        region.imageExtent = {desc.width, rows.rowCount, 1};
+        vkCmdCopyBufferToImage(
+            commands,
+            mBuffer.handle(),
+            rows.target->handle(),
+            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+            1,
+            &region
+        );
+        if (rows.firstRow + rows.rowCount == desc.height)
+            buildMipLevels(commands, *rows.target);
+    }
+
+    Device& mDevice;
+    Buffer mBuffer;
+    VkDeviceSize mUsed = 0; ///< of the buffer
+    std::vector<StagedRows> mStaged;
+};
+
+} // namespace
+
+void uploadTextures(Device& device, std::span<const TextureUpload> uploads) {
+    VkDeviceSize total = 0;
+    VkDeviceSize longestRow = 0;
+    for (const TextureUpload& upload : uploads) {
+        const ImageDesc& desc = upload.target->desc();
+        const VkDeviceSize rowBytes = VkDeviceSize(desc.width) * texelBytes(desc.format);
+        SHUTTER_CHECK_EQ(upload.texels.size(), size_t(rowBytes * desc.height));
+        total += upload.texels.size() + kStagedAlignment;
+        longestRow = std::max(longestRow, rowBytes);
+    }
+    if (uploads.empty())
+        return;
+    TextureStaging staging(device, std::max(longestRow, std::min(total, kStagingBytes)));
+    for (const TextureUpload& upload : uploads)
+        staging.add(*upload.target, upload.texels);
+    staging.flush();
+}
+
+void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels) {
+    const TextureUpload upload{&target, texels};
+    uploadTextures(device, std::span(&upload, 1));
 }
 
 } // namespace shutter::gpu

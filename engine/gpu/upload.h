@@ -40,6 +40,14 @@ void uploadBuffer(
 /// filter (in linear light for sRGB formats). Leaves the image in SHADER_READ_ONLY_OPTIMAL.
 void uploadTexture(Device& device, Image& target, std::span<const std::byte> texels);
 
+struct TextureUpload {
+    const Image* target = nullptr;
+    std::span<const std::byte> texels; ///< of mip 0, tightly packed
+};
+
+/// The same for many, which share submissions of kStagingBytes each.
+void uploadTextures(Device& device, std::span<const TextureUpload> uploads);
+
 /// Mip levels of a full chain.
 [[nodiscard]] uint32_t countMipLevels(uint32_t width, uint32_t height);
 

@@ -120,11 +120,13 @@ TextureTable::uploadImages(const scene::Assets& assets, const std::vector<bool>&
     const gpu::BlockPlan plan = gpu::planBlocks(needs);
     for (const gpu::BlockPlan::Block& block : plan.blocks)
         mBlocks.emplace_back(mDevice, block.bytes, block.typeBits);
+    std::vector<gpu::TextureUpload> uploads;
     for (size_t i = 0; i < mImages.size(); ++i) {
         mImages[i].bind(mBlocks[plan.places[i].block].handle(), plan.places[i].offset);
         const std::span rgba(assets.images[sources[i]].rgba);
-        gpu::uploadTexture(mDevice, mImages[i], std::as_bytes(rgba));
+        uploads.push_back({&mImages[i], std::as_bytes(rgba)});
     }
+    gpu::uploadTextures(mDevice, uploads);
     std::vector<VkImageView> views(used.size(), VK_NULL_HANDLE);
     for (uint32_t i = 0; i < used.size(); ++i)
         if (used[i])

@@ -43,7 +43,7 @@ constexpr VkImageLayout kNoLayout = VK_IMAGE_LAYOUT_UNDEFINED;
 constexpr VkImageLayout kSampledLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 
 // Stores may load too, and blending and depth tests read their target: those rows have both masks.
-const std::array<Row, 13> kRows{{
+const std::array<Row, 14> kRows{{
     {Access::SampledCompute,
      "sampled in compute",
      kCompute | kRays,
@@ -79,6 +79,17 @@ const std::array<Row, 13> kRows{{
       VK_IMAGE_LAYOUT_GENERAL},
      VK_IMAGE_USAGE_STORAGE_BIT,
      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT},
+    {Access::StorageWriteDisjoint,
+     "disjoint storage write",
+     kCompute | kRays,
+     true,
+     false,
+     {kComputeStage,
+      VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+      VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+      VK_IMAGE_LAYOUT_GENERAL},
+     VK_IMAGE_USAGE_STORAGE_BIT,
+     0},
     {Access::ColorAttachment,
      "colour attachment",
      kRaster,

@@ -11,6 +11,7 @@ struct Run {
     uint32_t position = 0; ///< of its first pass in the plan
     AccessScope scope;     ///< of all its uses together
     bool writes = false;
+    bool isDisjoint = false;   ///< all its passes write, each other texels
     bool needsContents = true; ///< of what was there before
 };
 
@@ -40,7 +41,8 @@ constexpr Half kLaterSubmissions{
     VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
 constexpr Half kHost{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
 
-std::vector<std::vector<Run>> collectRuns(const Graph& graph, const Plan& plan) {
+std::vector<std::vector<Run>>
+collectRuns(const Graph& graph, const Plan& plan, DisjointWrites disjoint) {
     std::vector<std::vector<Run>> runs(graph.resources().size());
     for (uint32_t position = 0; position < plan.passes.size(); ++position) {
         const PassRecord& pass = graph.passes()[plan.passes[position].pass];
@@ -51,13 +53,17 @@ std::vector<std::vector<Run>> collectRuns(const Graph& graph, const Plan& plan) 
             if (!graph.resources()[use.resource].isImage)
                 scope.layout = VK_IMAGE_LAYOUT_UNDEFINED;
             const bool writes = use.writeVersion != kNoVersion;
+            const bool isDisjoint =
+                use.access == Access::StorageWriteDisjoint && disjoint == DisjointWrites::Overlap;
             auto& list = runs[use.resource];
-            if (!writes && !list.empty() && !list.back().writes &&
-                list.back().scope.layout == scope.layout) {
+            const bool bothRead = !writes && !list.empty() && !list.back().writes;
+            const bool bothAreDisjoint = isDisjoint && !list.empty() && list.back().isDisjoint;
+            if ((bothRead || bothAreDisjoint) && list.back().scope.layout == scope.layout) {
                 list.back().scope.stages |= scope.stages;
                 list.back().scope.reads |= scope.reads;
             } else {
-                list.push_back({position, scope, writes, use.readVersion != kNoVersion});
+                list.push_back({position, scope, writes, isDisjoint, use.readVersion != kNoVersion}
+                );
             }
         }
     }
@@ -198,8 +204,8 @@ void finish(const Graph& graph, Plan& plan, uint32_t resource, const State& stat
 
 } // namespace
 
-void placeBarriers(const Graph& graph, Plan& plan) {
-    const std::vector<std::vector<Run>> runs = collectRuns(graph, plan);
+void placeBarriers(const Graph& graph, Plan& plan, DisjointWrites disjoint) {
+    const std::vector<std::vector<Run>> runs = collectRuns(graph, plan, disjoint);
     for (uint32_t resource = 0; resource < runs.size(); ++resource) {
         State state = findStart(graph, plan, runs, resource);
         for (const Run& run : runs[resource]) {

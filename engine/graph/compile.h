@@ -73,13 +73,31 @@ struct MemoryRequirement {
 using RequirementFunction =
     std::function<MemoryRequirement(const TransientImageDesc&, VkImageUsageFlags)>;
 
+/// What Access::StorageWriteDisjoint gets.
+enum class DisjointWrites : uint8_t {
+    Overlap, ///< one barrier before the first of the passes
+    /// A barrier before each: synchronization validation takes a storage image for written as a
+    /// whole (https://github.com/KhronosGroup/Vulkan-ValidationLayers/issues/7093 has the like of
+    /// buffers).
+    Ordered,
+};
+
 /// Errors name the pass and the resource: a read of something nobody writes, a write to an old
 /// version, a cycle (such as an old version that is overwritten before it could be read), a handle
 /// of another graph, attachments of different size, an access that does not fit the pass's kind or
 /// the resource's (an image used as acceleration structure), a resource used twice by one pass in
 /// ways that clash, an output that a later pass overwrites.
-[[nodiscard]] core::Result<Plan>
-compile(const Graph& graph, const RequirementFunction& requirement);
+/// \param disjoint what is placed between passes that write disjoint parts of an image
+[[nodiscard]] core::Result<Plan> compile(
+    const Graph& graph,
+    const RequirementFunction& requirement,
+    DisjointWrites disjoint = DisjointWrites::Overlap
+);
+
+/// Whether an image's contents are wanted after the pass at a position of the plan: by a later
+/// pass, or outside of the frame. A target of which nothing is wanted need not be stored.
+[[nodiscard]] bool
+isWantedAfter(const Graph& graph, const Plan& plan, uint32_t resource, uint32_t position);
 
 /// The plan as text for a person: passes in order with what each reads and writes, barriers with
 /// layouts, what was culled and why, images with size, format, lifetime and place in memory.

@@ -100,6 +100,6 @@ VkDeviceSize packImages(std::vector<Placement>& images);
 ///   its memory before; nothing between frames, since each has its own pool and waits for the GPU;
 /// - first use of an imported resource: after everything that an earlier submission may have
 ///   written.
-void placeBarriers(const Graph& graph, Plan& plan);
+void placeBarriers(const Graph& graph, Plan& plan, DisjointWrites disjoint);
 
 } // namespace shutter::graph

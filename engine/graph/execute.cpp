@@ -115,14 +115,15 @@ VkAttachmentLoadOp findLoadOp(const PassRecord& pass, uint32_t resource, bool cl
                                           : VK_ATTACHMENT_LOAD_OP_LOAD;
 }
 
-VkRenderingAttachmentInfo
-fillAttachment(const gpu::Image& image, VkImageLayout layout, VkAttachmentLoadOp loadOp) {
+VkRenderingAttachmentInfo fillAttachment(
+    const gpu::Image& image, VkImageLayout layout, VkAttachmentLoadOp loadOp, bool isWanted
+) {
     VkRenderingAttachmentInfo out{};
     out.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
     out.imageView = image.view();
     out.imageLayout = layout;
     out.loadOp = loadOp;
-    out.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    out.storeOp = isWanted ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
     return out;
 }
 
@@ -136,8 +137,14 @@ void setViewport(VkCommandBuffer commands, VkExtent2D size) {
     vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
+/// \param position of the pass in the plan
 void beginRendering(
-    VkCommandBuffer commands, const PassRecord& pass, const PassResources& resources
+    VkCommandBuffer commands,
+    const PassRecord& pass,
+    const PassResources& resources,
+    const Graph& graph,
+    const Plan& plan,
+    uint32_t position
 ) {
     VkExtent2D size{};
     std::vector<VkRenderingAttachmentInfo> colors;
@@ -147,7 +154,8 @@ void beginRendering(
         VkRenderingAttachmentInfo& color = colors.emplace_back(fillAttachment(
             image,
             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-            findLoadOp(pass, target.resource, target.clear.has_value())
+            findLoadOp(pass, target.resource, target.clear.has_value()),
+            isWantedAfter(graph, plan, target.resource, position)
         ));
         for (int i = 0; target.clear && i < 4; ++i)
             color.clearValue.color.uint32[i] = target.clear->u[i];
@@ -161,7 +169,8 @@ void beginRendering(
         depth = fillAttachment(
             image,
             VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-            findLoadOp(pass, target.resource, target.clear.has_value())
+            findLoadOp(pass, target.resource, target.clear.has_value()),
+            isWantedAfter(graph, plan, target.resource, position)
         );
         depth.clearValue.depthStencil = {target.clear.value_or(0.0f), 0};
     }
@@ -178,28 +187,42 @@ void beginRendering(
 
 } // namespace
 
+namespace {
+
+/// lavapipe gains nothing by passes that overlap, and its timestamps do not wait for them.
+DisjointWrites chooseDisjointWrites(const gpu::Device& device) {
+    const bool isSoftware = device.info().kind == "software";
+    return isSoftware || device.isValidated() ? DisjointWrites::Ordered : DisjointWrites::Overlap;
+}
+
+} // namespace
+
 core::Result<Plan> execute(const Graph& graph, gpu::Frame& frame, TransientPool& pool) {
-    core::Result<Plan> compiled = compile(graph, pool.requirementFunction());
+    core::Result<Plan> compiled =
+        compile(graph, pool.requirementFunction(), chooseDisjointWrites(frame.device()));
     if (!compiled)
         return compiled;
     const Plan& plan = compiled.value();
     pool.realize(graph, plan);
 
     const PassResources resources(graph, pool);
-    const VkCommandBuffer commands = frame.commands();
-    PassContext context{frame, resources, commands};
-    for (const PlannedPass& planned : plan.passes) {
+    PassContext context{frame, resources, VK_NULL_HANDLE};
+    for (uint32_t position = 0; position < plan.passes.size(); ++position) {
+        const PlannedPass& planned = plan.passes[position];
         const PassRecord& pass = graph.passes()[planned.pass];
+        if (pass.startsBatch)
+            frame.startBatch();
+        const VkCommandBuffer commands = context.commands = frame.commands();
         frame.beginSpan(pass.name);
         recordBarriers(commands, resources, planned.imageBarriers, planned.bufferBarriers);
         if (pass.kind == PassKind::Raster)
-            beginRendering(commands, pass, resources);
+            beginRendering(commands, pass, resources, graph, plan, position);
         pass.execute(context);
         if (pass.kind == PassKind::Raster)
             vkCmdEndRendering(commands);
         frame.endSpan();
     }
-    recordBarriers(commands, resources, plan.finalImageBarriers, plan.finalBufferBarriers);
+    recordBarriers(frame.commands(), resources, plan.finalImageBarriers, plan.finalBufferBarriers);
     return compiled;
 }
 

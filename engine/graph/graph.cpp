@@ -209,6 +209,10 @@ ImageHandle PassBuilder::depthTarget(ImageHandle image, std::optional<float> cle
     return image;
 }
 
+void PassBuilder::startBatch() {
+    mPass.startsBatch = true;
+}
+
 void PassBuilder::sideEffect() {
     mPass.hasSideEffect = true;
 }

@@ -70,6 +70,7 @@ struct PassRecord {
     std::vector<ColorTarget> colorTargets; ///< Raster only, in attachment order
     std::optional<DepthTarget> depthTarget;
     bool hasSideEffect = false; ///< never culled
+    bool startsBatch = false;   ///< alone with what follows waits for the frame's semaphore
     ExecuteFunction execute;
 };
 
@@ -115,6 +116,9 @@ class PassBuilder {
     [[nodiscard]] ImageHandle depthTarget(ImageHandle image, std::optional<float> clear);
     /// The pass is wanted for its own sake (writes to memory the graph does not know).
     void sideEffect();
+    /// Work before the pass does not wait for the semaphore of the frame's submission: for what
+    /// draws on an image that the window system lends. One pass a frame, after the others.
+    void startBatch();
 
   private:
     void addRead(uint32_t resource, uint32_t version, Access access);

@@ -59,10 +59,13 @@ struct OutsideUse {
 
 /// How a pass touches a resource: what barriers, layouts and usage flags follow from.
 enum class Access : uint8_t {
-    SampledCompute,    ///< image: texture() in a compute or ray-tracing shader
-    SampledFragment,   ///< image: texture() in a fragment shader
-    StorageRead,       ///< image or buffer: load in a compute or ray-tracing shader
-    StorageWrite,      ///< image or buffer: store (and load) in a compute or ray-tracing shader
+    SampledCompute,  ///< image: texture() in a compute or ray-tracing shader
+    SampledFragment, ///< image: texture() in a fragment shader
+    StorageRead,     ///< image or buffer: load in a compute or ray-tracing shader
+    StorageWrite,    ///< image or buffer: store (and load) in a compute or ray-tracing shader
+    /// image: the same where passes that follow one another write each other's texels neither way:
+    /// nothing stands between them, and they may run at once
+    StorageWriteDisjoint,
     ColorAttachment,   ///< image: written as colour attachment
     DepthAttachment,   ///< image: tested and written as depth attachment
     TransferRead,      ///< copy source

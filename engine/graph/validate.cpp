@@ -65,7 +65,8 @@ core::Status checkFormat(const PassRecord& pass, const ResourceRecord& resource,
     const bool isColor = (gpu::aspectOf(format) & VK_IMAGE_ASPECT_COLOR_BIT) != 0;
     const bool needsDepth = access == Access::DepthAttachment;
     const bool needsColor = access == Access::ColorAttachment || access == Access::StorageRead ||
-                            access == Access::StorageWrite;
+                            access == Access::StorageWrite ||
+                            access == Access::StorageWriteDisjoint;
     if ((needsDepth && isColor) || (needsColor && !isColor))
         return core::makeError(
             "pass '{}' uses '{}' as {}, but its format is a {} format",

@@ -9,18 +9,17 @@
 
 namespace shutter::rays {
 
-gpu::BuildAction DeformedBlas::choose(
-    Built& built, const extract::DeformedEntity& entity, ecs::Entity handle
-) const {
+gpu::BuildAction
+DeformedBlas::choose(size_t index, const extract::DeformedEntity& entity, ecs::Entity handle) {
+    Built& built = mBuilt[index];
     if (built.entity != handle || built.mesh != entity.mesh) {
-        built = {handle, entity.mesh, entity.raster, 0};
+        built = {handle, entity.mesh, entity.raster, RefitTurns(index)};
         return gpu::BuildAction::Build;
     }
     if (extract::isSame(built.pose, entity.raster))
         return gpu::BuildAction::Keep;
     built.pose = entity.raster;
-    built.refits = built.refits < kRefitsPerBuild ? built.refits + 1 : 0;
-    return built.refits > 0 ? gpu::BuildAction::Refit : gpu::BuildAction::Build;
+    return built.turns.take();
 }
 
 graph::BufferHandle DeformedBlas::declare(
@@ -56,7 +55,7 @@ graph::BufferHandle DeformedBlas::declare(
     std::vector<gpu::BuildAction> actions;
     for (size_t i = 0; i < owners.size(); ++i) {
         const extract::DeformedEntity& entity = frame.deformed[owners[i]];
-        actions.push_back(choose(mBuilt[i], entity, frame.entityHandles[entity.row]));
+        actions.push_back(choose(i, entity, frame.entityHandles[entity.row]));
         mAddresses[owners[i]] = mLevels.address(i);
     }
     auto blasBuffer = graph.importBuffer("BLAS of deformed meshes", mLevels.buffer(), 0);

@@ -6,6 +6,7 @@
 #include "engine/gpu_scene/deformation_pass.h"
 #include "engine/graph/graph.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,25 @@ namespace shutter::rays {
 
 /// Refits between two builds: each lets the tree grow a little worse.
 inline constexpr uint32_t kRefitsPerBuild = 15;
+
+/// Refitted, refitted, ..., built anew: one level's turns. Those of a crowd that is first seen in
+/// one frame are built anew in different frames later.
+class RefitTurns {
+  public:
+    RefitTurns() = default;
+
+    /// \param index of the level among those of its frame
+    explicit RefitTurns(size_t index) : mRefits(uint32_t(index % (kRefitsPerBuild + 1))) {}
+
+    /// What is to be done where the shape has changed.
+    gpu::BuildAction take() {
+        mRefits = mRefits < kRefitsPerBuild ? mRefits + 1 : 0;
+        return mRefits > 0 ? gpu::BuildAction::Refit : gpu::BuildAction::Build;
+    }
+
+  private:
+    uint32_t mRefits = 0; ///< since it was built from nothing, or taken to have been
+};
 
 /// One bottom level an entity of ExtractedFrame::deformed. What keeps its shape from one frame to
 /// the next is kept; what changes it is refitted, and built anew now and then.
@@ -41,11 +61,12 @@ class DeformedBlas {
         ecs::Entity entity;
         uint32_t mesh = 0;
         scene::Deformation pose;
-        uint32_t refits = 0; ///< since it was built from nothing
+        RefitTurns turns;
     };
 
+    /// \param index of the level
     gpu::BuildAction
-    choose(Built& built, const extract::DeformedEntity& entity, ecs::Entity handle) const;
+    choose(size_t index, const extract::DeformedEntity& entity, ecs::Entity handle);
 
     gpu::Device& mDevice;
     gpu::StructureSet mLevels;

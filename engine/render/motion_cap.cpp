@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // What of a frame's motion CameraShutter::maxBlurPercent leaves, found by looking at it.
-#include "engine/image/image.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/shutter.h"
@@ -8,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,19 +16,6 @@ namespace shutter::render {
 namespace {
 
 constexpr double kTolerance = 0.01;
-
-/// Longest motion of each row's pixels; the last is the sky's.
-std::vector<double>
-findLongest(const image::Image& motion, const image::Image& entityId, size_t rows) {
-    std::vector<double> longest(rows + 1, 0.0);
-    for (uint32_t y = 0; y < motion.height; ++y)
-        for (uint32_t x = 0; x < motion.width; ++x) {
-            const auto id = static_cast<size_t>(entityId.at(x, y, 0));
-            double& own = longest[std::min(id, rows)];
-            own = std::max(own, std::hypot(double{motion.at(x, y, 0)}, double{motion.at(x, y, 1)}));
-        }
-    return longest;
-}
 
 /// \return whether `length` is beyond the cap; then `share` is lowered
 bool tighten(double& share, double length, double maxPx) {
@@ -40,32 +27,30 @@ bool tighten(double& share, double length, double maxPx) {
 
 /// Lowers the shares of what moves farther than the cap.
 /// \param frame extracted with `cap`
-/// \param motion, entityId the frame's intermediates
+/// \param longest motion of each row's pixels; the last is the sky's
 /// \param uncapped motion of the same exposure without a cap: tells movers from the still world
 /// \param maxPx the cap, 0 or more
 /// \return true: something moved farther than the cap, by more than a hundredth
 bool tightenCap(
     scene::MotionCap& cap,
     const extract::ExtractedFrame& frame,
-    const image::Image& motion,
-    const image::Image& entityId,
+    const std::vector<float>& longest,
     const scene::ExposureMotion& uncapped,
     double maxPx
 ) {
     const size_t rows = frame.entities.size();
-    const std::vector<double> longest = findLongest(motion, entityId, rows);
-    double still = longest[rows];
+    double still = double{longest[rows]};
     bool isTightened = false;
     std::vector<std::pair<ecs::Entity, double>> movers;
     for (size_t row = 0; row < rows; ++row) {
         const ecs::Entity entity = frame.entityHandles[row];
         if (!uncapped.mayObjectMove(entity) && !uncapped.mayDeform(entity)) {
-            still = std::max(still, longest[row]);
+            still = std::max(still, double{longest[row]});
             continue;
         }
         const double* before = cap.findMover(entity);
         double share = before ? *before : 1.0;
-        isTightened = tighten(share, longest[row], maxPx) || isTightened;
+        isTightened = tighten(share, double{longest[row]}, maxPx) || isTightened;
         movers.emplace_back(entity, share);
     }
     std::sort(movers.begin(), movers.end(), [](const auto& a, const auto& b) {
@@ -89,7 +74,7 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
     look.view = view;
     look.view.exposure.cap = {};
     look.view.instant.reset();
-    look.intermediates = {"motion", "mesh_id"};
+    look.isLook = true;
     look.wantColor = false;
     const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
     std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
@@ -100,13 +85,12 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
             return frame.error();
         if (!uncapped)
             uncapped.emplace(world, view.camera, look.view.exposure);
-        auto seen = renderFrame(world, look, {});
-        if (!seen)
+        if (!mLongestMotion)
+            mLongestMotion.emplace(mDevice);
+        PostEffect* const effect = &*mLongestMotion;
+        if (const auto seen = renderFrame(world, look, std::span(&effect, 1)); !seen)
             return seen.error();
-        const auto& images = seen.value().intermediates;
-        if (!tightenCap(
-                cap, frame.value(), images.at("motion"), images.at("mesh_id"), *uncapped, maxPx
-            ))
+        if (!tightenCap(cap, frame.value(), mLongestMotion->take(), *uncapped, maxPx))
             break;
     }
     return cap;

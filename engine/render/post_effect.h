@@ -82,6 +82,8 @@ struct PostContext {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
     uint32_t slot = 0;                  ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    /// Of the frame's submission: an effect that draws on an image of the window system sets them.
+    gpu::SubmitSemaphores semaphores{};
 };
 
 /// A frame that the GPU is done with, as one effect sees it.

@@ -16,7 +16,7 @@ namespace {
 
 struct FormatInfo {
     uint32_t channels = 0;
-    enum class Type { Half, Float, Unorm8, Uint32 } type = Type::Float;
+    enum class Type { Half, Float, Unorm8, Unorm10, Uint32 } type = Type::Float;
     bool swapsRedAndBlue = false; ///< stored in the order B, G, R, A
 };
 
@@ -39,6 +39,10 @@ FormatInfo describeFormat(VkFormat format) {
         return {4, Type::Unorm8};
     case VK_FORMAT_B8G8R8A8_UNORM:
         return {4, Type::Unorm8, true};
+    case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+        return {4, Type::Unorm10};
+    case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
+        return {4, Type::Unorm10, true};
     case VK_FORMAT_R32_UINT:
         return {1, Type::Uint32};
     default:
@@ -62,6 +66,12 @@ float convert(const void* data, size_t index, FormatInfo::Type type) {
         return load<float>(data, index);
     case FormatInfo::Type::Unorm8:
         return float(load<uint8_t>(data, index)) / 255.0f;
+    case FormatInfo::Type::Unorm10: { // four channels a word, alpha of two bits
+        const uint32_t word = load<uint32_t>(data, index / 4);
+        const uint32_t channel = index % 4;
+        return channel == 3 ? float(word >> 30) / 3.0f
+                            : float(word >> (10 * channel) & 1023u) / 1023.0f;
+    }
     case FormatInfo::Type::Uint32: {
         const auto value = load<uint32_t>(data, index);
         return value == UINT32_MAX ? -1.0f : static_cast<float>(value);

@@ -177,7 +177,7 @@ core::Status Renderer::submitFrame(
         slot.frameTlas.emplace(mDevice); // what was to be built was not
         return plan.error();
     }
-    slot.frame.submit(request.semaphores);
+    slot.frame.submit(pending.tickets.semaphores);
     statistics.cpuMilliseconds = nowMilliseconds() - pending.startMilliseconds;
     statistics.transientBytes = mPool.heldBytes();
     statistics.explanations = explainer.finish(graph, plan.value(), request.wantReasons);
@@ -185,7 +185,7 @@ core::Status Renderer::submitFrame(
     pending.owners = explainer.listOwners(plan.value());
     if (request.wantDump)
         pending.result.dump = graph::dump(graph, plan.value());
-    if (!effects.empty()) // a look that measures something is no frame
+    if (!effects.empty() && !request.isLook)
         releaseIdle(frame, running);
     mPending.push_back(std::move(pending));
     mNextSlot = (mNextSlot + 1) % framesInFlight();
@@ -351,6 +351,7 @@ Renderer::Tickets Renderer::declareFrame(
 
     explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
     Tickets tickets;
+    tickets.semaphores = context.semaphores;
     for (const auto& [name, image] : intermediates.images())
         if (request.intermediates.contains(name))
             tickets.intermediates[name] = slot.readback.add(graph, name, image);

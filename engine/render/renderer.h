@@ -14,6 +14,7 @@
 #include "engine/render/frame_statistics.h"
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
+#include "engine/render/longest_motion.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 #include "engine/render/second_raster.h"
@@ -40,8 +41,9 @@ struct FrameRequest {
     bool wantDisplay = false; ///< read the display-encoded picture back
     /// An effect shows the display-encoded picture: it is made although it is not read back.
     bool showsDisplay = false;
-    gpu::SubmitSemaphores semaphores{}; ///< of the submission
-    bool wantDump = false;              ///< describe the graph in FrameResult::dump
+    /// It measures something and is no frame of the picture: what frames no longer use stays.
+    bool isLook = false;
+    bool wantDump = false; ///< describe the graph in FrameResult::dump
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };
@@ -116,6 +118,7 @@ class Renderer {
         std::optional<size_t> color;
         std::optional<size_t> display;
         std::map<std::string, size_t> intermediates;
+        gpu::SubmitSemaphores semaphores; ///< of the submission
     };
 
     struct RunningEffect {
@@ -200,7 +203,8 @@ class Renderer {
     extract::FrameExtractor mExtractor;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     uint32_t mNextSlot = 0;
-    std::deque<PendingFrame> mPending; ///< oldest first
+    std::deque<PendingFrame> mPending;           ///< oldest first
+    std::optional<LongestMotion> mLongestMotion; ///< made by the first cap
     IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;

@@ -160,6 +160,7 @@ std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse&
             static_cast<float>(knots[i].height / taken.back()),
             static_cast<float>(taken[i] / taken.back()),
             0.0f};
+    shader::fillFirstKnots(table);
     return table;
 }
 

@@ -120,6 +120,7 @@ class Sequence {
         core::Status able = PictureDrawer::check(device, mOptions.method, size.width, size.height);
         if (!able)
             return able;
+        mDevice = &device;
         mShot = &shot;
         mRenderer.emplace(device, shot.world.assets);
         mBloom.emplace(device, mOptions.shot.bloom);
@@ -155,6 +156,7 @@ class Sequence {
 
     /// Draws and writes what is not complete.
     core::Status draw() {
+        bool hasKeptPipelines = false;
         const uint64_t draws = mOptions.output.repeat > 1 ? mOptions.output.repeat + 1 : 1;
         const size_t count = mOptions.shot.frameTimes.size() - countComplete();
         if (count == 0)
@@ -163,8 +165,11 @@ class Sequence {
             "rendering", count * PictureDrawer::countSteps(mOptions.method) * draws
         );
         for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
-            if (!isComplete(i))
+            if (!isComplete(i)) {
                 SHUTTER_TRY(drawFrame(i, progress));
+                if (count > 1 && !std::exchange(hasKeptPipelines, true))
+                    mDevice->savePipelineCache(); // a long sequence may be stopped at any frame
+            }
         return {};
     }
 
@@ -227,6 +232,7 @@ class Sequence {
     }
 
     const RenderOptions& mOptions;
+    gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
     std::optional<bloom::Bloom> mBloom;

@@ -181,7 +181,6 @@ core::Status PictureDrawer::submitPart(
     if (!part.isShown)
         frame.wantColor = frame.wantDisplay = frame.showsDisplay = false;
     if (!isLast) {
-        frame.semaphores = {};
         frame.shownIntermediates.clear();
         frame.wantDump = false;
     }
@@ -232,7 +231,6 @@ PictureDrawer::submitIntermediates(const scene::World& world, const PictureReque
         return {};
     render::FrameRequest raster = request.frame;
     raster.wantColor = raster.wantDisplay = raster.showsDisplay = raster.wantDump = false;
-    raster.semaphores = {};
     raster.shownIntermediates.clear();
     return submitFrame(world, raster, {}, {request.slot, false, false, true, true});
 }

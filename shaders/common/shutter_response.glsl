@@ -25,23 +25,35 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Re
 };
 #endif
 
+/// The last knot but the end before which at most u of the light is taken: the first of the segment
+/// in which u is reached.
+/// \param first where to begin: a knot that is not behind it
+SHUTTER_INLINE uint findSegment(ResponseRef response, uint first, float u) {
+    while (first + 2u < response.value.knotCount &&
+           response.value.knots[first + 1u].cumulative <= u)
+        ++first;
+    return first;
+}
+
+#ifdef __cplusplus
+/// Inverts the knots once, so that no look-up has to search among them. The knots must be set.
+inline void fillFirstKnots(ResponseTable& table) {
+    for (uint cell = 0u; cell < kResponseCells; ++cell)
+        table.firstKnots[cell] = findSegment({table}, 0u, float(cell) / float(kResponseCells));
+}
+#endif
+
 /// Shutter time before which the share u of the light is taken, [0, 1]; u is clamped to [0, 1].
 ///
 /// Between two knots the density is d + g x at x after the first, so the light since then is
 /// L = d x + g x^2 / 2. Of the quadratic's roots this is the one that rises from 0, in the form that
 /// neither divides by g (0: constant) nor subtracts near-equals: x = 2 L / (d + sqrt(d^2 + 2 g L)).
 SHUTTER_INLINE float inverseResponse(ResponseRef response, float u) {
-    uint first = 0u;
-    uint last = response.value.knotCount - 1u;
-    while (last - first > 1u) {
-        uint middle = (first + last) >> 1u;
-        if (response.value.knots[middle].cumulative <= u)
-            first = middle;
-        else
-            last = middle;
-    }
+    uint cell = min(uint(clamp(u, 0.0f, 1.0f) * float(kResponseCells)), kResponseCells - 1u);
+    uint known = min(response.value.firstKnots[cell], response.value.knotCount - 2u);
+    uint first = findSegment(response, known, u);
     ResponseKnot a = response.value.knots[first];
-    ResponseKnot b = response.value.knots[last];
+    ResponseKnot b = response.value.knots[first + 1u];
     float light = max(u - a.cumulative, 0.0f);
     float slope = (b.density - a.density) / (b.s - a.s);
     float root = sqrt(max(a.density * a.density + 2.0f * slope * light, 0.0f));

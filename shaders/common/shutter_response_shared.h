@@ -8,6 +8,9 @@
 SHUTTER_SHADER_BEGIN
 
 SHUTTER_CONST uint kMaxResponseKnots = 64u;
+/// Equal shares of the light, each of which knows where a look-up begins: twice the knots, so that
+/// one goes past less than half a knot on average, however the knots lie. A power of two.
+SHUTTER_CONST uint kResponseCells = 128u;
 
 struct ResponseKnot {
     float s;          // shutter time, [0, 1], rising from knot to knot
@@ -23,13 +26,16 @@ struct ResponseTable {
     uint padding1;
     uint padding2;
     ResponseKnot knots[kMaxResponseKnots];
+    /// The last knot but the end before which at most cell / kResponseCells of the light is taken
+    /// (fillFirstKnots()). One before it is right as well and costs time: all 0 will do.
+    uint firstKnots[kResponseCells];
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::ResponseKnot) == 16);
-static_assert(sizeof(shutter::shader::ResponseTable) == 1040);
+static_assert(sizeof(shutter::shader::ResponseTable) == 1552);
 #endif
 
 #endif

@@ -3,7 +3,7 @@
 #ifndef SHUTTER_MOTION_BLUR_GATHER_LAYER_GLSL
 #define SHUTTER_MOTION_BLUR_GATHER_LAYER_GLSL
 
-#include "motion_blur/taps.glsl"
+#include "motion_blur/gather_taps.glsl"
 
 struct Gathered {
     vec3 sum;
@@ -26,8 +26,8 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
     float speed = length(motion);
     float offset = mix(0.5f, noise, params.jitter);
     return Target(
-        motionDepth.z, speed, tapPosition(0u, offset, params.sampleCount, params.rasterTime),
-        1.0f / float(params.sampleCount),
+        motionDepth.z, speed, tapPosition(0u, offset, countTaps(), params.rasterTime),
+        1.0f / float(countTaps()),
         vec2(
             smearRatio(1.0f, speed * params.rasterTime),
             smearRatio(1.0f, speed * (1.0f - params.rasterTime))
@@ -39,7 +39,7 @@ Target makeTarget(vec3 motionDepth, vec2 centre) {
 /// Tap `index`, u.
 float placeTap(uint index, Target target) {
     float even = target.firstTap + float(index) * target.perTap; // tapPosition()
-    return warpTapAt(params.response, even, params.rasterTime);
+    return respondToTap(even);
 }
 
 /// \param motionDepth of the tap
@@ -71,7 +71,7 @@ Gathered gatherRaster(vec2 dominant, vec2 centre) {
     result.weight = centreWeight(target.speed);
     result.sum = textureLod(uColor, uv, 0.0f).rgb * result.weight;
     float range = length(dominant);
-    for (uint i = 0u; i < params.sampleCount; ++i) {
+    for (uint i = 0u; i < countTaps(); ++i) {
         float u = placeTap(i, target);
         vec2 at = (centre + dominant * u) * pixelsToUv;
         float weight = weighTap(textureLod(uMotionDepth, at, 0.0f).xyz, u, range, target);

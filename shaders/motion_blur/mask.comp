@@ -8,10 +8,16 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/hybrid_shared.h"
 #include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/mask_bits.glsl"
 #include "motion_blur/ray_share.glsl"
 #define SHUTTER_BLOCK_LIST_BINDING 4
 #define SHUTTER_BLOCK_LIST_ACCESS // the flags are written
 #include "motion_blur/block_list.glsl"
+
+/// 1: a group lists its pixels together, which takes two barriers and a handful of global atomics a
+/// block; 0: each masked pixel lists itself, by a few of its own. Where threads run on a CPU, waiting
+/// for each other costs more than atomics do, on a GPU less.
+layout(constant_id = 1) const uint kListTogether = 0u;
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -91,29 +97,37 @@ bool isMasked(ivec2 pixel) {
            meetsEdge(centre, motion * (params.rasterTime - 1.0f), target.z);
 }
 
+uint countBlocks() {
+    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
+    return blocks.x * blocks.y;
+}
+
+/// Where a block's flag lies behind the list of candidates.
+uint flagOf(uvec2 block) {
+    uint row = (params.sizePx.x + kGroupSize - 1u) / kGroupSize;
+    return countBlocks() + block.y * row + block.x;
+}
+
 void listTile(uvec2 tile) {
     uint tiles = params.tileCount.x * params.tileCount.y;
     if (atomicExchange(uTiles.words[tiles + tile.y * params.tileCount.x + tile.x], 1u) != 0u) return;
     uint index = atomicAdd(uTiles.header.count, 1u);
     uTiles.words[index] = tile.x | tile.y << 16;
-    atomicMax(uTileArguments[0].groupsX, min(index + 1u, kListRow));
+    if (index < kListRow) atomicMax(uTileArguments[0].groupsX, index + 1u);
     if (index % kListRow == 0u) atomicAdd(uTileArguments[0].groupsY, 1u);
     // And a thread a tile, in the same rows.
     uint group = index / kTilesPerGroup;
-    atomicMax(uTileArguments[1].groupsX, min(group + 1u, kListRow));
+    if (group < kListRow) atomicMax(uTileArguments[1].groupsX, group + 1u);
     if (index % (kTilesPerGroup * kListRow) == 0u) atomicAdd(uTileArguments[1].groupsY, 1u);
 }
 
-/// The first masked pixel of a block lists it, and every tile that it lies in: one without masked
-/// pixels is worked out like the others and comes out as the raster's.
+/// Lists a block with masked pixels, and every tile that it lies in: one without masked pixels is
+/// worked out like the others and comes out as the raster's. Once a block.
 void listBlock(uvec2 block) {
-    uvec2 blocks = (params.sizePx + kGroupSize - 1u) / kGroupSize;
-    uint blockCount = blocks.x * blocks.y;
-    uint flag = blockCount + block.y * blocks.x + block.x;
-    if (atomicExchange(uBlocks.entries[flag], 1u) != 0u) return;
+    uint blockCount = countBlocks();
     uint index = atomicAdd(uSorted.header.maskedCount, 1u);
     uSorted.entries[kMaskedList * blockCount + index] = block.x | block.y << 16;
-    atomicMax(uLists[kMaskedList].groupsX, min(index + 1u, kListRow));
+    if (index < kListRow) atomicMax(uLists[kMaskedList].groupsX, index + 1u);
     if (index % kListRow == 0u) atomicAdd(uLists[kMaskedList].groupsY, 1u);
     vec2 first = vec2(block * kGroupSize) + 0.5f;
     vec2 last = min(first + float(kGroupSize - 1u), vec2(params.sizePx) - 0.5f);
@@ -121,6 +135,23 @@ void listBlock(uvec2 block) {
     uvec2 lastTile = uvec2(floor(last / float(params.tileSizePx)));
     for (uint y = firstTile.y; y <= lastTile.y; ++y)
         for (uint x = firstTile.x; x <= lastTile.x; ++x) listTile(uvec2(x, y));
+}
+
+/// Place in the list for `count` pixels, for which the reveal gets groups.
+uint takePlaces(uint count) {
+    uint first = atomicAdd(uMasked.header.listedPixels, count);
+    uint group = (first + count - 1u) / kRevealThreads;
+    // The groups of a full row are as many as they can be: most pixels leave the word alone.
+    if (first / kRevealThreads < kListRow)
+        atomicMax(uReveal.groupsX, min(group + 1u, kListRow));
+    uint perRow = kRevealThreads * kListRow;
+    uint rows = countRows(first + count, perRow) - countRows(first, perRow);
+    if (rows > 0u) atomicAdd(uReveal.groupsY, rows);
+    return first;
+}
+
+void storeEntry(uint index, ivec2 pixel, bool quads) {
+    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16 | (quads ? kQuadFlag : 0u);
 }
 
 /// Whether no pixel of its quad before it is masked. Those are worked out once more, which costs less
@@ -135,25 +166,52 @@ bool leadsQuad(ivec2 pixel) {
 
 /// In a quad the first masked pixel traces for all.
 void listPixel(ivec2 pixel, bool quads) {
+    uvec2 block = uvec2(pixel) / kGroupSize;
+    if (atomicExchange(uBlocks.entries[flagOf(block)], 1u) == 0u) listBlock(block);
     if (quads && !leadsQuad(pixel)) {
         atomicAdd(uMasked.header.sharingPixels, 1u);
         return;
     }
-    uint index = atomicAdd(uMasked.header.listedPixels, 1u);
-    uint flag = quads ? kQuadFlag : 0u;
-    uMasked.pixels[index] = uint(pixel.x) | uint(pixel.y) << 16 | flag;
-    uint group = index / kRevealThreads;
-    atomicMax(uReveal.groupsX, min(group + 1u, kListRow));
-    if (index % (kRevealThreads * kListRow) == 0u) atomicAdd(uReveal.groupsY, 1u);
+    storeEntry(takePlaces(1u), pixel, quads);
+}
+
+shared uint sMasked[2]; // mask_bits.glsl
+shared uint sFirst;     // place of the group's first pixel
+
+/// For all threads of a group, masked or not; they come here together.
+void listTogether(ivec2 pixel, bool masked, bool quads) {
+    uint thread = gl_LocalInvocationIndex;
+    if (thread < 2u) sMasked[thread] = 0u;
+    barrier();
+    if (masked) atomicOr(sMasked[thread / 32u], 1u << (thread % 32u));
+    barrier();
+    uvec2 maskedBits = uvec2(sMasked[0], sMasked[1]);
+    uint maskedCount = countBits(maskedBits);
+    if (maskedCount == 0u) return;
+    uvec2 listed = listedBits(maskedBits, quads);
+    uint listedCount = countBits(listed);
+    if (thread == 0u) {
+        uvec2 block = uvec2(pixel) / kGroupSize;
+        uBlocks.entries[flagOf(block)] = 1u;
+        listBlock(block);
+        sFirst = takePlaces(listedCount);
+        if (maskedCount > listedCount)
+            atomicAdd(uMasked.header.sharingPixels, maskedCount - listedCount);
+    }
+    barrier();
+    if (hasBit(listed, thread)) storeEntry(sFirst + countBitsBefore(listed, thread), pixel, quads);
 }
 
 void main() {
     ivec2 pixel;
-    if (!findPixel(params.sizePx, pixel)) return;
-    uvec2 block = uvec2(pixel) / kGroupSize;
-    uint tracing = chooseTracing(vec2(block), method.rayShare);
-    if (tracing == kTraceNothing || !isMasked(pixel)) return;
-    imageStore(uMask, pixel, vec4(1.0f));
-    listBlock(block);
-    listPixel(pixel, tracing == kTraceQuads);
+    bool isInside = findPixel(params.sizePx, pixel);
+    if (kListTogether == 0u && !isInside) return;
+    uint tracing = chooseTracing(vec2(uvec2(pixel) / kGroupSize), method.rayShare);
+    bool quads = tracing == kTraceQuads;
+    bool masked = isInside && tracing != kTraceNothing && isMasked(pixel);
+    if (masked) imageStore(uMask, pixel, vec4(1.0f));
+    if (kListTogether != 0u)
+        listTogether(pixel, masked, quads);
+    else if (masked)
+        listPixel(pixel, quads);
 }

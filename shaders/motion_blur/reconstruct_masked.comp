@@ -35,7 +35,7 @@ Gathered gatherRevealed(vec2 dominant, vec2 centre) {
     result.sum = textureLod(uRevealColor, uv, 0.0f).rgb * result.weight;
     float range = length(dominant);
     if (range < kStillPx) return result;
-    for (uint i = 0u; i < params.sampleCount; ++i) {
+    for (uint i = 0u; i < countTaps(); ++i) {
         float u = placeTap(i, target);
         vec2 at = (centre + dominant * u) * pixelsToUv;
         vec3 motionDepth;

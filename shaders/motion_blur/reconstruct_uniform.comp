@@ -9,7 +9,6 @@
 #include "motion_blur/motion_blur_shared.h"
 #define SHUTTER_BLOCK_LIST_BINDING 3
 #include "motion_blur/block_list.glsl"
-#include "motion_blur/taps.glsl"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -19,6 +18,8 @@ layout(push_constant, scalar) uniform Push {
 layout(binding = 0) uniform sampler2D uColor;
 layout(binding = 1) uniform sampler2D uDominant;
 layout(binding = 2, rgba16f) uniform writeonly image2D uBlurred;
+
+#include "motion_blur/gather_taps.glsl"
 
 vec2 dominantAt(vec2 centre) {
     vec2 tile = tileUv(centre, params.tileSizePx, params.tileCount);
@@ -31,15 +32,15 @@ vec4 gatherUniform(vec2 at, vec2 dominant) {
     float weight = centreWeight(range);
     vec3 sum = textureLod(uColor, at * pixelsToUv, 0.0f).rgb * weight;
     float offset = mix(0.5f, interleavedGradientNoise(floor(at)), params.jitter);
-    float first = tapPosition(0u, offset, params.sampleCount, params.rasterTime);
-    float perTap = 1.0f / float(params.sampleCount);
+    float first = tapPosition(0u, offset, countTaps(), params.rasterTime);
+    float perTap = 1.0f / float(countTaps());
     // Of the smear's length to the side of u >= 0, and to the other, one u.
     vec2 perReach = vec2(
         smearRatio(range, range * params.rasterTime),
         smearRatio(range, range * (1.0f - params.rasterTime))
     );
-    for (uint i = 0u; i < params.sampleCount; ++i) {
-        float u = warpTapAt(params.response, first + float(i) * perTap, params.rasterTime);
+    for (uint i = 0u; i < countTaps(); ++i) {
+        float u = respondToTap(first + float(i) * perTap);
         float tapWeight = uniformWeight(abs(u) * (u >= 0.0f ? perReach.x : perReach.y));
         sum += textureLod(uColor, (at + dominant * u) * pixelsToUv, 0.0f).rgb * tapWeight;
         weight += tapWeight;

@@ -24,11 +24,13 @@ Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
 }
 
 /// What comes into sight at a masked pixel.
-Revealed traceReveal(ivec2 pixel) {
+/// \param rays that it takes
+Revealed traceReveal(ivec2 pixel, out uint rays) {
     vec2 centre = vec2(pixel) + 0.5f;
     vec2 uv = centre / vec2(params.sizePx);
     Revealed revealed = keepRaster(uv); // also where a limit of one level reveals nothing
     uint frontId = revealed.entityId;
+    rays = 0u;
     if (frontId == kNoEntity) return revealed; // nothing hides the sky
 
     FrameRef frame = FrameRef(method.frame);
@@ -48,7 +50,6 @@ Revealed traceReveal(ivec2 pixel) {
     bool byLuminance = (method.flags & kFlagLuminanceTest) != 0u;
     uint limit = single ? 2u : method.recursionLimit;
     uint leftId = passedMask != 0u ? kNoEntity : frontId;
-    uint rays = 0u;
     for (uint level = 1u; level < limit; ++level) {
         // A new origin rather than a longer tMin: builders' boxes in front of it are then skipped.
         float start = max(t - error, 0.0f);
@@ -73,7 +74,6 @@ Revealed traceReveal(ivec2 pixel) {
             other = abs(luminance(revealed.color) - frontLuminance) > method.luminanceThreshold;
         if (other) break;
     }
-    atomicAdd(header.raysTraced, rays);
     // The raster's colour has the blended surfaces in it, the revealed one has to as well.
     if (kBlended != 0u && rays > 0u)
         revealed.color = seenThroughBlended(
@@ -86,7 +86,10 @@ Revealed traceReveal(ivec2 pixel) {
 void revealPixel(uint index) {
     if (index >= header.listedPixels) return;
     uint entry = pixels[index];
-    storeRevealed(entry, traceReveal(pixelOf(entry)));
+    uint rays;
+    Revealed revealed = traceReveal(pixelOf(entry), rays);
+    if (rays != 1u) atomicAdd(header.raysBeyondOne, rays - 1u);
+    storeRevealed(entry, revealed);
 }
 
 #endif

@@ -5,6 +5,7 @@ import os
 import select
 import signal
 import subprocess
+import time
 import unittest
 
 from fault_case import EXECUTABLE, FaultCase
@@ -17,6 +18,14 @@ case "$1" in
 *) echo $$ > started; exec sleep 1000;;
 esac
 """
+
+
+def wait_until(condition, seconds):
+    """Whether it came true."""
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.05)
+    return condition()
 
 
 def wait_for(descriptor, seconds):
@@ -68,6 +77,21 @@ class ChildProcess(FaultCase):
 
     def test_when_the_program_is_interrupted(self):
         self.expect_end_with(signal.SIGINT)
+
+    def test_a_sequence_that_is_killed_leaves_its_pipelines(self):
+        caches = self.folder / "caches"
+        sequence = self.render("--frames", "0:999", "--out", "frame_%04d.png", method="gather")
+        process = subprocess.Popen(
+            [EXECUTABLE, *sequence], cwd=self.folder, stdout=subprocess.DEVNULL,
+            env=self.environment({"XDG_CACHE_HOME": str(caches)}), stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        second = self.folder / "frame_0001.png"
+        self.assertTrue(wait_until(second.exists, 200), "it draws nothing")
+        process.kill()
+        process.wait()
+        self.assertFalse((self.folder / "frame_0999.png").exists(), "it came to its end")
+        self.assertEqual(len(list(caches.glob("shutter/pipelines-*.bin"))), 1)
 
 
 if __name__ == "__main__":

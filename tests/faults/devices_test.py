@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Devices that can do less, none at all, and no Vulkan."""
 
+import glob
+import json
+import os
+import pathlib
 import unittest
 
-from fault_case import ASSETS, FaultCase
+from fault_case import ASSETS, DEVICE, FaultCase
 
 QUERY = "VK_KHR_ray_query"
 PIPELINE = "VK_KHR_ray_tracing_pipeline"
@@ -83,6 +87,29 @@ class Devices(FaultCase):
                 result = self.run_shutter(command, nowhere)
                 self.expect_sentence(result, "mesa-vulkan-drivers")
                 self.assertEqual(self.list_files(), set())
+
+    def test_a_driver_that_brings_vulkan_to_another_interface_is_used(self):
+        # What MoltenVK's manifest says of itself, said of the software device: loaders hide it from
+        # programs that do not ask for such drivers.
+        manifests = [pathlib.Path(file) for file in self.find_manifests()]
+        if not manifests:
+            self.skipTest("no manifest of lavapipe was found")
+        manifest = json.loads(manifests[0].read_text(encoding="utf-8"))
+        manifest["ICD"]["is_portability_driver"] = True
+        portable = self.folder / "portable.json"
+        portable.write_text(json.dumps(manifest), encoding="utf-8")
+        drivers = {"VK_DRIVER_FILES": str(portable), "VK_ICD_FILENAMES": str(portable)}
+        listed = self.run_shutter(["info", "--devices"], drivers)
+        self.assertIn(DEVICE, listed.stdout, listed.stderr)
+        self.expect_done(self.run_shutter(
+            self.render("--out", "a.png", "--validate", method="gather"), drivers))
+
+    @staticmethod
+    def find_manifests():
+        named = os.environ.get("VK_DRIVER_FILES") or os.environ.get("VK_ICD_FILENAMES")
+        if named:
+            return [file for file in named.split(":") if "lvp" in file]
+        return sorted(glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json"))
 
     def test_without_a_loader_the_linker_names_it(self):
         # A library that is none stands for one that is missing, which needs no change of the system.

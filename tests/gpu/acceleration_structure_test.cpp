@@ -110,6 +110,35 @@ TEST_F(AccelerationStructure, ThousandsOfMeshesShareABufferAndASubmission) {
     EXPECT_EQ(device().living(), before);
 }
 
+TEST_F(AccelerationStructure, CompactionLeavesTheSmallerCopiesAlone) {
+    std::vector<vec3> positions;
+    for (int i = 0; i < 3000; ++i)
+        positions.emplace_back(float(i % 71), float(i % 37), float(i % 3));
+    const Triangles many = makeTriangles(device(), positions);
+    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(50, {many.geometry});
+    device().collectIdle();
+    const gpu::LivingObjects before = device().living();
+    uint64_t bytes[2] = {};
+    for (const auto compaction : {gpu::Compaction::None, gpu::Compaction::Done}) {
+        const bool compacts = compaction == gpu::Compaction::Done;
+        const uint64_t submitted = device().completedValue();
+        const auto structures = gpu::buildBlas(device(), meshes, compaction);
+        EXPECT_EQ(device().completedValue(), submitted + (compacts ? 2 : 1));
+        device().collectIdle();
+        EXPECT_EQ(device().living().accelerationStructures, before.accelerationStructures + 50);
+        EXPECT_EQ(device().living().buffers, before.buffers + 1);
+        bytes[compacts] = device().living().memoryBytes - before.memoryBytes;
+        gpu::Tlas top;
+        build(
+            device(), top, std::vector{makeInstance(structures[0]), makeInstance(structures[49])}
+        );
+        EXPECT_TRUE(top.structure());
+    }
+    EXPECT_LE(bytes[1], bytes[0]);
+    device().collectIdle();
+    EXPECT_EQ(device().living(), before);
+}
+
 TEST_F(AccelerationStructure, ABufferLivesAsLongAsOneOfItsStructures) {
     const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
     const std::vector<std::vector<gpu::TriangleGeometry>> meshes(3, {one.geometry});

@@ -57,6 +57,38 @@ TEST_F(AdoptedDevice, ItEndsWithWhatItHoldsAndWithoutTheHostsDevice) {
     EXPECT_NE(alive.handle(), VK_NULL_HANDLE);
 }
 
+TEST_F(AdoptedDevice, PipelinesAreKeptInTheHostsCache) {
+    VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    VkPipelineCache cache = VK_NULL_HANDLE;
+    gpu::require(vkCreatePipelineCache(device().handle(), &info, nullptr, &cache), "a cache");
+    {
+        const auto host = gpu::Device::adopt(
+            {.physical = device().physical(), .device = device().handle(), .pipelineCache = cache}
+        );
+        ASSERT_TRUE(host) << host.error().message;
+        EXPECT_EQ(host.value()->pipelineCache(), cache);
+    }
+    size_t bytes = 0;
+    EXPECT_EQ(vkGetPipelineCacheData(device().handle(), cache, &bytes, nullptr), VK_SUCCESS)
+        << "it is still the host's";
+    vkDestroyPipelineCache(device().handle(), cache, nullptr);
+    EXPECT_NE(adopt()->pipelineCache(), VkPipelineCache(VK_NULL_HANDLE)) << "or one of its own";
+}
+
+TEST_F(AdoptedDevice, LaunchesFromMemoryAreTheHostsToAllow) {
+    if (!device().info().hasRayPipeline)
+        GTEST_SKIP() << device().info().name << " has no ray-tracing pipelines";
+    for (const bool allowed : {false, true}) {
+        const auto host = gpu::Device::adopt(
+            {.physical = device().physical(),
+             .device = device().handle(),
+             .tracesIndirect = allowed}
+        );
+        ASSERT_TRUE(host) << host.error().message;
+        EXPECT_EQ(host.value()->info().tracesIndirect, allowed);
+    }
+}
+
 TEST_F(AdoptedDevice, AnAdoptedImageKeepsTheHostsImage) {
     gpu::ImageDesc desc{8, 8, VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT};
     gpu::Image image(device(), "the host's", desc);

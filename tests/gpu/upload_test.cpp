@@ -5,7 +5,10 @@
 #include "tests/support/gpu_fixture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -138,6 +141,67 @@ TEST_F(Upload, OddSizesKeepAConstantColour) {
     ASSERT_EQ(image.desc().mipLevels, 3u);
     for (uint32_t level = 0; level < 3; ++level)
         EXPECT_EQ(readLevel(device(), image, level)[1], 100) << level;
+}
+
+TEST_F(Upload, ManyTexturesShareASubmission) {
+    constexpr uint32_t kCount = 40;
+    std::deque<gpu::Image> images;
+    std::vector<Texels> texels;
+    std::vector<gpu::TextureUpload> uploads;
+    for (uint32_t i = 0; i < kCount; ++i) {
+        gpu::ImageDesc desc;
+        desc.width = 3 + i;
+        desc.height = 1 + i / 2;
+        desc.format = VK_FORMAT_R8G8B8A8_UNORM;
+        desc.mipLevels = gpu::countMipLevels(desc.width, desc.height);
+        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        images.emplace_back(device(), "texture", desc);
+        texels.push_back(makePattern(desc.width, desc.height));
+    }
+    for (uint32_t i = 0; i < kCount; ++i)
+        uploads.push_back({&images[i], std::as_bytes(std::span(texels[i]))});
+    const uint64_t before = device().completedValue();
+    gpu::uploadTextures(device(), uploads);
+    EXPECT_EQ(device().completedValue(), before + 1);
+    for (uint32_t i = 0; i < kCount; ++i) {
+        EXPECT_EQ(readLevel(device(), images[i], 0), texels[i]) << i;
+        const gpu::Image alone = makeTexture(
+            device(),
+            images[i].desc().width,
+            images[i].desc().height,
+            VK_FORMAT_R8G8B8A8_UNORM,
+            texels[i]
+        );
+        EXPECT_EQ(readLevel(device(), images[i], 1), readLevel(device(), alone, 1)) << i;
+    }
+    gpu::uploadTextures(device(), {});
+}
+
+TEST_F(Upload, WhatTheStagingBufferDoesNotHoldGoesInParts) {
+    // 3000 x 3000 texels are 36 MB: more than is staged at once, and the small ones lie around
+    // them.
+    const std::array<std::pair<uint32_t, uint32_t>, 3> sizes{{{5, 7}, {3000, 3000}, {9, 2}}};
+    std::deque<gpu::Image> images;
+    std::vector<Texels> texels;
+    std::vector<gpu::TextureUpload> uploads;
+    for (const auto& [width, height] : sizes) {
+        gpu::ImageDesc desc;
+        desc.width = width;
+        desc.height = height;
+        desc.format = VK_FORMAT_R8G8B8A8_UNORM;
+        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        images.emplace_back(device(), "texture", desc);
+        texels.push_back(makePattern(width, height));
+    }
+    for (size_t i = 0; i < sizes.size(); ++i)
+        uploads.push_back({&images[i], std::as_bytes(std::span(texels[i]))});
+    const uint64_t before = device().completedValue();
+    gpu::uploadTextures(device(), uploads);
+    EXPECT_EQ(device().completedValue(), before + 2);
+    for (size_t i = 0; i < sizes.size(); ++i)
+        EXPECT_EQ(readLevel(device(), images[i], 0), texels[i]) << i;
 }
 
 TEST_F(Upload, ABufferIsFilledFromItsOffsetOn) {

@@ -42,6 +42,35 @@ TEST(Alias, AnOutputIsNotOverwrittenAfterItsLastUse) {
     EXPECT_EQ(plan.blockBytes, 3 * kBytes);
 }
 
+TEST(Alias, WhatNobodyReadsAfterItsLastPassIsWantedNoMore) {
+    Graph graph;
+    ImageHandle depth;
+    ImageHandle color;
+    addPass(graph, "draw", PassKind::Raster, [&](PassBuilder& builder) {
+        color = builder.colorTarget(makeImage(graph, "color"), std::nullopt);
+        depth = builder.depthTarget(makeImage(graph, "depth", 16, VK_FORMAT_D32_SFLOAT), 0.0f);
+    });
+    addPass(graph, "draw more", PassKind::Raster, [&](PassBuilder& builder) {
+        color = builder.colorTarget(color, std::nullopt);
+        depth = builder.depthTarget(depth, std::nullopt);
+    });
+    graph.markOutput(color);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.passes.size(), 2u);
+    EXPECT_TRUE(isWantedAfter(graph, plan, depth.resource, 0));
+    EXPECT_FALSE(isWantedAfter(graph, plan, depth.resource, 1));
+    EXPECT_TRUE(isWantedAfter(graph, plan, color.resource, 1)) << "an output";
+}
+
+TEST(Alias, WhatIsImportedStaysWanted) {
+    Graph graph;
+    const gpu::Image target;
+    ImageHandle image =
+        graph.importImage("target", target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    image = draw(graph, "draw", image, true);
+    EXPECT_TRUE(isWantedAfter(graph, mustCompile(graph), image.resource, 0));
+}
+
 TEST(Alias, ASmallImageFitsIntoTheHoleOfALargeOne) {
     Graph graph;
     const ImageHandle large = store(graph, "1", makeImage(graph, "large", 64));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Each hazard in the smallest frame that has it.
+#include "tests/graph/hazard_simulator.h"
 #include "tests/graph/story.h"
 
 namespace shutter::graph {
@@ -62,6 +63,77 @@ void readBuffer(Graph& graph, BufferHandle buffer, Access access, PassKind kind)
         if (kind == PassKind::Raster)
             (void)builder.colorTarget(makeImage(graph, "target"), std::nullopt);
     });
+}
+
+/// Three passes that store to one image, as `access` says, and one that samples it.
+void storeThrice(Graph& graph, Access access) {
+    ImageHandle image = makeImage(graph, "target");
+    for (const char* name : {"first", "second", "third"})
+        addPass(graph, name, PassKind::Compute, [&](PassBuilder& builder) {
+            image = builder.write(image, access);
+        });
+    addPass(graph, "read", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(image, Access::SampledCompute);
+        builder.sideEffect();
+    });
+}
+
+TEST(Barriers, PassesThatWriteDisjointPartsHaveNoneBetweenThem) {
+    Graph graph;
+    storeThrice(graph, Access::StorageWriteDisjoint);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.passes.size(), 4u);
+    expectLayouts(onlyBarrier(plan, 0), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_TRUE(plan.passes[1].imageBarriers.empty());
+    EXPECT_TRUE(plan.passes[2].imageBarriers.empty());
+    expectHalves(
+        onlyBarrier(plan, 3), {kComputeStage, kStorageWrite}, {kComputeStage, kSampledRead}
+    );
+    EXPECT_TRUE(findHazards(graph, plan).empty());
+}
+
+TEST(Barriers, OtherPassesThatWriteHaveOneBetweenThem) {
+    Graph graph;
+    storeThrice(graph, Access::StorageWrite);
+    const Plan plan = mustCompile(graph);
+    expectHalves(
+        onlyBarrier(plan, 1),
+        {kComputeStage, kStorageWrite},
+        {kComputeStage, kStorageRead | kStorageWrite}
+    );
+    (void)onlyBarrier(plan, 2);
+}
+
+TEST(Barriers, WhereTheyAreToBeOrderedDisjointWritesAreWritesLikeOthers) {
+    Graph graph;
+    storeThrice(graph, Access::StorageWriteDisjoint);
+    const auto plan = compile(graph, requireMemory, DisjointWrites::Ordered);
+    ASSERT_TRUE(plan);
+    (void)onlyBarrier(plan.value(), 1);
+    (void)onlyBarrier(plan.value(), 2);
+}
+
+TEST(Barriers, ADisjointWriteWaitsForWhoReadTheVersionBefore) {
+    Graph graph;
+    ImageHandle image = makeImage(graph, "target");
+    const auto store = [&](const char* name) {
+        addPass(graph, name, PassKind::Compute, [&](PassBuilder& builder) {
+            image = builder.write(image, Access::StorageWriteDisjoint);
+        });
+    };
+    store("first");
+    addPass(graph, "read", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(image, Access::SampledCompute);
+        builder.sideEffect();
+    });
+    store("second");
+    graph.markOutput(image);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.passes.size(), 3u);
+    expectLayouts(
+        onlyBarrier(plan, 2), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL
+    );
+    EXPECT_TRUE(findHazards(graph, plan).empty());
 }
 
 TEST(Barriers, ALaunchOfRaysTouchesResourcesInItsOwnStage) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -40,6 +41,12 @@ Touch touchOf(Access access, PassKind kind) {
     case Access::StorageRead:
         return {compute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, 0, VK_IMAGE_LAYOUT_GENERAL};
     case Access::StorageWrite:
+        return {
+            compute,
+            VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+            VK_IMAGE_LAYOUT_GENERAL};
+    case Access::StorageWriteDisjoint:
         return {
             compute,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
@@ -105,6 +112,7 @@ struct Event {
     VkAccessFlags2 access = 0;
     VkPipelineStageFlags2 after = 0; ///< stages that now wait for it
     bool available = false;
+    bool isDisjoint = false; ///< a write that leaves alone what others of its kind write
     std::map<VkPipelineStageFlags2, VkAccessFlags2> visible{}; ///< by single stage
 };
 
@@ -118,7 +126,7 @@ struct Barrier {
 };
 
 struct Cell {
-    std::vector<Event> writes; ///< none or one
+    std::vector<Event> writes; ///< none, one, or some that are disjoint
     std::vector<Event> reads;  ///< since the write
     std::pair<uint32_t, uint32_t> contents{UINT32_MAX, 0};
 };
@@ -274,7 +282,10 @@ class Simulator {
         const bool needsContents = use.readVersion != kNoVersion;
         if (needsContents && cell.contents != std::pair(use.resource, use.readVersion))
             report(use.resource, "does not hold the version that is wanted");
+        const bool isDisjoint = use.access == Access::StorageWriteDisjoint;
         for (const Event& write : cell.writes) {
+            if (isDisjoint && write.isDisjoint)
+                continue;
             if (!covers(write.after, touch.stages) || !write.available)
                 report(use.resource, "is used before a write is done");
             else if (needsContents && !sees(write, touch.stages, touch.reads))
@@ -287,7 +298,14 @@ class Simulator {
         for (const Event& read : cell.reads)
             if (!covers(read.after, touch.stages))
                 report(use.resource, "is written before a read is done");
-        cell.writes = {{touch.stages, touch.writes}};
+        const bool joins = isDisjoint && cell.reads.empty() &&
+                           std::all_of(cell.writes.begin(), cell.writes.end(), [](const Event& e) {
+                               return e.isDisjoint;
+                           });
+        if (!joins)
+            cell.writes.clear();
+        Event& event = cell.writes.emplace_back(Event{touch.stages, touch.writes});
+        event.isDisjoint = isDisjoint;
         cell.reads.clear();
         cell.contents = {use.resource, use.writeVersion};
     }

@@ -131,9 +131,10 @@ class Maker {
         if (!claim(image.versions[0].resource))
             return;
         if (chance(45) && (canStore || kind == PassKind::Transfer)) {
-            image.versions.push_back(builder.write(
-                image.versions.back(), canStore ? Access::StorageWrite : Access::TransferWrite
-            ));
+            const Access store = chance(50) ? Access::StorageWriteDisjoint : Access::StorageWrite;
+            image.versions.push_back(
+                builder.write(image.versions.back(), canStore ? store : Access::TransferWrite)
+            );
             return;
         }
         const ImageHandle version = pickVersion(image);

@@ -15,6 +15,8 @@ namespace shutter::game {
 
 namespace {
 
+/// After as many pictures all that the first view needs has been compiled.
+constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
 /// The divider can be grabbed this far beside it.
 constexpr double kGrabPx = 8.0;
@@ -340,19 +342,25 @@ core::Status PlayLoop::drawPicture(double duration) {
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
     if (swapchain) {
-        shown = mScreen.acquire(size, mSettings.vsync, *mRenderer);
-        mTurnsWithoutPicture = shown ? 0 : mTurnsWithoutPicture + 1;
-        if (!shown)
+        const bool fits = mScreen.fit(size, mSettings.vsync, *mRenderer);
+        // A picture that is kept must be one that is shown: those wait for the window first.
+        if (fits && mFiles.wantsPicture())
+            shown = mScreen.acquire();
+        if (!fits || (mFiles.wantsPicture() && !shown)) {
+            ++mTurnsWithoutPicture;
             return {};
+        }
         size = {swapchain->desc().width, swapchain->desc().height};
     }
     chooseExposure(duration);
     mRecorder.addFrame(mStage->world(), mStage->camera(), mExposure.raster);
     PlayPicture picture = makePicture(size);
-    if (shown) {
-        picture.window.image = shown->image;
-        picture.semaphores = shown->semaphores;
-    }
+    if (swapchain)
+        picture.window.acquire = [&] {
+            if (!shown)
+                shown = mScreen.acquire();
+            return shown;
+        };
     if (picture.readBack && swapchain && !swapchain->canBeRead())
         return core::makeError("this display's pictures cannot be read: no film, no screenshots");
     if (mPhoto.isOn())
@@ -360,6 +368,9 @@ core::Status PlayLoop::drawPicture(double duration) {
     SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, settings));
     if (mPhoto.isOn())
         mPhoto.end();
+    mTurnsWithoutPicture = shown || !swapchain ? 0 : mTurnsWithoutPicture + 1;
+    if (swapchain && !shown)
+        return {};
     if (shown)
         mScreen.present(*shown);
     notePicture();
@@ -386,6 +397,8 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
 void PlayLoop::notePicture() {
     mFiles.notePicture();
     mHasDrawn = true;
+    if (mRecord.pictureCount() == kPicturesOfTheStart)
+        mScreen.keepPipelines();
     mRecord.addPicture(std::chrono::duration<double>(Clock::now() - mStart).count());
     mRecord.addAllocations(mTime.seconds, mScreen.device().allocationCount());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))

@@ -97,7 +97,6 @@ core::Status PlayRenderer::draw(
         window.left = mKept.image();
         window.dividerShare = settings.dividerShare;
     }
-    frame.semaphores = picture.semaphores;
     frame.wantDisplay = picture.readBack;
     auto right = makeRequest(PlaySide::Right, frame, settings);
     if (!right)

@@ -25,9 +25,8 @@ enum class PlaySide : uint8_t { Right, Left };
 struct PlayPicture {
     extract::ViewRequest view;
     app::WindowTarget window;
-    gpu::SubmitSemaphores semaphores; ///< of the frame that draws on the window
-    bool readBack = false;            ///< keep the window's picture for takePicture()
-    bool wantReasons = false;         ///< of the work and passes too, for the panel
+    bool readBack = false;    ///< keep the window's picture for takePicture()
+    bool wantReasons = false; ///< of the work and passes too, for the panel
 
     /// Rays that are added to the picture drawn last, whose view it shares.
     struct MoreRays {

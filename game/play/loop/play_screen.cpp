@@ -20,6 +20,7 @@ core::Status PlayScreen::open(const PlayOptions& options, bool vsync) {
     const ShotOptions& shot = options.shot;
     gpu::DeviceOptions wanted = options.device;
     wanted.cacheFolder = findCacheFolder();
+    wanted.pipelinesAhead = gpu::PipelinesAhead::OnGpus;
     mHeadlessSize = {shot.width, shot.height};
     if (options.hasWindow) {
         auto window = app::Window::open({"Shutter", shot.width, shot.height});
@@ -107,6 +108,11 @@ void PlayScreen::toggleFullScreen() {
         mWindow->setFullScreen(!mWindow->isFullScreen());
 }
 
+void PlayScreen::keepPipelines() {
+    mKeeping =
+        std::async(std::launch::async, [device = mDevice.get()] { device->savePipelineCache(); });
+}
+
 void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& renderer) {
     renderer.finishAll();
     if (mSwapchain->state() != gpu::SwapchainState::SurfaceLost) {
@@ -118,15 +124,11 @@ void PlayScreen::remakeSwapchain(const gpu::SwapchainDesc& desc, PlayRenderer& r
         mSwapchain->resize(desc, surface.value());
 }
 
-std::optional<gpu::SwapchainImage>
-PlayScreen::acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
+bool PlayScreen::fit(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer) {
     const gpu::SwapchainDesc wanted{sizePx.x, sizePx.y, vsync};
     if (mSwapchain->wanted() != wanted || mSwapchain->state() != gpu::SwapchainState::Fits)
         remakeSwapchain(wanted, renderer);
-    auto image = mSwapchain->acquire();
-    if (!image) // between two sizes, or out of sight
-        remakeSwapchain(wanted, renderer);
-    return image;
+    return mSwapchain->hasImages();
 }
 
 } // namespace shutter::game

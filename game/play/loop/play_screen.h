@@ -10,6 +10,7 @@
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/play_renderer.h"
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,14 +53,19 @@ class PlayScreen {
     void apply(app::WindowAction action);
     void toggleFullScreen();
 
-    /// The next image of the window, whose size is `sizePx`. Nothing if the window has no area to
-    /// draw on now or changes its size; `renderer` is finished whenever the swapchain is made anew,
-    /// which happens for another size or mode, or when the window system says so.
-    [[nodiscard]] std::optional<gpu::SwapchainImage>
-    acquire(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer);
+    /// Makes the swapchain anew where it does not fit the window, whose size is `sizePx`: for
+    /// another size or mode, or because the window system said so. `renderer` is finished for that.
+    /// \return whether there are images: a window may have no area to draw on now
+    [[nodiscard]] bool fit(const math::uvec2& sizePx, bool vsync, PlayRenderer& renderer);
+
+    /// The next image of the window; nothing if it changes its size: fit() comes before the next.
+    [[nodiscard]] std::optional<gpu::SwapchainImage> acquire() { return mSwapchain->acquire(); }
 
     /// Shows an acquired image that was drawn on.
     void present(const gpu::SwapchainImage& image) { mSwapchain->present(image); }
+
+    /// Writes the pipelines that are made by now to disk, on another thread. Once.
+    void keepPipelines();
 
     /// Null without a window.
     [[nodiscard]] const gpu::Swapchain* swapchain() const { return mSwapchain.get(); }
@@ -71,6 +77,7 @@ class PlayScreen {
     std::unique_ptr<app::Window> mWindow;
     app::InputCollector mInput; ///< a script's, and that of a session without a window
     std::unique_ptr<gpu::Device> mDevice;
+    std::future<void> mKeeping; ///< of keepPipelines(); ends before the device
     std::unique_ptr<gpu::Swapchain> mSwapchain;
     std::unique_ptr<app::Ui> mUi;
     math::uvec2 mHeadlessSize{1u};

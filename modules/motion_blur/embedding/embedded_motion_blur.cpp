@@ -118,8 +118,14 @@ core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(con
     if (!able)
         return able.error();
     try {
-        auto device =
-            gpu::Device::adopt({host.physical, host.device, host.rayTier, host.hasDebugUtils});
+        auto device = gpu::Device::adopt(
+            {.physical = host.physical,
+             .device = host.device,
+             .rayTier = host.rayTier,
+             .tracesIndirect = host.tracesIndirect,
+             .hasDebugUtils = host.hasDebugUtils,
+             .pipelineCache = host.pipelineCache}
+        );
         if (!device)
             return device.error();
         return std::unique_ptr<EmbeddedMotionBlur>(

@@ -32,6 +32,12 @@ struct HostDevice {
     /// HostRays::scene.
     gpu::RayTier rayTier = gpu::RayTier::None;
     VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
+    /// With RayTier::Pipeline: the feature rayTracingPipelineTraceRaysIndirect is enabled. Rays are
+    /// then launched for masked pixels only, without it for every pixel of the picture.
+    bool tracesIndirect = false;
+    /// Where pipelines are looked up and kept, so that a host that saves it starts faster the next
+    /// time; null: in one that goes with the effect. Not made to be synchronized by its users.
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 
 /// An image of the host: 2D, one level, one layer, one sample, owned by the queue family of the

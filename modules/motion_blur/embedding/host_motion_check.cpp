@@ -171,6 +171,18 @@ core::Status checkResponse(const shader::ResponseTable& table) {
                 i
             );
     }
+    for (uint32_t cell = 0; cell < shader::kResponseCells; ++cell) {
+        const uint32_t knot = table.firstKnots[cell];
+        const float light = static_cast<float>(cell) / static_cast<float>(shader::kResponseCells);
+        if (knot + 2 > table.knotCount || table.knots[knot].cumulative > light)
+            return makeError(
+                "motion blur: motion.response->firstKnots[{}] is {}, more light than {} is taken "
+                "before it: fillFirstKnots() sets them",
+                cell,
+                knot,
+                light
+            );
+    }
     return {};
 }
 

@@ -30,9 +30,9 @@ class HybridPasses : public MethodPasses {
         SharedPasses& shared) override;
 
     void count(uint32_t slot, Counters& counters) const override {
-        const shader::MaskHeader header = mReveal.lastHeader(slot);
-        counters["pixels masked"] = header.listedPixels + header.sharingPixels;
-        counters["rays traced"] = header.raysTraced;
+        const RayReveal::Counts counted = mReveal.count(slot);
+        counters["pixels masked"] = counted.maskedPixels;
+        counters["rays traced"] = counted.raysTraced;
     }
 
   private:

@@ -33,11 +33,12 @@ void readAndWrite(
     graph::PassBuilder& builder,
     FilterData& data,
     std::span<const graph::ImageHandle> inputs,
-    graph::ImageHandle target
+    graph::ImageHandle target,
+    Access write
 ) {
     for (const graph::ImageHandle image : inputs)
         data.inputs.push_back(builder.read(image, Access::SampledCompute));
-    data.target = builder.write(target, Access::StorageWrite);
+    data.target = builder.write(target, write);
 }
 
 gpu::BindingList
@@ -68,7 +69,7 @@ graph::ImageHandle ScreenFilter::add(
             mName + suffix,
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, FilterData& data) {
-                readAndWrite(builder, data, inputs, target);
+                readAndWrite(builder, data, inputs, target, Access::StorageWrite);
             },
             [this, params](const FilterData& data, graph::PassContext& context) {
                 const auto bindings = bindImages(data, context.resources, mSampler);
@@ -79,8 +80,13 @@ graph::ImageHandle ScreenFilter::add(
 }
 
 BlockFilter::BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc)
+    : BlockFilter(
+          device, list, desc, desc.hasTapConstants ? chooseTapVariants(device) : TapVariants::None
+      ) {}
+
+BlockFilter::BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc, TapVariants taps)
     : mName(desc.name), mInputCount(desc.inputCount), mList(list),
-      mSampler(device.nearestSampler()), mPipeline(device, describe(desc, list)) {}
+      mSampler(device.nearestSampler()), mPipelines(device, describe(desc, list), taps) {}
 
 graph::ImageHandle BlockFilter::add(
     graph::Graph& graph,
@@ -95,7 +101,7 @@ graph::ImageHandle BlockFilter::add(
             mName,
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, FilterData& data) {
-                readAndWrite(builder, data, inputs, target);
+                readAndWrite(builder, data, inputs, target, Access::StorageWriteDisjoint);
                 data.lists = {
                     builder.read(lists.blocks, Access::StorageRead),
                     builder.read(lists.arguments, Access::IndirectRead)};
@@ -104,7 +110,7 @@ graph::ImageHandle BlockFilter::add(
                 auto bindings = bindImages(data, context.resources, mSampler);
                 bindings.buffer(context.resources.buffer(data.lists.blocks));
                 dispatchList(
-                    context, mPipeline.get(), bindings, params, data.lists.arguments, mList
+                    context, mPipelines.find(params), bindings, params, data.lists.arguments, mList
                 );
             }
         )

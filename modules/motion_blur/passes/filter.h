@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/tap_pipelines.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,6 +23,7 @@ struct FilterDesc {
     std::span<const uint32_t> spirv;
     uint32_t inputCount = 0;
     std::vector<uint32_t> constants{}; ///< specialization constants, behind the list's
+    bool hasTapConstants = false;      ///< then those of gather_taps.glsl
 };
 
 /// Filters the whole picture.
@@ -46,11 +48,15 @@ class ScreenFilter {
 };
 
 /// Filters the blocks of one list; the shader has the lists at the binding behind its output, and
-/// the list's number as specialization constant 0 (block_list.glsl).
+/// the list's number as specialization constant 0 (block_list.glsl). Filters that write one target
+/// after another run at once: no block is in two lists, and who goes over candidates leaves out
+/// those that are masked.
 class BlockFilter {
   public:
     /// \param list shader::kUniformList, ...
     BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc);
+    /// \param taps for filters with tap constants
+    BlockFilter(gpu::Device& device, uint32_t list, FilterDesc desc, TapVariants taps);
 
     /// \param inputs as many as the shader samples (CHECKed)
     /// \return target with the list's blocks written
@@ -66,7 +72,7 @@ class BlockFilter {
     uint32_t mInputCount;
     uint32_t mList;
     VkSampler mSampler;
-    gpu::LazyPipeline mPipeline;
+    TapPipelines mPipelines;
 };
 
 } // namespace shutter::motion_blur

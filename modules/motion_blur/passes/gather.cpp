@@ -9,20 +9,39 @@
 
 namespace shutter::motion_blur {
 
-Gather::Gather(gpu::Device& device)
+namespace {
+
+/// \param own constant 1, which not every gather has
+FilterDesc
+describe(const char* name, std::span<const uint32_t> spirv, uint32_t inputCount, uint32_t own = 0) {
+    return {name, spirv, inputCount, {own}, true};
+}
+
+} // namespace
+
+Gather::Gather(gpu::Device& device) : Gather(device, chooseTapVariants(device)) {}
+
+Gather::Gather(gpu::Device& device, TapVariants taps)
     : mUniform(
-          device, shader::kUniformList, {"gather uniform", motion_blur_reconstruct_uniform_comp, 2}
+          device,
+          shader::kUniformList,
+          describe("gather uniform", motion_blur_reconstruct_uniform_comp, 2),
+          taps
       ),
-      mOneLayer(device, shader::kMixedList, {"gather", motion_blur_reconstruct_comp, 3, {0}}),
+      mOneLayer(
+          device, shader::kMixedList, describe("gather", motion_blur_reconstruct_comp, 3, 0), taps
+      ),
       mOneLayerOfCandidates(
           device,
           shader::kCandidateList,
-          {"gather without mask", motion_blur_reconstruct_comp, 3, {1}}
+          describe("gather without mask", motion_blur_reconstruct_comp, 3, 1),
+          taps
       ),
       mTwoLayers(
           device,
           shader::kMaskedList,
-          {"gather and composite", motion_blur_reconstruct_masked_comp, 7}
+          describe("gather and composite", motion_blur_reconstruct_masked_comp, 7),
+          taps
       ) {}
 
 graph::ImageHandle Gather::add(

@@ -31,6 +31,7 @@ struct GatherInputs {
 class Gather {
   public:
     explicit Gather(gpu::Device& device);
+    Gather(gpu::Device& device, TapVariants taps);
 
     /// \return target with all listed blocks written
     [[nodiscard]] graph::ImageHandle

@@ -31,7 +31,7 @@ gpu::ComputePipelineDesc describeEdgeView(bool everywhere) {
     return desc;
 }
 
-gpu::ComputePipelineDesc describeMask() {
+gpu::ComputePipelineDesc describeMask(MaskListing listing) {
     gpu::ComputePipelineDesc desc = describePass(
         "ray mask",
         motion_blur_mask_comp,
@@ -48,7 +48,7 @@ gpu::ComputePipelineDesc describeMask() {
          kBuffer,
          kSampled}
     );
-    desc.specialization = {shader::kCandidateList};
+    desc.specialization = {shader::kCandidateList, listing == MaskListing::BlockByBlock ? 1u : 0u};
     return desc;
 }
 
@@ -125,9 +125,12 @@ Cleared addClear(graph::Graph& graph, const PassParams& params) {
 } // namespace
 
 RayMask::RayMask(gpu::Device& device)
+    : RayMask(device, isSoftware(device) ? MaskListing::PixelByPixel : MaskListing::BlockByBlock) {}
+
+RayMask::RayMask(gpu::Device& device, MaskListing listing)
     : mSampler(device.nearestSampler()), mEdge(device, describeEdge()),
       mEdgeView(device, describeEdgeView(false)),
-      mEdgeViewEverywhere(device, describeEdgeView(true)), mMask(device, describeMask()) {}
+      mEdgeViewEverywhere(device, describeEdgeView(true)), mMask(device, describeMask(listing)) {}
 
 graph::ImageHandle RayMask::addEdgeView(
     graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params

@@ -8,6 +8,8 @@
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
 
+#include <cstdint>
+
 namespace shutter::motion_blur {
 
 struct RayMaskInputs {
@@ -28,9 +30,14 @@ struct RayMaskOutputs {
     graph::BufferHandle tileArguments; ///< DispatchArguments: a group a tile, 64 tiles a group
 };
 
+/// How masked pixels come into their list: one by one, or all of a block at once, which takes fewer
+/// atomics and two barriers. The lists hold the same.
+enum class MaskListing : uint8_t { PixelByPixel, BlockByBlock };
+
 class RayMask {
   public:
-    explicit RayMask(gpu::Device& device);
+    explicit RayMask(gpu::Device& device); ///< the listing that is faster on the device
+    RayMask(gpu::Device& device, MaskListing listing);
     RayMaskOutputs
     add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
 

@@ -62,30 +62,29 @@ gpu::RayPipelineDesc describeTracer(VkDescriptorSetLayout sceneLayout, bool hasB
 } // namespace
 
 RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-    : mDevice(device), mSceneLayout(sceneLayout), mSampler(device.nearestSampler()),
+    : mDevice(device), mSampler(device.nearestSampler()), mSky(device, describeSky()),
       mHeaders(
           device,
           "ray mask counters",
           gpu::kMaxFramesInFlight * sizeof(shader::MaskHeader),
           0,
           gpu::MemoryUse::Readback
-      ) {}
+      ) {
+    for (const bool hasBlended : {false, true})
+        if (device.hasRayQuery())
+            mPipelines.emplace_back(device, describeReveal(sceneLayout, hasBlended));
+        else
+            mPipelines.emplace_back(device, describeTracer(sceneLayout, hasBlended));
+}
 
 const gpu::Pipeline& RayReveal::findPipeline(const graph::RayScene& rays) {
-    if (rays.tlas == VK_NULL_HANDLE) {
-        if (!mSky)
-            mSky.emplace(mDevice, describeSky());
-        return *mSky;
-    }
-    if (mDevice.hasRayQuery()) {
-        auto& query = mQueries[rays.hasBlended];
-        if (!query)
-            query.emplace(mDevice, describeReveal(mSceneLayout, rays.hasBlended));
-        return *query;
-    }
+    if (rays.tlas == VK_NULL_HANDLE)
+        return mSky.get();
+    if (mDevice.hasRayQuery())
+        return mPipelines[rays.hasBlended].get();
     auto& tracer = mTracers[rays.hasBlended];
     if (!tracer)
-        tracer.emplace(mDevice, describeTracer(mSceneLayout, rays.hasBlended));
+        tracer.emplace(mDevice, mPipelines[rays.hasBlended].take());
     return tracer->pipeline();
 }
 
@@ -224,6 +223,7 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
     };
 
     SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
+    mTraces.at(inputs.slot) = !skyOnly;
     const VkDeviceSize headerAt = inputs.slot * sizeof(shader::MaskHeader);
     const auto header =
         graph.importBuffer("ray mask counters", mHeaders.handle(), mHeaders.bytes());
@@ -249,8 +249,11 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
     return revealed.out;
 }
 
-shader::MaskHeader RayReveal::lastHeader(uint32_t slot) const {
-    return static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
+RayReveal::Counts RayReveal::count(uint32_t slot) const {
+    const auto& header = static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
+    return {
+        header.listedPixels + header.sharingPixels,
+        mTraces.at(slot) ? header.listedPixels + header.raysBeyondOne : 0};
 }
 
 } // namespace shutter::motion_blur

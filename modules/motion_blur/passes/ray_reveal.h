@@ -2,6 +2,7 @@
 // The background behind masked pixels (Tan et al., "Recursive Ray Tracing").
 #pragma once
 
+#include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/ray_pipeline.h"
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -39,8 +41,13 @@ class RayReveal {
     RayRevealOutputs
     add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params);
 
+    struct Counts {
+        uint32_t maskedPixels = 0;
+        uint32_t raysTraced = 0;
+    };
+
     /// What the slot's last frame counted; valid once the GPU is done with it.
-    [[nodiscard]] shader::MaskHeader lastHeader(uint32_t slot) const;
+    [[nodiscard]] Counts count(uint32_t slot) const;
 
   private:
     /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
@@ -55,12 +62,14 @@ class RayReveal {
     ) const;
 
     gpu::Device& mDevice;
-    VkDescriptorSetLayout mSceneLayout;
     VkSampler mSampler;
-    std::optional<gpu::Pipeline> mSky;                       ///< for frames without rays
-    std::array<std::optional<gpu::Pipeline>, 2> mQueries;    ///< without and with blended surfaces
-    std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same
+    gpu::LazyPipeline mSky; ///< for frames without rays
+    /// Without and with blended surfaces: both, as the first blended surface may come into sight in
+    /// any frame.
+    std::vector<gpu::LazyPipeline> mPipelines;
+    std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same where rays need them
     gpu::Buffer mHeaders;                                    ///< by slot
+    std::array<bool, gpu::kMaxFramesInFlight> mTraces{};     ///< by slot: not by mSky
 };
 
 } // namespace shutter::motion_blur

@@ -78,5 +78,42 @@ TEST(DeviceChoice, AskedForByNameItIsRefusedWithTheReason) {
     );
 }
 
+Strings listNames(const DeviceInfo& device, bool presents, Bounds bounds) {
+    const auto names = listDeviceExtensions(device, presents, bounds);
+    return {names.begin(), names.end()};
+}
+
+TEST(DeviceExtensions, ADeviceOverAnotherInterfaceIsMadeWithThePortabilitySubset) {
+    DeviceInfo mac = makeInfo("Apple M2", "integrated", "");
+    mac.isPortable = true;
+    EXPECT_EQ(
+        listNames(mac, true, Bounds::Trusted),
+        (Strings{"VK_KHR_swapchain", "VK_KHR_portability_subset"})
+    );
+    EXPECT_EQ(listNames(mac, false, Bounds::Trusted), Strings{"VK_KHR_portability_subset"});
+    mac.isPortable = false;
+    EXPECT_EQ(listNames(mac, false, Bounds::Trusted), Strings{});
+}
+
+TEST(DeviceExtensions, RaysBringTheOnesOfTheirTier) {
+    DeviceInfo card = makeInfo("card", "discrete", "");
+    card.rayTier = RayTier::Pipeline;
+    EXPECT_EQ(
+        listNames(card, false, Bounds::Trusted),
+        (Strings{
+            "VK_KHR_acceleration_structure",
+            "VK_KHR_deferred_host_operations",
+            "VK_KHR_ray_tracing_pipeline"})
+    );
+}
+
+TEST(DeviceExtensions, BoundsAreCheckedByTheBetterRulesWhereTheDeviceHasThem) {
+    DeviceInfo card = makeInfo("card", "discrete", "");
+    EXPECT_EQ(listNames(card, false, Bounds::Checked), Strings{});
+    card.hasRobustness2 = true;
+    EXPECT_EQ(listNames(card, false, Bounds::Checked), Strings{"VK_EXT_robustness2"});
+    EXPECT_EQ(listNames(card, false, Bounds::Trusted), Strings{});
+}
+
 } // namespace
 } // namespace shutter::gpu

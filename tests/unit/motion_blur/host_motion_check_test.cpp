@@ -152,6 +152,8 @@ TEST_F(HostMotionCheck, ABadResponseIsNamed) {
     refuseTable([&] { response.knots[1].s = 0.5f; }, "motion.response->knots[1]");
     refuseTable([&] { response.knots[1].density = float(kNan); }, "motion.response->knots[1]");
     refuseTable([&] { response.knots[1].cumulative = 2.0f; }, "motion.response->knots[1]");
+    refuseTable([&] { response.firstKnots[0] = 1; }, "motion.response->firstKnots[0] is 1");
+    refuseTable([&] { response.firstKnots[9] = 64; }, "motion.response->firstKnots[9] is 64");
 }
 
 } // namespace

@@ -18,6 +18,7 @@ ResponseTable risingResponse() {
     table.knotCount = 2;
     table.knots[0] = {0.0f, 0.0f, 0.0f, 0.0f};
     table.knots[1] = {1.0f, 2.0f, 1.0f, 0.0f};
+    fillFirstKnots(table);
     return table;
 }
 

@@ -200,6 +200,45 @@ TEST(Response, DarkStretchesAreSkipped) {
     EXPECT_NEAR(invertResponse(response, 0.0), 0.4, 1e-6) << "no light is taken at 0";
 }
 
+TEST(Response, LookUpsBeginAtTheLastKnotThatIsNotTooLate) {
+    std::vector<double> most(shader::kMaxResponseKnots);
+    for (size_t i = 0; i < most.size(); ++i)
+        most[i] = double((i * 7) % 5);
+    for (const ShutterResponse& response :
+         {triangle(), trapezoid(0.25, 0.5), sampled({0, 0, 0, 1, 0, 0, 5, 5, 0}), sampled(most)}) {
+        const auto table = computeResponseTable(response);
+        for (uint32_t cell = 0; cell < shader::kResponseCells; ++cell) {
+            const double light = double(cell) / shader::kResponseCells;
+            const uint32_t first = table->firstKnots[cell];
+            EXPECT_LE(double(table->knots[first].cumulative), light);
+            if (first + 2 < table->knotCount) {
+                EXPECT_GT(double(table->knots[first + 1].cumulative), light) << cell;
+            }
+        }
+    }
+}
+
+TEST(Response, LookUpsTrustTheKnotTheyBeginAt) {
+    auto table = computeResponseTable(sampled({1.0, 1.0, 2.0, 1.0, 1.0}));
+    const float u = 0.01f;
+    const float found = shader::inverseResponse({*table}, u);
+    table->firstKnots[uint32_t(u * float(shader::kResponseCells))] = 2;
+    EXPECT_NE(shader::inverseResponse({*table}, u), found) << "they search from elsewhere";
+}
+
+TEST(Response, FirstKnotsOfZeroAreRightAsWell) {
+    std::vector<double> most(shader::kMaxResponseKnots);
+    for (size_t i = 0; i < most.size(); ++i)
+        most[i] = double((i * 11) % 7);
+    const auto filled = computeResponseTable(sampled(most));
+    auto zero = filled;
+    std::fill(std::begin(zero->firstKnots), std::end(zero->firstKnots), 0u);
+    for (int i = -5; i <= 1005; ++i) {
+        const float u = float(i) / 1000.0f;
+        EXPECT_EQ(shader::inverseResponse({*zero}, u), shader::inverseResponse({*filled}, u)) << u;
+    }
+}
+
 TEST(Response, OnlyTheShapeCounts) {
     for (const double height : {1e-300, 1.0, 1e300})
         EXPECT_NEAR(

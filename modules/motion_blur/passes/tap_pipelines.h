@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// The pipelines of one filter: one for all settings, and faster ones for a number of taps and a
+// kind of response.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "modules/motion_blur/params.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+/// Whether a filter gets pipelines for the taps that it is asked for.
+enum class TapVariants : uint8_t {
+    None, ///< one pipeline serves all
+    Made, ///< each is made when it is first asked for; where the device makes pipelines ahead, the
+          ///< one that serves all does so meanwhile
+};
+
+/// None on software devices: their compiler takes longer over unrolled taps than it saves.
+[[nodiscard]] TapVariants chooseTapVariants(const gpu::Device& device);
+
+class TapPipelines {
+  public:
+    /// \param desc without tap constants, which come behind the other specialization constants
+    TapPipelines(gpu::Device& device, gpu::ComputePipelineDesc desc, TapVariants variants);
+
+    /// For recording now: a later call may let go of it once the GPU is done with what was
+    /// submitted.
+    [[nodiscard]] const gpu::Pipeline& find(const PassParams& params) const;
+
+    /// How many are kept for certain taps, kMostVariants at most.
+    [[nodiscard]] size_t variantCount() const { return mVariants.size(); }
+
+    /// Budgets and sliders go through many numbers of taps.
+    static constexpr size_t kMostVariants = 8;
+
+  private:
+    struct Variant {
+        uint32_t tapCount = 0;
+        uint32_t response = 0;
+        std::unique_ptr<gpu::LazyPipeline> pipeline;
+    };
+
+    gpu::Device* mDevice;
+    gpu::ComputePipelineDesc mDesc;
+    TapVariants mWanted;
+    gpu::LazyPipeline mGeneral;
+    mutable std::vector<Variant> mVariants; ///< the one used last comes last
+};
+
+} // namespace shutter::motion_blur
