@@ -141,7 +141,9 @@ class Sequence {
         if (!maySkip(mOptions))
             return {};
         for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
-            mIsComplete.push_back(mJournal->isComplete(frameNumber(mOptions, i)));
+            mIsComplete.push_back(mJournal->isComplete(
+                frameNumber(mOptions, i), frameFile(mOptions.output.out, fileNumber(mOptions, i))
+            ));
         if (countComplete() > 0)
             fmt::print(
                 "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
@@ -261,7 +263,7 @@ core::Status renderFilm(
     auto journal = openFilmJournal(encoder, options, fingerprint);
     if (!journal)
         return journal.error();
-    if (maySkip(options) && journal.value().isComplete(0)) {
+    if (maySkip(options) && journal.value().isComplete(0, options.output.film)) {
         fmt::print(
             "{}: is complete and skipped (--restart draws it)\n", options.output.film.string()
         );
