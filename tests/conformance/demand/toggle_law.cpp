@@ -2,6 +2,7 @@
 #include "tests/conformance/demand/toggle_law.h"
 
 #include "engine/core/check.h"
+#include "engine/core/process_use.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/pictures.h"
 #include "tests/conformance/stability/shapes.h"
@@ -9,12 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <memory>
 #include <optional>
 #include <random>
-#include <unistd.h>
 
 namespace shutter::demand {
 
@@ -150,44 +148,37 @@ std::vector<Moment> listCycle(const gpu::Device& device) {
     return cycle;
 }
 
-/// Hashes of the cycle's pictures, each by a renderer that has drawn these switches alone.
+/// Hashes of the cycle's pictures, each by a renderer that has drawn these switches alone. There is
+/// one such renderer at a time: a hundred and more together would take gigabytes, which the C
+/// library keeps once they are free.
 core::Result<std::vector<uint64_t>>
 drawUntoggled(gpu::Device& device, const ToggleOptions& options, const std::vector<Moment>& cycle) {
-    std::map<std::string, std::unique_ptr<Rig>> rigs;
-    std::map<std::string, uint64_t> known;
-    std::vector<uint64_t> hashes;
-    for (const Moment& moment : cycle) {
-        const std::string key = moment.switches.describe();
-        const std::string keyAndTime = fmt::format("{} {}", key, moment.seconds);
-        if (const auto found = known.find(keyAndTime); found != known.end()) {
-            hashes.push_back(found->second);
-            continue;
+    std::map<std::string, std::vector<size_t>> framesOf; // by switches
+    for (size_t frame = 0; frame < cycle.size(); ++frame)
+        framesOf[cycle[frame].switches.describe()].push_back(frame);
+    std::vector<uint64_t> hashes(cycle.size());
+    for (const auto& [switches, frames] : framesOf) {
+        Rig rig(device, options);
+        std::map<double, uint64_t> known; // by seconds
+        for (const size_t frame : frames) {
+            const Moment& moment = cycle[frame];
+            auto found = known.find(moment.seconds);
+            if (found == known.end()) {
+                auto drawn = rig.draw(moment);
+                if (!drawn)
+                    return drawn.error();
+                found = known.emplace(moment.seconds, stability::hashFrame(drawn.value())).first;
+            }
+            hashes[frame] = found->second;
         }
-        std::unique_ptr<Rig>& rig = rigs[key];
-        if (!rig)
-            rig = std::make_unique<Rig>(device, options);
-        auto drawn = rig->draw(moment);
-        if (!drawn)
-            return drawn.error();
-        hashes.push_back(known[keyAndTime] = stability::hashFrame(drawn.value()));
     }
     return hashes;
-}
-
-/// Bytes of this process in memory; nothing where the system does not say.
-std::optional<double> findProcessBytes() {
-    std::ifstream file("/proc/self/statm");
-    uint64_t all = 0;
-    uint64_t resident = 0;
-    if (!(file >> all >> resident))
-        return std::nullopt;
-    return double(resident) * double(sysconf(_SC_PAGESIZE));
 }
 
 /// At the end of a cycle, once the GPU is done.
 struct Holdings {
     gpu::LivingObjects device;
-    std::optional<double> processBytes;
+    std::optional<uint64_t> processBytes;
 };
 
 double countGained(uint64_t before, uint64_t after) {
@@ -219,8 +210,8 @@ void addHoldings(
     if (before.processBytes && after.processBytes) {
         process.samples = frames - kToggleCycle;
         process.worst =
-            std::max(*after.processBytes - *before.processBytes, 0.0) / double(process.samples);
-        process.note = fmt::format("{:.1f} MiB at the end", *after.processBytes / 0x1p20);
+            countGained(*before.processBytes, *after.processBytes) / double(process.samples);
+        process.note = fmt::format("{:.1f} MiB at the end", double(*after.processBytes) / 0x1p20);
     }
     rows.push_back(std::move(process));
 }
@@ -256,7 +247,7 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         if (at + 1 < kToggleCycle)
             continue;
         device.waitIdle();
-        last = {device.living(), findProcessBytes()};
+        last = {device.living(), core::findResidentBytes()};
         if (!first)
             first = last;
     }
