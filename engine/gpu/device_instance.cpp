@@ -49,6 +49,7 @@ bool hasInstanceExtension(const char* wanted, const char* layer = nullptr) {
 } // namespace
 
 core::Status Device::createInstance(const DeviceOptions& options) {
+    SHUTTER_TRY(loadVulkan());
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "shutter";
     application.pEngineName = "shutter";
