@@ -14,6 +14,7 @@
 #include "engine/rays/tlas.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
+#include "engine/render/pass_trace.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 
@@ -41,6 +42,7 @@ struct FrameRequest {
     bool showsDisplay = false;
     gpu::SubmitSemaphores semaphores{}; ///< of the submission
     bool wantDump = false;              ///< describe the graph in FrameResult::dump
+    bool wantTrace = false;             ///< copy what each pass writes to FrameResult::trace
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };
@@ -51,6 +53,7 @@ struct FrameResult {
     std::map<std::string, image::Image> intermediates;
     FrameStatistics statistics;
     std::string dump;
+    std::vector<WrittenImage> trace;
 };
 
 /// Frames for which unused memory is kept: a short pause causes no reallocation, and a scene that
@@ -158,6 +161,7 @@ class Renderer {
         uint32_t slot = 0;
         double startMilliseconds = 0.0;
         Tickets tickets;
+        PassTrace trace; ///< empty unless wanted
         std::vector<PendingEffect> effects;
         std::vector<PassOwner> owners; ///< per pass, in execution order
         FrameResult result;            ///< what is known of it without the GPU

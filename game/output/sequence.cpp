@@ -121,6 +121,7 @@ class Sequence {
         if (!able)
             return able;
         mShot = &shot;
+        mDevice = &device.info();
         mRenderer.emplace(device, shot.world.assets);
         mTonemap.emplace(device, mOptions.shot.tonemap);
         mDrawer.emplace(device, *mRenderer);
@@ -180,6 +181,7 @@ class Sequence {
         request.frame.wantColor = !mOptions.output.displayOut;
         request.frame.wantDisplay = mOptions.output.displayOut;
         request.frame.wantDump = mOptions.output.dumpGraph;
+        request.frame.wantTrace = !mOptions.output.hashPasses.empty();
         request.frame.wantReasons = mOptions.output.explain;
         request.ending = {&*mTonemap};
         return mDrawer->draw(mShot->world, request, [&] { progress.advance(); });
@@ -218,6 +220,9 @@ class Sequence {
             fmt::print("{}", result.value().dump);
         if (mOptions.output.explain)
             printExplanations(seconds, result.value().statistics);
+        if (!mOptions.output.hashPasses.empty())
+            SHUTTER_TRY(writePassHashes(mOptions.output.hashPasses, *mDevice, result.value().trace)
+            );
         const auto files = writePicture(mOptions, fileNumber(mOptions, frame), result.value());
         if (!files)
             return files.error();
@@ -229,6 +234,7 @@ class Sequence {
 
     const RenderOptions& mOptions;
     const Shot* mShot = nullptr;
+    const gpu::DeviceInfo* mDevice = nullptr;
     std::optional<render::Renderer> mRenderer;
     std::optional<tonemap::Tonemap> mTonemap;
     std::optional<PictureDrawer> mDrawer;

@@ -192,6 +192,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--ffmpeg", {}},                             // needs a film
         {"--flythrough", {"--flythrough", "f.json"}}, // told by content
         {"--frames", {"--frames", "0:3"}},
+        {"--hash-passes", {"--hash-passes", "h.json"}},
         {"--keep-frames", {}}, // needs a film
         {"--out", {}},
         {"--repeat", {"--repeat", "3"}},
