@@ -143,6 +143,9 @@ void defineDeviceOptions(CLI::App& command, gpu::DeviceOptions& options) {
             "--rays", "limit how rays are traced: query (default, no limit), pipeline or none"
         ),
         makeRow<&D::validate>("--validate", "turn on Vulkan validation; any message is a failure"),
+        makeRow<&D::wantsAdvice>(
+            "--advice", "with --validate: print what the layer advises (best practices), too"
+        ),
     };
 #ifndef NDEBUG
     options.validate = true; // every debug run is a validated run

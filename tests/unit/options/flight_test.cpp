@@ -185,6 +185,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--tonemap", {"--tonemap", "none"}},
         {"--unlit", {"--unlit"}}};
     const std::map<std::string, Words> doesNot = {
+        {"--advice", {"--advice"}},
         {"--allow-outside", {"--allow-outside"}}, // told by content
         {"--device", {"--device", "llvmpipe"}},
         {"--dump-graph", {"--dump-graph"}},
