@@ -27,6 +27,10 @@ constexpr double kTimes[] = {0.0, 0.1};
 /// Less than what one more page a frame would come to; allocators and drivers may take some.
 constexpr double kProcessBytesAFrame = 2048.0;
 
+/// What the C library and the driver keep of a renderer's memory for the next one. All renderers at
+/// a time leave six times as much.
+constexpr double kLeftBytes = double(384u << 20u);
+
 /// What can be switched.
 struct Switches {
     const game::MethodInfo* method = nullptr;
@@ -216,6 +220,18 @@ void addHoldings(
     rows.push_back(std::move(process));
 }
 
+/// What renderers leave that are gone.
+Measured weighRenderers(
+    const std::optional<uint64_t>& before, const std::optional<uint64_t>& after, uint64_t frames
+) {
+    Measured row{"memory of the process that renderers leave", 0.0, kLeftBytes, "bytes"};
+    if (before && after) {
+        row.samples = frames;
+        row.worst = countGained(*before, *after);
+    }
+    return row;
+}
+
 } // namespace
 
 core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptions& options) {
@@ -225,9 +241,12 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         options.frames
     );
     const std::vector<Moment> cycle = listCycle(device);
+    const std::optional<uint64_t> before = core::findResidentBytes();
     const auto expected = drawUntoggled(device, options, cycle);
     if (!expected)
         return expected.error();
+    device.collectIdle();
+    Measurements rows{weighRenderers(before, core::findResidentBytes(), cycle.size())};
     Rig rig(device, options);
     Measured differing{"pictures that differ from a run without toggling", 0.0, 0.0, ""};
     std::optional<Holdings> first;
@@ -251,7 +270,7 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         if (!first)
             first = last;
     }
-    Measurements rows{std::move(differing)};
+    rows.insert(rows.begin(), std::move(differing));
     addHoldings(rows, *first, last, options.frames);
     return rows;
 }
