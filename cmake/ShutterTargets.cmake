@@ -12,6 +12,10 @@ include(${CMAKE_CURRENT_LIST_DIR}/ShutterInstall.cmake)
 function(shutter_target_defaults target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     shutter_include_roots(${target} PUBLIC)
+    # Vulkan's functions are found while the program runs (engine/gpu/vulkan_functions.h), so that
+    # nothing needs the library that Vulkan::Vulkan, which hosts use, would have it linked to.
+    target_compile_definitions(${target} PRIVATE SHUTTER_LOADS_VULKAN)
+    target_link_options(${target} PRIVATE LINKER:--as-needed)
     # No contraction into fused multiply-add: the CPU reference of a shader must round as written.
     target_compile_options(
         ${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion

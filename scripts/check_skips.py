@@ -10,10 +10,12 @@ may skip while CONDITION holds:
   no-program NAME...   one of the programs is not on PATH
   no-module NAME       python3 cannot import the module
   other-device         the environment picks another device than lavapipe
+  unpinned-driver      no pictures are pinned for the drivers of this machine
 Exit status 1 if a test skipped without such a line, or if a pattern matches no test at all.
 """
 
 import fnmatch
+import json
 import os
 import shutil
 import subprocess
@@ -53,12 +55,20 @@ def is_other_device():
     return "lvp_icd" not in os.environ.get("VK_DRIVER_FILES", "lvp_icd")
 
 
+def is_unpinned_driver():
+    shutter = ROOT / "build/release/shutter"
+    pins = json.loads((ROOT / "tests/determinism/pins.json").read_text(encoding="utf-8"))
+    devices = subprocess.run([shutter, "info", "--devices"], capture_output=True, text=True)
+    return not any(driver in devices.stdout for driver in pins)
+
+
 # By name: the function that tells whether the condition holds, and how many words it takes.
 CONDITIONS = {
     "absent": (is_absent, range(1, 2)),
     "no-program": (lacks_program, range(1, 10)),
     "no-module": (lacks_module, range(1, 2)),
     "other-device": (is_other_device, range(0, 1)),
+    "unpinned-driver": (is_unpinned_driver, range(0, 1)),
 }
 
 

@@ -63,6 +63,7 @@ WindowOutput::WindowOutput(gpu::Device& device) : mDevice(device) {
     info.addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE; // clamping costs on some devices, and images have one level
     gpu::require(vkCreateSampler(device.handle(), &info, nullptr, &mLinear), "creating a sampler");
 }
 

@@ -29,8 +29,9 @@ enum class PipelinesAhead : uint8_t {
 };
 
 struct DeviceOptions {
-    std::string wanted;    ///< see chooseDevice
-    bool validate = false; ///< core and synchronization validation; needs the layer installed
+    std::string wanted;       ///< see chooseDevice
+    bool validate = false;    ///< core and synchronization validation; needs the layer installed
+    bool wantsAdvice = false; ///< where `validate`: best practices too, which no count includes
     RayTier bestTier =
         RayTier::RayQuery; ///< hides the tiers above, so that lower ones can be tested
     /// False hides launches of rays whose size is in memory, for the same reason.

@@ -19,6 +19,7 @@ core::Status Device::adoptHost(const HostDevice& host) {
     mIsAdopted = true; // first: whatever fails below must not destroy the host's device
     if (!host.physical || !host.device)
         return core::makeError("host device: {} is null", host.physical ? "device" : "physical");
+    SHUTTER_TRY(loadVulkan());
     mInfo = describeDevice(host.physical);
     const bool hasTier = host.rayTier == RayTier::None ||
                          (host.rayTier == RayTier::RayQuery && mInfo.hasRayQuery) ||

@@ -11,6 +11,8 @@ namespace shutter::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+/// Part of the names of messages that advise and find nothing wrong.
+constexpr const char* kAdvice = "BestPractices";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
     VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -18,6 +20,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
     const VkDebugUtilsMessengerCallbackDataEXT* data,
     void* user
 ) {
+    const char* id = data->pMessageIdName ? data->pMessageIdName : "";
+    if (std::strstr(id, kAdvice)) {
+        core::logWarning("Vulkan advice: {}", data->pMessage);
+        return VK_FALSE;
+    }
     ++*static_cast<std::atomic<uint32_t>*>(user);
     core::logWarning("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
@@ -56,6 +63,7 @@ void listPortableDrivers(VkInstanceCreateFlags& flags, std::vector<const char*>&
 }
 
 core::Status Device::createInstance(const DeviceOptions& options) {
+    SHUTTER_TRY(loadVulkan());
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.pApplicationName = "shutter";
     application.pEngineName = "shutter";
@@ -88,12 +96,16 @@ core::Status Device::createInstance(const DeviceOptions& options) {
                                 VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // Not the loader's general ones: a broken driver of another device is no fault of this program.
     messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    if (options.wantsAdvice)
+        messenger.messageType |= VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     messenger.pfnUserCallback = onMessage;
     messenger.pUserData = &mValidationMessages;
 
-    const std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    const std::array enabled{
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+        VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger};
-    features.enabledValidationFeatureCount = enabled.size();
+    features.enabledValidationFeatureCount = options.wantsAdvice ? 2 : 1;
     features.pEnabledValidationFeatures = enabled.data();
 
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};

@@ -25,7 +25,8 @@ uint64_t countTicks(uint64_t begin, uint64_t end, uint32_t validBits) {
     return (end - begin) & (UINT64_MAX >> (64 - validBits));
 }
 
-Frame::Frame(Device& device) : mDevice(device), mDescriptors(device) {
+// Delegates, so that what it has made goes where it fails.
+Frame::Frame(Device& device) : Frame(device, ForHost{}) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
     require(vkCreateCommandPool(device.handle(), &pool, nullptr, &mPool), "creating a frame");

@@ -127,8 +127,7 @@ void Pipeline::
 }
 
 Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
-    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_COMPUTE),
-      mStages(VK_SHADER_STAGE_COMPUTE_BIT), mName(desc.name) {
+    : Pipeline(device, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, desc.name) {
     createLayout(desc.interface);
     addShader(desc.spirv, VK_SHADER_STAGE_COMPUTE_BIT, desc.interface);
     const Module module(device, desc.spirv, desc.name);
@@ -146,8 +145,12 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
 }
 
 Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
-    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_GRAPHICS),
-      mStages(VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT), mName(desc.name) {
+    : Pipeline(
+          device,
+          VK_PIPELINE_BIND_POINT_GRAPHICS,
+          VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+          desc.name
+      ) {
     createLayout(desc.interface);
     addShader(desc.vertexSpirv, VK_SHADER_STAGE_VERTEX_BIT, desc.interface);
     addShader(desc.fragmentSpirv, VK_SHADER_STAGE_FRAGMENT_BIT, desc.interface);
@@ -218,12 +221,13 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
 }
 
 Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
-    : mDevice(&device), mBindPoint(VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR),
-      mStages(
+    : Pipeline(
+          device,
+          VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR,
           VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
-          VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR
-      ),
-      mName(desc.name) {
+              VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR,
+          desc.name
+      ) {
     createLayout(desc.interface);
     addShader(desc.raygenSpirv, VK_SHADER_STAGE_RAYGEN_BIT_KHR, desc.interface);
     addShader(desc.missSpirv, VK_SHADER_STAGE_MISS_BIT_KHR, desc.interface);

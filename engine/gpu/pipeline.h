@@ -92,6 +92,12 @@ class Pipeline {
     }
 
   private:
+    /// Of nothing yet. The others delegate to it, so that what they have made goes where they fail.
+    Pipeline(
+        Device& device, VkPipelineBindPoint bindPoint, VkShaderStageFlags stages, std::string name
+    )
+        : mDevice(&device), mBindPoint(bindPoint), mStages(stages), mName(std::move(name)) {}
+
     void createLayout(const PipelineInterface& interface);
     /// Takes over the storage formats of one of its shaders, which must name nothing that the
     /// layout does not bind (CHECKed).

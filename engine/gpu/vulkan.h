@@ -2,6 +2,7 @@
 // Vulkan, how its failures are reported, and device addresses in tables that shaders read.
 #pragma once
 
+#include "engine/gpu/vulkan_functions.h"
 #include "engine/math/math.h"
 
 #include <vulkan/vulkan.h>

@@ -104,6 +104,17 @@ void Graph::markOutput(BufferHandle buffer) {
         mOutputs.emplace_back(buffer.resource, buffer.version);
 }
 
+ImageHandle Graph::findImage(uint32_t resource, uint32_t version) const {
+    SHUTTER_CHECK(
+        resource < mResources.size() && mResources[resource].isImage &&
+            version < mResources[resource].versionCount,
+        "there is no version {} of an image {}",
+        version,
+        resource
+    );
+    return {resource, version, mId};
+}
+
 const TransientImageDesc& Graph::describeImage(ImageHandle image) const {
     SHUTTER_CHECK(
         image.graph == mId && image.resource < mResources.size(),

@@ -173,6 +173,10 @@ class Graph {
 
     [[nodiscard]] const TransientImageDesc& describeImage(ImageHandle image) const;
 
+    /// The handle of a version of an image that was declared (CHECKed), for who looks at passes()
+    /// later.
+    [[nodiscard]] ImageHandle findImage(uint32_t resource, uint32_t version) const;
+
     [[nodiscard]] const std::vector<PassRecord>& passes() const { return mPasses; }
 
     [[nodiscard]] const std::vector<ResourceRecord>& resources() const { return mResources; }

@@ -128,6 +128,14 @@ size_t Readback::add(graph::Graph& graph, const std::string& name, graph::ImageH
     return ticket;
 }
 
+std::span<const std::byte> Readback::bytes(size_t ticket) const {
+    SHUTTER_CHECK(ticket < mEntries.size(), "ticket {} of {}", ticket, mEntries.size());
+    const Entry& entry = mEntries[ticket];
+    const size_t count =
+        size_t(entry.desc.width) * entry.desc.height * gpu::texelBytes(entry.desc.format);
+    return {static_cast<const std::byte*>(mBuffers[entry.buffer].mapped()), count};
+}
+
 image::Image Readback::take(size_t ticket) const {
     SHUTTER_CHECK(ticket < mEntries.size(), "ticket {} of {}", ticket, mEntries.size());
     const Entry& entry = mEntries[ticket];

@@ -6,6 +6,8 @@
 #include "engine/graph/graph.h"
 #include "engine/image/image.h"
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,9 @@ class Readback {
     /// The picture as floats: halves and 8-bit values converted, unsigned integers rounded to the
     /// nearest float except the all-ones id, which becomes -1.
     [[nodiscard]] image::Image take(size_t ticket) const;
+
+    /// The picture's texels row by row, as they are stored; valid until the next frame.
+    [[nodiscard]] std::span<const std::byte> bytes(size_t ticket) const;
 
     /// Forgets all tickets; buffers are kept for the next frame.
     void reset() { mEntries.clear(); }

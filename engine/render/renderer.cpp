@@ -167,6 +167,8 @@ core::Status Renderer::submitFrame(
     pending.tickets = declareFrame(
         slot, graph, world, request, facts, frame, moving ? &*moving : nullptr, running, explainer
     );
+    if (request.wantTrace)
+        SHUTTER_TRY(pending.trace.declare(graph, slot.readback, mPool.requirementFunction()));
     statistics.measures["entity table ms"] = mTableMilliseconds;
     statistics.measures["TLAS ms"] = mTlasMilliseconds;
     statistics.counters["entity rows written"] = mWritten.rows;
@@ -219,6 +221,7 @@ FrameResult Renderer::finishFrame() {
         result.display = slot.readback.take(*tickets.display);
     for (const auto& [name, ticket] : tickets.intermediates)
         result.intermediates[name] = slot.readback.take(ticket);
+    result.trace = pending.trace.take(slot.readback);
     return result;
 }
 

@@ -15,6 +15,7 @@
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/longest_motion.h"
+#include "engine/render/pass_trace.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 #include "engine/render/second_raster.h"
@@ -43,7 +44,8 @@ struct FrameRequest {
     bool showsDisplay = false;
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
-    bool wantDump = false; ///< describe the graph in FrameResult::dump
+    bool wantDump = false;  ///< describe the graph in FrameResult::dump
+    bool wantTrace = false; ///< copy what each pass writes to FrameResult::trace
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };
@@ -54,6 +56,7 @@ struct FrameResult {
     std::map<std::string, image::Image> intermediates;
     FrameStatistics statistics;
     std::string dump;
+    std::vector<WrittenImage> trace;
 };
 
 /// Frames for which unused memory is kept: a short pause causes no reallocation, and a scene that
@@ -163,6 +166,7 @@ class Renderer {
         uint32_t slot = 0;
         double startMilliseconds = 0.0;
         Tickets tickets;
+        PassTrace trace; ///< empty unless wanted
         std::vector<PendingEffect> effects;
         std::vector<PassOwner> owners; ///< per pass, in execution order
         FrameResult result;            ///< what is known of it without the GPU

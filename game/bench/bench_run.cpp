@@ -98,20 +98,11 @@ class BenchRun {
     }
 
     void describeRun() {
-        mRoot = {
-            {"schema", "shutter-bench"},
-            {"version", 2},
-            {"suite", mSuite.name},
-            {"created", describeNow()},
-            {"complete", false},
-            {"revision", describeRevision()},
-            {"machine", describeMachine()},
-            {"device", describeDevice(mDevice.info())},
-            {"metrics", describeMetrics()},
-            {"methods", describeMethods(mMethods)},
-            {"cases", json::array()},
-            {"equalTime", json::array()},
-            {"scaling", json::array()}};
+        mRoot = describeOrigin(mSuite.name, mDevice.info());
+        mRoot["metrics"] = describeMetrics();
+        mRoot["methods"] = describeMethods(mMethods);
+        for (const char* name : {"cases", "equalTime", "scaling"})
+            mRoot[name] = json::array();
         if (isMeasured(findReference()) && isMeasured(kBaseline))
             mRoot["headline"] = {{"method", findReference()}, {"baseline", kBaseline}};
         mRoot["settings"] = {

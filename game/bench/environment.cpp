@@ -60,6 +60,18 @@ nlohmann::json describeRevision() {
     return {{"git", SHUTTER_REVISION}, {"dirty", SHUTTER_REVISION_DIRTY != 0}};
 }
 
+nlohmann::json describeOrigin(const std::string& suite, const gpu::DeviceInfo& device) {
+    return {
+        {"schema", "shutter-bench"},
+        {"version", 2},
+        {"suite", suite},
+        {"created", describeNow()},
+        {"complete", false},
+        {"revision", describeRevision()},
+        {"machine", describeMachine()},
+        {"device", describeDevice(device)}};
+}
+
 std::string describeNow() {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));

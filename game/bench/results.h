@@ -88,6 +88,11 @@ struct MeasuredClaim {
 /// Name, driver and API of the Vulkan device.
 [[nodiscard]] nlohmann::json describeDevice(const gpu::DeviceInfo& device);
 
+/// What the results of every suite begin with: schema and version, suite, now, that they are not
+/// yet complete, revision, machine and device.
+[[nodiscard]] nlohmann::json
+describeOrigin(const std::string& suite, const gpu::DeviceInfo& device);
+
 /// The source's revision when the program was built, and whether it had been changed since.
 [[nodiscard]] nlohmann::json describeRevision();
 

@@ -27,6 +27,7 @@ struct InfoArguments {
 };
 
 core::Status printDevices() {
+    SHUTTER_TRY(gpu::loadVulkan());
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.apiVersion = VK_API_VERSION_1_3;
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};

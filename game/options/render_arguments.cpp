@@ -34,6 +34,11 @@ constexpr std::array kOutputRows = {
     ),
     makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),
     makeRow<&O::stats>("--stats", "write times and counters to a JSON file", Matters::ToNoPicture),
+    makeRow<&O::hashPasses>(
+        "--hash-passes",
+        "write a hash of each image that each pass writes to a JSON file",
+        Matters::ToNoPicture
+    ),
     makeRow<&O::dumpGraph>(
         "--dump-graph", "print the render graph of the first frame", Matters::ToNoPicture
     ),
@@ -117,6 +122,9 @@ interpretOutput(const RenderArguments& all, const ShotOptions& shot, const Metho
     OutputOptions options;
     options.restart = all.output.restart;
     options.stats = all.output.stats;
+    options.hashPasses = all.output.hashPasses;
+    if (!options.hashPasses.empty() && shot.isSequence)
+        return makeError("--hash-passes is about a single picture: no --frames, no --flythrough");
     options.dumpGraph = all.output.dumpGraph;
     options.explain = all.output.explain;
     options.repeat = all.output.repeat;
@@ -135,6 +143,9 @@ void defineDeviceOptions(CLI::App& command, gpu::DeviceOptions& options) {
             "--rays", "limit how rays are traced: query (default, no limit), pipeline or none"
         ),
         makeRow<&D::validate>("--validate", "turn on Vulkan validation; any message is a failure"),
+        makeRow<&D::wantsAdvice>(
+            "--advice", "with --validate: print what the layer advises (best practices), too"
+        ),
     };
 #ifndef NDEBUG
     options.validate = true; // every debug run is a validated run

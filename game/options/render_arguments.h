@@ -19,6 +19,7 @@ struct OutputArguments {
     bool restart = false;
     std::string aov; ///< names, comma-separated, or "all"
     std::string stats;
+    std::string hashPasses;
     bool dumpGraph = false;
     bool explain = false;
     uint32_t repeat = 1;

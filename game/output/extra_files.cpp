@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/output/extra_files.h"
 
+#include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/json/json_file.h"
 #include "engine/scene/shutter.h"
@@ -131,6 +132,29 @@ core::Status writeStatistics(
     root["width"] = options.shot.width;
     if (core::Status written = json::writeJsonFile(path, root); !written)
         return core::makeError("--stats: {}", written.error().message);
+    return {};
+}
+
+core::Status writePassHashes(
+    const std::filesystem::path& path,
+    const gpu::DeviceInfo& device,
+    const std::vector<render::WrittenImage>& written
+) {
+    ordered_json root;
+    root["device"] = device.name;
+    root["driver"] = device.driver;
+    ordered_json& rows = root["images"] = ordered_json::array();
+    for (const render::WrittenImage& image : written) {
+        ordered_json& row = rows.emplace_back();
+        row["frame"] = image.frame;
+        row["pass"] = image.pass;
+        row["image"] = image.image;
+        row["hash"] = io::computeContentHash(
+            {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()}
+        );
+    }
+    if (core::Status done = json::writeJsonFile(path, root); !done)
+        return core::makeError("--hash-passes: {}", done.error().message);
     return {};
 }
 

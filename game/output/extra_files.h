@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The files that are written besides the pictures: intermediates (--aov) and statistics (--stats).
+// The files that are written besides the pictures: intermediates (--aov), statistics (--stats) and
+// hashes of what passes wrote (--hash-passes).
 #pragma once
 
 #include "engine/core/result.h"
@@ -43,6 +44,14 @@ struct PictureStatistics {
     const RenderOptions& options,
     const gpu::DeviceInfo& device,
     const std::vector<PictureStatistics>& pictures
+);
+
+/// --hash-passes: device, driver, and for each image that a pass wrote `frame`, `pass`, `image` and
+/// `hash`, in the order in which the passes ran.
+[[nodiscard]] core::Status writePassHashes(
+    const std::filesystem::path& path,
+    const gpu::DeviceInfo& device,
+    const std::vector<render::WrittenImage>& written
 );
 
 } // namespace shutter::game

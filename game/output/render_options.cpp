@@ -16,38 +16,40 @@ namespace {
 using core::makeError;
 using core::Status;
 
-Status checkStatsWritable(const OutputOptions& options) {
-    if (options.stats.empty())
+Status checkJsonWritable(const char* option, const fs::path& file) {
+    if (file.empty())
         return {};
     std::error_code ignored;
-    const auto folder = options.stats.has_parent_path() ? options.stats.parent_path() : ".";
-    if (fs::is_directory(options.stats, ignored))
-        return makeError("--stats: cannot write '{}': it is a folder", options.stats.string());
+    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (fs::is_directory(file, ignored))
+        return makeError("{}: cannot write '{}': it is a folder", option, file.string());
     if (!fs::is_directory(folder, ignored))
         return makeError(
-            "--stats: cannot write '{}': the folder '{}' does not exist",
-            options.stats.string(),
+            "{}: cannot write '{}': the folder '{}' does not exist",
+            option,
+            file.string(),
             folder.string()
         );
     // A file is renamed into place, so its folder has to allow it; a pipe or a device is written
     // to.
-    const bool isOther =
-        fs::exists(options.stats, ignored) && !fs::is_regular_file(options.stats, ignored);
-    if (::access(isOther ? options.stats.c_str() : folder.c_str(), W_OK) != 0)
-        return makeError("--stats: cannot write '{}': permission denied", options.stats.string());
+    const bool isOther = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
+    if (::access(isOther ? file.c_str() : folder.c_str(), W_OK) != 0)
+        return makeError("{}: cannot write '{}': permission denied", option, file.string());
     return {};
 }
 
 } // namespace
 
 core::Status checkOutputs(const RenderOptions& options) {
+    SHUTTER_TRY(checkJsonWritable("--stats", options.output.stats));
+    SHUTTER_TRY(checkJsonWritable("--hash-passes", options.output.hashPasses));
     // A film's frames have a folder of their own, which is not there yet.
     if (!options.output.film.empty())
-        return checkStatsWritable(options.output);
+        return {};
     const fs::path first = frameFile(options.output.out, options.shot.firstFrame);
     if (Status writable = io::checkWritable(first); !writable)
         return makeError("--out: {}", writable.error().message);
-    return checkStatsWritable(options.output);
+    return {};
 }
 
 fs::path frameFile(const fs::path& pattern, int frameNumber) {

@@ -122,6 +122,7 @@ class Sequence {
             return able;
         mDevice = &device;
         mShot = &shot;
+        mDevice = &device.info();
         mRenderer.emplace(device, shot.world.assets);
         mBloom.emplace(device, mOptions.shot.bloom);
         mTonemap.emplace(device, mOptions.shot.tonemap);
@@ -143,7 +144,9 @@ class Sequence {
         if (!maySkip(mOptions))
             return {};
         for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
-            mIsComplete.push_back(mJournal->isComplete(frameNumber(mOptions, i)));
+            mIsComplete.push_back(mJournal->isComplete(
+                frameNumber(mOptions, i), frameFile(mOptions.output.out, fileNumber(mOptions, i))
+            ));
         if (countComplete() > 0)
             fmt::print(
                 "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
@@ -184,6 +187,7 @@ class Sequence {
         request.frame.wantColor = !mOptions.output.displayOut;
         request.frame.wantDisplay = mOptions.output.displayOut;
         request.frame.wantDump = mOptions.output.dumpGraph;
+        request.frame.wantTrace = !mOptions.output.hashPasses.empty();
         request.frame.wantReasons = mOptions.output.explain;
         request.ending = {&*mBloom, &*mTonemap};
         return mDrawer->draw(mShot->world, request, [&] { progress.advance(); });
@@ -222,6 +226,9 @@ class Sequence {
             fmt::print("{}", result.value().dump);
         if (mOptions.output.explain)
             printExplanations(seconds, result.value().statistics);
+        if (!mOptions.output.hashPasses.empty())
+            SHUTTER_TRY(writePassHashes(mOptions.output.hashPasses, *mDevice, result.value().trace)
+            );
         const auto files = writePicture(mOptions, fileNumber(mOptions, frame), result.value());
         if (!files)
             return files.error();
@@ -234,6 +241,7 @@ class Sequence {
     const RenderOptions& mOptions;
     gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
+    const gpu::DeviceInfo* mDevice = nullptr;
     std::optional<render::Renderer> mRenderer;
     std::optional<bloom::Bloom> mBloom;
     std::optional<tonemap::Tonemap> mTonemap;
@@ -269,7 +277,7 @@ core::Status renderFilm(
     auto journal = openFilmJournal(encoder, options, fingerprint);
     if (!journal)
         return journal.error();
-    if (maySkip(options) && journal.value().isComplete(0)) {
+    if (maySkip(options) && journal.value().isComplete(0, options.output.film)) {
         fmt::print(
             "{}: is complete and skipped (--restart draws it)\n", options.output.film.string()
         );

@@ -162,13 +162,23 @@ std::string SequenceJournal::formatLine(int frame, const std::vector<File>& file
     return json::formatJsonLine(line);
 }
 
-bool SequenceJournal::isComplete(int frame) const {
+bool SequenceJournal::isComplete(int frame, const fs::path& picture) const {
     const auto found = mFrames.find(frame);
-    return found != mFrames.end() &&
-           std::all_of(found->second.begin(), found->second.end(), [&](const File& file) {
+    if (found == mFrames.end())
+        return false;
+    const std::vector<File>& files = found->second;
+    const std::string own = nameInFolder(picture);
+    return std::any_of(
+               files.begin(), files.end(), [&](const File& file) { return file.name == own; }
+           ) &&
+           std::all_of(files.begin(), files.end(), [&](const File& file) {
                const auto hash = io::computeFileHash(folderOf(mFile) / file.name);
                return hash && hash.value() == file.hash;
            });
+}
+
+std::string SequenceJournal::nameInFolder(const fs::path& file) const {
+    return file.lexically_relative(folderOf(mFile)).string();
 }
 
 core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files) {
@@ -177,9 +187,7 @@ core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files)
         auto hash = io::computeFileHash(file);
         if (!hash)
             return hash.error();
-        complete.push_back(
-            {file.lexically_relative(folderOf(mFile)).string(), std::move(hash).value()}
-        );
+        complete.push_back({nameInFolder(file), std::move(hash).value()});
     }
     SHUTTER_TRY(appendLine(mFile, formatLine(frame, complete)));
     mFrames[frame] = std::move(complete);

@@ -31,8 +31,10 @@ class SequenceJournal {
 
     [[nodiscard]] Before before() const { return mBefore; }
 
-    /// Whether all files of the frame are what they were when it was added. Reads them.
-    [[nodiscard]] bool isComplete(int frame) const;
+    /// Whether all files of the frame are what they were when it was added, its own picture among
+    /// them: a line may name others. Reads them.
+    /// \param picture as it was given to add()
+    [[nodiscard]] bool isComplete(int frame, const std::filesystem::path& picture) const;
 
     /// \param files in the journal's folder or below, complete
     /// Error: a file cannot be read, or the journal cannot be written.
@@ -52,6 +54,8 @@ class SequenceJournal {
     /// False where a line is broken, as the last of a killed run may be.
     bool readLines(std::string_view text, const std::string& fingerprint);
     [[nodiscard]] core::Status rewrite(const std::string& fingerprint) const;
+    /// As lines name it.
+    [[nodiscard]] std::string nameInFolder(const std::filesystem::path& file) const;
     [[nodiscard]] static std::string formatLine(int frame, const std::vector<File>& files);
 
     std::filesystem::path mFile;

@@ -216,6 +216,7 @@ PictureDrawer::submitFrameBefore(const scene::World& world, const PictureRequest
         view.exposure.frameSeconds
     );
     before.wantColor = false;
+    before.wantTrace = request.frame.wantTrace;
     return submitFrame(
         world,
         before,
@@ -334,6 +335,7 @@ void PictureDrawer::finishOldest() {
     const Label label = mLabels.front();
     mLabels.pop_front();
     render::FrameResult drawn = mRenderer.finishFrame();
+    keepTrace(mSlots[label.slot], std::move(drawn.trace));
     if (label.isBefore)
         return;
     render::FrameResult& result = mSlots[label.slot].result;
@@ -351,8 +353,21 @@ void PictureDrawer::finishOldest() {
             result = std::move(drawn);
         result.statistics = std::move(total);
     }
-    if (label.isLast)
-        mFinished.push_back({label.slot, std::move(result)});
+    if (!label.isLast)
+        return;
+    result.trace = std::exchange(mSlots[label.slot].trace, {});
+    mSlots[label.slot].tracedFrames = 0;
+    mFinished.push_back({label.slot, std::move(result)});
+}
+
+void PictureDrawer::keepTrace(Slot& slot, std::vector<render::WrittenImage> written) {
+    if (written.empty())
+        return;
+    for (render::WrittenImage& image : written) {
+        image.frame = slot.tracedFrames;
+        slot.trace.push_back(std::move(image));
+    }
+    ++slot.tracedFrames;
 }
 
 void PictureDrawer::finishUntil(size_t most) {

@@ -121,6 +121,8 @@ class PictureDrawer {
         std::unique_ptr<truth::Truth> truth;
         truth::TruthSettings truthSettings;
         render::FrameResult result;
+        std::vector<render::WrittenImage> trace; ///< of the picture's frames so far
+        uint32_t tracedFrames = 0;
         std::optional<extract::ViewRequest> drawn; ///< last, by a method that looks it up
     };
 
@@ -168,6 +170,8 @@ class PictureDrawer {
     );
     [[nodiscard]] bool isGoodEnough(const PictureRequest& request, uint32_t rays) const;
     [[nodiscard]] render::FrameResult takeOnly();
+    /// Adds what a frame's passes wrote to the picture's.
+    static void keepTrace(Slot& slot, std::vector<render::WrittenImage> written);
     void finishOldest();
 
     gpu::Device& mDevice;

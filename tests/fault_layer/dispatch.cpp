@@ -39,6 +39,7 @@ DeviceTable& addDevice(VkDevice handle, PFN_vkGetDeviceProcAddr getProcAddr) {
     table->device = handle;
     table->getProcAddr = getProcAddr;
     SHUTTER_NEXT_OF_DEVICE(SHUTTER_LOAD)
+    SHUTTER_CREATIONS(SHUTTER_LOAD)
     const std::lock_guard lock(sMutex);
     return *(sDevices[keyOf(handle)] = std::move(table));
 }

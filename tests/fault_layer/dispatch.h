@@ -5,7 +5,9 @@
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <set>
@@ -45,6 +47,32 @@ namespace shutter::faults {
     X(WaitForFences)                                                                               \
     X(WaitSemaphores)
 
+// Functions of devices that make something.
+#define SHUTTER_CREATIONS(X)                                                                       \
+    X(AllocateCommandBuffers)                                                                      \
+    X(AllocateDescriptorSets)                                                                      \
+    X(BindBufferMemory)                                                                            \
+    X(BindImageMemory)                                                                             \
+    X(CreateAccelerationStructureKHR)                                                              \
+    X(CreateBuffer)                                                                                \
+    X(CreateCommandPool)                                                                           \
+    X(CreateComputePipelines)                                                                      \
+    X(CreateDescriptorPool)                                                                        \
+    X(CreateDescriptorSetLayout)                                                                   \
+    X(CreateGraphicsPipelines)                                                                     \
+    X(CreateImage)                                                                                 \
+    X(CreateImageView)                                                                             \
+    X(CreatePipelineCache)                                                                         \
+    X(CreatePipelineLayout)                                                                        \
+    X(CreateQueryPool)                                                                             \
+    X(CreateRayTracingPipelinesKHR)                                                                \
+    X(CreateSampler)                                                                               \
+    X(CreateSemaphore)                                                                             \
+    X(CreateShaderModule)
+
+/// Kinds of creations that a device counts, or more.
+inline constexpr size_t kMaxCreations = 32;
+
 #define SHUTTER_FIELD(name) PFN_vk##name name = nullptr;
 
 struct InstanceTable {
@@ -57,11 +85,13 @@ struct DeviceTable {
     VkDevice device = VK_NULL_HANDLE;
     PFN_vkGetDeviceProcAddr getProcAddr = nullptr;
     SHUTTER_NEXT_OF_DEVICE(SHUTTER_FIELD)
+    SHUTTER_CREATIONS(SHUTTER_FIELD)
 
     std::atomic<bool> isLost = false;
     std::atomic<uint32_t> allocationCount = 0;
     std::atomic<uint32_t> livingMemories = 0;
     std::atomic<uint32_t> submissionCount = 0;
+    std::array<std::atomic<uint32_t>, kMaxCreations> creationCounts{}; ///< as SHUTTER_CREATIONS
     std::atomic<uint32_t> acquisitionCount = 0;
     std::atomic<uint32_t> presentationCount = 0;
     std::mutex hiddenMutex;
@@ -97,6 +127,11 @@ struct Entry {
 
 /// Allocations that fail, and memory of the reported types.
 [[nodiscard]] std::span<const Entry> listMemoryFaults();
+
+/// Objects that cannot be made.
+[[nodiscard]] std::span<const Entry> listCreations();
+/// The functions' names without "vk", in the order of DeviceTable::creationCounts.
+[[nodiscard]] std::span<const char* const> listCreationNames();
 
 /// Submissions, and everything that tells of a lost device.
 [[nodiscard]] std::span<const Entry> listLostDevice();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/fault_layer/fault_plan.h"
 
+#include "tests/fault_layer/dispatch.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -67,6 +69,18 @@ VkResult readWindowResult(const std::string& word) {
     refuse("'" + word + "' is no answer of a window");
 }
 
+std::map<std::string, FailingCalls> readCreations(const std::string& text) {
+    std::map<std::string, FailingCalls> creations;
+    for (const std::string& part : split(text, ',')) {
+        const auto [name, calls] = readPair(part);
+        const auto names = listCreationNames();
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            refuse("'" + name + "' makes nothing");
+        creations[name] = readCalls(calls);
+    }
+    return creations;
+}
+
 std::map<uint32_t, VkResult> readWindowResults(const std::string& text) {
     std::map<uint32_t, VkResult> results;
     for (const std::string& part : split(text, ',')) {
@@ -96,6 +110,7 @@ VkMemoryPropertyFlags readMemoryType(const std::string& text) {
 FaultPlan readPlan() {
     FaultPlan plan;
     plan.allocations = readCalls(readVariable("SHUTTER_FAULT_ALLOCATION"));
+    plan.creations = readCreations(readVariable("SHUTTER_FAULT_CREATION"));
     if (const std::string text = readVariable("SHUTTER_FAULT_SUBMISSION"); !text.empty())
         plan.lostSubmission = readNumber(text);
     if (const std::string text = readVariable("SHUTTER_FAULT_EXECUTION"); !text.empty())

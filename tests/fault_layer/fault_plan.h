@@ -24,7 +24,8 @@ struct FailingCalls {
 /// What the environment asks for; README.md lists the variables.
 struct FaultPlan {
     FailingCalls allocations;
-    uint32_t lostSubmission = 0;               ///< 0: none; this one is refused
+    std::map<std::string, FailingCalls> creations; ///< by the function's name without "vk"
+    uint32_t lostSubmission = 0;                   ///< 0: none; this one is refused
     uint32_t lostExecution = 0;                ///< 0: none; this one is taken and never ends well
     std::map<uint32_t, VkResult> acquisitions; ///< by the number of the call
     std::map<uint32_t, VkResult> presentations;

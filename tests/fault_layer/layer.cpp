@@ -70,12 +70,19 @@ void writeCounts(const DeviceTable& table) {
         refuse("cannot write '" + path + "'");
     std::fprintf(
         file,
-        "{\"allocations\": %u, \"submissions\": %u, \"acquisitions\": %u, \"presentations\": %u}\n",
+        "{\"allocations\": %u, \"submissions\": %u, \"acquisitions\": %u, \"presentations\": %u",
         table.allocationCount.load(),
         table.submissionCount.load(),
         table.acquisitionCount.load(),
         table.presentationCount.load()
     );
+    const auto names = listCreationNames();
+    std::fprintf(file, ", \"creations\": {");
+    for (size_t i = 0; i < names.size(); ++i)
+        std::fprintf(
+            file, "%s\"%s\": %u", i == 0 ? "" : ", ", names[i], table.creationCounts[i].load()
+        );
+    std::fprintf(file, "}}\n");
     std::fclose(file);
 }
 
@@ -105,6 +112,7 @@ PFN_vkVoidFunction findOfDevice(const char* name) {
     for (const auto entries :
          {std::span<const Entry>(sOwn),
           listMemoryFaults(),
+          listCreations(),
           listLostDevice(),
           listSwapchainFaults()})
         if (const PFN_vkVoidFunction found = findEntry(entries, name))

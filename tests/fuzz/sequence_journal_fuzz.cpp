@@ -10,6 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         return 0;
     }
     for (const int frame : {-1, 0, 1})
-        (void)journal.value().isComplete(frame);
+        (void)journal.value().isComplete(
+            frame, journal.value().file().parent_path() / "f_0000.png"
+        );
     return 0;
 }

@@ -14,7 +14,7 @@ import zlib
 
 WIDTH, HEIGHT = 160, 90
 
-SUITES = ("paper", "hard", "scaling", "stability", "demand")
+SUITES = ("paper", "hard", "scaling", "stability", "demand", "soak")
 
 # name, title, publication, sample unit, default, rays, sample counts n, ms = a + b * n,
 # psnr = p + g * log2(n)
@@ -284,6 +284,12 @@ def demand():
     ]
 
 
+def soak():
+    """A demo that holds, with what it took over its frames."""
+    return [{**hard_case("gallery", [check("run 1: buffers gained", 0, 0)]),
+             "curves": [curve("process", [(250, 300), (500, 301)], x=("frame", ""))]}]
+
+
 def make(suite):
     """Results of a suite: "paper" has one case with pictures, "hard" twelve, the others none."""
     methods = METHODS
@@ -324,6 +330,8 @@ def make(suite):
         results["stability"] = stability()
     if suite == "demand":
         results["demand"] = demand()
+    if suite == "soak":
+        results["soak"] = soak()
     return results
 
 

@@ -89,6 +89,15 @@ class Page(PageCase):
         self.assertEqual(self.js(scales % "x", "#demand-Share-entities"), "logarithmic")
         self.assertEqual(self.js(scales % "x", "#demand-Share-gather"), "linear")
 
+    # What grows over many frames
+
+    def test_shows_what_a_soak_took_over_its_frames(self):
+        self.open("soak")
+        self.assertEqual(self.find("#headline").text, "Nothing grows over the frames of the soak.")
+        self.assertEqual(self.datasets("#soak-gallery-process"),
+                         {"Curve process": [[250, 300], [500, 301]]})
+        self.assertIn("run 1: buffers gained", self.find("#soak-claims tbody tr").text)
+
     # The whole page
 
     def test_asks_nothing_of_the_network(self):
@@ -109,6 +118,7 @@ class Page(PageCase):
             "scaling": {"scaling", "about"},
             "stability": {"stability", "about"},
             "demand": {"demand", "about"},
+            "soak": {"soak", "about"},
         }
         for suite, sections in expected.items():
             self.open(suite)

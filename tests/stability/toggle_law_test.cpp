@@ -12,7 +12,7 @@ class ToggleLaw : public test::GpuTest {};
 TEST_F(ToggleLaw, TwoThousandFramesLeaveNothingBehind) {
     const auto found = demand::measureToggles(device());
     ASSERT_TRUE(found) << found.error().message;
-    EXPECT_EQ(found.value().size(), 7u);
+    EXPECT_EQ(found.value().size(), 8u);
     for (const stability::Measured& row : found.value()) {
         EXPECT_TRUE(stability::holds(row)) << row.check << ": " << row.worst << " " << row.unit
                                            << ", at most " << row.bound << " (" << row.note << ")";

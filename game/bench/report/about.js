@@ -28,6 +28,11 @@ function describeMeasuring() {
     if (results.stability)
         return el("ul", {}, el("li", {}, "Each case draws and measures as its checks say; what is " +
             "looked at is counted under samples. Nothing is timed but the case as a whole."));
+    if (results.soak)
+        return el("ul", {}, el("li", {}, "The demo is played by a script that repeats itself; " +
+            "memory is read at the end of each repetition, when the device is idle."),
+            el("li", {}, "The first repetition does not count. Of the others, the last third is " +
+                "held against the first third."));
     const {repeats, tonemap} = results.settings;
     if (results.demand)
         return el("ul", {}, el("li", {}, "Times of passes are the GPU's timestamps; what the CPU " +

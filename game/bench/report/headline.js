@@ -125,7 +125,7 @@ function drawHeadline() {
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
     const headline = pairSentence ?? writeScalingSentence() ?? writeStabilitySentence() ??
-        writeDemandSentence() ?? writeCountSentence();
+        writeDemandSentence() ?? writeSoakSentence() ?? writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
         `Shutter benchmark, suite ${results.suite}`,

@@ -46,14 +46,14 @@ fillToolbar();
 drawHeadline();
 drawTables();
 drawStability();
-drawDemand();
+drawClaims();
 drawAbout();
 drawChosen();
 onChoice(drawChosen);
 onTheme(() => {
     drawTradeoff();
     drawScaling();
-    drawDemandCharts();
+    drawClaimCharts();
 });
 byId("save").addEventListener("click", saveResults);
 document.documentElement.dataset.ready = "true";

@@ -21,6 +21,8 @@ using nlohmann::json;
 constexpr const char* kSchema = "shutter-bench";
 constexpr int kVersion = 2;
 constexpr uint64_t kMaxResultsBytes = 256ULL << 20;
+/// Nested objects and arrays; what walks them calls itself for each. Results have eight.
+constexpr int kMaxDepth = 32;
 constexpr uint64_t kMaxPictureBytes = 64ULL << 20;
 
 /// What the page cannot do without; the rest it shows where it is there.
@@ -132,7 +134,16 @@ core::Status remakeReportPage(const fs::path& folder) {
         return bytes.error();
     if (bytes.value().size() > kMaxResultsBytes)
         return core::makeError("'{}' is larger than 256 MiB", file.string());
-    const json results = json::parse(bytes.value(), nullptr, false);
+    bool isTooDeep = false;
+    const auto keepShallow = [&](int depth, json::parse_event_t, const json&) {
+        isTooDeep = isTooDeep || depth > kMaxDepth;
+        return !isTooDeep;
+    };
+    const json results = json::parse(bytes.value(), keepShallow, false);
+    if (isTooDeep)
+        return core::makeError(
+            "'{}' nests objects and arrays deeper than {} levels", file.string(), kMaxDepth
+        );
     if (results.is_discarded())
         return core::makeError("'{}' is not valid JSON", file.string());
     core::Status written = writeReportPage(results, folder);

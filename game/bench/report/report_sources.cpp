@@ -2,8 +2,8 @@
 #include "game/bench/report/about_js.h"
 #include "game/bench/report/chart_js.h"
 #include "game/bench/report/charts_js.h"
+#include "game/bench/report/claims_js.h"
 #include "game/bench/report/data_js.h"
-#include "game/bench/report/demand_js.h"
 #include "game/bench/report/equal_time_js.h"
 #include "game/bench/report/format_js.h"
 #include "game/bench/report/headline_js.h"
@@ -60,7 +60,7 @@ std::string joinReportScripts() {
         viewOf(k_equal_time_js),
         viewOf(k_scaling_js),
         viewOf(k_stability_js),
-        viewOf(k_demand_js),
+        viewOf(k_claims_js),
         viewOf(k_about_js),
         viewOf(k_main_js),
     };

@@ -45,7 +45,8 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
 
 } // namespace
 
-PlayLoop::PlayLoop(const PlayOptions& options) : mOptions(options), mStart(Clock::now()) {}
+PlayLoop::PlayLoop(const PlayOptions& options, SessionWatch* watch)
+    : mOptions(options), mWatch(watch), mStart(Clock::now()) {}
 
 PlayLoop::~PlayLoop() {
     releaseDrawing();
@@ -56,8 +57,9 @@ void PlayLoop::releaseDrawing() {
     mScreen.releaseDrawing();
 }
 
-core::Result<std::unique_ptr<PlayLoop>> PlayLoop::open(const PlayOptions& options) {
-    std::unique_ptr<PlayLoop> loop(new PlayLoop(options));
+core::Result<std::unique_ptr<PlayLoop>>
+PlayLoop::open(const PlayOptions& options, SessionWatch* watch) {
+    std::unique_ptr<PlayLoop> loop(new PlayLoop(options, watch));
     using Step = core::Status (PlayLoop::*)();
     for (const Step step : {&PlayLoop::openScript, &PlayLoop::openScreen, &PlayLoop::openStage})
         SHUTTER_TRY((loop.get()->*step)());
@@ -101,6 +103,8 @@ core::Status PlayLoop::openStage() {
             return demo.error();
         mStage = makeDemoStage(std::move(demo).value());
     }
+    if (mWatch)
+        mStage = mWatch->wrap(std::move(mStage));
     mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
     mScreen.setTitle("Shutter: " + mStage->title());
     return {};
@@ -241,7 +245,8 @@ PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
     facts.title = mStage->title();
     facts.hud = hud;
     facts.message = mMessage;
-    if (!mFiles.isFilming()) { // times differ between sessions, a film's pictures must not
+    // Times differ between sessions; the pictures of a film or a watched session must not.
+    if (!mFiles.isFilming() && !mWatch) {
         facts.right = mRenderer->statistics(PlaySide::Right);
         facts.left = mSettings.split ? mRenderer->statistics(PlaySide::Left) : nullptr;
         facts.frameMilliseconds = mRecord.meanMilliseconds();
@@ -403,6 +408,10 @@ void PlayLoop::notePicture() {
     mRecord.addAllocations(mTime.seconds, mScreen.device().allocationCount());
     if (const auto* statistics = mRenderer->statistics(PlaySide::Right))
         mRecord.addStatistics(*statistics);
+    if (mWatch)
+        mWatch->notePicture(mRecord.pictureCount() - 1, mScreen.device(), [this] {
+            mRenderer->finishAll();
+        });
 }
 
 } // namespace shutter::game

@@ -9,6 +9,7 @@
 #include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"
 #include "game/play/loop/play_screen.h"
+#include "game/play/loop/session_watch.h"
 #include "game/play/loop/settings_keeper.h"
 #include "game/play/loop/stage.h"
 #include "game/play/panel/panel.h"
@@ -23,9 +24,10 @@ namespace shutter::game {
 
 class PlayLoop {
   public:
-    /// Opens what the options name: script, settings, film, window, device, stage. `options` must
-    /// outlive the loop.
-    [[nodiscard]] static core::Result<std::unique_ptr<PlayLoop>> open(const PlayOptions& options);
+    /// Opens what the options name: script, settings, film, window, device, stage. `options` and
+    /// `watch`, which may be null, must outlive the loop.
+    [[nodiscard]] static core::Result<std::unique_ptr<PlayLoop>>
+    open(const PlayOptions& options, SessionWatch* watch = nullptr);
     ~PlayLoop();
     PlayLoop(const PlayLoop&) = delete;
     PlayLoop& operator=(const PlayLoop&) = delete;
@@ -36,7 +38,7 @@ class PlayLoop {
   private:
     using Clock = std::chrono::steady_clock;
 
-    explicit PlayLoop(const PlayOptions& options);
+    PlayLoop(const PlayOptions& options, SessionWatch* watch);
     core::Status openScript();
     core::Status openScreen();
     core::Status openStage();
@@ -67,6 +69,7 @@ class PlayLoop {
     void turnPhotoMode(bool on);
 
     const PlayOptions& mOptions;
+    SessionWatch* mWatch; ///< null: nobody looks on
     Clock::time_point mStart;
     PlaySettings mSettings;
     SettingsKeeper mKeeper;

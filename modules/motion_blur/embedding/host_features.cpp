@@ -60,6 +60,7 @@ std::span<const char* const> HostFeatures::extensions() const {
 }
 
 core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu::RayTier rays) {
+    SHUTTER_TRY(gpu::loadVulkan());
     const gpu::DeviceInfo info = gpu::describeDevice(device);
     const auto lacks = [&](const char* what) {
         return core::makeError("motion blur: {} lacks {}", info.name, what);

@@ -2,19 +2,14 @@
 #include "tests/conformance/demand/subject.h"
 
 #include "assets/generator/scaling_scenes.h"
+#include "engine/core/process_use.h"
 #include "game/options/method_arguments.h"
-
-#include <ctime>
 
 namespace shutter::demand {
 
 namespace {
 
 constexpr uint32_t kUncounted = 2; ///< first pictures of a subject
-
-double countProcessMilliseconds() {
-    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
-}
 
 core::Result<game::ShotOptions> makeShot(const Stage& stage, uint32_t width, uint32_t height) {
     game::ShotArguments arguments = stage.arguments;
@@ -128,9 +123,9 @@ core::Result<std::vector<Frames>> takeTurns(const Subjects& subjects, uint32_t r
     for (uint32_t round = 0; round < kUncounted + rounds; ++round)
         for (size_t i = 0; i < subjects.size(); ++i) {
             const size_t at = round % 2 == 0 ? i : subjects.size() - 1 - i;
-            const double before = countProcessMilliseconds();
+            const double before = core::countProcessorMilliseconds();
             auto drawn = subjects[at]->draw();
-            const double spent = countProcessMilliseconds() - before;
+            const double spent = core::countProcessorMilliseconds() - before;
             if (!drawn)
                 return drawn.error();
             if (round < kUncounted)

@@ -2,6 +2,7 @@
 #include "tests/conformance/demand/toggle_law.h"
 
 #include "engine/core/check.h"
+#include "engine/core/process_use.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/pictures.h"
 #include "tests/conformance/stability/shapes.h"
@@ -9,12 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <memory>
 #include <optional>
 #include <random>
-#include <unistd.h>
 
 namespace shutter::demand {
 
@@ -28,6 +26,10 @@ constexpr double kTimes[] = {0.0, 0.1};
 
 /// Less than what one more page a frame would come to; allocators and drivers may take some.
 constexpr double kProcessBytesAFrame = 2048.0;
+
+/// What the C library and the driver keep of a renderer's memory for the next one. All renderers at
+/// a time leave six times as much.
+constexpr double kLeftBytes = double(384u << 20u);
 
 /// What can be switched.
 struct Switches {
@@ -150,44 +152,37 @@ std::vector<Moment> listCycle(const gpu::Device& device) {
     return cycle;
 }
 
-/// Hashes of the cycle's pictures, each by a renderer that has drawn these switches alone.
+/// Hashes of the cycle's pictures, each by a renderer that has drawn these switches alone. There is
+/// one such renderer at a time: a hundred and more together would take gigabytes, which the C
+/// library keeps once they are free.
 core::Result<std::vector<uint64_t>>
 drawUntoggled(gpu::Device& device, const ToggleOptions& options, const std::vector<Moment>& cycle) {
-    std::map<std::string, std::unique_ptr<Rig>> rigs;
-    std::map<std::string, uint64_t> known;
-    std::vector<uint64_t> hashes;
-    for (const Moment& moment : cycle) {
-        const std::string key = moment.switches.describe();
-        const std::string keyAndTime = fmt::format("{} {}", key, moment.seconds);
-        if (const auto found = known.find(keyAndTime); found != known.end()) {
-            hashes.push_back(found->second);
-            continue;
+    std::map<std::string, std::vector<size_t>> framesOf; // by switches
+    for (size_t frame = 0; frame < cycle.size(); ++frame)
+        framesOf[cycle[frame].switches.describe()].push_back(frame);
+    std::vector<uint64_t> hashes(cycle.size());
+    for (const auto& [switches, frames] : framesOf) {
+        Rig rig(device, options);
+        std::map<double, uint64_t> known; // by seconds
+        for (const size_t frame : frames) {
+            const Moment& moment = cycle[frame];
+            auto found = known.find(moment.seconds);
+            if (found == known.end()) {
+                auto drawn = rig.draw(moment);
+                if (!drawn)
+                    return drawn.error();
+                found = known.emplace(moment.seconds, stability::hashFrame(drawn.value())).first;
+            }
+            hashes[frame] = found->second;
         }
-        std::unique_ptr<Rig>& rig = rigs[key];
-        if (!rig)
-            rig = std::make_unique<Rig>(device, options);
-        auto drawn = rig->draw(moment);
-        if (!drawn)
-            return drawn.error();
-        hashes.push_back(known[keyAndTime] = stability::hashFrame(drawn.value()));
     }
     return hashes;
-}
-
-/// Bytes of this process in memory; nothing where the system does not say.
-std::optional<double> findProcessBytes() {
-    std::ifstream file("/proc/self/statm");
-    uint64_t all = 0;
-    uint64_t resident = 0;
-    if (!(file >> all >> resident))
-        return std::nullopt;
-    return double(resident) * double(sysconf(_SC_PAGESIZE));
 }
 
 /// At the end of a cycle, once the GPU is done.
 struct Holdings {
     gpu::LivingObjects device;
-    std::optional<double> processBytes;
+    std::optional<uint64_t> processBytes;
 };
 
 double countGained(uint64_t before, uint64_t after) {
@@ -219,10 +214,22 @@ void addHoldings(
     if (before.processBytes && after.processBytes) {
         process.samples = frames - kToggleCycle;
         process.worst =
-            std::max(*after.processBytes - *before.processBytes, 0.0) / double(process.samples);
-        process.note = fmt::format("{:.1f} MiB at the end", *after.processBytes / 0x1p20);
+            countGained(*before.processBytes, *after.processBytes) / double(process.samples);
+        process.note = fmt::format("{:.1f} MiB at the end", double(*after.processBytes) / 0x1p20);
     }
     rows.push_back(std::move(process));
+}
+
+/// What renderers leave that are gone.
+Measured weighRenderers(
+    const std::optional<uint64_t>& before, const std::optional<uint64_t>& after, uint64_t frames
+) {
+    Measured row{"memory of the process that renderers leave", 0.0, kLeftBytes, "bytes"};
+    if (before && after) {
+        row.samples = frames;
+        row.worst = countGained(*before, *after);
+    }
+    return row;
 }
 
 } // namespace
@@ -234,9 +241,12 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         options.frames
     );
     const std::vector<Moment> cycle = listCycle(device);
+    const std::optional<uint64_t> before = core::findResidentBytes();
     const auto expected = drawUntoggled(device, options, cycle);
     if (!expected)
         return expected.error();
+    device.collectIdle();
+    Measurements rows{weighRenderers(before, core::findResidentBytes(), cycle.size())};
     Rig rig(device, options);
     Measured differing{"pictures that differ from a run without toggling", 0.0, 0.0, ""};
     std::optional<Holdings> first;
@@ -256,11 +266,11 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         if (at + 1 < kToggleCycle)
             continue;
         device.waitIdle();
-        last = {device.living(), findProcessBytes()};
+        last = {device.living(), core::findResidentBytes()};
         if (!first)
             first = last;
     }
-    Measurements rows{std::move(differing)};
+    rows.insert(rows.begin(), std::move(differing));
     addHoldings(rows, *first, last, options.frames);
     return rows;
 }

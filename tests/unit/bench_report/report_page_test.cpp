@@ -149,4 +149,17 @@ TEST_F(ReportPage, SaysThatTheResultsFileIsMissingOrBroken) {
     EXPECT_TRUE(contains(broken.error().message, "results.json' is not valid JSON"));
 }
 
+TEST_F(ReportPage, RefusesAResultsFileThatIsNestedWithoutEnd) {
+    // So deep that what walks it, and calls itself for each level, would run out of stack.
+    constexpr size_t kLevels = 1'000'000;
+    const std::string nested = std::string(kLevels, '[') + std::string(kLevels, ']');
+    std::string text = makeResults().dump();
+    text.insert(1, "\"extra\": " + nested + ", ");
+    write("results.json", text);
+    const core::Status status = remakeReportPage(mFolder);
+    ASSERT_FALSE(status.ok());
+    EXPECT_TRUE(contains(status.error().message, "deeper than 32 levels"));
+    EXPECT_FALSE(fs::exists(mFolder / "index.html"));
+}
+
 } // namespace shutter::bench

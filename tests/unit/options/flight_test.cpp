@@ -186,6 +186,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--tonemap", {"--tonemap", "none"}},
         {"--unlit", {"--unlit"}}};
     const std::map<std::string, Words> doesNot = {
+        {"--advice", {"--advice"}},
         {"--allow-outside", {"--allow-outside"}}, // told by content
         {"--device", {"--device", "llvmpipe"}},
         {"--dump-graph", {"--dump-graph"}},
@@ -193,6 +194,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--ffmpeg", {}},                             // needs a film
         {"--flythrough", {"--flythrough", "f.json"}}, // told by content
         {"--frames", {"--frames", "0:3"}},
+        {"--hash-passes", {"--hash-passes", "h.json"}},
         {"--keep-frames", {}}, // needs a film
         {"--out", {}},
         {"--repeat", {"--repeat", "3"}},

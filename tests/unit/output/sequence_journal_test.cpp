@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
+#include "game/output/render_options.h"
 #include "game/output/sequence_journal.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,10 @@ class JournalOfASequence : public testing::Test {
         return std::move(opened).value();
     }
 
+    [[nodiscard]] bool isComplete(const SequenceJournal& journal, int frame) const {
+        return journal.isComplete(frame, frameFile(mFolder / "f_%04d.png", frame));
+    }
+
     [[nodiscard]] fs::path file() const { return journalFile(mFolder / "f_%04d.png"); }
 
     [[nodiscard]] std::string text() const {
@@ -53,28 +58,28 @@ TEST_F(JournalOfASequence, KnowsWhatIsCompleteWhenItIsOpenedAgain) {
     {
         SequenceJournal journal = open("a");
         EXPECT_EQ(journal.before(), Before::Nothing);
-        EXPECT_FALSE(journal.isComplete(3));
+        EXPECT_FALSE(isComplete(journal, 3));
         ASSERT_TRUE(journal.add(3, {write("f_0003.png", "x"), write("f_0003.mask.exr", "y")}).ok());
         ASSERT_TRUE(journal.add(-1, {write("f_-001.png", "z")}).ok());
-        EXPECT_TRUE(journal.isComplete(3));
+        EXPECT_TRUE(isComplete(journal, 3));
     }
     const SequenceJournal again = open("a");
     EXPECT_EQ(again.before(), Before::SamePictures);
-    EXPECT_TRUE(again.isComplete(3));
-    EXPECT_TRUE(again.isComplete(-1));
-    EXPECT_FALSE(again.isComplete(4));
+    EXPECT_TRUE(isComplete(again, 3));
+    EXPECT_TRUE(isComplete(again, -1));
+    EXPECT_FALSE(isComplete(again, 4));
     write("f_0003.mask.exr", "Y");
-    EXPECT_FALSE(again.isComplete(3)) << "one of its files was changed";
+    EXPECT_FALSE(isComplete(again, 3)) << "one of its files was changed";
     fs::remove(mFolder / "f_-001.png");
-    EXPECT_FALSE(again.isComplete(-1)) << "its file is gone";
+    EXPECT_FALSE(isComplete(again, -1)) << "its file is gone";
 }
 
 TEST_F(JournalOfASequence, OtherPicturesBeginAnew) {
     ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
     const SequenceJournal other = open("b");
     EXPECT_EQ(other.before(), Before::OtherPictures);
-    EXPECT_FALSE(other.isComplete(0));
-    EXPECT_FALSE(open("b").isComplete(0));
+    EXPECT_FALSE(isComplete(other, 0));
+    EXPECT_FALSE(isComplete(open("b"), 0));
     EXPECT_EQ(open("a").before(), Before::OtherPictures);
 }
 
@@ -92,10 +97,10 @@ TEST_F(JournalOfASequence, CutOffAnywhereItStillTellsTheTruth) {
         const auto lines = std::count(whole.begin(), whole.begin() + std::ptrdiff_t(bytes), '\n');
         SequenceJournal journal = open("a");
         for (int frame = 0; frame < 3; ++frame)
-            ASSERT_EQ(journal.isComplete(frame), frame < lines - 1) << bytes;
+            ASSERT_EQ(isComplete(journal, frame), frame < lines - 1) << bytes;
         // And goes on from there.
         ASSERT_TRUE(journal.add(2, {mFolder / "f_0002.png"}).ok());
-        ASSERT_TRUE(open("a").isComplete(2)) << bytes;
+        ASSERT_TRUE(isComplete(open("a"), 2)) << bytes;
     }
 }
 
@@ -111,7 +116,7 @@ TEST_F(JournalOfASequence, WhatIsNoJournalBeginsAnew) {
           header + "{\"frame\": 1e300, \"files\": [{\"name\": \"x\", \"hash\": \"y\"}]}\n",
           header + "\xFF\xFE\n"}) {
         ASSERT_TRUE(io::writeFileText(file(), wrong).ok());
-        EXPECT_FALSE(open("a").isComplete(0)) << wrong;
+        EXPECT_FALSE(isComplete(open("a"), 0)) << wrong;
         EXPECT_EQ(text(), header) << wrong;
     }
 }
@@ -126,10 +131,22 @@ TEST_F(JournalOfASequence, FilesOutsideTheFolderAreNoFrames) {
         const std::string line = "{\"frame\": 0, \"files\": [{\"name\": \"" + name +
                                  "\", \"hash\": \"" + hash + "\"}]}\n";
         ASSERT_TRUE(io::writeFileText(file(), header + line).ok());
-        EXPECT_FALSE(open("a").isComplete(0)) << name;
+        EXPECT_FALSE(isComplete(open("a"), 0)) << name;
         EXPECT_EQ(text(), header) << "its line is gone";
     }
     fs::remove(outside);
+}
+
+TEST_F(JournalOfASequence, AnothersPictureCompletesNoFrame) {
+    SequenceJournal journal = open("a");
+    const fs::path first = write("f_0000.png", "x");
+    ASSERT_TRUE(journal.add(0, {first}).ok());
+    ASSERT_TRUE(journal.add(1, {first}).ok());
+    ASSERT_TRUE(journal.add(2, {first, write("f_0002.png", "y")}).ok());
+    const SequenceJournal again = open("a");
+    EXPECT_TRUE(isComplete(again, 0));
+    EXPECT_FALSE(isComplete(again, 1)) << "its line names the picture of frame 0 alone";
+    EXPECT_TRUE(isComplete(again, 2));
 }
 
 TEST_F(JournalOfASequence, WhatCannotBeReadOrWrittenIsNamed) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Claims about cost: curves with their lines, and each check beside its bound.
+// Claims about cost, and about what grows over many frames: curves with their lines, and each check
+// beside its bound.
 
 /** "6 of 7 claims about cost hold", "1 of 7 ... holds". Null in other suites. */
 function writeDemandSentence() {
@@ -9,6 +10,17 @@ function writeDemandSentence() {
     return `${formatNumber(held, 0)} of ${countOf(claims.length, "claim")} about cost ` +
         `${held === 1 ? "holds" : "hold"}.`;
 }
+
+/** "The soak stayed within its bounds." Null in other suites. */
+function writeSoakSentence() {
+    const claims = results.soak ?? [];
+    if (claims.length === 0) return null;
+    return claims.every((claim) => claim.held)
+        ? "Nothing grows over the frames of the soak." : "The soak left its bounds.";
+}
+
+/** The sections that show claims; each is a field of the results. */
+const claimSections = ["demand", "soak"];
 
 function nameQuantity({title, unit}) {
     return unit ? `${title} (${unit})` : title;
@@ -22,12 +34,12 @@ function describeLine({slope, intercept, r2}) {
         `r² ${formatNumber(r2, 3)}`;
 }
 
-function demandCanvasId(claim, curve) {
-    return `demand-${claim.name}-${curve.name}`;
+function claimCanvasId(section, claim, curve) {
+    return `${section}-${claim.name}-${curve.name}`;
 }
 
 /** Points with whiskers, and the line from the first to the last. */
-function makeDemandSets(curve) {
+function makeClaimSets(curve) {
     const color = cssColor("--accent");
     const points = curve.points.map((p) => ({
         x: p.x, y: p.median, label: p.label, quartiles: [p.q1, p.q3],
@@ -48,8 +60,8 @@ function makeDemandSets(curve) {
     return sets;
 }
 
-function drawDemandCurve(claim, curve) {
-    const canvas = byId(demandCanvasId(claim, curve));
+function drawClaimCurve(section, claim, curve) {
+    const canvas = byId(claimCanvasId(section, claim, curve));
     const values = curve.points.map((p) => p.x);
     const heights = curve.points.flatMap((p) => [p.q1, p.q3]);
     // A line is straight on linear axes alone; without one, decades may be far apart.
@@ -58,7 +70,7 @@ function drawDemandCurve(claim, curve) {
     const logarithmicY = curve.line === null && isWide(heights);
     canvas.setAttribute("aria-label", `${nameQuantity(curve.y)} against ${nameQuantity(curve.x)}`);
     drawChart(canvas, {
-        data: {datasets: makeDemandSets(curve)},
+        data: {datasets: makeClaimSets(curve)},
         scales: {
             x: makeAxis(nameQuantity(curve.x), logarithmicX, values),
             y: makeAxis(nameQuantity(curve.y), logarithmicY, heights),
@@ -73,7 +85,7 @@ function drawDemandCurve(claim, curve) {
     });
 }
 
-function makeDemandTable(claim) {
+function makeClaimTable(claim) {
     const columns = ["Check", {content: "measured", class: "n"}, {content: "bound", class: "n"},
         "unit", {content: "used", class: "n"}, "verdict", "how"];
     if (claim.checks.length === 0)
@@ -89,32 +101,36 @@ function makeDemandTable(claim) {
         {content: row.note, class: "soft"}]), {class: "stability"});
 }
 
-function makeDemandClaim(claim) {
+function makeClaim(section, claim) {
     const plots = claim.curves.map((curve) => el("div", {},
         el("h4", {}, curve.title),
         el("div", {class: "plot"},
-            el("canvas", {role: "img", id: demandCanvasId(claim, curve)})),
+            el("canvas", {role: "img", id: claimCanvasId(section, claim, curve)})),
         curve.line ? el("p", {class: "small"}, describeLine(curve.line)) : null));
-    return el("div", {id: `demand-${claim.name}`},
+    return el("div", {id: `${section}-${claim.name}`},
         el("h3", {}, claim.title),
         el("p", {}, `${claim.description} Measured in ${formatNumber(claim.seconds, 1)} s.`),
         plots.length > 0 ? el("div", {class: "plots"}, ...plots) : null,
-        makeDemandTable(claim));
+        makeClaimTable(claim));
 }
 
-function drawDemandCharts() {
-    for (const claim of results.demand ?? [])
-        for (const curve of claim.curves) drawDemandCurve(claim, curve);
+function drawClaimCharts() {
+    for (const section of claimSections)
+        for (const claim of results[section] ?? [])
+            for (const curve of claim.curves) drawClaimCurve(section, claim, curve);
 }
 
-function drawDemand() {
-    const claims = results.demand ?? [];
-    if (claims.length === 0) return;
-    reveal("demand");
-    const broken = claims.filter((claim) => !claim.held);
-    byId("demand-broken").hidden = broken.length === 0;
-    byId("demand-broken").textContent =
-        `Out of bounds: ${broken.map((claim) => claim.title).join("; ")}.`;
-    byId("demand-claims").replaceChildren(...claims.map(makeDemandClaim));
-    drawDemandCharts();
+function drawClaims() {
+    for (const section of claimSections) {
+        const claims = results[section] ?? [];
+        if (claims.length === 0) continue;
+        reveal(section);
+        const broken = claims.filter((claim) => !claim.held);
+        byId(`${section}-broken`).hidden = broken.length === 0;
+        byId(`${section}-broken`).textContent =
+            `Out of bounds: ${broken.map((claim) => claim.title).join("; ")}.`;
+        byId(`${section}-claims`).replaceChildren(
+            ...claims.map((claim) => makeClaim(section, claim)));
+    }
+    drawClaimCharts();
 }

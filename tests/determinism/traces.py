@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""Pictures of one shot by every method, with a hash of each image that each pass wrote."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+
+PINS = pathlib.Path(__file__).with_name("pins.json")
+# Small, and yet every pass of every method runs in it.
+SHOT = ("--size", "96x54", "--device", "llvmpipe", "--exposure", "0.05")
+SAMPLES = {"accumulate": "4", "truth": "2", "denoised": "1"}
+
+
+def list_methods(executable):
+    done = subprocess.run([executable, "info", "--methods"], capture_output=True, text=True,
+                          check=True)
+    return done.stdout.split()
+
+
+def render(executable, assets, method, picture, *more, environment=()):
+    samples = ("--samples", SAMPLES[method]) if method in SAMPLES else ()
+    subprocess.run(
+        [executable, "render", f"{assets}/vase.glb", "--method", method, *SHOT, *samples, *more,
+         "--out", picture],
+        check=True, env={**os.environ, **dict(environment)}, timeout=300)
+
+
+def draw(executable, assets, method, *more, environment=()):
+    """{"driver": ..., "images": [{"frame", "pass", "image", "hash"}, ...]} of one picture."""
+    with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
+        trace = pathlib.Path(folder) / "trace.json"
+        render(executable, assets, method, f"{folder}/picture.exr", "--hash-passes", trace, *more,
+               environment=environment)
+        return json.loads(trace.read_text(encoding="utf-8"))
+
+
+def place(row):
+    return row["frame"], row["pass"], row["image"]
+
+
+def find_difference(expected, found):
+    """A sentence that names the first pass whose images differ; None where none does. An expected
+    hash that is None says that the image is not the same in every run."""
+    for before, now in zip(expected, found):
+        if place(before) != place(now):
+            return (f"the passes differ from '{now['pass']}' on, where '{before['pass']}' ran: "
+                    f"image '{now['image']}' of frame {now['frame']}")
+        if before["hash"] is not None and before["hash"] != now["hash"]:
+            return (f"the first pass that differs is '{now['pass']}': image '{now['image']}' of "
+                    f"frame {now['frame']}")
+    if len(expected) != len(found):
+        longer = max(expected, found, key=len)
+        row = longer[min(len(expected), len(found))]
+        return f"only one of them has the pass '{row['pass']}'"
+    return None
+
+
+def read_pins():
+    return json.loads(PINS.read_text(encoding="utf-8")) if PINS.exists() else {}

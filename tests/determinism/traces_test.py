@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""A change in one pass is named, on any driver."""
+
+import os
+import pathlib
+import tempfile
+import unittest
+
+import traces
+
+EXECUTABLE = os.environ["SHUTTER_EXECUTABLE"]
+ASSETS = os.environ["SHUTTER_ASSETS"]
+
+
+def rows(*hashes):
+    return [{"frame": 0, "pass": f"pass {i}", "image": "color", "hash": value}
+            for i, value in enumerate(hashes)]
+
+
+class Traces(unittest.TestCase):
+    def draw(self, method, *more):
+        return traces.draw(EXECUTABLE, ASSETS, method, *more)["images"]
+
+    def test_the_first_row_that_differs_is_named(self):
+        self.assertIsNone(traces.find_difference(rows("a", "b"), rows("a", "b")))
+        self.assertIn("differs is 'pass 1'", traces.find_difference(rows("a", "b", "c"),
+                                                                   rows("a", "x", "y")))
+        self.assertIsNone(traces.find_difference(rows("a", None), rows("a", "x")))
+        self.assertIn("only one of them has the pass 'pass 1'",
+                      traces.find_difference(rows("a"), rows("a", "b")))
+        renamed = rows("a", "b")
+        renamed[0]["pass"] = "another"
+        self.assertIn("differ from 'pass 0' on", traces.find_difference(renamed, rows("a", "b")))
+
+    def test_two_runs_write_the_same(self):
+        for method in ("gather", "resolved"):
+            found = self.draw(method)
+            self.assertGreater(len(found), 8)
+            self.assertIsNone(traces.find_difference(self.draw(method), found))
+
+    def test_tracing_does_not_change_the_picture(self):
+        for method in ("hybrid", "resolved", "accumulate"):
+            with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
+                files = [pathlib.Path(folder) / name for name in ("plain.exr", "traced.exr")]
+                traces.render(EXECUTABLE, ASSETS, method, files[0])
+                traces.render(EXECUTABLE, ASSETS, method, files[1],
+                              "--hash-passes", f"{folder}/trace.json")
+                self.assertEqual(*(file.read_bytes() for file in files))
+
+    def test_a_setting_of_one_pass_is_traced_to_it(self):
+        before = {method: self.draw(method) for method in ("gather", "hybrid")}
+        for method, setting, name in CHANGES:
+            with self.subTest(setting=setting):
+                difference = traces.find_difference(
+                    before[method], self.draw(method, "--set", setting))
+                self.assertIsNotNone(difference)
+                self.assertIn(f"'{name}'", difference)
+
+
+# What each setting acts on first.
+CHANGES = (
+    ("gather", "foregroundMagnification=30", "gather"),
+    ("hybrid", "neighbourhoodTiles=1", "neighbour max"),
+    ("hybrid", "edgeThreshold=0.999", "edge"),
+    ("hybrid", "backgroundMagnification=50", "gather and composite"),
+)
+
+
+if __name__ == "__main__":
+    unittest.main()
