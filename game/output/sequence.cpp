@@ -122,7 +122,6 @@ class Sequence {
             return able;
         mDevice = &device;
         mShot = &shot;
-        mDevice = &device.info();
         mRenderer.emplace(device, shot.world.assets);
         mBloom.emplace(device, mOptions.shot.bloom);
         mTonemap.emplace(device, mOptions.shot.tonemap);
@@ -227,7 +226,8 @@ class Sequence {
         if (mOptions.output.explain)
             printExplanations(seconds, result.value().statistics);
         if (!mOptions.output.hashPasses.empty())
-            SHUTTER_TRY(writePassHashes(mOptions.output.hashPasses, *mDevice, result.value().trace)
+            SHUTTER_TRY(
+                writePassHashes(mOptions.output.hashPasses, mDevice->info(), result.value().trace)
             );
         const auto files = writePicture(mOptions, fileNumber(mOptions, frame), result.value());
         if (!files)
@@ -241,7 +241,6 @@ class Sequence {
     const RenderOptions& mOptions;
     gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
-    const gpu::DeviceInfo* mDevice = nullptr;
     std::optional<render::Renderer> mRenderer;
     std::optional<bloom::Bloom> mBloom;
     std::optional<tonemap::Tonemap> mTonemap;
