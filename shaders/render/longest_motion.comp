@@ -9,32 +9,15 @@ layout(local_size_x = kLongestMotionGroup, local_size_y = kLongestMotionGroup) i
 layout(push_constant, scalar) uniform Push { LongestMotionParams params; };
 layout(binding = 0) uniform sampler2D uMotionDepth;
 layout(binding = 1) uniform usampler2D uEntityId;
-layout(binding = 2, scalar) buffer Longest { uint uLongest[]; }; // bits of pixels, one a row, the sky's last
-
-// Most groups see one entity: it is asked once a group.
-shared uint sRow;
-shared uint sLongest;
+layout(binding = 2, scalar) coherent buffer Longest { uint uLongest[]; }; // bits of pixels, one a row, the sky's last
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool isInside = all(lessThan(uvec2(pixel), params.sizePx));
-    uint row = params.rowCount;
-    float speed = 0.0f;
-    if (isInside) {
-        row = min(texelFetch(uEntityId, pixel, 0).x, params.rowCount);
-        speed = length(texelFetch(uMotionDepth, pixel, 0).xy);
-    }
-    if (gl_LocalInvocationIndex == 0u) { // whose pixel is always inside
-        sRow = row;
-        sLongest = 0u;
-    }
-    barrier();
-    if (speed > 0.0f) { // not NaN
-        if (row == sRow)
-            atomicMax(sLongest, floatBitsToUint(speed));
-        else
-            atomicMax(uLongest[row], floatBitsToUint(speed));
-    }
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && sLongest > 0u) atomicMax(uLongest[sRow], sLongest);
+    if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
+    float speed = length(texelFetch(uMotionDepth, pixel, 0).xy);
+    if (!(speed > 0.0f)) return; // still, or NaN
+    uint row = min(texelFetch(uEntityId, pixel, 0).x, params.rowCount);
+    uint bits = floatBitsToUint(speed);
+    // Few pixels are longer than all before them, and only those need the atomic.
+    if (bits > uLongest[row]) atomicMax(uLongest[row], bits);
 }

@@ -178,5 +178,64 @@ TEST_F(GraphExecute, ARealFrameIsTheSameWithAndWithoutSharedMemory) {
     }
 }
 
+TEST_F(GraphExecute, APassThatStartsABatchIsRecordedApartAndSeesWhatCameBefore) {
+    test::GraphRig rig(device());
+    const ImageHandle first =
+        addClear(rig.graph, VK_FORMAT_R32G32B32A32_SFLOAT, {{0.25f, 0.5f, 0.75f, 1.0f}});
+    VkCommandBuffer before = VK_NULL_HANDLE;
+    VkCommandBuffer after = VK_NULL_HANDLE;
+
+    struct Copied {
+        ImageHandle source;
+        ImageHandle target;
+    };
+
+    const auto addCopy = [&](ImageHandle source, bool startsBatch, VkCommandBuffer& recorded) {
+        return rig.graph
+            .addPass<Copied>(
+                "copy",
+                PassKind::Transfer,
+                [&](graph::PassBuilder& builder, Copied& data) {
+                    const auto image = rig.graph.createImage(
+                        "copied", {kWidth, kHeight, VK_FORMAT_R32G32B32A32_SFLOAT}
+                    );
+                    data.source = builder.read(source, Access::TransferRead);
+                    data.target = builder.write(image, Access::TransferWrite);
+                    if (startsBatch)
+                        builder.startBatch();
+                },
+                [&recorded](const Copied& data, graph::PassContext& context) {
+                    recorded = context.commands;
+                    VkImageCopy region{};
+                    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+                    region.dstSubresource = region.srcSubresource;
+                    region.extent = {kWidth, kHeight, 1};
+                    vkCmdCopyImage(
+                        context.commands,
+                        context.resources.image(data.source).handle(),
+                        VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                        context.resources.image(data.target).handle(),
+                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                        1,
+                        &region
+                    );
+                }
+            )
+            .target;
+    };
+    const ImageHandle second = addCopy(first, false, before);
+    const ImageHandle third = addCopy(second, true, after);
+    const size_t ticket = rig.want(third);
+    const uint64_t submissions = device().completedValue();
+    test::run(rig);
+    EXPECT_EQ(device().completedValue(), submissions + 1) << "of two batches";
+    EXPECT_NE(before, VkCommandBuffer(VK_NULL_HANDLE));
+    EXPECT_NE(after, VkCommandBuffer(VK_NULL_HANDLE));
+    EXPECT_NE(before, after);
+    const image::Image seen = rig.take(ticket);
+    EXPECT_EQ(seen.at(kWidth - 1, kHeight - 1, 0), 0.25f);
+    EXPECT_EQ(seen.at(0, 0, 2), 0.75f);
+}
+
 } // namespace
 } // namespace shutter

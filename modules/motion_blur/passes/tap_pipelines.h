@@ -20,7 +20,8 @@ enum class TapVariants : uint8_t {
           ///< one that serves all does so meanwhile
 };
 
-/// None on software devices: their compiler takes longer over unrolled taps than it saves.
+/// None on software devices: theirs are compiled when they first run, and so in the time of a pass.
+/// A budget that goes through numbers of taps would measure the compiler.
 [[nodiscard]] TapVariants chooseTapVariants(const gpu::Device& device);
 
 class TapPipelines {
