@@ -1,60 +1,94 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds the tests that need no device with the address and undefined-behaviour sanitizers and runs
-# them. Any fault that a sanitizer finds fails its test. CTEST_PARALLEL_LEVEL is the number of tests at
-# a time.
+# Builds tests with sanitizers and runs them. Any fault that a sanitizer finds fails its test.
+# CTEST_PARALLEL_LEVEL is the number of tests at a time.
 set -euo pipefail
 
 script_name=check_sanitizers
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/lib/messages.sh
 source "$root/scripts/lib/messages.sh"
+# shellcheck source=scripts/lib/lavapipe.sh
+source "$root/scripts/lib/lavapipe.sh"
 
 # Those of SHUTTER_SANITIZED_LABELS in tests/CMakeLists.txt.
 labels='^(unit|graph|robustness)$'
+# Those that draw, by linking to what they test or by running the program.
+drawing_labels='^(gpu|image|stability|cli)$'
 
 # The programs of the short run: what reads files, keeps memory or sorts passes.
 short=(test_graph test_unit_{core,ecs,flythrough,gltf,image,io,json,math,scene})
 
 usage() {
     cat <<'TEXT'
-usage: scripts/check_sanitizers.sh [--short | CTEST OPTION...]
-  --short   only the programs of the rooms that read files, keep memory or sort passes: some five
-            minutes on two cores, where all take an hour
-Builds and runs the tests that need no device in build/asan. Exit status: 0 all pass, otherwise not.
-scripts/setup.sh --with-tests installs what the build needs.
+usage: scripts/check_sanitizers.sh [--short | --thread | --drawing] [CTEST OPTION...]
+Builds and runs tests with sanitizers:
+  (nothing)  those that need no device, with the address and undefined-behaviour sanitizers, in
+             build/asan: an hour on two cores
+  --short    only the programs of the rooms that read files, keep memory or sort passes: some five
+             minutes
+  --drawing  those that draw, on lavapipe, with the same sanitizers: hours. What leaks is told at the
+             end of each program, apart from what tests/sanitizers/leaks.txt explains
+  --thread   those that need no device, with the thread sanitizer, in build/tsan. Those that draw are
+             left out: the driver's threads and the code that it compiles are unknown to the sanitizer
+Exit status: 0 all pass, otherwise not. scripts/setup.sh --with-tests installs what the build needs.
 TEXT
 }
 
-main() {
-    if [[ ${1:-} == -h || ${1:-} == --help ]]; then
-        usage
-        return
-    fi
-    cd "$root"
-    cmake --preset asan
-    # Halting makes a fault of undefined behaviour end the test; by itself it is only printed. CMake
-    # runs each test program after it is linked, to ask for its cases.
-    export ASAN_OPTIONS=detect_stack_use_after_return=1:check_initialization_order=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
-    export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}
-    if [[ ${1:-} == --short ]]; then
-        cmake --build --preset asan --target "${short[@]}"
-        run_short
-    else
-        cmake --build --preset asan --target sanitized_tests
-        ctest --preset asan -L "$labels" -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
-        say "the tests that need no device pass with the sanitizers"
-    fi
+# Builds the target with the preset and runs its tests. PRESET TARGET LABELS CTEST-OPTION...
+run_tests() {
+    local preset=$1 target=$2 wanted=$3
+    shift 3
+    cmake --build --preset "$preset" --target "$target"
+    ctest --preset "$preset" -L "$wanted" -j "${CTEST_PARALLEL_LEVEL:-2}" "$@"
 }
 
 # Each program as a whole: a process for each of its cases would take minutes to start them.
 run_short() {
     local program
+    cmake --build --preset asan --target "${short[@]}"
     for program in "${short[@]}"; do
         say "$program"
         (cd build/asan && "./$program" --gtest_brief=1)
     done
     say "${#short[@]} test programs pass with the sanitizers"
+}
+
+main() {
+    local mode=${1:-}
+    case $mode in
+    -h | --help)
+        usage
+        return
+        ;;
+    --short | --thread | --drawing) shift ;;
+    *) mode= ;;
+    esac
+    cd "$root"
+    # Halting makes a fault of undefined behaviour end the test; by itself it is only printed. CMake
+    # runs each test program after it is linked, to ask for its cases.
+    export ASAN_OPTIONS=detect_stack_use_after_return=1:check_initialization_order=1${ASAN_OPTIONS:+:$ASAN_OPTIONS}
+    export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}
+    export LSAN_OPTIONS=suppressions=$root/tests/sanitizers/leaks.txt:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}
+    if [[ $mode == --thread ]]; then
+        cmake --preset tsan
+        run_tests tsan sanitized_tests "$labels" "$@"
+        say "the tests that need no device pass with the thread sanitizer"
+        return
+    fi
+    cmake --preset asan
+    case $mode in
+    --short) run_short ;;
+    --drawing)
+        force_lavapipe
+        run_tests asan all "$drawing_labels" "$@"
+        say "the tests that draw pass with the sanitizers"
+        ;;
+    *)
+        run_tests asan sanitized_tests "$labels" "$@"
+        say "the tests that need no device pass with the sanitizers"
+        ;;
+    esac
 }
 
 main "$@"
