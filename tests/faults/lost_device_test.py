@@ -19,7 +19,8 @@ class LostDevice(FaultCase):
     def test_each_submission_of_a_picture(self):
         frame = self.render("--out", "a.png", "--validate")
         count = self.count_calls(frame)["submissions"]
-        self.assertGreater(count, 10)
+        # What the scene is uploaded with, the frame before and the frame.
+        self.assertGreater(count, 5)
         (self.folder / "a.png").unlink()
         self.lose(frame, range(1, count + 1))
         self.assertEqual(self.list_files(), set())
