@@ -10,7 +10,8 @@ find_program(SHUTTER_SPIRV_OPT spirv-opt)
 find_program(SHUTTER_SPIRV_VAL spirv-val)
 
 # What spirv-opt -O of SPIRV-Tools 2023.1 does, without simplify-instructions: that one reorders
-# arithmetic of floats, and pictures would depend on the optimiser's version.
+# arithmetic of floats, and pictures would depend on the optimiser's version. Behind them, what takes
+# unused variables out of the interface: later versions leave those of resources in.
 set(SHUTTER_SPIRV_PASSES
     --wrap-opkill --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive
     --eliminate-dead-functions --eliminate-dead-code-aggressive --private-to-local
@@ -23,7 +24,8 @@ set(SHUTTER_SPIRV_PASSES
     --eliminate-local-single-store --eliminate-dead-code-aggressive --ssa-rewrite
     --eliminate-dead-code-aggressive --vector-dce --eliminate-dead-inserts --eliminate-dead-branches
     --if-conversion --copy-propagate-arrays --reduce-load-size --eliminate-dead-code-aggressive
-    --merge-blocks --redundancy-elimination --eliminate-dead-branches --merge-blocks)
+    --merge-blocks --redundancy-elimination --eliminate-dead-branches --merge-blocks
+    --remove-unused-interface-variables --eliminate-dead-variables)
 
 # Has `target` made from the files that follow, which lie below the folder of made headers.
 function(_shutter_add_generated target)
