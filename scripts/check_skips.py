@@ -10,7 +10,7 @@ may skip while CONDITION holds:
   no-program NAME...   one of the programs is not on PATH
   no-module NAME       python3 cannot import the module
   other-device         the environment picks another device than lavapipe
-  unpinned-driver      no pictures are pinned for the drivers of this machine
+  unpinned-driver      no pictures are pinned for the drivers and the processor of this machine
 Exit status 1 if a test skipped without such a line, or if a pattern matches no test at all.
 """
 
@@ -59,7 +59,11 @@ def is_unpinned_driver():
     shutter = ROOT / "build/release/shutter"
     pins = json.loads((ROOT / "tests/determinism/pins.json").read_text(encoding="utf-8"))
     devices = subprocess.run([shutter, "info", "--devices"], capture_output=True, text=True)
-    return not any(driver in devices.stdout for driver in pins)
+    sys.path.insert(0, str(ROOT / "tests/determinism"))
+    import traces
+    processor = f" on {traces.describe_processor()}"
+    return not any(pin.endswith(processor) and pin.removesuffix(processor) in devices.stdout
+                   for pin in pins)
 
 
 # By name: the function that tells whether the condition holds, and how many words it takes.

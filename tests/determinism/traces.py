@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pictures of one shot by every method, with a hash of each image that each pass wrote."""
 
+import hashlib
 import json
 import os
 import pathlib
@@ -11,6 +12,19 @@ PINS = pathlib.Path(__file__).with_name("pins.json")
 # Small, and yet every pass of every method runs in it.
 SHOT = ("--size", "96x54", "--device", "llvmpipe", "--exposure", "0.05")
 SAMPLES = {"accumulate": "4", "truth": "2", "denoised": "1"}
+
+
+def describe_processor():
+    """Name and a digest of all that a compiler asks of it: software drivers compile for it."""
+    wanted = ("vendor_id", "cpu family", "model", "model name", "flags", "Features")
+    found = {}
+    cpuinfo = pathlib.Path("/proc/cpuinfo")
+    for line in cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else ():
+        key, _, value = line.partition(":")
+        if key.strip() in wanted:
+            found.setdefault(key.strip(), value.strip())
+    digest = hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
+    return f"{found.get('model name', 'unknown')} {digest[:8]}"
 
 
 def list_methods(executable):
@@ -28,12 +42,13 @@ def render(executable, assets, method, picture, *more, environment=()):
 
 
 def draw(executable, assets, method, *more, environment=()):
-    """{"driver": ..., "images": [{"frame", "pass", "image", "hash"}, ...]} of one picture."""
+    """{"driver": driver and processor, "images": [{"frame", "pass", "image", "hash"}, ...]} of one picture."""
     with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
         trace = pathlib.Path(folder) / "trace.json"
         render(executable, assets, method, f"{folder}/picture.exr", "--hash-passes", trace, *more,
                environment=environment)
-        return json.loads(trace.read_text(encoding="utf-8"))
+        found = json.loads(trace.read_text(encoding="utf-8"))
+    return {**found, "driver": f"{found['driver']} on {describe_processor()}"}
 
 
 def place(row):
