@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Opening Vulkan, with validation where it is asked for.
+// Opens Vulkan, with validation where DeviceOptions want it.
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
 

@@ -59,7 +59,7 @@ std::vector<VkExtensionProperties> listExtensions(VkPhysicalDevice device) {
     return extensions;
 }
 
-/// Of the beta headers, where it is not named unless all of them are wanted.
+/// Vulkan's headers name it only together with all other beta extensions.
 constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";
 
 void findRobustness(DeviceInfo& info, const std::vector<VkExtensionProperties>& extensions) {

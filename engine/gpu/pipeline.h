@@ -92,7 +92,8 @@ class Pipeline {
     }
 
   private:
-    /// Of nothing yet. The others delegate to it, so that what they have made goes where they fail.
+    /// Holds nothing yet. The other constructors delegate to it, so that whatever they made is
+    /// destroyed where they fail.
     Pipeline(
         Device& device, VkPipelineBindPoint bindPoint, VkShaderStageFlags stages, std::string name
     )

@@ -26,7 +26,7 @@ class GBufferPass {
   public:
     enum class Variant : uint8_t { Opaque, Masked, Blended };
 
-    /// Of one variant.
+    /// The pipelines of one variant.
     struct Pipelines {
         Pipelines(gpu::Device& device, const gpu_scene::GpuScene& scene, Variant variant);
 

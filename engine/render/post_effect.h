@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How an effect takes its place in a frame: it is asked whether the frame calls for it, then
+// How an effect takes its place in a frame: it says whether the frame calls for it, then
 // declares passes. The renderer knows no effect by name.
 #pragma once
 
@@ -82,7 +82,8 @@ struct PostContext {
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
     uint32_t slot = 0;                  ///< of the frames in flight, below gpu::kMaxFramesInFlight
-    /// Of the frame's submission: an effect that draws on an image of the window system sets them.
+    /// What the frame's submission waits for and signals; set by an effect that draws on an image
+    /// of the window system.
     gpu::SubmitSemaphores semaphores{};
 };
 

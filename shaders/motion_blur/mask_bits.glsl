@@ -14,7 +14,7 @@ SHUTTER_SHADER_BEGIN
 SHUTTER_CONST uint kOddColumns = 0xAAAAAAAAu;
 SHUTTER_CONST uint kOddRows = 0xFF00FF00u;
 
-/// Of masked pixels the first of each quad, in one word.
+/// The first masked pixel of each quad, as bits of one word.
 SHUTTER_INLINE uint leadersOfQuads(uint masked) {
     uint besides = masked | ((masked & kOddColumns) >> 1u) | ((masked << 1u) & kOddColumns);
     return masked & ~((masked << 1u) & kOddColumns) & ~((besides << 8u) & kOddRows);

@@ -34,7 +34,7 @@ vec4 gatherUniform(vec2 at, vec2 dominant) {
     float offset = mix(0.5f, interleavedGradientNoise(floor(at)), params.jitter);
     float first = tapPosition(0u, offset, countTaps(), params.rasterTime);
     float perTap = 1.0f / float(countTaps());
-    // Of the smear's length to the side of u >= 0, and to the other, one u.
+    // One unit of u as a share of the smear's length: where u >= 0, and on the other side.
     vec2 perReach = vec2(
         smearRatio(range, range * params.rasterTime),
         smearRatio(range, range * (1.0f - params.rasterTime))

@@ -13,10 +13,10 @@
 
 namespace shutter::motion_blur {
 
-/// Whether a filter gets pipelines for the taps that it is asked for.
+/// Whether a filter has a pipeline of its own for each number of taps.
 enum class TapVariants : uint8_t {
     None, ///< one pipeline serves all
-    Made, ///< each is made when it is first asked for; where the device makes pipelines ahead, the
+    Made, ///< each is made when it is first needed; where the device makes pipelines ahead, the
           ///< one that serves all does so meanwhile
 };
 
