@@ -37,8 +37,7 @@ core::Status printDevices() {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    if (vkCreateInstance(&info, nullptr, &instance) != VK_SUCCESS)
-        return core::makeError("no Vulkan driver is installed (package mesa-vulkan-drivers)");
+    gpu::require(vkCreateInstance(&info, nullptr, &instance), "creating the Vulkan instance");
     const auto devices = gpu::listDevices(instance);
     for (size_t i = 0; i < devices.size(); ++i)
         fmt::print(

@@ -34,8 +34,7 @@ struct Create<index, next> {
     static VKAPI_ATTR VkResult VKAPI_CALL call(VkDevice device, Args... args) {
         DeviceTable& table = findDevice(device);
         const uint32_t number = ++table.creationCounts[index];
-        const auto failing = FaultPlan::get().creations.find(kNames[index]);
-        if (failing != FaultPlan::get().creations.end() && failing->second.holds(number))
+        if (FaultPlan::get().failsCreation(kNames[index], number))
             return VK_ERROR_OUT_OF_HOST_MEMORY;
         return (table.*next)(device, args...);
     }
@@ -45,6 +44,11 @@ struct Create<index, next> {
 
 std::span<const char* const> listCreationNames() {
     return kNames;
+}
+
+std::span<const char* const> listOtherCreationNames() {
+    static constexpr std::array kOthers{"CreateInstance", "CreateDevice", "CreateSwapchainKHR"};
+    return kOthers;
 }
 
 std::span<const Entry> listCreations() {

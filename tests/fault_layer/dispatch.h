@@ -29,6 +29,7 @@ namespace shutter::faults {
 #define SHUTTER_NEXT_OF_DEVICE(X)                                                                  \
     X(AcquireNextImageKHR)                                                                         \
     X(AllocateMemory)                                                                              \
+    X(CreateSwapchainKHR)                                                                          \
     X(DestroyDevice)                                                                               \
     X(DeviceWaitIdle)                                                                              \
     X(FreeMemory)                                                                                  \
@@ -92,6 +93,7 @@ struct DeviceTable {
     std::atomic<uint32_t> livingMemories = 0;
     std::atomic<uint32_t> submissionCount = 0;
     std::array<std::atomic<uint32_t>, kMaxCreations> creationCounts{}; ///< as SHUTTER_CREATIONS
+    std::atomic<uint32_t> swapchainCount = 0;
     std::atomic<uint32_t> acquisitionCount = 0;
     std::atomic<uint32_t> presentationCount = 0;
     std::mutex hiddenMutex;
@@ -132,6 +134,9 @@ struct Entry {
 [[nodiscard]] std::span<const Entry> listCreations();
 /// The functions' names without "vk", in the order of DeviceTable::creationCounts.
 [[nodiscard]] std::span<const char* const> listCreationNames();
+
+/// Those that other files stand in for.
+[[nodiscard]] std::span<const char* const> listOtherCreationNames();
 
 /// Submissions, and everything that tells of a lost device.
 [[nodiscard]] std::span<const Entry> listLostDevice();

@@ -74,7 +74,9 @@ std::map<std::string, FailingCalls> readCreations(const std::string& text) {
     for (const std::string& part : split(text, ',')) {
         const auto [name, calls] = readPair(part);
         const auto names = listCreationNames();
-        if (std::find(names.begin(), names.end(), name) == names.end())
+        const auto others = listOtherCreationNames();
+        if (std::find(others.begin(), others.end(), name) == others.end() &&
+            std::find(names.begin(), names.end(), name) == names.end())
             refuse("'" + name + "' makes nothing");
         creations[name] = readCalls(calls);
     }

@@ -36,6 +36,12 @@ struct FaultPlan {
     uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`
     uint32_t fileBytes = 0;
 
+    /// Whether the `number`th call of a function that makes something fails.
+    [[nodiscard]] bool failsCreation(const std::string& name, uint32_t number) const {
+        const auto failing = creations.find(name);
+        return failing != creations.end() && failing->second.holds(number);
+    }
+
     /// Reads it once. What cannot be understood ends the process: a test that asks for nothing
     /// would pass.
     [[nodiscard]] static const FaultPlan& get();

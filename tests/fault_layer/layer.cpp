@@ -4,12 +4,17 @@
 #include "tests/fault_layer/fault_plan.h"
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstring>
 
 namespace shutter::faults {
 
 namespace {
+
+// Of the process, which may fail before it has anything to count them in.
+std::atomic<uint32_t> sInstanceCount = 0;
+std::atomic<uint32_t> sDeviceCount = 0;
 
 /// The loader's own part of a chain.
 template <class Info> Info* findLink(const void* chain, VkStructureType type) {
@@ -30,6 +35,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
         return VK_ERROR_INITIALIZATION_FAILED;
     const auto getProcAddr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext; // the next layer looks for its own
+    if (FaultPlan::get().failsCreation("CreateInstance", ++sInstanceCount))
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
     const auto create =
         reinterpret_cast<PFN_vkCreateInstance>(getProcAddr(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = create(info, allocator, instance);
@@ -51,6 +58,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     const auto ofInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     const auto getProcAddr = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    if (FaultPlan::get().failsCreation("CreateDevice", ++sDeviceCount))
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
     const auto create = reinterpret_cast<PFN_vkCreateDevice>(
         ofInstance(findInstance(physical).instance, "vkCreateDevice")
     );
@@ -77,11 +86,16 @@ void writeCounts(const DeviceTable& table) {
         table.presentationCount.load()
     );
     const auto names = listCreationNames();
-    std::fprintf(file, ", \"creations\": {");
+    std::fprintf(
+        file,
+        ", \"creations\": {\"CreateInstance\": %u, \"CreateDevice\": %u, "
+        "\"CreateSwapchainKHR\": %u",
+        sInstanceCount.load(),
+        sDeviceCount.load(),
+        table.swapchainCount.load()
+    );
     for (size_t i = 0; i < names.size(); ++i)
-        std::fprintf(
-            file, "%s\"%s\": %u", i == 0 ? "" : ", ", names[i], table.creationCounts[i].load()
-        );
+        std::fprintf(file, ", \"%s\": %u", names[i], table.creationCounts[i].load());
     std::fprintf(file, "}}\n");
     std::fclose(file);
 }

@@ -29,6 +29,19 @@ VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(
     return result == VK_SUCCESS && found != planned.end() ? found->second : result;
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(
+    VkDevice device,
+    const VkSwapchainCreateInfoKHR* info,
+    const VkAllocationCallbacks* allocator,
+    VkSwapchainKHR* swapchain
+) {
+    DeviceTable& table = findDevice(device);
+    const uint32_t number = ++table.swapchainCount;
+    if (FaultPlan::get().failsCreation("CreateSwapchainKHR", number))
+        return VK_ERROR_OUT_OF_HOST_MEMORY;
+    return table.CreateSwapchainKHR(device, info, allocator, swapchain);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKHR* info) {
     DeviceTable& table = findDevice(queue);
     const auto& planned = FaultPlan::get().presentations;
@@ -45,6 +58,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKH
 std::span<const Entry> listSwapchainFaults() {
     static const std::array sEntries{
         SHUTTER_ENTRY(AcquireNextImageKHR, acquireNextImage),
+        SHUTTER_ENTRY(CreateSwapchainKHR, createSwapchain),
         SHUTTER_ENTRY(QueuePresentKHR, queuePresent),
     };
     return sEntries;

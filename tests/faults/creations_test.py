@@ -15,8 +15,8 @@ MOST_OF_A_KIND = 3
 KINDS_OF_A_FRAME = {
     "AllocateCommandBuffers", "AllocateDescriptorSets", "BindBufferMemory", "BindImageMemory",
     "CreateAccelerationStructureKHR", "CreateBuffer", "CreateCommandPool", "CreateComputePipelines",
-    "CreateDescriptorPool", "CreateDescriptorSetLayout", "CreateGraphicsPipelines", "CreateImage",
-    "CreateImageView", "CreatePipelineCache", "CreatePipelineLayout", "CreateQueryPool",
+    "CreateDescriptorPool", "CreateDescriptorSetLayout", "CreateDevice", "CreateGraphicsPipelines",
+    "CreateImage", "CreateImageView", "CreateInstance", "CreatePipelineCache", "CreatePipelineLayout", "CreateQueryPool",
     "CreateSampler", "CreateSemaphore", "CreateShaderModule"}
 
 
@@ -50,6 +50,19 @@ class Creations(FaultCase):
         # Validation tells what was not destroyed before its device.
         made = self.fail_each(self.render("--out", "a.png", "--validate"), KINDS_OF_A_FRAME)
         self.assertEqual(made, KINDS_OF_A_FRAME)
+
+    def test_each_command_without_instance_or_device(self):
+        for command in (["info", "--devices"],
+                        ["play", "rally", "--assets", ASSETS, "--no-window", "--frames", "1"],
+                        ["bench", "--suite", "paper", "--out", "report"]):
+            for name, doing in (("CreateInstance", "creating the Vulkan instance"),
+                                ("CreateDevice", "opening the device")):
+                if command[0] == "info" and name == "CreateDevice":
+                    continue  # it opens none
+                with self.subTest(command=command[0], creation=name):
+                    result = self.run_faulty(command, {"creation": f"{name}=1"})
+                    self.expect_sentence(result, f"{doing}", "out of main memory")
+                    self.assertEqual(self.list_files(), set())
 
     def test_pipelines_that_trace_rays(self):
         kinds = {"CreateRayTracingPipelinesKHR", "CreateShaderModule"}

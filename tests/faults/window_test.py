@@ -44,6 +44,17 @@ class Window(FaultCase):
             with self.subTest(kind=kind):
                 self.expect_sentence(self.play({kind: last - 2}), "the device was lost")
 
+    def test_a_swapchain_that_cannot_be_made_is_told(self):
+        # The first one, and one that is made anew for a window that has changed.
+        for number in (1, 2):
+            with self.subTest(swapchain=number):
+                result = self.play({"creation": f"CreateSwapchainKHR={number}",
+                                    "acquire": "2=OUT_OF_DATE"}, "--validate")
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn("shutter: making a swapchain failed: out of main memory\n",
+                              result.stderr)
+                self.assertNotIn("validation", result.stderr.lower())
+
     def test_a_device_that_shows_no_pictures_is_told(self):
         result = self.play({"hide": "VK_KHR_swapchain"})
         self.assertNotEqual(result.returncode, 0)
