@@ -126,8 +126,7 @@ bool Swapchain::resize(const SwapchainDesc& desc) {
         std::clamp(wanted.height, surface->minImageExtent.height, surface->maxImageExtent.height);
     if (mDesc.width == 0 || mDesc.height == 0)
         return false;
-    createImages(*surface);
-    return true;
+    return createImages(*surface);
 }
 
 bool Swapchain::resize(const SwapchainDesc& desc, VkSurfaceKHR surface) {
@@ -138,7 +137,7 @@ bool Swapchain::resize(const SwapchainDesc& desc, VkSurfaceKHR surface) {
     return resize(desc);
 }
 
-void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
+bool Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
     mUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
              (surface.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
@@ -159,7 +158,12 @@ void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
     info.clipped = VK_FALSE; // pictures may be read back
     info.oldSwapchain = mSwapchain;
     VkSwapchainKHR made = VK_NULL_HANDLE;
-    require(vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made), "making a swapchain");
+    const VkResult result = vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made);
+    if (result == VK_ERROR_SURFACE_LOST_KHR) { // since it was asked
+        mState = SwapchainState::SurfaceLost;
+        return false;
+    }
+    require(result, "making a swapchain");
     vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
     mSwapchain = made;
 
@@ -176,6 +180,7 @@ void Swapchain::createImages(const VkSurfaceCapabilitiesKHR& surface) {
         mImages.push_back(Image::adopt(mDevice, "window", image, desc));
         mDrawn.push_back(createSemaphore(mDevice));
     }
+    return true;
 }
 
 std::optional<SwapchainImage> Swapchain::acquire() {

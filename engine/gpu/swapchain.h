@@ -102,7 +102,8 @@ class Swapchain {
 
     core::Status chooseFormat();
     [[nodiscard]] VkPresentModeKHR chooseMode(bool vsync) const;
-    void createImages(const VkSurfaceCapabilitiesKHR& surface);
+    /// False: the surface was lost since it was asked.
+    bool createImages(const VkSurfaceCapabilitiesKHR& surface);
     void releaseImages();
     void noteState(VkResult result);
 

@@ -117,6 +117,7 @@ FaultPlan readPlan() {
         plan.lostSubmission = readNumber(text);
     if (const std::string text = readVariable("SHUTTER_FAULT_EXECUTION"); !text.empty())
         plan.lostExecution = readNumber(text);
+    plan.swapchains = readWindowResults(readVariable("SHUTTER_FAULT_SWAPCHAIN"));
     plan.acquisitions = readWindowResults(readVariable("SHUTTER_FAULT_ACQUIRE"));
     plan.presentations = readWindowResults(readVariable("SHUTTER_FAULT_PRESENT"));
     for (const std::string& name : split(readVariable("SHUTTER_FAULT_HIDE"), ','))

@@ -25,6 +25,7 @@ struct FailingCalls {
 struct FaultPlan {
     FailingCalls allocations;
     std::map<std::string, FailingCalls> creations; ///< by the function's name without "vk"
+    std::map<uint32_t, VkResult> swapchains;       ///< by the number of the call that makes one
     uint32_t lostSubmission = 0;                   ///< 0: none; this one is refused
     uint32_t lostExecution = 0;                ///< 0: none; this one is taken and never ends well
     std::map<uint32_t, VkResult> acquisitions; ///< by the number of the call

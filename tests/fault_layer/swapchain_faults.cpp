@@ -39,6 +39,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(
     const uint32_t number = ++table.swapchainCount;
     if (FaultPlan::get().failsCreation("CreateSwapchainKHR", number))
         return VK_ERROR_OUT_OF_HOST_MEMORY;
+    const auto& planned = FaultPlan::get().swapchains;
+    const auto found = planned.find(number);
+    if (found != planned.end())
+        return found->second;
     return table.CreateSwapchainKHR(device, info, allocator, swapchain);
 }
 

@@ -55,6 +55,15 @@ class Window(FaultCase):
                               result.stderr)
                 self.assertNotIn("validation", result.stderr.lower())
 
+    def test_a_surface_that_goes_while_its_swapchain_is_made_is_replaced(self):
+        counts = self.folder / "counts.json"
+        for answers in ("1=SURFACE_LOST", "2=SURFACE_LOST", "1=SURFACE_LOST,2=SURFACE_LOST"):
+            with self.subTest(answers=answers):
+                self.expect_done(self.play({"swapchain": answers, "acquire": "2=OUT_OF_DATE",
+                                            "counts": counts}, "--validate"))
+                counted = json.loads(counts.read_text(encoding="utf-8"))
+                self.assertEqual(counted["presentations"], FRAMES)
+
     def test_a_device_that_shows_no_pictures_is_told(self):
         result = self.play({"hide": "VK_KHR_swapchain"})
         self.assertNotEqual(result.returncode, 0)
