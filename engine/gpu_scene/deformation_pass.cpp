@@ -29,7 +29,7 @@ Sizes measure(const extract::ExtractedFrame& frame, const extract::SceneLayout& 
 
 } // namespace
 
-std::vector<DeformationPass::Work> DeformationPass::plan(
+DeformJobs DeformationPass::plan(
     const extract::ExtractedFrame& frame, const GpuScene& scene, std::vector<shader::Geometry>& rows
 ) {
     const extract::SceneLayout& layout = scene.layout();
@@ -44,7 +44,7 @@ std::vector<DeformationPass::Work> DeformationPass::plan(
     }
     poses.upload(mDevice, mPoses);
 
-    std::vector<Work> work;
+    DeformJobs jobs;
     VkDeviceAddress vertices = mShapes.address();
     VkDeviceAddress positions = vertices + measure(frame, layout).vertices * sizeof(shader::Vertex);
     for (size_t i = 0; i < frame.deformed.size(); ++i) {
@@ -54,21 +54,24 @@ std::vector<DeformationPass::Work> DeformationPass::plan(
              ++geometry) {
             shader::Geometry& row = rows.emplace_back(scene.geometryRows()[geometry]);
             row.vertices = gpu::splitAddress(vertices);
-            Work& shape = work.emplace_back(Work{poses.makeJob(scene, geometry, raster[i]), 1});
-            shape.job.output_ = row.vertices;
+            shader::DeformJob shape = poses.makeJob(scene, geometry, raster[i]);
+            shape.output_ = row.vertices;
+            jobs.add(shape, 1);
             vertices += uint64_t{row.vertexCount} * sizeof(shader::Vertex);
             if (!entity.changes)
                 continue;
             row.openPositions = gpu::splitAddress(positions);
-            Work& both = work.emplace_back(Work{poses.makeJob(scene, geometry, ends[i]), 2});
-            both.job.output_ = row.openPositions;
-            both.job.positionsOnly = 1;
+            shader::DeformJob both = poses.makeJob(scene, geometry, ends[i]);
+            both.output_ = row.openPositions;
+            both.positionsOnly = 1;
+            jobs.add(both, 2);
             positions += uint64_t{row.vertexCount} * sizeof(math::vec4);
             row.closePositions = gpu::splitAddress(positions);
             positions += uint64_t{row.vertexCount} * sizeof(math::vec4);
         }
     }
-    return work;
+    jobs.upload(mDevice, mJobs);
+    return jobs;
 }
 
 DeformedMeshes DeformationPass::declare(
@@ -88,7 +91,7 @@ DeformedMeshes DeformationPass::declare(
             mDevice, "deformed meshes", bytes + bytes / 2, usage, gpu::MemoryUse::Device
         );
     }
-    const std::vector<Work> work = plan(frame, scene, shapes.rows);
+    const shader::DeformBatch batch = plan(frame, scene, shapes.rows).batch();
     const auto imported = graph.importBuffer("deformed meshes", mShapes.handle(), bytes);
 
     struct Data {};
@@ -99,9 +102,8 @@ DeformedMeshes DeformationPass::declare(
         [&](graph::PassBuilder& builder, Data&) {
             shapes.buffer = builder.write(imported, graph::Access::StorageWrite);
         },
-        [this, work](const Data&, graph::PassContext& context) {
-            for (const Work& dispatch : work)
-                mDeformer.deform(context.commands, dispatch.job, dispatch.instantCount);
+        [this, batch](const Data&, graph::PassContext& context) {
+            mDeformer.deform(context.commands, batch);
         }
     );
     return shapes;

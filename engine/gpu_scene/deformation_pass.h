@@ -31,13 +31,7 @@ class DeformationPass {
     declare(graph::Graph& graph, const extract::ExtractedFrame& frame, const GpuScene& scene);
 
   private:
-    /// A dispatch.
-    struct Work {
-        shader::DeformJob job;
-        uint32_t instantCount = 1;
-    };
-
-    [[nodiscard]] std::vector<Work> plan(
+    [[nodiscard]] DeformJobs plan(
         const extract::ExtractedFrame& frame,
         const GpuScene& scene,
         std::vector<shader::Geometry>& rows
@@ -47,6 +41,7 @@ class DeformationPass {
     Deformer mDeformer;
     gpu::Buffer mShapes; ///< Vertex[] of all, and behind them vec4[] of those that change
     gpu::Buffer mPoses;
+    gpu::Buffer mJobs;
 };
 
 } // namespace shutter::gpu_scene

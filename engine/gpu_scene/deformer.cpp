@@ -4,6 +4,7 @@
 #include "spirv/render/deform.comp.h"
 #include "spirv/render/deformed_boxes.comp.h"
 
+#include "engine/core/check.h"
 #include "engine/extract/motion_keys.h"
 #include "engine/gpu/vulkan.h"
 
@@ -15,6 +16,8 @@ namespace shutter::gpu_scene {
 namespace {
 
 constexpr VkDeviceSize kTableAlignment = 256;
+/// Of a dispatch: as many rows as every device bears.
+constexpr uint64_t kMostGroups = uint64_t{65535} * shader::kDeformRow;
 
 gpu::ComputePipelineDesc
 describePipeline(const char* name, std::span<const uint32_t> spirv, uint32_t pushBytes) {
@@ -25,21 +28,36 @@ describePipeline(const char* name, std::span<const uint32_t> spirv, uint32_t pus
     return desc;
 }
 
-/// One thread an element in x, one layer of them in y. The shaders bind nothing but addresses.
+uint32_t countGroups(uint32_t elements) {
+    return (elements + shader::kDeformThreads - 1) / shader::kDeformThreads;
+}
+
+/// The shaders bind nothing but addresses.
 template <class Job>
 void dispatch(
     VkCommandBuffer commands,
     const gpu::Pipeline& pipeline,
     const Job& job,
-    uint32_t elements,
-    uint32_t layers
+    uint32_t groupsX,
+    uint32_t groupsY
 ) {
-    if (elements == 0 || layers == 0)
+    if (groupsX == 0 || groupsY == 0)
         return;
     vkCmdBindPipeline(commands, pipeline.bindPoint(), pipeline.handle());
     vkCmdPushConstants(commands, pipeline.layout(), pipeline.stages(), 0, sizeof(job), &job);
-    const uint32_t groups = (elements + shader::kDeformThreads - 1) / shader::kDeformThreads;
-    vkCmdDispatch(commands, groups, layers, 1);
+    vkCmdDispatch(commands, groupsX, groupsY, 1);
+}
+
+/// A buffer that has room for `bytes`, with some in reserve.
+void fit(gpu::Device& device, gpu::Buffer& buffer, const char* name, VkDeviceSize bytes) {
+    if (!buffer || buffer.bytes() < bytes)
+        buffer = gpu::Buffer(
+            device,
+            name,
+            bytes + bytes / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Stream
+        );
 }
 
 } // namespace
@@ -62,14 +80,7 @@ void PoseTable::upload(gpu::Device& device, gpu::Buffer& buffer) {
     const VkDeviceSize weightsAt =
         (jointBytes + kTableAlignment - 1) / kTableAlignment * kTableAlignment;
     const VkDeviceSize total = weightsAt + mWeights.size() * sizeof(float);
-    if (!buffer || buffer.bytes() < total)
-        buffer = gpu::Buffer(
-            device,
-            "poses",
-            total + total / 2,
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Stream
-        );
+    fit(device, buffer, "poses", total);
     buffer.write(std::span<const shader::MotionKey>(mJoints));
     buffer.write(std::span<const float>(mWeights), weightsAt);
     mJointsAt = buffer.address();
@@ -95,14 +106,34 @@ PoseTable::makeJob(const GpuScene& scene, uint32_t geometry, const Place& place)
     return job;
 }
 
-void Deformer::deform(
-    VkCommandBuffer commands, const shader::DeformJob& job, uint32_t instantCount
-) {
+void DeformJobs::add(const shader::DeformJob& job, uint32_t instantCount) {
+    const uint64_t groups = uint64_t{countGroups(job.vertexCount)} * instantCount;
+    if (groups == 0)
+        return;
+    SHUTTER_CHECK(
+        mBatch.groupCount + groups <= kMostGroups, "{} vertices are deformed", job.vertexCount
+    );
+    mJobs.push_back(job);
+    mJobs.back().firstGroup = mBatch.groupCount;
+    mBatch.groupCount += static_cast<uint32_t>(groups);
+}
+
+void DeformJobs::upload(gpu::Device& device, gpu::Buffer& buffer) {
+    if (mJobs.empty())
+        return;
+    fit(device, buffer, "deformation jobs", mJobs.size() * sizeof(shader::DeformJob));
+    buffer.write(std::span<const shader::DeformJob>(mJobs));
+    mBatch.jobs = gpu::splitAddress(buffer.address());
+    mBatch.jobCount = static_cast<uint32_t>(mJobs.size());
+}
+
+void Deformer::deform(VkCommandBuffer commands, const shader::DeformBatch& batch) {
     if (!mDeform.handle())
         mDeform = gpu::Pipeline(
-            mDevice, describePipeline("deform", render_deform_comp, sizeof(shader::DeformJob))
+            mDevice, describePipeline("deform", render_deform_comp, sizeof(shader::DeformBatch))
         );
-    dispatch(commands, mDeform, job, job.vertexCount, instantCount);
+    const uint32_t rows = (batch.groupCount + shader::kDeformRow - 1) / shader::kDeformRow;
+    dispatch(commands, mDeform, batch, std::min(batch.groupCount, shader::kDeformRow), rows);
 }
 
 void Deformer::boundTriangles(
@@ -115,7 +146,7 @@ void Deformer::boundTriangles(
                 "deformed boxes", render_deformed_boxes_comp, sizeof(shader::DeformedBoxJob)
             )
         );
-    dispatch(commands, mBound, job, job.triangleCount, intervalCount);
+    dispatch(commands, mBound, job, countGroups(job.triangleCount), intervalCount);
 }
 
 } // namespace shutter::gpu_scene

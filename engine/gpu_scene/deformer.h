@@ -44,13 +44,31 @@ class PoseTable {
     VkDeviceAddress mWeightsAt = 0;
 };
 
+/// Jobs that one dispatch works off, however many they are.
+class DeformJobs {
+  public:
+    /// \param instantCount one behind the other, from the job's first
+    void add(const shader::DeformJob& job, uint32_t instantCount);
+
+    /// Writes the jobs; `buffer` grows where it is too small. The GPU must be done with what it
+    /// held.
+    void upload(gpu::Device& device, gpu::Buffer& buffer);
+
+    /// upload() was called.
+    [[nodiscard]] const shader::DeformBatch& batch() const { return mBatch; }
+
+  private:
+    std::vector<shader::DeformJob> mJobs; ///< those that have something to do
+    shader::DeformBatch mBatch{};
+};
+
 /// The pipelines, made when they are first used.
 class Deformer {
   public:
     explicit Deformer(gpu::Device& device) : mDevice(device) {}
 
-    /// Records a job at `instantCount` instants, one behind the other.
-    void deform(VkCommandBuffer commands, const shader::DeformJob& job, uint32_t instantCount);
+    /// Records one dispatch for all jobs, whose order does not matter; none where there are none.
+    void deform(VkCommandBuffer commands, const shader::DeformBatch& batch);
     /// Records boxes of the triangles for each of `intervalCount` intervals.
     void boundTriangles(
         VkCommandBuffer commands, const shader::DeformedBoxJob& job, uint32_t intervalCount

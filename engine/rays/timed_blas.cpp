@@ -35,7 +35,7 @@ uint64_t countVertices(const extract::SceneLayout& layout, uint32_t mesh) {
 
 /// Everything to record once.
 struct TimedBlas::Work {
-    struct Dispatch {
+    struct Deform {
         shader::DeformJob job;
         uint32_t keyCount;
     };
@@ -47,7 +47,7 @@ struct TimedBlas::Work {
 
     gpu_scene::PoseTable poses;
     std::vector<gpu_scene::PoseTable::Place> places; ///< one a shape, of its first key
-    std::vector<Dispatch> deforms;
+    std::vector<Deform> deforms;
     std::vector<Bound> bounds;
     std::vector<gpu::BlasDesc> levels;
     VkDeviceAddress nextVertex = 0;
@@ -209,9 +209,13 @@ void TimedBlas::update(
     Work work = plan(shapes, scene);
     (void)mLevels.prepareBlas(mDevice, std::move(work.levels));
     linkScenes(shapes, scene);
+    gpu_scene::DeformJobs jobs;
+    for (const Work::Deform& deform : work.deforms)
+        jobs.add(deform.job, deform.keyCount);
+    gpu::Buffer jobTable;
+    jobs.upload(mDevice, jobTable);
     gpu::runOnce(mDevice, [&](VkCommandBuffer commands) {
-        for (const Work::Dispatch& deform : work.deforms)
-            mDeformer.deform(commands, deform.job, deform.keyCount);
+        mDeformer.deform(commands, jobs.batch());
         gpu::fullBarrier(commands);
         for (const Work::Bound& bound : work.bounds)
             mDeformer.boundTriangles(commands, bound.job, bound.intervalCount);

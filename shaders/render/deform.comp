@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertices of a geometry, deformed, at one or several instants.
+// The vertices of geometries, deformed, each at one or several instants.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -9,7 +9,11 @@
 #include "render/scene_shared.h"
 
 layout(local_size_x = kDeformThreads) in;
-layout(push_constant, scalar) uniform Push { DeformJob job; };
+layout(push_constant, scalar) uniform Push { DeformBatch batch; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer JobArray {
+    DeformJob values[];
+};
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer VertexArray {
     Vertex values[];
@@ -32,6 +36,21 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer V
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer PositionSink {
     vec4 values[];
 };
+
+DeformJob job; // the group's
+
+/// The last job that begins at the group or before it.
+uint findJob(uint group) {
+    JobArray jobs = JobArray(batch.jobs);
+    uint first = 0u;
+    uint count = batch.jobCount;
+    while (count > 1u) {
+        uint half_ = count >> 1u;
+        if (jobs.values[first + half_].firstGroup <= group) first += half_;
+        count -= half_;
+    }
+    return first;
+}
 
 DeformedVertex morph(DeformedVertex shaped, uint index, uint instant) {
     for (uint target = 0u; target < job.targetCount; ++target) {
@@ -62,8 +81,13 @@ MotionKey blendJoints(uint index, uint instant) {
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
-    uint instant = gl_GlobalInvocationID.y;
+    uint group = gl_WorkGroupID.y * kDeformRow + gl_WorkGroupID.x;
+    if (group >= batch.groupCount) return;
+    job = JobArray(batch.jobs).values[findJob(group)];
+    group -= job.firstGroup;
+    uint groupsPerInstant = (job.vertexCount + kDeformThreads - 1u) / kDeformThreads;
+    uint instant = group / groupsPerInstant;
+    uint index = (group - instant * groupsPerInstant) * kDeformThreads + gl_LocalInvocationID.x;
     if (index >= job.vertexCount) return;
     Vertex vertex = VertexArray(job.vertices).values[index];
     DeformedVertex shaped =

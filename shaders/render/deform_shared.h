@@ -22,7 +22,10 @@ struct MorphDelta {
     vec4 tangent;  // xyz, the same
 };
 
-/// Push constants: the vertices of one geometry at a number of instants (the dispatch's y).
+/// Groups of a dispatch in x: every device bears 65535, and y goes on.
+SHUTTER_CONST uint kDeformRow = 32768u;
+
+/// The vertices of one geometry at a number of instants. A dispatch works off an array of them.
 struct DeformJob {
     uvec2 vertices;   // address of Vertex[], undeformed
     uvec2 influences; // address of JointInfluences[]: influenceCount / 4 a vertex
@@ -37,6 +40,15 @@ struct DeformJob {
     uint targetCount;    // 0: not morphed
     uint weightStride;   // weights an instant has, targetCount or more
     uint positionsOnly;  // 1: output_ is vec4[], xyz and w 1; 0: it is Vertex[]
+    uint firstGroup;     // of the dispatch; the groups of all jobs before it come first
+    uint padding0;
+};
+
+/// Push constants.
+struct DeformBatch {
+    uvec2 jobs; // address of DeformJob[], by firstGroup; each has a vertex and an instant at least
+    uint jobCount;
+    uint groupCount; // of all jobs
 };
 
 /// Push constants: boxes over what triangles sweep between two keys of their shape (the dispatch's
@@ -56,7 +68,8 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::JointInfluences) == 24);
 static_assert(sizeof(shutter::shader::MorphDelta) == 48);
-static_assert(sizeof(shutter::shader::DeformJob) == 72);
+static_assert(sizeof(shutter::shader::DeformJob) == 80);
+static_assert(sizeof(shutter::shader::DeformBatch) == 16);
 static_assert(sizeof(shutter::shader::DeformedBoxJob) == 40);
 #endif
 

@@ -7,9 +7,12 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/gpu_scene/deformer.h"
 #include "shaders/render/deform.glsl"
+#include "tests/support/counted_calls.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/stage.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -149,10 +152,14 @@ void expectAsInCpp(
     shader::DeformJob positionJob = job;
     positionJob.output_ = gpu::splitAddress(positions.address());
     positionJob.positionsOnly = 1;
+    gpu_scene::DeformJobs jobs;
+    jobs.add(job, 2);
+    jobs.add(positionJob, 2);
+    gpu::Buffer jobTable;
+    jobs.upload(device, jobTable);
     gpu_scene::Deformer deformer(device);
     gpu::runOnce(device, [&](VkCommandBuffer commands) {
-        deformer.deform(commands, job, 2);
-        deformer.deform(commands, positionJob, 2);
+        deformer.deform(commands, jobs.batch());
         gpu::fullBarrier(commands);
     });
     const auto deformed = readAll<shader::Vertex>(vertices, 2 * count);
@@ -210,6 +217,77 @@ TEST_F(Deformer, VerticesThatNameNoJointFollowTheFirst) {
     mesh.joints.clear();
     mesh.weights.clear();
     expectAsInCpp(device(), mesh, true, true);
+}
+
+TEST_F(Deformer, JobsOfOneDispatchDoNotMeet) {
+    // Sizes around a group's, and nothing in between: more jobs than one step of the search.
+    std::mt19937 random(10);
+    const std::array<uint32_t, 7> counts{64, 2, 65, 0, 128, 1, 63};
+    scene::Assets assets;
+    assets.meshes.push_back({"", {makeMesh(random)}, {}, {}});
+    const gpu_scene::GpuScene scene(device(), assets);
+    gpu_scene::PoseTable poses;
+    const auto place = poses.add(makePose(random));
+    (void)poses.add(makePose(random));
+    (void)poses.add(makePose(random));
+    gpu::Buffer table;
+    poses.upload(device(), table);
+    gpu_scene::Deformer deformer(device());
+    // Each job alone, then all of them together; a vertex is left alone between two jobs.
+    const auto draw = [&](bool together) {
+        gpu::Buffer output(
+            device(),
+            "output",
+            4096 * sizeof(shader::Vertex),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Readback
+        );
+        output.writeZeros();
+        std::vector<gpu_scene::DeformJobs> batches(1);
+        VkDeviceAddress at = output.address();
+        for (size_t i = 0; i < counts.size(); ++i) {
+            shader::DeformJob job = poses.makeJob(scene, 0, place);
+            job.vertexCount = std::min(counts[i], job.vertexCount);
+            job.targetCount = 0; // whose table has the mesh's own count
+            job.output_ = gpu::splitAddress(at);
+            const uint32_t instants = 1 + static_cast<uint32_t>(i % 3);
+            at += (uint64_t{job.vertexCount} * instants + 1) * sizeof(shader::Vertex);
+            if (!together)
+                batches.emplace_back();
+            batches.back().add(job, instants);
+        }
+        std::vector<gpu::Buffer> tables(batches.size());
+        for (size_t i = 0; i < batches.size(); ++i)
+            batches[i].upload(device(), tables[i]);
+        gpu::runOnce(device(), [&](VkCommandBuffer commands) {
+            for (const gpu_scene::DeformJobs& jobs : batches)
+                deformer.deform(commands, jobs.batch());
+            gpu::fullBarrier(commands);
+        });
+        return readAll<std::array<uint32_t, sizeof(shader::Vertex) / 4>>(output, 4096);
+    };
+    const auto alone = draw(false);
+    EXPECT_NE(alone[0], alone[2000]) << "something was written";
+    EXPECT_EQ(draw(true), alone);
+}
+
+TEST_F(Deformer, ACrowdIsOneDispatch) {
+    test::SceneBuilder scene;
+    scene.setPerspective(0.9);
+    const scene::AssetIndex waves = scene.addWaves();
+    for (int i = 0; i < 100; ++i) {
+        const std::array joints{
+            test::Placement{.position = {0.1 * (i % 10) - 0.5, 0.1 * (i / 10) - 0.5, -3}},
+            test::Placement{.position = {0, 0.1, 0}, .angularVelocity = {0, 0, 4}}};
+        test::addSkinned(scene, test::makeStrip(0.05, 0.2, 3 + i, waves), joints);
+    }
+    test::Shot shot;
+    shot.method = "sharp";
+    shot.exposureSeconds = 0.1;
+    const test::CountedCalls<&vkCmdDispatch> dispatches;
+    const auto drawn = test::renderOnce(device(), scene, shot);
+    EXPECT_EQ(dispatches.count(), 1u);
+    EXPECT_TRUE(drawn.statistics.counters.at("entity motions written") >= 100);
 }
 
 TEST_F(Deformer, BoxesHoldTrianglesAtBothKeysOfTheirInterval) {
