@@ -33,6 +33,8 @@ struct ViewFacts {
     /// Whether rays past what moves could find a surface (extract::decideReveal); skipped where
     /// nothing moves.
     core::Decision reveal;
+    /// False: the frame is drawn for what effects keep for the next one alone, and shown by none.
+    bool pictureWanted = true;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
 };
 

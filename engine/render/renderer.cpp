@@ -31,6 +31,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.rasterTime = request.view.exposure.rasterTime;
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
+    facts.pictureWanted = request.wantPicture;
     facts.displayWanted = request.wantDisplay || request.showsDisplay;
     return facts;
 }

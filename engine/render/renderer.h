@@ -42,6 +42,8 @@ struct FrameRequest {
     bool wantDisplay = false; ///< read the display-encoded picture back
     /// An effect shows the display-encoded picture: it is made although it is not read back.
     bool showsDisplay = false;
+    /// False: nothing of the frame is shown. Effects only keep what the next frame looks up.
+    bool wantPicture = true;
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump

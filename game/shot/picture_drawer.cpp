@@ -215,7 +215,7 @@ PictureDrawer::submitFrameBefore(const scene::World& world, const PictureRequest
         view.exposure.raster - view.exposure.frameSeconds,
         view.exposure.frameSeconds
     );
-    before.wantColor = false;
+    before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
     return submitFrame(
         world,

@@ -54,6 +54,10 @@ struct MotionBlurInputs {
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
     int64_t frameNumber = 0;
+    /// False: the frame is drawn for what RasterHistory keeps of it alone. For
+    /// Method::readsInstantMotions, which then needs no timed rays.
+    bool wantsPicture = true;
+    bool wantsCounters = true;           ///< somebody reads MotionBlur::counters()
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.

@@ -38,7 +38,7 @@ MotionBlurOutputs MotionBlur::add(
         method.name
     );
     SHUTTER_CHECK(
-        method.rays != RayNeed::Query ||
+        method.rays != RayNeed::Query || !inputs.wantsPicture ||
             (hasRays && mParts->device.hasRayQuery() && inputs.timedRays),
         "the method {} needs timed rays, by ray queries",
         method.name
@@ -57,7 +57,7 @@ MotionBlurOutputs MotionBlur::add(
     PassParams params = resolve(settings, size.width, size.height, inputs.rasterTime);
     params.response = inputs.response;
     mParts->shared.chooseStillPixelsBy(inputs);
-    mParts->declared.at(inputs.slot) = &method;
+    mParts->declared.at(inputs.slot) = inputs.wantsCounters ? &method : nullptr;
     std::unique_ptr<MethodPasses>& passes = mParts->passes[&method];
     if (!passes)
         passes = method.makePasses(mParts->device, mParts->sceneLayout);

@@ -65,7 +65,8 @@ MotionBlurOutputs BlockMethod::add(
 ) {
     const TileMotionOutputs tiles = shared.tileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks blocks = shared.sorter.add(graph, tiles, params, false);
-    shared.sorter.addCounters(graph, blocks, params, inputs.slot);
+    if (inputs.wantsCounters)
+        shared.sorter.addCounters(graph, blocks, params, inputs.slot);
     const graph::ImageHandle target =
         shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
     MotionBlurOutputs outputs;

@@ -6,7 +6,10 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
+#include <array>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace shutter {
@@ -81,6 +84,31 @@ TEST_F(PictureDrawerTest, AFrameOfASequenceIsTheFrameDrawnAlone) {
         draw(inSequence, "resolved", 4 * mOptions.frameSeconds),
         draw(alone, "resolved", 4 * mOptions.frameSeconds)
     ));
+}
+
+TEST_F(PictureDrawerTest, TheFrameBeforeIsDrawnForWhatIsLookedUpInItAlone) {
+    useShutter({.exposureSeconds = 1.0 / 60.0});
+    for (const char* method : {"resolved", "adaptive"}) {
+        if (method == std::string("adaptive") && !device().hasRayQuery())
+            continue;
+        game::PictureRequest picture = game::makePicture(
+            mShot, mOptions, game::makeMethod(*game::findMethod(method).value()), 0.5
+        );
+        picture.method.motionBlur.secondRaster = true;
+        picture.frame.wantTrace = true;
+        game::PictureDrawer drawer(device(), *mRenderer);
+        const auto drawn = drawer.draw(mShot.world, picture);
+        ASSERT_TRUE(drawn.ok());
+        std::array<std::set<std::string>, 2> passes;
+        for (const render::WrittenImage& image : drawn.value().trace)
+            passes.at(image.frame).insert(image.pass);
+        const auto& [before, own] = passes;
+        EXPECT_TRUE(own.contains("second G-buffer") && own.contains("resolve")) << method;
+        std::set<std::string> kept = before;
+        kept.erase("keep colour"); // listed where the kept images can be read
+        kept.erase("pack surface");
+        EXPECT_EQ(kept, std::set<std::string>{"G-buffer"}) << method;
+    }
 }
 
 } // namespace

@@ -76,11 +76,14 @@ MotionBlurOutputs AdaptivePasses::add(
     shader::ResolvedParams own{};
     own.motions = gpu::splitAddress(inputs.instantMotions->table);
     own.rayLimit = countRays(settings.raysPerPixel, params.sizePx);
-    own.frame = gpu::splitAddress(inputs.timedRays->frameConstants);
-    own.timed = gpu::splitAddress(inputs.timedRays->timedConstants);
+    if (inputs.timedRays) {
+        own.frame = gpu::splitAddress(inputs.timedRays->frameConstants);
+        own.timed = gpu::splitAddress(inputs.timedRays->timedConstants);
+    }
     params.setMethod(own);
     LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
-    addTrace(graph, *inputs.timedRays, found, params);
+    if (inputs.timedRays)
+        addTrace(graph, *inputs.timedRays, found, params);
     return mLookUp.end(graph, inputs, found, params, shared);
 }
 

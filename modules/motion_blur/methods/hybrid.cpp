@@ -60,7 +60,8 @@ MotionBlurOutputs HybridPasses::add(
         {inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere},
         params
     );
-    shared.sorter.addCounters(graph, mask.blocks, params, inputs.slot);
+    if (inputs.wantsCounters)
+        shared.sorter.addCounters(graph, mask.blocks, params, inputs.slot);
     const RayRevealOutputs reveal = mReveal.add(
         graph,
         {inputs.color,
@@ -70,7 +71,8 @@ MotionBlurOutputs HybridPasses::add(
          mask.list,
          mask.arguments,
          *inputs.rays,
-         inputs.slot},
+         inputs.slot,
+         inputs.wantsCounters},
         params
     );
     const RevealedLayerInputs layerInputs{

@@ -219,7 +219,8 @@ LookUpOutputs LookUp::add(
     );
     outputs.blocks = looks.blocks;
     search.looks = looks.looks;
-    shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
+    if (inputs.wantsCounters)
+        shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
     outputs.picture =
         shared.stillPixels.begin(graph, inputs.color, inputs.target, shared.stillPixelsBy);
     // Pixels that may be traced are listed by the search.
@@ -322,7 +323,8 @@ MotionBlurOutputs LookUp::end(
     const PassParams& params,
     SharedPasses& shared
 ) const {
-    readCounters(graph, found.search.counters, inputs.slot);
+    if (inputs.wantsCounters)
+        readCounters(graph, found.search.counters, inputs.slot);
     MotionBlurOutputs outputs;
     outputs.color = shared.stillPixels.end(
         graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy

@@ -217,25 +217,33 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
         }
     );
 
-    struct CountData {
+    SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
+    mTraces.at(inputs.slot) = !skyOnly;
+    if (inputs.wantsCounters)
+        addCounters(graph, revealed.list, inputs.slot);
+    return revealed.out;
+}
+
+void RayReveal::addCounters(graph::Graph& graph, graph::BufferHandle list, uint32_t slot) const {
+    using graph::Access;
+
+    struct Data {
         graph::BufferHandle list;
         graph::BufferHandle header;
     };
 
-    SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
-    mTraces.at(inputs.slot) = !skyOnly;
-    const VkDeviceSize headerAt = inputs.slot * sizeof(shader::MaskHeader);
+    const VkDeviceSize headerAt = slot * sizeof(shader::MaskHeader);
     const auto header =
         graph.importBuffer("ray mask counters", mHeaders.handle(), mHeaders.bytes());
-    graph.addPass<CountData>(
+    graph.addPass<Data>(
         "read ray mask counters",
         graph::PassKind::Transfer,
-        [&](graph::PassBuilder& builder, CountData& data) {
-            data.list = builder.read(revealed.list, Access::TransferRead);
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.list = builder.read(list, Access::TransferRead);
             data.header = builder.write(header, Access::TransferWrite);
             graph.markOutput(data.header);
         },
-        [headerAt](const CountData& data, graph::PassContext& context) {
+        [headerAt](const Data& data, graph::PassContext& context) {
             const VkBufferCopy region{0, headerAt, sizeof(shader::MaskHeader)};
             vkCmdCopyBuffer(
                 context.commands,
@@ -246,7 +254,6 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
             );
         }
     );
-    return revealed.out;
 }
 
 RayReveal::Counts RayReveal::count(uint32_t slot) const {

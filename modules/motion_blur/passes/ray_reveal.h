@@ -25,6 +25,7 @@ struct RayRevealInputs {
     graph::BufferHandle arguments; ///< of RayMask
     graph::RayScene rays;          ///< no TLAS: nothing but sky is found
     uint32_t slot = 0;             ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    bool wantsCounters = true;     ///< count() is called for the frame
 };
 
 /// Written at masked pixels only.
@@ -46,7 +47,8 @@ class RayReveal {
         uint32_t raysTraced = 0;
     };
 
-    /// What the slot's last frame counted; valid once the GPU is done with it.
+    /// What the slot's last frame with RayRevealInputs::wantsCounters counted; valid once the GPU
+    /// is done with it.
     [[nodiscard]] Counts count(uint32_t slot) const;
 
   private:
@@ -54,6 +56,7 @@ class RayReveal {
     graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
     /// Made for the first frame that needs it.
     const gpu::Pipeline& findPipeline(const graph::RayScene& rays);
+    void addCounters(graph::Graph& graph, graph::BufferHandle list, uint32_t slot) const;
     void launch(
         graph::PassContext& context,
         const RayRevealInputs& inputs,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace shutter::motion_blur {
 
@@ -30,6 +31,11 @@ int64_t numberFrame(const scene::ExposureInterval& exposure) {
     const double number = exposure.raster / exposure.frameSeconds;
     return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
 }
+
+constexpr const char* kNoPicture = "the frame is drawn for what the next one looks up in it";
+
+/// In place of a level of the budget: the frame's time tells nothing of any.
+constexpr size_t kNoLevel = SIZE_MAX;
 
 } // namespace
 
@@ -70,15 +76,23 @@ core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
     return facts.reveal;
 }
 
-core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts&) const {
+bool MotionBlurPlugin::onlyKeeps(const render::ViewFacts& facts) const {
+    return !facts.pictureWanted && settings().method->readsInstantMotions;
+}
+
+core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts& facts) const {
     if (settings().method->rays != RayNeed::Query)
         return {}; // it never does
+    if (onlyKeeps(facts))
+        return {false, kNoPicture};
     return {true, "its method has rays with times of their own"};
 }
 
-core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts&) const {
+core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts& facts) const {
     if (!settings().method->readsInstantMotions || !settings().secondRaster)
         return {};
+    if (onlyKeeps(facts))
+        return {false, kNoPicture};
     return {true, "secondRaster is set"};
 }
 
@@ -104,7 +118,9 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
             mInstantMotions.update(context, countInstants(settings()), settings().history);
     else
         mInstantMotions.forget();
-    mDrawnLevels.at(context.slot) = mBudget.level();
+    const bool keepsOnly = onlyKeeps(context.facts);
+    inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
+    mDrawnLevels.at(context.slot) = keepsOnly ? kNoLevel : mBudget.level();
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
@@ -126,7 +142,7 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
         mBudget.observe(level, milliseconds);
     else if (!mBudget.current().runs) // and waits to be tried again
         mBudget.observe(mBudget.level(), 0.0);
-    if (!frame.ran)
+    if (!frame.ran || level == kNoLevel)
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))
         frame.counters[name] = value;

@@ -34,10 +34,11 @@ class MotionBlurPlugin : public render::PostEffect {
 
     /// For methods of RayNeed::Any.
     [[nodiscard]] core::Decision askRays(const render::ViewFacts& facts) const override;
-    /// For methods of RayNeed::Query.
+    /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
-    /// With MotionBlurSettings::secondRaster, for methods that read it.
+    /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are
+    /// shown.
     [[nodiscard]] core::Decision askSecondRaster(const render::ViewFacts& facts) const override;
 
     void declare(render::PostContext& context) override;
@@ -46,6 +47,9 @@ class MotionBlurPlugin : public render::PostEffect {
 
   private:
     [[nodiscard]] const MotionBlurSettings& settings() const { return mBudget.current().settings; }
+
+    /// Whether the frame is drawn for what the next one looks up, and the method keeps something.
+    [[nodiscard]] bool onlyKeeps(const render::ViewFacts& facts) const;
 
     MotionBlurSettings mWanted;
     BudgetController mBudget;
