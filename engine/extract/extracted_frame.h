@@ -143,7 +143,7 @@ struct ExtractedFrame {
     DrawList blended{.farFirst = true, .still = {}, .moving = {}};
     std::vector<shader::LightRow> lights;
     std::vector<ecs::Entity> lightEntities; ///< one per light: its entity
-    shader::FrameConstants constants{};     ///< without the tables' addresses
+    shader::FrameConstants constants{};     ///< without the tables' addresses and rows
     bool moves = false;                     ///< something in the picture, or the camera, moves
 };
 

@@ -37,6 +37,7 @@ FrameTables::Addresses FrameTables::upload(
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Stream
         );
+    frame.constants.entityCount = static_cast<uint32_t>(frame.entities.size());
     frame.constants.entities = gpu::splitAddress(mEntityTable.rows());
     frame.constants.entityMotions = gpu::splitAddress(mEntityTable.motions());
     frame.constants.lights = gpu::splitAddress(mBuffer.address() + lightsAt);

@@ -34,6 +34,7 @@ Revealed traceReveal(ivec2 pixel, out uint rays) {
     if (frontId == kNoEntity) return revealed; // nothing hides the sky
 
     FrameRef frame = FrameRef(method.frame);
+    if (!hasEntityRow(frame, frontId)) return revealed; // a host's, of which nothing is known
     ViewRay ray = makeViewRay(frame, centre);
     // The raster image is the first hit: its depth along the view gives the distance on the ray.
     float frontDepth = revealed.motionDepth.z;
@@ -63,6 +64,7 @@ Revealed traceReveal(ivec2 pixel, out uint rays) {
             t = 1.0e30f;
             break;
         }
+        if (!hasEntityRow(frame, hit.id.entity)) return keepRaster(uv); // nor what lies behind it
         t = start + hit.t;
         error = rayHitError(t);
         leftId = hit.id.entity;

@@ -118,8 +118,8 @@ struct FrameConstants {
     float lodBias;         // added to every texture level of detail
     uint flags;            // kFrame...
     uint lightCount;
-    uint padding0;
-    uvec2 entities; // addresses of the tables
+    uint entityCount; // rows of `entities`: no row is read for a mesh id that is not below it
+    uvec2 entities;   // addresses of the tables
     uvec2 entityMotions;
     uvec2 geometries;
     uvec2 materials;

@@ -42,6 +42,9 @@ class HostOfTheGBuffer : public render::PostEffect {
     /// Says how things move in the frame. What it points to must last until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
+    /// Changes what rays meet. What it points to must last until the frame has ended.
+    std::function<void(const render::PostContext&, motion_blur::HostRays&)> changeRays;
+
     [[nodiscard]] std::string name() const override { return "host"; }
 
     [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
@@ -66,6 +69,8 @@ class HostOfTheGBuffer : public render::PostEffect {
             inputs.rays.frameConstants = context.rays->frameConstants;
             inputs.rays.hasBlended = context.rays->hasBlended;
         }
+        if (changeRays)
+            changeRays(context, inputs.rays);
         if (describeMotion)
             describeMotion(context, inputs.motion);
         using graph::Access;

@@ -56,8 +56,9 @@ struct HostRays {
     VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
     VkBuffer tlasBuffer = VK_NULL_HANDLE;   ///< that it lies in; null only where tlas is
     VkDescriptorSet scene = VK_NULL_HANDLE; ///< bindless textures, of HostDevice::sceneLayout
-    VkDeviceAddress frameConstants = 0;     ///< shader::FrameConstants
-    bool hasBlended = false;                ///< blended surfaces may be in the picture
+    /// shader::FrameConstants, whose entityCount bounds the ids that are looked up.
+    VkDeviceAddress frameConstants = 0;
+    bool hasBlended = false; ///< blended surfaces may be in the picture
 };
 
 struct HostInputs {
