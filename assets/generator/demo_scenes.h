@@ -19,10 +19,12 @@ namespace shutter::generator {
 [[nodiscard]] GltfWriter buildSpinScene();
 
 // Their small textures; all tile. Colours are sRGB-coded, [0, 1].
-[[nodiscard]] Picture meadow();                             ///< mown in stripes along v
-[[nodiscard]] Picture roadway();                            ///< once across, dashes along v
-[[nodiscard]] Picture checkers(glm::vec3 a, glm::vec3 b);   ///< 2 x 2 fields a tile
-[[nodiscard]] Picture stripes(glm::vec3 a, glm::vec3 b);    ///< 4 + 4 along u, a tile
+[[nodiscard]] Picture meadow();                                  ///< mown in stripes along v
+[[nodiscard]] Picture roadway();                                 ///< once across, dashes along v
+[[nodiscard]] Picture checkers(glm::vec3 a, glm::vec3 b);        ///< 2 x 2 fields a tile
+[[nodiscard]] Picture stripes(glm::vec3 a, glm::vec3 b);         ///< 4 + 4 along u, a tile
+[[nodiscard]] Picture arrows(glm::vec3 ground, glm::vec3 arrow); ///< 2 chevrons that point to +u
+[[nodiscard]] Picture leaves(glm::vec3 color);                   ///< crowns of trees, tiles
 [[nodiscard]] Picture rings(glm::vec3 rim, glm::vec3 fill); ///< of a round cap, a target's face
 
 /// `sun`: the one light of a demo.
@@ -51,6 +53,11 @@ struct RallyLand {
     Shape gatePoles;
     Shape startBanner;
     Shape banners;
+    Shape arrowBoards; ///< uv of one arrow a board
+    Shape tyres;
+    Shape seats; ///< of the grandstand
+    Shape awning;
+    std::vector<Shape> spectators{}; ///< one a colour
 };
 
 /// Meadow, road, hills, trees, fences and gates: one node `land`.

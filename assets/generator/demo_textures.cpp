@@ -37,6 +37,20 @@ Picture stripes(vec3 a, vec3 b) {
     return paint(128, 16, [=](vec2 uv) { return glm::fract(uv.x * 4.0f) < 0.5f ? a : b; });
 }
 
+Picture arrows(vec3 ground, vec3 arrow) {
+    return paint(128, 32, [=](vec2 uv) {
+        const float along = glm::fract(2.0f * uv.x + std::abs(uv.y - 0.5f));
+        return along > 0.35f && along < 0.75f ? arrow : ground;
+    });
+}
+
+Picture leaves(vec3 color) {
+    return paint(64, 64, [=](vec2 uv) {
+        const float tuft = fractalNoise(uv * 12.0f, {12, 12}, 351);
+        return color * (0.55f + 0.75f * tuft);
+    });
+}
+
 Picture rings(vec3 rim, vec3 fill) {
     return paint(16, 128, [=](vec2 uv) {
         const float radius = uv.y; // a cap's texture runs once around and from axis to rim

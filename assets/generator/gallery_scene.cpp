@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace shutter::generator {
 
@@ -49,6 +50,99 @@ void addBooth(GltfWriter& writer) {
         MeshPart{.shape = walls, .material = wall}, MeshPart{.shape = trim, .material = dark}};
     writer.addNode({.name = "booth", .mesh = writer.addMesh("booth", parts)});
     addObject(writer, {.name = "floor", .translation = {0.0f, -0.1f, -5.0f}}, floor, boards);
+}
+
+/// Flags on a line between two places that sags, and lamps between the flags.
+void hangBunting(std::array<Shape, 3>& flags, Shape& lamps, vec3 from, vec3 to) {
+    constexpr int kFlags = 17;
+    constexpr float kSag = 0.35f;
+    constexpr std::array kPennant = {vec2(0.0f, -0.34f), vec2(0.16f, 0.0f)};
+    const vec3 along = glm::normalize(to - from);
+    const mat4 turn = glm::mat4_cast(glm::angleAxis(std::atan2(-along.z, along.x), kY));
+    for (int i = 0; i < kFlags; ++i) {
+        const float share = (static_cast<float>(i) + 0.5f) / kFlags;
+        const vec3 place = glm::mix(from, to, share) - kY * (4.0f * kSag * share * (1.0f - share));
+        // A cone pressed flat.
+        const mat4 flat = glm::scale(moved(place) * turn, vec3(1.0f, 1.0f, 0.06f));
+        append(flags[static_cast<size_t>(i) % flags.size()], lathe(kPennant, 6), flat);
+        append(lamps, sphere(0.045f, 5, 4), moved(place + along * 0.19f + kY * 0.03f));
+    }
+}
+
+/// Shelves at the side walls with what there is to win.
+void addPrizes(GltfWriter& writer) {
+    Shape shelves;
+    Shape bears;
+    Shape jugs;
+    Shape parcels;
+    constexpr std::array kJug = {
+        vec2(0.0f, 0.0f),
+        vec2(0.11f, 0.01f),
+        vec2(0.17f, 0.13f),
+        vec2(0.07f, 0.29f),
+        vec2(0.10f, 0.36f),
+        vec2(0.0f, 0.34f)};
+    Shape bear = sphere(0.17f, 9, 6);
+    append(bear, sphere(0.12f, 8, 6), moved({0.0f, 0.25f, 0.03f}));
+    for (const float side : {-1.0f, 1.0f}) {
+        append(bear, sphere(0.045f, 5, 4), moved({side * 0.09f, 0.35f, 0.03f}));
+        append(bear, sphere(0.06f, 6, 4), moved({side * 0.15f, 0.06f, 0.09f}));
+        append(bear, sphere(0.07f, 6, 4), moved({side * 0.10f, -0.13f, 0.13f}));
+    }
+    for (const float side : {-1.0f, 1.0f})
+        for (int row = 0; row < 2; ++row) {
+            const vec3 middle(side * 6.85f, 1.35f + 1.15f * static_cast<float>(row), -6.4f);
+            append(shelves, box({0.26f, 0.03f, 3.6f}, 1.0f), moved(middle));
+            for (int i = 0; i < 9; ++i) {
+                const vec3 place = middle + vec3(0.0f, 0.03f, -3.2f + 0.8f * static_cast<float>(i));
+                const float kind = hash(i, row + (side > 0.0f ? 7 : 0), 381);
+                const mat4 turn = glm::mat4_cast(glm::angleAxis(-side * glm::half_pi<float>(), kY));
+                if (kind < 0.45f)
+                    append(bears, bear, moved(place + kY * 0.17f) * turn);
+                else if (kind < 0.70f)
+                    append(jugs, lathe(kJug, 10), moved(place));
+                else
+                    append(parcels, box({0.17f, 0.15f, 0.17f}, 0.34f), moved(place + kY * 0.15f));
+            }
+        }
+    const std::array parts = {
+        MeshPart{
+            .shape = shelves,
+            .material = addPlainMaterial(writer, "shelf", {0.20f, 0.11f, 0.06f}, 0.8f)},
+        MeshPart{
+            .shape = bears,
+            .material = addPlainMaterial(writer, "plush", {0.45f, 0.24f, 0.10f}, 0.95f)},
+        MeshPart{
+            .shape = jugs,
+            .material = addPlainMaterial(writer, "glaze", {0.10f, 0.30f, 0.42f}, 0.25f)},
+        MeshPart{
+            .shape = parcels,
+            .material = addTextured(
+                writer, "parcels", stripes({0.80f, 0.20f, 0.30f}, {0.95f, 0.88f, 0.60f}), 0.7f
+            )}};
+    writer.addNode({.name = "prizes", .mesh = writer.addMesh("prizes", parts)});
+}
+
+void addBunting(GltfWriter& writer) {
+    std::array<Shape, 3> flags;
+    Shape lamps;
+    const std::array corners = {
+        vec3(-7.0f, 5.0f, 0.5f),
+        vec3(-7.0f, 5.0f, -11.8f),
+        vec3(7.0f, 5.0f, -11.8f),
+        vec3(7.0f, 5.0f, 0.5f)};
+    for (size_t i = 0; i + 1 < corners.size(); ++i)
+        hangBunting(flags, lamps, corners[i], corners[i + 1]);
+    constexpr std::array kColours = {
+        vec3(0.75f, 0.10f, 0.08f), vec3(0.85f, 0.60f, 0.08f), vec3(0.10f, 0.35f, 0.20f)};
+    std::vector<MeshPart> parts = {
+        {.shape = lamps,
+         .material = writer.addMaterial({.name = "bulbs", .emissive = {1.0f, 0.85f, 0.5f}})}};
+    for (size_t i = 0; i < flags.size(); ++i)
+        parts.push_back(
+            {.shape = flags[i], .material = addPlainMaterial(writer, "flags", kColours[i], 0.9f)}
+        );
+    writer.addNode({.name = "bunting", .mesh = writer.addMesh("bunting", parts)});
 }
 
 void addRails(GltfWriter& writer) {
@@ -161,6 +255,8 @@ GltfWriter buildGalleryScene() {
     addDemoSun(writer, {0.35f, -0.75f, -0.60f});
     addBooth(writer);
     addRails(writer);
+    addPrizes(writer);
+    addBunting(writer);
     // The one that others are made of.
     addObject(
         writer,

@@ -72,6 +72,18 @@ tube(std::span<const glm::vec3> path, std::span<const float> radii, int segmentC
 /// Of one radius throughout.
 [[nodiscard]] Shape tube(std::span<const glm::vec3> path, float radius, int segmentCount);
 
+/// A rounded rectangle across Z, for loft().
+struct LoftSection {
+    float z = 0.0f;         ///< metres
+    float halfWidth = 1.0f; ///< metres, about x = 0, above 0
+    float bottom = 0.0f;    ///< y, metres
+    float top = 1.0f;       ///< y, metres, above bottom
+};
+
+/// The solid through sections (at least two, z rising), smooth along Z, both ends flat.
+/// \param roundness radius of the corners as a share of the shorter half side, (0, 1)
+[[nodiscard]] Shape loft(std::span<const LoftSection> sections, float roundness);
+
 /// Points of a helix about Y, centred. \param height metres from end to end
 [[nodiscard]] std::vector<glm::vec3>
 helix(float radius, float height, float turnCount, int spanCount);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace shutter::generator {
 
@@ -120,12 +121,34 @@ Shape hills(float radius, float lowest, float highest, int seed) {
 
 struct Wood {
     Shape trunks;
-    Shape crowns;
+    Shape firs;
+    Shape oaks; ///< crowns of trees with leaves
 };
+
+/// A round crown with bulges, about its middle.
+Shape oakCrown(int seed) {
+    Shape crown = sphere(1.0f, 8, 5);
+    for (vec3& place : crown.positions) {
+        const auto at = [&](float value) { return static_cast<int>(std::lround(8.0f * value)); };
+        place *= 0.85f + 0.3f * hash(at(place.x) + 16 * at(place.y), at(place.z), seed);
+    }
+    smoothNormals(crown);
+    return crown;
+}
 
 Wood plantTrees() {
     constexpr int kTries = 150;
-    constexpr std::array kCrown = {vec2(0.0f, 1.1f), vec2(1.7f, 1.3f), vec2(0.0f, 5.6f)};
+    // Three skirts, each over the next.
+    constexpr std::array kFir = {
+        vec2(0.0f, 1.0f),
+        vec2(1.75f, 1.2f),
+        vec2(0.85f, 2.7f),
+        vec2(1.30f, 2.6f),
+        vec2(0.50f, 4.0f),
+        vec2(0.85f, 3.9f),
+        vec2(0.0f, 5.8f)};
+    const Shape fir = withUvScale(lathe(kFir, 7), {3.0f, 3.0f});
+    const std::array oaks = {oakCrown(371), oakCrown(372), oakCrown(373)};
     Wood wood;
     for (int i = 0; i < kTries; ++i) {
         const vec2 place = kMiddle + (vec2(hash(i, 0, 331), hash(i, 1, 331)) - 0.5f) * 280.0f;
@@ -134,7 +157,17 @@ Wood plantTrees() {
         const float size = 0.8f + 0.9f * hash(i, 2, 331);
         const glm::mat4 at =
             glm::scale(glm::translate(glm::mat4(1.0f), {place.x, 0.0f, place.y}), vec3(size));
-        append(wood.crowns, lathe(kCrown, 8), at);
+        if (i % 3 != 0) {
+            append(wood.firs, fir, at);
+        } else {
+            const glm::mat4 crown =
+                glm::scale(glm::translate(at, vec3(0.0f, 3.0f, 0.0f)), vec3(2.0f, 1.7f, 2.0f));
+            append(
+                wood.oaks,
+                withUvScale(oaks[static_cast<size_t>(i / 3) % oaks.size()], {4.0f, 3.0f}),
+                glm::rotate(crown, 6.0f * hash(i, 3, 331), glm::vec3(0, 1, 0))
+            );
+        }
         append(wood.trunks, cylinder(0.2f, 1.6f, 5), glm::translate(at, vec3(0.0f, 0.7f, 0.0f)));
     }
     return wood;
@@ -197,7 +230,7 @@ void addRallyLand(GltfWriter& writer, const RallyLand& land) {
     // One mesh and so one entity: the land hides nothing of itself that motion would have to
     // reveal.
     // Drawn in this order: what covers the plain comes before it, so that little is shaded twice.
-    const std::array parts = {
+    std::vector<MeshPart> parts = {
         MeshPart{.shape = land.fenceRails, .material = plainColor("rails", vec3(0.80f))},
         MeshPart{.shape = land.gatePoles, .material = plainColor("gate_poles", vec3(0.55f))},
         MeshPart{
@@ -209,6 +242,18 @@ void addRallyLand(GltfWriter& writer, const RallyLand& land) {
                 writer, "gate", checkers({0.95f, 0.72f, 0.12f}, {0.10f, 0.22f, 0.50f}), 0.8f
             )},
         MeshPart{
+            .shape = land.arrowBoards,
+            .material = addTextured(
+                writer, "arrows", arrows({0.93f, 0.92f, 0.88f}, {0.85f, 0.13f, 0.10f}), 0.8f
+            )},
+        MeshPart{.shape = land.tyres, .material = plainColor("tyre_walls", vec3(0.045f))},
+        MeshPart{.shape = land.seats, .material = plainColor("seats", {0.35f, 0.36f, 0.38f})},
+        MeshPart{
+            .shape = land.awning,
+            .material = addTextured(
+                writer, "awning", stripes({0.16f, 0.32f, 0.62f}, {0.94f, 0.92f, 0.86f}), 0.8f
+            )},
+        MeshPart{
             .shape = land.fencePosts, .material = plainColor("fence_posts", {0.26f, 0.17f, 0.10f})},
         MeshPart{
             .shape = strip(-kRoadHalfWidth, kRoadHalfWidth, 0.02f, 8.0f),
@@ -216,11 +261,27 @@ void addRallyLand(GltfWriter& writer, const RallyLand& land) {
         MeshPart{.shape = kerbStrip(-kRoadHalfWidth - 0.45f, -kRoadHalfWidth), .material = kerb},
         MeshPart{.shape = kerbStrip(kRoadHalfWidth, kRoadHalfWidth + 0.45f), .material = kerb},
         MeshPart{.shape = wood.trunks, .material = plainColor("trunks", {0.16f, 0.10f, 0.06f})},
-        MeshPart{.shape = wood.crowns, .material = plainColor("crowns", {0.07f, 0.20f, 0.07f})},
+        MeshPart{
+            .shape = wood.firs,
+            .material = addTextured(writer, "firs", leaves({0.22f, 0.40f, 0.22f}), 0.95f)},
+        MeshPart{
+            .shape = wood.oaks,
+            .material = addTextured(writer, "oaks", leaves({0.36f, 0.55f, 0.22f}), 0.95f)},
         MeshPart{.shape = hills(150.0f, 5.0f, 16.0f, 341), .material = near},
         MeshPart{.shape = plain(), .material = grass},
         MeshPart{.shape = hills(190.0f, 14.0f, 34.0f, 342), .material = far},
     };
+    constexpr std::array kClothes = {
+        vec3(0.70f, 0.12f, 0.08f),
+        vec3(0.80f, 0.62f, 0.10f),
+        vec3(0.12f, 0.24f, 0.55f),
+        vec3(0.75f, 0.72f, 0.66f)};
+    for (size_t i = 0; i < land.spectators.size(); ++i)
+        parts.push_back(
+            {.shape = land.spectators[i],
+             .material =
+                 writer.addMaterial({.name = "clothes", .color = kClothes[i % kClothes.size()]})}
+        );
     writer.addNode({.name = "land", .mesh = writer.addMesh("land", parts)});
 }
 

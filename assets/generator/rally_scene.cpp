@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The car of the rally and what stands along its way.
+// What stands along the way of the rally.
 #include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/mesh_shapes.h"
@@ -20,80 +20,6 @@ namespace {
 /// Turned so that -Z points along `direction` of the ground.
 glm::quat headingOf(vec2 direction) {
     return glm::angleAxis(std::atan2(-direction.x, -direction.y), kY);
-}
-
-/// What turns and what only looks so: a plain tyre is the same however far it has rolled, so that
-/// it need not move at all.
-struct WheelMeshes {
-    Index tyre = kNothing;
-    Index spokes = kNothing;
-};
-
-WheelMeshes addWheelMeshes(GltfWriter& writer) {
-    constexpr float kRadius = 0.34f;
-    constexpr float kTyre = 0.055f;
-    constexpr int kSpokes = 10;
-    const mat4 axisToZ = glm::rotate(mat4(1.0f), glm::half_pi<float>(), kX);
-    Shape tyre;
-    append(tyre, torus(kRadius - kTyre, kTyre, 28, 8), glm::scale(axisToZ, vec3(1.0f, 1.9f, 1.0f)));
-    Shape spokes;
-    append(spokes, cylinder(0.06f, 0.17f, 10), axisToZ);
-    for (int i = 0; i < kSpokes; ++i) {
-        const mat4 turn = glm::rotate(
-            mat4(1.0f), glm::two_pi<float>() * static_cast<float>(i) / kSpokes, {0, 0, 1}
-        );
-        append(
-            spokes,
-            box({0.014f, 0.125f, 0.018f}, 1.0f),
-            glm::translate(turn, vec3(0.0f, 0.155f, i % 2 == 0 ? 0.05f : -0.05f))
-        );
-    }
-    const MeshPart tyrePart{
-        .shape = tyre, .material = addPlainMaterial(writer, "tyre", vec3(0.04f), 0.9f)};
-    const MeshPart spokesPart{
-        .shape = spokes, .material = addPlainMaterial(writer, "spokes", vec3(0.72f), 0.35f)};
-    return {writer.addMesh("tyre", {&tyrePart, 1}), writer.addMesh("spokes", {&spokesPart, 1})};
-}
-
-Index addBodyMesh(GltfWriter& writer) {
-    Shape paint = roundedBox({0.60f, 0.20f, 1.90f}, 0.10f, 2, 1.0f);
-    append(paint, roundedBox({0.46f, 0.06f, 0.62f}, 0.05f, 2, 1.0f), moved({0, 0.66f, 0.30f}));
-    append(paint, box({0.70f, 0.02f, 0.16f}, 1.0f), moved({0, 0.50f, 1.72f}));
-    for (const float side : {-1.0f, 1.0f})
-        append(paint, box({0.03f, 0.14f, 0.10f}, 1.0f), moved({side * 0.45f, 0.34f, 1.72f}));
-    const Shape glass = roundedBox({0.50f, 0.24f, 0.86f}, 0.12f, 2, 1.0f);
-    for (const float z : {-1.22f, 1.22f})
-        append(paint, box({0.80f, 0.03f, 0.05f}, 1.0f), moved({0.0f, -0.12f, z}));
-    Shape cabin;
-    append(cabin, glass, moved({0, 0.40f, 0.28f}));
-    Shape stripe = box({0.16f, 0.012f, 1.80f}, 1.0f);
-    Shape stripes;
-    append(stripes, stripe, moved({0, 0.195f, 0.0f}));
-    append(stripes, box({0.16f, 0.01f, 0.50f}, 1.0f), moved({0, 0.718f, 0.30f}));
-    Shape lamps;
-    Shape tails;
-    for (const float side : {-1.0f, 1.0f}) {
-        append(lamps, box({0.14f, 0.06f, 0.03f}, 1.0f), moved({side * 0.42f, 0.05f, -1.89f}));
-        append(tails, box({0.14f, 0.05f, 0.03f}, 1.0f), moved({side * 0.42f, 0.06f, 1.89f}));
-    }
-    const std::array parts = {
-        MeshPart{
-            .shape = paint,
-            .material = addPlainMaterial(writer, "paint", {0.62f, 0.05f, 0.05f}, 0.35f)},
-        MeshPart{
-            .shape = cabin,
-            .material = addPlainMaterial(writer, "glass", {0.03f, 0.05f, 0.07f}, 0.15f)},
-        MeshPart{
-            .shape = stripes, .material = addPlainMaterial(writer, "stripe", vec3(0.85f), 0.4f)},
-        MeshPart{
-            .shape = lamps,
-            .material = writer.addMaterial({.name = "lamps", .emissive = {0.9f, 0.85f, 0.6f}})},
-        MeshPart{
-            .shape = tails,
-            .material = writer.addMaterial(
-                {.name = "tails", .color = {0.3f, 0.0f, 0.0f}, .emissive = {0.8f, 0.04f, 0.03f}}
-            )}};
-    return writer.addMesh("car_body", parts);
 }
 
 /// Drawn with the land, as the fences are.
@@ -118,6 +44,64 @@ void addGates(GltfWriter& writer, RallyLand& land) {
             glm::translate(at, vec3(0.0f, 4.26f, 0.0f))
         );
     }
+}
+
+/// A board on a fence panel that shows drivers the way of the bend. \param side the fence's, +1
+/// right
+void addArrowBoard(RallyLand& land, const mat4& at, float side) {
+    Shape board = box({1.1f, 0.28f, 0.02f}, 1.0f);
+    for (size_t i = 0; i < board.uvs.size(); ++i) {
+        const vec3 place = board.positions[i];
+        // Along the fence's X the road goes one way on its right side, the other way on its left.
+        board.uvs[i] = {0.5f - side * place.x / 2.2f, 0.5f - place.y / 0.56f};
+    }
+    append(land.arrowBoards, board, glm::translate(at, vec3(0.0f, 1.30f, 0.0f)));
+}
+
+/// Three tyres on each other.
+void addTyreStack(RallyLand& land, vec3 foot) {
+    const Shape tyre = torus(0.30f, 0.12f, 9, 5);
+    for (int i = 0; i < 3; ++i)
+        append(land.tyres, tyre, moved(foot + kY * (0.12f + 0.24f * static_cast<float>(i))));
+}
+
+/// Rows of seats with people on them, along the straight.
+void addGrandstand(RallyLand& land) {
+    constexpr int kRows = 5;
+    constexpr int kColours = 4;
+    constexpr float kHalfLength = 11.0f;
+    const vec3 foot(-9.2f, 0.0f, -22.0f); // of its front, beside the road
+    land.spectators.resize(kColours);
+    Shape person = cylinder(0.17f, 0.52f, 6);
+    append(person, sphere(0.12f, 6, 4), moved({0.0f, 0.38f, 0.0f}));
+    for (int row = 0; row < kRows; ++row) {
+        const float height = 0.35f + 0.42f * static_cast<float>(row);
+        const vec3 middle = foot + vec3(-0.75f * static_cast<float>(row), height / 2.0f, 0.0f);
+        append(land.seats, box({0.375f, height / 2.0f, kHalfLength}, 1.0f), moved(middle));
+        for (int seat = 0; seat < 26; ++seat) {
+            if (hash(seat, row, 361) < 0.35f)
+                continue;
+            const auto colour = static_cast<size_t>(kColours * hash(seat, row, 362));
+            const float z =
+                (static_cast<float>(seat) - 12.5f) * 0.82f + 0.2f * hash(seat, row, 363);
+            append(
+                land.spectators[colour],
+                person,
+                moved(middle + vec3(0.0f, height / 2.0f + 0.26f, z))
+            );
+        }
+    }
+    append(
+        land.awning,
+        box({2.3f, 0.05f, kHalfLength + 0.4f}, 3.0f),
+        glm::rotate(moved(foot + vec3(-1.7f, 4.3f, 0.0f)), 0.12f, kZ)
+    );
+    for (const float z : {-1.0f, -0.33f, 0.33f, 1.0f})
+        append(
+            land.gatePoles,
+            cylinder(0.07f, 4.0f, 8),
+            moved(foot + vec3(-3.6f, 2.0f, z * kHalfLength))
+        );
 }
 
 /// A panel of 4 m with two rails, along its X, into the land's parts: an entity each would make
@@ -159,13 +143,22 @@ void addPostsAndFences(GltfWriter& writer, RallyLand& land) {
         const vec2 front = right * -side;
         const vec3 foot(place.x, 0.0f, place.y);
         const glm::quat turn = glm::angleAxis(std::atan2(front.x, front.y), kY);
-        addFencePanel(land, moved(foot) * glm::mat4_cast(turn));
+        const mat4 at = moved(foot) * glm::mat4_cast(turn);
+        addFencePanel(land, at);
+        if (std::abs(point.curvature) > 0.03f && fences % 2 == 0)
+            addArrowBoard(land, at, side);
         writer.addNode(
             {.name = fmt::format("fence_{:02}", fences++), .translation = foot, .rotation = turn}
         );
     };
     const auto addPost = [&](const CoursePoint& point, float side) {
-        const vec2 place = point.place + vec2(-point.direction.y, point.direction.x) * side;
+        const vec2 right(-point.direction.y, point.direction.x);
+        const vec2 place = point.place + right * side;
+        // Out of the way, what cushions who cuts the bend.
+        if (std::abs(side) > kPostDistance - 0.1f && posts % 2 == 0) {
+            const vec2 behind = place + right * std::copysign(2.2f, side);
+            addTyreStack(land, {behind.x, 0.0f, behind.y});
+        }
         writer.addNode(
             {.name = fmt::format("post_{:02}", posts++),
              .translation = {place.x, 0.55f, place.y},
@@ -202,46 +195,6 @@ void addPostsAndFences(GltfWriter& writer, RallyLand& land) {
 
 } // namespace
 
-void addRallyCar(GltfWriter& writer) {
-    const Index car = writer.addNode({.name = "car"});
-    // What would be its shadow.
-    const Index shade = writer.addMaterial({.name = "shade", .color = vec3(0.015f)});
-    addObject(
-        writer,
-        {.name = "car_shade", .parent = car, .translation = {0.0f, 0.06f, 0.0f}},
-        box({0.80f, 0.01f, 1.80f}, 1.0f),
-        shade
-    );
-    const Index body = writer.addNode(
-        {.name = "car_body",
-         .parent = car,
-         .translation = {0.0f, 0.46f, 0.0f},
-         .mesh = addBodyMesh(writer)}
-    );
-    writer.addNode(
-        {.name = "bonnet",
-         .parent = body,
-         .translation = {0.0f, 0.60f, -0.66f},
-         .rotation = glm::angleAxis(-0.06f, kX),
-         .camera = writer.addCamera("bonnet", 1.0f, 0.1f)}
-    );
-    const WheelMeshes meshes = addWheelMeshes(writer);
-    for (const bool front : {true, false}) {
-        for (const bool left : {true, false}) {
-            const std::string place =
-                fmt::format("{}_{}", front ? "front" : "rear", left ? "left" : "right");
-            const Index wheel = writer.addNode(
-                {.name = "wheel_" + place,
-                 .parent = car,
-                 .translation = {left ? -0.84f : 0.84f, 0.34f, front ? -1.22f : 1.22f},
-                 .rotation = glm::angleAxis(glm::half_pi<float>(), kY),
-                 .mesh = meshes.tyre}
-            );
-            writer.addNode({.name = "spokes_" + place, .parent = wheel, .mesh = meshes.spokes});
-        }
-    }
-}
-
 GltfWriter buildRallyScene() {
     GltfWriter writer("rally");
     writer.addNode(
@@ -253,6 +206,7 @@ GltfWriter buildRallyScene() {
     RallyLand land;
     addGates(writer, land);
     addPostsAndFences(writer, land);
+    addGrandstand(land);
     addRallyLand(writer, land);
     addRallyCar(writer);
     return writer;

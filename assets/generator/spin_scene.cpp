@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 namespace shutter::generator {
 
@@ -29,25 +30,56 @@ struct Horse {
 
 Horse buildHorse() {
     Horse horse;
-    append(horse.coat, roundedBox({0.36f, 0.15f, 0.13f}, 0.09f, 2, 1.0f));
-    append(
+    const auto limb =
+        [&](Shape& shape, std::initializer_list<vec3> path, std::initializer_list<float> radii) {
+            append(shape, tube({path.begin(), path.size()}, {radii.begin(), radii.size()}, 8));
+        };
+    // Trunk, neck and head.
+    limb(
         horse.coat,
-        roundedBox({0.09f, 0.24f, 0.08f}, 0.05f, 1, 1.0f),
-        glm::rotate(moved({0.36f, 0.22f, 0.0f}), -0.5f, kZ)
+        {{-0.42f, 0.02f, 0},
+         {-0.32f, 0.03f, 0},
+         {0.0f, -0.02f, 0},
+         {0.28f, 0.02f, 0},
+         {0.38f, 0.04f, 0}},
+        {0.08f, 0.16f, 0.15f, 0.16f, 0.09f}
     );
-    append(
+    limb(
         horse.coat,
-        roundedBox({0.16f, 0.075f, 0.07f}, 0.05f, 1, 1.0f),
-        glm::rotate(moved({0.54f, 0.40f, 0.0f}), -0.35f, kZ)
+        {{0.26f, 0.04f, 0}, {0.40f, 0.26f, 0}, {0.50f, 0.45f, 0}, {0.53f, 0.50f, 0}},
+        {0.14f, 0.10f, 0.075f, 0.03f}
     );
-    for (const float x : {-0.27f, 0.27f})
-        for (const float z : {-0.08f, 0.08f})
-            append(
-                horse.coat,
-                box({0.04f, 0.19f, 0.04f}, 1.0f),
-                glm::rotate(moved({x + 0.06f, -0.28f, z}), x > 0.0f ? 0.45f : -0.35f, kZ)
-            );
-    append(horse.tack, roundedBox({0.14f, 0.05f, 0.15f}, 0.03f, 1, 1.0f), moved({0, 0.15f, 0}));
+    limb(
+        horse.coat,
+        {{0.44f, 0.47f, 0}, {0.52f, 0.46f, 0}, {0.66f, 0.35f, 0}, {0.72f, 0.31f, 0}},
+        {0.05f, 0.075f, 0.055f, 0.035f}
+    );
+    for (const float z : {-0.08f, 0.08f}) {
+        // Ears; the front legs lifted, the hind ones stretched.
+        limb(horse.coat, {{0.49f, 0.50f, 0.5f * z}, {0.47f, 0.60f, 0.6f * z}}, {0.025f, 0.005f});
+        limb(
+            horse.coat,
+            {{0.28f, -0.06f, z}, {0.46f, -0.20f, z}, {0.40f, -0.38f, z}, {0.43f, -0.42f, z}},
+            {0.07f, 0.045f, 0.03f, 0.04f}
+        );
+        limb(
+            horse.coat,
+            {{-0.32f, -0.04f, z}, {-0.38f, -0.24f, z}, {-0.52f, -0.40f, z}, {-0.51f, -0.45f, z}},
+            {0.09f, 0.05f, 0.03f, 0.04f}
+        );
+    }
+    // Tail, mane, saddle and pole.
+    limb(
+        horse.tack,
+        {{-0.42f, 0.06f, 0}, {-0.54f, 0.04f, 0}, {-0.60f, -0.14f, 0}, {-0.58f, -0.28f, 0}},
+        {0.02f, 0.045f, 0.05f, 0.005f}
+    );
+    limb(
+        horse.tack,
+        {{0.24f, 0.20f, 0}, {0.34f, 0.36f, 0}, {0.43f, 0.52f, 0}, {0.50f, 0.56f, 0}},
+        {0.01f, 0.035f, 0.035f, 0.01f}
+    );
+    append(horse.tack, roundedBox({0.15f, 0.04f, 0.17f}, 0.03f, 1, 1.0f), moved({0, 0.12f, 0}));
     append(horse.tack, cylinder(0.022f, 2.3f, 8), moved({0.0f, 0.35f, 0.0f}));
     return horse;
 }
@@ -79,6 +111,26 @@ void addSeats(GltfWriter& writer, Index carousel) {
     }
 }
 
+/// Along the roof's rim and its ribs, and one on top.
+Shape buildRoofLamps() {
+    Shape lamps;
+    constexpr int kRimLamps = 40;
+    for (int i = 0; i < kRimLamps; ++i) {
+        const float angle = glm::two_pi<float>() * static_cast<float>(i) / kRimLamps;
+        const vec3 out(std::cos(angle), 0.0f, std::sin(angle));
+        append(lamps, sphere(0.05f, 7, 5), moved(out * 3.28f + kY * 2.48f));
+        if (i % 5 == 0)
+            for (const float share : {0.25f, 0.5f, 0.75f})
+                append(
+                    lamps,
+                    sphere(0.05f, 7, 5),
+                    moved(out * glm::mix(3.2f, 1.6f, share) + kY * glm::mix(2.82f, 3.30f, share))
+                );
+    }
+    append(lamps, sphere(0.16f, 12, 8), moved({0.0f, 4.2f, 0.0f}));
+    return lamps;
+}
+
 Index addCarousel(GltfWriter& writer) {
     constexpr std::array kPlatform = {vec2(0.0f, 0.45f), vec2(3.0f, 0.45f)};
     constexpr std::array kRim = {vec2(3.0f, 0.15f), vec2(3.0f, 0.45f)};
@@ -103,7 +155,10 @@ Index addCarousel(GltfWriter& writer) {
         MeshPart{
             .shape = lathe(kCeiling, 32),
             .material = addPlainMaterial(writer, "ceiling", {0.42f, 0.33f, 0.24f}, 0.9f)},
-        MeshPart{.shape = withUvScale(lathe(kValance, 32), {16.0f, 1.0f}), .material = bunting}};
+        MeshPart{.shape = withUvScale(lathe(kValance, 32), {16.0f, 1.0f}), .material = bunting},
+        MeshPart{
+            .shape = buildRoofLamps(),
+            .material = writer.addMaterial({.name = "bulbs", .emissive = {1.0f, 0.85f, 0.5f}})}};
     const Index carousel = writer.addNode(
         {.name = "carousel",
          .translation = {-1.6f, 0.0f, -1.0f},
@@ -201,21 +256,49 @@ void addRing(GltfWriter& writer) {
 
 void addGround(GltfWriter& writer) {
     Shape ground = box({30.0f, 0.1f, 30.0f}, 4.0f);
-    const Index slabs = writer.addMaterial(
-        {.name = "slabs",
-         .texture =
-             writer.addTexture("slabs", checkers({0.62f, 0.58f, 0.50f}, {0.52f, 0.49f, 0.44f})),
-         .roughness = 0.95f}
-    );
+    const Index slabs = addTextured(writer, "slabs", paving(), 0.95f);
     Shape hedge;
     for (const float x : {-1.0f, 1.0f})
         append(hedge, box({0.6f, 1.0f, 22.0f}, 1.0f), moved({x * 15.0f, 1.0f, -6.0f}));
     append(hedge, box({15.0f, 1.0f, 0.6f}, 1.0f), moved({0.0f, 1.0f, -16.0f}));
+    Shape crowns;
+    Shape trunks;
+    for (int i = 0; i < 16; ++i) {
+        const float size = 1.5f + hash(i, 0, 391);
+        const vec3 foot(
+            -22.0f + 2.9f * static_cast<float>(i), 0.0f, -19.0f - 3.0f * hash(i, 1, 391)
+        );
+        append(
+            crowns,
+            withUvScale(sphere(1.0f, 10, 7), {4.0f, 3.0f}),
+            glm::scale(moved(foot + kY * (2.1f * size)), size * vec3(1.0f, 1.15f, 1.0f))
+        );
+        append(trunks, cylinder(0.16f * size, 2.4f, 7), moved(foot + kY * 1.2f));
+    }
+    Shape posts;
+    Shape globes;
+    for (const vec2 place : {vec2(-6.2f, 2.2f), {-6.2f, -6.0f}, {1.8f, -6.5f}, {6.4f, 1.6f}}) {
+        const vec3 foot(place.x, 0.1f, place.y);
+        append(posts, cylinder(0.05f, 3.0f, 8), moved(foot + kY * 1.5f));
+        append(posts, cylinder(0.16f, 0.2f, 10), moved(foot + kY * 0.1f));
+        append(globes, sphere(0.18f, 12, 8), moved(foot + kY * 3.12f));
+    }
     const std::array parts = {
         MeshPart{.shape = ground, .material = slabs},
         MeshPart{
             .shape = hedge,
-            .material = addPlainMaterial(writer, "hedge", {0.08f, 0.20f, 0.06f}, 0.9f)}};
+            .material = addTextured(writer, "hedge", leaves({0.30f, 0.46f, 0.22f}), 0.95f)},
+        MeshPart{
+            .shape = crowns,
+            .material = addTextured(writer, "crowns", leaves({0.34f, 0.52f, 0.22f}), 0.95f)},
+        MeshPart{
+            .shape = trunks,
+            .material = addPlainMaterial(writer, "trunks", {0.16f, 0.10f, 0.06f}, 0.95f)},
+        MeshPart{
+            .shape = posts, .material = addPlainMaterial(writer, "lamp_posts", vec3(0.05f), 0.5f)},
+        MeshPart{
+            .shape = globes,
+            .material = writer.addMaterial({.name = "globes", .emissive = {1.0f, 0.9f, 0.7f}})}};
     writer.addNode(
         {.name = "ground",
          .translation = {0.0f, -0.1f, 0.0f},

@@ -31,7 +31,61 @@ void addCap(
     }
 }
 
+constexpr int kCornerPoints = 4;
+constexpr int kSectionPoints = 4 * kCornerPoints;
+
+/// Point `index` of a section, counter-clockwise seen from +Z, beginning at the lower right corner.
+vec3 sectionPoint(const LoftSection& section, float roundness, int index) {
+    const vec2 half(section.halfWidth, 0.5f * (section.top - section.bottom));
+    const float radius = roundness * std::min(half.x, half.y);
+    const int corner = index / kCornerPoints;
+    const float angle = glm::half_pi<float>() * (static_cast<float>(corner) - 1.0f +
+                                                 static_cast<float>(index % kCornerPoints) /
+                                                     static_cast<float>(kCornerPoints - 1));
+    const vec2 side(
+        corner == 0 || corner == 1 ? 1.0f : -1.0f, corner == 1 || corner == 2 ? 1.0f : -1.0f
+    );
+    const vec2 at = side * (half - radius) + radius * vec2(std::cos(angle), std::sin(angle));
+    return {at.x, at.y + 0.5f * (section.top + section.bottom), section.z};
+}
+
 } // namespace
+
+Shape loft(std::span<const LoftSection> sections, float roundness) {
+    Shape shape;
+    constexpr size_t kPoints = kSectionPoints;
+    for (const LoftSection& section : sections)
+        for (int i = 0; i < kSectionPoints; ++i)
+            addVertex(
+                shape,
+                sectionPoint(section, roundness, i),
+                kY,
+                {static_cast<float>(i) / kSectionPoints, section.z}
+            );
+    for (size_t row = 0; row + 1 < sections.size(); ++row)
+        for (size_t i = 0; i < kPoints; ++i) {
+            const size_t next = (i + 1) % kPoints;
+            const size_t a = row * kPoints;
+            addTriangle(shape, a + i, a + next, a + kPoints + next);
+            addTriangle(shape, a + i, a + kPoints + next, a + kPoints + i);
+        }
+    smoothNormals(shape);
+    for (const bool isLast : {false, true}) {
+        const LoftSection& section = isLast ? sections.back() : sections.front();
+        const vec3 normal = isLast ? kZ : -kZ;
+        const size_t middle = shape.positions.size();
+        addVertex(shape, {0, 0.5f * (section.top + section.bottom), section.z}, normal, vec2(0.5f));
+        for (int i = 0; i < kSectionPoints; ++i)
+            addVertex(shape, sectionPoint(section, roundness, i), normal, vec2(0.5f));
+        for (size_t i = 0; i < kPoints; ++i) {
+            const size_t next = (i + 1) % kPoints;
+            addTriangle(
+                shape, middle, middle + 1 + (isLast ? i : next), middle + 1 + (isLast ? next : i)
+            );
+        }
+    }
+    return shape;
+}
 
 Shape tube(std::span<const vec3> path, std::span<const float> radii, int segmentCount) {
     Shape shape;

@@ -90,6 +90,25 @@ TEST(Shapes, PropsAreClosedAndFaceOutwards) {
     expectSolid("saddle", highWheeler().saddle);
 }
 
+TEST(Shapes, ALoftIsClosedAndGoesThroughItsSections) {
+    const std::array sections = {
+        LoftSection{-1.0f, 0.4f, -0.2f, 0.1f},
+        LoftSection{0.0f, 0.6f, -0.3f, 0.5f},
+        LoftSection{2.0f, 0.2f, 0.0f, 0.4f}};
+    for (const float roundness : {0.01f, 0.5f, 0.95f}) {
+        const Shape shape = loft(sections, roundness);
+        expectSolid("loft", shape);
+        vec3 least(1e9f);
+        vec3 greatest(-1e9f);
+        for (const vec3 place : shape.positions) {
+            least = glm::min(least, place);
+            greatest = glm::max(greatest, place);
+        }
+        EXPECT_LT(glm::distance(least, vec3(-0.6f, -0.3f, -1.0f)), 1e-5f);
+        EXPECT_LT(glm::distance(greatest, vec3(0.6f, 0.5f, 2.0f)), 1e-5f);
+    }
+}
+
 TEST(Shapes, ATubeWithATipIsClosedAndHasNoEmptyTriangle) {
     const std::array path = {vec3(0, 0, 0), vec3(0, 1, 0), vec3(0.5f, 2, 0)};
     const std::array radii = {0.1f, 0.05f, 0.0f};
