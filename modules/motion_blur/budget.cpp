@@ -37,7 +37,8 @@ core::SettingRows<BlurBudget> listBudgetRows() {
           .sliderLowest = 0.1,
           .sliderHighest = 100},
          "GPU time per frame that the blur may take. To keep to it, the blur gives up resolution, "
-         "rays and samples, and in the end itself.",
+         "rays and samples, but never itself: at worst four samples along each pixel's own motion "
+         "remain.",
          "Budget",
          "--budget"},
     }};
@@ -61,7 +62,7 @@ BudgetController::BudgetController(const BlurBudget& budget, const MotionBlurSet
 }
 
 double BudgetController::predict(size_t level) const {
-    return current().runs ? mSmoothed * mLevels[level].cost / current().cost : 0.0;
+    return mSmoothed * mLevels[level].cost / current().cost;
 }
 
 size_t BudgetController::findFitting() const {
@@ -88,8 +89,7 @@ void BudgetController::stepDown(double milliseconds) {
 }
 
 void BudgetController::considerStepUp() {
-    // Without blur there is no time to judge by: it is tried again after the wait.
-    const bool room = !current().runs || predict(mLevel - 1) <= kRoom * mBudget.milliseconds;
+    const bool room = predict(mLevel - 1) <= kRoom * mBudget.milliseconds;
     mFramesUnder = room ? mFramesUnder + 1 : 0;
     if (mFramesUnder >= mWait)
         moveTo(mLevel - 1);

@@ -19,7 +19,7 @@ constexpr uint32_t kLeastSamples = 4;     ///< fewer show ghosts, not blur
 } // namespace
 
 BudgetLadder::BudgetLadder(const MotionBlurSettings& wanted) : mWanted(wanted) {
-    mLevels.push_back({wanted, true, 1.0, ""});
+    mLevels.push_back({wanted, 1.0, ""});
 }
 
 void BudgetLadder::halveResolution(double cost) {
@@ -77,7 +77,7 @@ void BudgetLadder::changeMethod(
 }
 
 std::vector<BudgetLevel> BudgetLadder::finish() {
-    mLevels.push_back({mNext, false, 0.0, "motion blur altogether"});
+    addCheapest();
     return std::move(mLevels);
 }
 
@@ -86,7 +86,30 @@ void BudgetLadder::add(double cost) {
     for (const std::string& part : {mResolution, mRaster, mRays, mSamples})
         if (!part.empty())
             gaveUp += (gaveUp.empty() ? "" : ", ") + part;
-    mLevels.push_back({mNext, true, cost, gaveUp});
+    mLevels.push_back({mNext, cost, gaveUp});
+}
+
+void BudgetLadder::addCheapest() {
+    MotionBlurSettings cheapest = mNext;
+    cheapest.method = &getMethod("own_velocity");
+    cheapest.occluderTest = OccluderTest::None;
+    if (mWanted.method->sampleUnit == SampleUnit::Taps)
+        cheapest.sampleCount = std::min(mWanted.sampleCount, kLeastSamples);
+    else
+        cheapest.sampleCount = kLeastSamples;
+    if (mLevels.back().settings.method == cheapest.method &&
+        mLevels.back().settings.sampleCount <= cheapest.sampleCount &&
+        mLevels.back().settings.occluderTest == OccluderTest::None)
+        return;
+    mLevels.push_back(
+        {cheapest,
+         0.5 * mLevels.back().cost,
+         fmt::format(
+             "all but {} sample{} along each pixel's own motion",
+             cheapest.sampleCount,
+             cheapest.sampleCount == 1 ? "" : "s"
+         )}
+    );
 }
 
 uint32_t shareOfSamples(uint32_t samples, double share) {

@@ -30,11 +30,12 @@ class BudgetLadder {
     /// Settings of the level added last.
     [[nodiscard]] const MotionBlurSettings& next() const { return mNext; }
 
-    /// The levels, and behind them one without blur.
+    /// The levels, and behind them the cheapest: `own_velocity` with the fewest samples.
     [[nodiscard]] std::vector<BudgetLevel> finish();
 
   private:
     void add(double cost);
+    void addCheapest();
 
     MotionBlurSettings mWanted;
     MotionBlurSettings mNext = mWanted;

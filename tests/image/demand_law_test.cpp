@@ -161,26 +161,28 @@ TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
     EXPECT_GT(again.statistics.counters.at("rays traced"), 0u);
 }
 
-TEST_F(DemandLaw, ATooSmallBudgetEndsWithoutBlurAndSaysSo) {
+TEST_F(DemandLaw, ATooSmallBudgetEndsWithTheCheapestBlurAndSaysSo) {
     const SceneBuilder scene = makeCrossing();
     MotionBlurSettings settings;
     settings.method = &motion_blur::getMethod("gather");
+    const double last = double(motion_blur::makeLevels(settings).size() - 1);
     Loop loop(device(), scene, settings, {1e-6});
+    render::FrameResult frame;
     for (int i = 0; i < 40; ++i) {
-        const auto frame = loop.draw(0.5);
+        frame = loop.draw(0.5);
         const auto* blur = render::findDecision(frame.statistics.explanations, "motion blur");
         ASSERT_NE(blur, nullptr);
-        if (!blur->run) {
-            EXPECT_NE(blur->reason.find("too few for any blur"), std::string::npos);
-            EXPECT_FALSE(hasPass(frame, "tile max"));
-            return;
-        }
+        ASSERT_TRUE(blur->run) << "a budget took the blur away: " << blur->reason;
         EXPECT_GT(frame.statistics.measures.at("blur ms"), 0.0);
         const auto* budget = render::findDecision(frame.statistics.explanations, "blur budget");
         ASSERT_NE(budget, nullptr);
         EXPECT_EQ(budget->run, frame.statistics.measures.at("blur budget level") > 0.0);
     }
-    ADD_FAILURE() << "the budget was never too small";
+    EXPECT_EQ(frame.statistics.measures.at("blur budget level"), last);
+    EXPECT_TRUE(hasPass(frame, "own velocity"));
+    const auto* budget = render::findDecision(frame.statistics.explanations, "blur budget");
+    EXPECT_NE(budget->reason.find("4 samples"), std::string::npos) << budget->reason;
+    EXPECT_FALSE(test::sameBits(frame.color, loop.draw(0.0).color)) << "the picture is sharp";
 }
 
 TEST_F(DemandLaw, ABudgetOfPlentyChangesNoBit) {

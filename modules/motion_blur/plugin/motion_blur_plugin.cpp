@@ -61,9 +61,6 @@ core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
         return {false, "the exposure is 0"};
     if (!facts.moves)
         return {false, "nothing in the picture moves during the exposure"};
-    if (!mBudget.current().runs)
-        return {
-            false, fmt::format("{} ms are too few for any blur", mBudget.budget().milliseconds)};
     return {true, "something in the picture moves during the exposure"};
 }
 
@@ -140,8 +137,6 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
         milliseconds += pass.gpuMilliseconds;
     if (!frame.passes.empty())
         mBudget.observe(level, milliseconds);
-    else if (!mBudget.current().runs) // and waits to be tried again
-        mBudget.observe(mBudget.level(), 0.0);
     if (!frame.ran || level == kNoLevel)
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))

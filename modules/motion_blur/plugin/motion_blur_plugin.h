@@ -29,7 +29,7 @@ class MotionBlurPlugin : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "motion blur"; }
 
-    /// Skipped when nothing moves, the exposure is 0, or the budget is too small for any blur.
+    /// Skipped when nothing moves or the exposure is 0; no budget skips it.
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 
     /// For methods of RayNeed::Any.
