@@ -4,6 +4,7 @@
 #include "spirv/app/ui.frag.h"
 #include "spirv/app/ui.vert.h"
 
+#include "engine/app/ui_font.h"
 #include "engine/core/check.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
@@ -24,9 +25,6 @@ namespace {
 static_assert(sizeof(ImDrawVert) == sizeof(shader::UiVertex));
 static_assert(offsetof(ImDrawVert, uv) == offsetof(shader::UiVertex, uv));
 static_assert(offsetof(ImDrawVert, col) == offsetof(shader::UiVertex, color));
-
-/// Height of the built-in font, which is drawn for it: multiples are crisp.
-constexpr float kFontPx = 13.0f;
 
 /// ImGui takes no time of 0.
 constexpr double kShortestFrame = 1.0e-5;
@@ -86,6 +84,23 @@ void setStyle(float scale) {
     ImGui::GetStyle() = style;
 }
 
+/// A font of the height in the atlas, which is read texel by texel: no oversampling.
+void addFont(ImFontAtlas& atlas, float heightPx) {
+    ImFontConfig config;
+    config.OversampleH = config.OversampleV = 1;
+    config.PixelSnapH = true;
+    config.SizePixels = heightPx;
+    if constexpr (sizeof(kUiFont) <= 1) { // the zero behind an absent font
+        atlas.AddFontDefault(&config);
+        return;
+    }
+    config.FontDataOwnedByAtlas = false;
+    // ImGui only reads the bytes, though it asks for a pointer through which it could write.
+    atlas.AddFontFromMemoryTTF(
+        const_cast<char*>(kUiFont), static_cast<int>(sizeof(kUiFont) - 1), heightPx, &config
+    );
+}
+
 } // namespace
 
 struct Ui::State {
@@ -116,15 +131,9 @@ void Ui::State::setScale(float newScale) {
     setStyle(scale);
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
-    // The atlas is read texel by texel: no baked lines and no oversampling, which want a filter.
-    atlas.Flags |= ImFontAtlasFlags_NoBakedLines;
-    for (const float size : {kFontPx, 2.0f * kFontPx}) {
-        ImFontConfig config;
-        config.SizePixels = std::floor(size * scale);
-        config.OversampleH = config.OversampleV = 1;
-        config.PixelSnapH = true;
-        atlas.AddFontDefault(&config);
-    }
+    atlas.Flags |= ImFontAtlasFlags_NoBakedLines; // they want a filter
+    for (const float size : {kTextPx, kLargeTextPx})
+        addFont(atlas, std::floor(size * scale));
     unsigned char* texels = nullptr;
     int width = 0;
     int height = 0;

@@ -13,8 +13,13 @@
 
 namespace shutter::app {
 
+/// Height of a line of text at scale 1, pixels.
+inline constexpr float kTextPx = 15.0f;
+/// Of what is read at a glance.
+inline constexpr float kLargeTextPx = 24.0f;
+
 /// One at a time. Widgets are declared with ImGui's own functions between begin() and end(), in
-/// pixels of the window; ImGui's font 0 is for text, font 1 is twice as large.
+/// pixels of the window; ImGui's font 0 has kTextPx, font 1 has kLargeTextPx.
 class Ui : public Overlay {
   public:
     /// The device must outlive it, and be done with all frames it was recorded into when it ends.

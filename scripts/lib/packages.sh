@@ -10,7 +10,7 @@ build_packages=(
     g++ cmake ninja-build pkg-config glslang-tools spirv-tools
     libvulkan-dev libglfw3-dev libglm-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev
     libtinygltf-dev libstb-dev libopenimageio-dev openimageio-tools libopencv-core-dev
-    libimgui-dev vulkan-validationlayers libjs-chart.js
+    libimgui-dev fonts-dejavu-core vulkan-validationlayers libjs-chart.js
 )
 # Only the tests compare with ffmpeg and scikit-image, look at the report page in a browser and at
 # windows on a display without a screen.
