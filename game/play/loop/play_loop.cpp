@@ -18,6 +18,8 @@ namespace {
 /// After as many pictures all that the first view needs has been compiled.
 constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
+/// Windows of this height and less have text of the size that the display asks for.
+constexpr double kPlainHeightPx = 1080.0;
 /// The divider can be grabbed this far beside it.
 constexpr double kGrabPx = 8.0;
 
@@ -264,7 +266,7 @@ PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
 
 PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
     app::Ui& ui = mScreen.ui();
-    ui.begin(input, mScreen.size(), mScreen.contentScale(), wallSeconds);
+    ui.begin(input, mScreen.size(), chooseUiScale(input), wallSeconds);
     const std::vector<HudLine> hud = mStage->hud();
     const PanelWishes wishes = mPanel.draw(describeSession(hud), mSettings);
     ui.end();
@@ -311,6 +313,16 @@ void PlayLoop::turnPhotoMode(bool on) {
     mPhoto.turn(on);
     if (on)
         mClock.setPaused(true);
+}
+
+double PlayLoop::chooseUiScale(const app::InputState& input) {
+    const bool isHeld = input.isDown(app::MouseButton::Left) || mScreen.ui().wantsKeys();
+    if (isHeld)
+        return mUiScale;
+    // In steps: while a window grows, fonts are not made in every frame.
+    const double tall = std::floor(4.0 * mScreen.size().y / kPlainHeightPx) / 4.0;
+    mUiScale = mSettings.uiScale * std::max(mScreen.contentScale(), tall);
+    return mUiScale;
 }
 
 void PlayLoop::toggleRecording() {

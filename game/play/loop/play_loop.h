@@ -67,6 +67,7 @@ class PlayLoop {
     void chooseExposure(double duration);
     void replaceMissingMethods();
     void turnPhotoMode(bool on);
+    [[nodiscard]] double chooseUiScale(const app::InputState& input);
 
     const PlayOptions& mOptions;
     SessionWatch* mWatch; ///< null: nobody looks on
@@ -89,6 +90,7 @@ class PlayLoop {
     PlayRecord mRecord;
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
+    double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
     bool mDraggingDivider = false;
     bool mHasDrawn = false;            ///< in the last turn
     uint32_t mTurnsWithoutPicture = 0; ///< on end, of a window that is not hidden

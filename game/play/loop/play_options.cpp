@@ -5,6 +5,7 @@
 #include "game/demos/demo.h"
 #include "game/options/option_rows.h"
 #include "game/options/program.h"
+#include "game/play/panel/play_settings.h"
 
 #include <CLI/CLI.hpp>
 
@@ -83,6 +84,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
     kVsyncRow.define(command, kVsyncRow, a);
+    command.add_option("--ui-scale", a.uiScale, "size of text and panel, 0.5 to 4; default: 1");
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
     command.add_option("--script", a.script, "play unattended from a JSON file of input");
     command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
@@ -128,6 +130,12 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
         options.method = arguments.method;
     }
     options.vsync = arguments.vsync;
+    if (const auto& scale = arguments.uiScale) {
+        const auto& range = core::getRow(listPlayRows(), "uiScale").range;
+        if (!core::contains(range, *scale))
+            return makeError("--ui-scale {}: must be {}", *scale, core::describeRange(range, ""));
+    }
+    options.uiScale = arguments.uiScale;
     SHUTTER_TRY(interpretFilm(arguments, options));
     options.script = arguments.script;
     options.settings = arguments.settings;

@@ -28,6 +28,7 @@ struct PlayArguments {
     std::string assets;
     std::string stats;
     std::optional<bool> vsync;
+    std::optional<double> uiScale;
     bool noWindow = false;
     uint32_t frames = 0;
 };
@@ -46,6 +47,7 @@ struct PlayOptions {
     std::filesystem::path assets;      ///< folder of the demos' scenes
     std::filesystem::path stats;       ///< empty: none
     std::optional<bool> vsync;         ///< wins over the settings' own
+    std::optional<double> uiScale;     ///< wins over the settings' own
     bool hasWindow = true;
     uint32_t frames = 0; ///< ends after as many; 0: never
 };

@@ -19,6 +19,8 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.method = *options.method;
     if (options.vsync)
         settings.vsync = *options.vsync;
+    if (options.uiScale)
+        settings.uiScale = *options.uiScale;
     if (!options.film.empty() && options.settings.empty())
         settings.showPanel = false;
 }

@@ -159,7 +159,9 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         settings.view
     );
     drawPlayRows(
-        "display", settings, std::vector<std::string_view>{"bloomShare", "resolutionScale", "vsync"}
+        "display",
+        settings,
+        std::vector<std::string_view>{"bloomShare", "resolutionScale", "vsync", "uiScale"}
     );
 }
 

@@ -130,6 +130,11 @@ core::SettingRows<PlaySettings> listPlayRows() {
          {.lowest = 0.25, .highest = 1},
          "Sides of the picture as a share of the window's. Lower is faster."},
         {"vsync", &S::vsync, "", {}, "Frames wait for the display: no tearing."},
+        {"uiScale",
+         &S::uiScale,
+         "x",
+         {.lowest = 0.5, .highest = 4},
+         "Size of text and panel, on top of what the display's resolution asks for."},
         {"showPanel", &S::showPanel, "", {}, "This panel, and the help at the bottom (F1)."},
     };
     return kRows;

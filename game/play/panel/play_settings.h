@@ -41,6 +41,7 @@ struct PlaySettings {
     float bloomShare = 0.0f;      ///< bloom::BloomSettings::share, [0, 1]
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
+    double uiScale = 1.0; ///< of text and panel, on top of the display's own scale, [0.5, 4]
     bool showPanel = true;
 };
 

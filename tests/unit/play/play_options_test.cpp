@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,13 @@ TEST(PlayOptions, WrongUseIsToldByOption) {
     expectRefused(arguments, "--no-window");
     arguments.frames = 3;
     EXPECT_TRUE(interpret(arguments));
+    arguments = {};
+    for (const double scale : {0.49, 4.01, -1.0, double(NAN)}) {
+        arguments.uiScale = scale;
+        expectRefused(arguments, "--ui-scale");
+    }
+    arguments.uiScale = 1.5;
+    EXPECT_EQ(interpret(arguments).value().uiScale, 1.5);
     arguments = {};
     arguments.shot.camera = "left";
     expectRefused(arguments, "--camera");
