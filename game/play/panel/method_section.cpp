@@ -134,13 +134,13 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         facts.recording ? "Stop recording" : "Record", "The camera's way as a flythrough. Key R."
     );
     wishes.toggleFullScreen = buttons.add("Full screen", "Key F11.");
-    wishes.save = buttons.add("Save", "Keep all settings for the next time. Key F5.");
-    wishes.load = buttons.add("Load", "The settings that were kept. Key F9.");
+    wishes.save = buttons.add("Save settings", "Keep all settings for the next time. Key F5.");
+    wishes.load = buttons.add("Load settings", "The settings that were kept. Key F9.");
     wishes.quit = buttons.add("Quit", "Key Escape.");
     double speed = std::isnan(facts.speed) ? 1.0 : std::clamp(facts.speed, kSlowest, kFastest);
     ImGui::SetNextItemWidth(24.0f * ImGui::CalcTextSize("0").x);
     const bool moved = ImGui::SliderScalar(
-        "speed",
+        "Speed",
         ImGuiDataType_Double,
         &speed,
         &kSlowest,
@@ -152,7 +152,7 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         wishes.speed = std::clamp(speed, kSlowest, kFastest);
     drawTooltip("Of the world's time. Range: 1/64 to 1. Keys comma and slash.");
     drawNames(
-        "view",
+        "View",
         facts.views,
         "picture",
         "An intermediate in the picture's place. Key V.",
@@ -181,9 +181,9 @@ void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {
         if (isOn)
             ImGui::PopStyleColor();
     }
-    drawMethod(settings.split ? "right method" : "method", facts.methods, settings.method);
+    drawMethod(settings.split ? "Right method" : "Method", facts.methods, settings.method);
     if (settings.split)
-        drawMethod("left method", facts.methods, settings.leftMethod);
+        drawMethod("Left method", facts.methods, settings.leftMethod);
     drawPlayRows("split", settings, std::vector<std::string_view>{"split", "dividerShare"});
 }
 

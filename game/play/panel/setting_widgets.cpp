@@ -14,29 +14,25 @@ double orElse(double value, double fallback) {
     return std::isnan(value) ? fallback : value;
 }
 
-/// The slider's range in words; a setting that may be unlimited has no highest value to show.
-std::string describeShortly(const core::NumberRange& range) {
-    if (range.isUnlimited)
-        return fmt::format("from {:g}", range.lowest);
-    return fmt::format("{:g} to {:g}", range.lowest, range.highest);
-}
-
 std::string describeAtLength(const WidgetLook& look, const core::NumberRange* range) {
     std::string text = look.meaning;
     if (range)
         text += fmt::format("\n\nRange: {}.", core::describeRange(*range, look.unit));
     else
         text += "\n";
-    return text + fmt::format("\nDefault: {} (right click).", look.fallback);
+    return text +
+           fmt::format(
+               "\nDefault: {} (right click).\nIn settings files: {}.", look.fallback, look.name
+           );
 }
 
-/// The name, and the column of the value.
+/// The label, and the column of the value.
 void beginRow(const WidgetLook& look) {
     ImGui::PushID(look.name);
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(look.name);
+    ImGui::TextUnformatted(look.label);
 }
 
 WidgetEvent endRow(bool changed) {
@@ -106,14 +102,12 @@ void showUnlimited() {
 } // namespace
 
 bool beginRows(const char* id) {
-    if (!ImGui::BeginTable(id, 3, ImGuiTableFlags_SizingFixedFit))
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit))
         return false;
-    const auto widthOf = [](const char* text) { return ImGui::CalcTextSize(text).x; };
-    ImGui::TableSetupColumn(
-        "name", ImGuiTableColumnFlags_WidthFixed, widthOf("foregroundMagnification")
-    );
+    // As wide as the longest label, so that the values of all tables lie below one another.
+    const float width = ImGui::CalcTextSize("Luminance threshold").x;
+    ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthFixed, width);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("range", ImGuiTableColumnFlags_WidthFixed, widthOf("1e-06 to 1e+06"));
     return true;
 }
 
@@ -167,10 +161,7 @@ WidgetEvent drawNumber(const WidgetLook& look, const core::NumberRange& range, d
     drawTooltip(describeAtLength(look, &range));
     if (changed)
         value = chosen;
-    const WidgetEvent event = endRow(changed);
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", describeShortly(range).c_str());
-    return event;
+    return endRow(changed);
 }
 
 WidgetEvent

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A widget a row of settings: name, value with its unit, range, and a tooltip that says more.
+// A widget a row of settings: label, value with its unit, and a tooltip with meaning, range,
+// default and the name in settings files.
 #pragma once
 
 #include "engine/core/setting_row.h"
@@ -14,7 +15,8 @@ namespace shutter::game {
 
 /// What a widget shows beside its value.
 struct WidgetLook {
-    const char* name;
+    const char* name;  ///< in settings files
+    const char* label; ///< for people
     const char* unit;
     const char* meaning;
     std::string fallback; ///< the default, in words
@@ -47,7 +49,7 @@ void drawTooltip(const std::string& text);
 /// The row's field as a widget. \param defaults where a click with the right button leads
 template <class Owner>
 void drawRow(const core::SettingRow<Owner>& row, Owner& owner, const Owner& defaults) {
-    const WidgetLook look{row.name, row.unit, row.meaning, describeValue(row, defaults)};
+    const WidgetLook look{row.name, row.label, row.unit, row.meaning, describeValue(row, defaults)};
     if (const auto* yes = std::get_if<bool Owner::*>(&row.field)) {
         if (drawSwitch(look, owner.**yes) == WidgetEvent::Reset)
             owner.** yes = defaults.**yes;

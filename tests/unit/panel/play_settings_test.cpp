@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <type_traits>
 
@@ -86,6 +88,17 @@ TEST_F(PlaySettingsFile, IsReadBackAsItWasWritten) {
         EXPECT_EQ(loaded.value().blur.halfResolutionPx, settings.blur.halfResolutionPx);
         EXPECT_EQ(loaded.value().shutter.maxBlurPercent, settings.shutter.maxBlurPercent);
     }
+}
+
+TEST(PlaySettingsRows, EveryRowHasALabelForPeopleThatNoOtherOfItsTableHas) {
+    PlaySettings settings;
+    std::set<std::string> labels;
+    visitRows(settings, [&](const auto& row, auto&, const std::string& prefix) {
+        const std::string_view label = row.label;
+        ASSERT_FALSE(label.empty()) << prefix << row.name;
+        EXPECT_TRUE(std::isupper(static_cast<unsigned char>(label.front()))) << label;
+        EXPECT_TRUE(labels.insert(prefix + row.label).second) << prefix << row.label;
+    });
 }
 
 TEST_F(PlaySettingsFile, NeedsNothingButItsVersion) {
