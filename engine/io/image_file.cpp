@@ -57,9 +57,15 @@ std::vector<uint8_t> packBytes(const image::Image& image, uint32_t channels) {
 }
 
 std::string encode(
-    const fs::path& path, const image::Image& image, SampleType type, std::vector<uint8_t>& out
+    const fs::path& path,
+    const image::Image& image,
+    SampleType type,
+    std::span<const PictureText> texts,
+    std::vector<uint8_t>& out
 ) {
     oiio::EncodeRequest request;
+    for (const PictureText& one : texts)
+        request.texts.emplace_back(one.key, one.text);
     request.extension = lowerExtension(path);
     request.width = image.width;
     request.height = image.height;
@@ -171,7 +177,14 @@ core::Status checkWritable(const fs::path& path) {
     return {};
 }
 
-core::Status writeImage(const fs::path& path, const image::Image& image, SampleType type) {
+namespace {
+
+core::Status write(
+    const fs::path& path,
+    const image::Image& image,
+    SampleType type,
+    std::span<const PictureText> texts
+) {
     checkImage(image);
     if (const core::Status writable = checkWritable(path); !writable)
         return writable;
@@ -179,10 +192,23 @@ core::Status writeImage(const fs::path& path, const image::Image& image, SampleT
         return core::makeError("cannot write '{}': the picture has no pixels", path.string());
     }
     std::vector<uint8_t> bytes;
-    const std::string why = encode(path, image, type, bytes);
+    const std::string why = encode(path, image, type, texts, bytes);
     if (!why.empty())
         return core::makeError("cannot write '{}': {}", path.string(), why);
     return writeFileBytes(path, bytes);
+}
+
+} // namespace
+
+core::Status writeImage(const fs::path& path, const image::Image& image, SampleType type) {
+    return write(path, image, type, {});
+}
+
+core::Status writePngWithTexts(
+    const fs::path& path, const image::Image& image, std::span<const PictureText> texts
+) {
+    SHUTTER_CHECK(lowerExtension(path) == ".png", "'{}' is no PNG", path.string());
+    return write(path, image, SampleType::Float, texts);
 }
 
 core::Result<scene::TextureImage>

@@ -48,6 +48,17 @@ enum class SampleType : uint8_t { Half, Float, Uint };
     SampleType type = SampleType::Float
 );
 
+/// A key of at most 79 letters, and what a PNG file says under it (tEXt).
+struct PictureText {
+    std::string key;
+    std::string text;
+};
+
+/// writeImage() of a .png (CHECKed) with texts.
+[[nodiscard]] core::Status writePngWithTexts(
+    const std::filesystem::path& path, const image::Image& image, std::span<const PictureText> texts
+);
+
 /// Decodes an encoded PNG or JPEG held in memory to 8-bit RGBA.
 /// \param label names the picture in the error, e.g. "image 3 (wood.png)"
 [[nodiscard]] core::Result<scene::TextureImage>

@@ -228,6 +228,8 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("Compression", "jpeg:95");
         spec.attribute("CompressionQuality", 95);
+        for (const auto& [key, text] : request.texts)
+            spec.attribute(key, text);
     } else {
         spec.attribute("oiio:ColorSpace", "Linear");
         spec.attribute("compression", "zip");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::io::oiio {
@@ -38,6 +39,7 @@ struct EncodeRequest {
     std::vector<std::string> channelNames; ///< empty, or one a channel
     Storage storage = Storage::Float;
     const void* pixels = nullptr;
+    std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
 };
 
 /// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty

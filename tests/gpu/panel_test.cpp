@@ -136,8 +136,9 @@ TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
         for (int frame = 0; frame < 3; ++frame) {
             const game::PanelWishes wishes = draw(ui, panel, settings, {});
             EXPECT_FALSE(
-                wishes.save || wishes.load || wishes.togglePause || wishes.singleStep ||
-                wishes.toggleRecording || wishes.toggleFullScreen || wishes.quit || wishes.speed
+                wishes.save || wishes.load || wishes.togglePause || wishes.savePicture ||
+                wishes.singleStep || wishes.toggleRecording || wishes.toggleFullScreen ||
+                wishes.quit || wishes.speed
             );
         }
         const auto same = [&](auto rows, const auto& a, const auto& b) {

@@ -68,11 +68,11 @@ class PlayCase(unittest.TestCase):
             timeout=500,
         )
 
-    def play(self, stage, script, *options, size="192x108", display=True, rays=1):
+    def play(self, stage, script, *options, size="192x108", display=True, **settings):
         """Runs a session that must end well; returns its statistics."""
         script.write(self.folder / "script.json")
         (self.folder / "settings.json").write_text(
-            json.dumps({"version": 1, "instants": 2, "rays": rays}), encoding="utf-8"
+            json.dumps({"version": 1, "instants": 2, "rays": 1, **settings}), encoding="utf-8"
         )
         result = self.run_shutter(
             [stage, "--size", size, "--script", "script.json", "--settings", "settings.json",

@@ -53,15 +53,27 @@ class Session(PlayCase):
             script = Script().add(key="f1").add(key="w", action="press").wait(8)
             for key in taps:
                 script.tap(key)
-            script.wait(frames).add(screenshot=f"{name}.png").wait(2).add(window="quit")
+            script.wait(frames).tap("f2").wait(2).add(window="quit")
             self.play("rally", script, "--method", method, display=False, rays=rays)
-            return skimage.io.imread(self.folder / f"{name}.png")[40:80].astype(int)
+            (self.folder / "rally_truth_001.png").rename(self.folder / f"{name}.png")
+            return skimage.io.imread(self.folder / f"{name}.png").astype(int)
 
-        # Four frames of photo mode, the key's and the screenshot's included, are one of four rays.
+        # Four frames of photo mode, the key's and the saved one included, are one of four rays.
         photo = shoot("photo", "t", frames=2, method="resolved")
         truth = shoot("truth", "p", frames=2, method="truth", rays=4)
         self.assertTrue((photo == truth).all())
         self.assertFalse((photo == shoot("three", "p", frames=0, method="truth", rays=3)).all())
+
+    def test_f2_saves_the_picture_with_its_settings_and_without_what_lies_over_it(self):
+        script = Script().add(key="w", action="press").wait(8).tap("f1").tap("f2").tap("f2").wait()
+        self.play("rally", script.add(window="quit"), "--method", "gather", display=False)
+        photos = sorted(self.folder.glob("*.png"))
+        self.assertEqual([photo.name for photo in photos],
+                         ["rally_gather_001.png", "rally_gather_002.png"])
+        bytes_ = photos[0].read_bytes()
+        at = bytes_.index(b"tEXtSettings\0") + len(b"tEXtSettings\0")
+        settings, _ = json.JSONDecoder().raw_decode(bytes_[at:].decode("latin1"))
+        self.assertEqual(settings["method"], "gather")
 
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")

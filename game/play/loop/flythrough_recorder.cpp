@@ -3,18 +3,16 @@
 
 #include "engine/math/transform.h"
 #include "engine/scene/motion.h"
+#include "game/play/loop/numbered_file.h"
 
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <numbers>
-#include <system_error>
 
 namespace shutter::game {
 
 namespace {
-
-constexpr int kMostFiles = 1000;
 
 flythrough::FlythroughKey makeKey(const scene::World& world, ecs::Entity camera, double seconds) {
     const math::dmat4 rigid = math::removeScale(worldFromEntity(world, camera, seconds));
@@ -70,15 +68,10 @@ core::Result<std::filesystem::path> FlythroughRecorder::finish(const std::filesy
     mLast.reset();
     if (flight.keys.empty())
         return core::makeError("nothing was recorded: no game time passed");
-    std::error_code ignored;
-    for (int i = 1; i < kMostFiles; ++i) {
-        const auto file = folder / fmt::format("flythrough_{:03}.json", i);
-        if (std::filesystem::exists(file, ignored))
-            continue;
-        SHUTTER_TRY(flythrough::writeFlythrough(file, flight));
-        return file;
-    }
-    return core::makeError("{} holds {} flythroughs already", folder.string(), kMostFiles - 1);
+    auto file = findFreeFile(folder, "flythrough", ".json");
+    if (file)
+        SHUTTER_TRY(flythrough::writeFlythrough(file.value(), flight));
+    return file;
 }
 
 } // namespace shutter::game

@@ -72,6 +72,7 @@ PanelWishes applyHotkeys(
     PanelWishes wishes;
     wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
     wishes.togglePhoto = input.wasPressed(Key::T);
+    wishes.savePicture = input.wasPressed(Key::F2);
     wishes.singleStep = input.wasPressed(Key::Period);
     wishes.toggleRecording = input.wasPressed(Key::R);
     wishes.toggleFullScreen = input.wasPressed(Key::F11);

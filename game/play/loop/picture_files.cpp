@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/picture_files.h"
 
-#include "engine/io/image_file.h"
-
 #include <algorithm>
 #include <utility>
 
@@ -22,9 +20,23 @@ void PictureFiles::notePicture() {
     if (!wantsPicture())
         return;
     // One read-back serves all files of the frame.
-    for (const auto& file : std::exchange(mScreenshots, {}))
-        mWantedFiles.push_back(file);
-    mWantedFiles.emplace_back();
+    mWanted.push_back(std::exchange(mNext, {}));
+}
+
+bool PictureFiles::wantsPhoto() const {
+    return std::any_of(mNext.begin(), mNext.end(), [](const auto& file) { return file.isPhoto; });
+}
+
+std::vector<std::filesystem::path> PictureFiles::listPendingPhotos() const {
+    std::vector<std::filesystem::path> pending;
+    const auto add = [&](const std::vector<PictureFile>& files) {
+        for (const PictureFile& file : files)
+            if (file.isPhoto)
+                pending.push_back(file.path);
+    };
+    add(mNext);
+    std::for_each(mWanted.begin(), mWanted.end(), add);
+    return pending;
 }
 
 core::Status PictureFiles::takePictures(PlayRenderer& renderer) {
@@ -38,14 +50,21 @@ core::Status PictureFiles::takePictures(PlayRenderer& renderer) {
 }
 
 core::Status PictureFiles::writePicture(const image::Image& picture) {
-    while (!mWantedFiles.empty()) {
-        const std::filesystem::path file = std::move(mWantedFiles.front());
-        mWantedFiles.pop_front();
-        if (file.empty())
-            break;
-        SHUTTER_TRY(io::writeImage(file, picture));
+    if (!mWanted.empty()) {
+        const std::vector<PictureFile> files = std::move(mWanted.front());
+        mWanted.pop_front();
+        for (const PictureFile& file : files)
+            SHUTTER_TRY(writeFile(file, picture));
     }
     return mFilm ? mFilm->add(picture) : core::Status();
+}
+
+core::Status PictureFiles::writeFile(const PictureFile& file, const image::Image& picture) {
+    if (!file.isPhoto)
+        return io::writeImage(file.path, picture);
+    const core::Status written = io::writePngWithTexts(file.path, picture, file.texts);
+    mNews = written ? "saved " + file.path.string() : written.error().message;
+    return {};
 }
 
 core::Status PictureFiles::finish() {

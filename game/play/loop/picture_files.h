@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The pictures of a session that become files: screenshots and the film.
+// The pictures of a session that become files: screenshots, photos and the film.
 #pragma once
 
+#include "engine/io/image_file.h"
 #include "game/play/loop/film_writer.h"
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/play_renderer.h"
@@ -9,6 +10,8 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::game {
@@ -22,26 +25,50 @@ class PictureFiles {
     [[nodiscard]] bool isFilming() const { return mFilm != nullptr; }
 
     /// Asks for the next picture as a file of its own.
-    void addScreenshot(const std::filesystem::path& file) { mScreenshots.push_back(file); }
+    void addScreenshot(const std::filesystem::path& file) { mNext.push_back({file, {}, false}); }
+
+    /// Asks for the next picture as a PNG file without what is drawn over it.
+    /// \param texts that the file holds
+    void addPhoto(const std::filesystem::path& file, std::vector<io::PictureText> texts) {
+        mNext.push_back({file, std::move(texts), true});
+    }
 
     /// Whether the next picture must be read back.
-    [[nodiscard]] bool wantsPicture() const { return mFilm || !mScreenshots.empty(); }
+    [[nodiscard]] bool wantsPicture() const { return mFilm || !mNext.empty(); }
+
+    /// Whether the next picture is a photo.
+    [[nodiscard]] bool wantsPhoto() const;
 
     /// To be called once the next picture was submitted, read back if wantsPicture() said so.
     void notePicture();
 
-    /// Writes the pictures that the renderer has finished.
+    /// Files of photos that were asked for and are not written yet.
+    [[nodiscard]] std::vector<std::filesystem::path> listPendingPhotos() const;
+
+    /// What became of the photo that was written last, for the player; empty where none was since
+    /// the last call.
+    [[nodiscard]] std::string takeNews() { return std::exchange(mNews, {}); }
+
+    /// Writes the pictures that the renderer has finished. Error: a screenshot or the film cannot
+    /// be written; of a photo takeNews() tells.
     [[nodiscard]] core::Status takePictures(PlayRenderer& renderer);
 
     /// Makes the film, of whose pictures all were taken.
     [[nodiscard]] core::Status finish();
 
   private:
-    core::Status writePicture(const image::Image& picture);
+    struct PictureFile {
+        std::filesystem::path path;
+        std::vector<io::PictureText> texts;
+        bool isPhoto = false;
+    };
 
-    std::vector<std::filesystem::path> mScreenshots; ///< files of the next picture
-    /// Files of the pictures being read back, in order; an empty name ends a picture's list.
-    std::deque<std::filesystem::path> mWantedFiles;
+    core::Status writePicture(const image::Image& picture);
+    core::Status writeFile(const PictureFile& file, const image::Image& picture);
+
+    std::vector<PictureFile> mNext;               ///< of the next picture
+    std::deque<std::vector<PictureFile>> mWanted; ///< of the pictures being read back, in order
+    std::string mNews;
     std::unique_ptr<FilmWriter> mFilm;
 };
 

@@ -4,6 +4,7 @@
 #include "engine/core/log.h"
 #include "engine/scene/shutter.h"
 #include "game/play/loop/hotkeys.h"
+#include "game/play/loop/photo_file.h"
 #include "modules/debug_view/debug_view.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.save = panel.save || keys.save;
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
+    both.savePicture = panel.savePicture || keys.savePicture;
     both.singleStep = panel.singleStep || keys.singleStep;
     both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
@@ -194,7 +196,12 @@ core::Status PlayLoop::advance() {
     SHUTTER_TRY(drawPicture(mTime.duration));
     if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
-    return mFiles.takePictures(*mRenderer);
+    SHUTTER_TRY(mFiles.takePictures(*mRenderer));
+    if (std::string news = mFiles.takeNews(); !news.empty()) {
+        core::logInfo("{}", news);
+        mMessage = std::move(news);
+    }
+    return {};
 }
 
 void PlayLoop::applyScript() {
@@ -285,6 +292,8 @@ void PlayLoop::apply(const PanelWishes& wishes) {
         turnPhotoMode(!mPhoto.isOn());
     if (wishes.speed)
         mClock.setSpeed(*wishes.speed);
+    if (wishes.savePicture)
+        savePicture();
     if (wishes.singleStep) {
         mPhoto.turn(false);
         mClock.setPaused(true);
@@ -313,6 +322,24 @@ void PlayLoop::turnPhotoMode(bool on) {
     mPhoto.turn(on);
     if (on)
         mClock.setPaused(true);
+}
+
+PlaySettings PlayLoop::chooseSettings() const {
+    return mPhoto.isOn() ? mPhoto.choose(mSettings) : mSettings;
+}
+
+void PlayLoop::savePicture() {
+    const PlaySettings settings = chooseSettings();
+    const auto file = choosePhotoFile(mStage->title(), settings, mFiles.listPendingPhotos());
+    std::optional<uint32_t> rays = mPhoto.rays();
+    if (rays)
+        *rays += mPhoto.raysToAdd(); // by the frame that is saved
+    if (file)
+        mFiles.addPhoto(
+            file.value(), describePhoto(mStage->title(), settings, mTime.seconds, rays)
+        );
+    else
+        mMessage = file.error().message;
 }
 
 double PlayLoop::chooseUiScale(const app::InputState& input) {
@@ -354,7 +381,7 @@ core::Status PlayLoop::drawPicture(double duration) {
     math::uvec2 size = mScreen.size();
     if (size.x == 0 || size.y == 0)
         return {};
-    const PlaySettings settings = mPhoto.isOn() ? mPhoto.choose(mSettings) : mSettings;
+    const PlaySettings settings = chooseSettings();
     mRenderer->makeRoom(settings);
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
@@ -405,7 +432,7 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
     picture.window.size = sizePx;
-    picture.window.overlay = &mScreen.ui();
+    picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();
     picture.wantReasons = mSettings.showPanel;
     picture.readBack = mFiles.wantsPicture();
     return picture;

@@ -67,6 +67,10 @@ class PlayLoop {
     void chooseExposure(double duration);
     void replaceMissingMethods();
     void turnPhotoMode(bool on);
+    /// Asks for the next picture as a file.
+    void savePicture();
+    /// With which the next picture is drawn.
+    [[nodiscard]] PlaySettings chooseSettings() const;
     [[nodiscard]] double chooseUiScale(const app::InputState& input);
 
     const PlayOptions& mOptions;

@@ -25,6 +25,7 @@ constexpr const char* kKeys[] = {
     "C camera",
     "R record",
     "F1 panel",
+    "F2 save picture",
     "F5 save",
     "F9 load",
     "F11 full screen",

@@ -129,6 +129,8 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
         facts.photoRays ? "End photo" : "Photo",
         "Pause, and trace the picture until it is the truth. Key T."
     );
+    wishes.savePicture =
+        buttons.add("Save picture", "The picture without this panel as a PNG file. Key F2.");
     wishes.singleStep = buttons.add("Step", "One frame on, and pause. Key period.");
     wishes.toggleRecording = buttons.add(
         facts.recording ? "Stop recording" : "Record", "The camera's way as a flythrough. Key R."

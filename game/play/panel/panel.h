@@ -41,6 +41,7 @@ struct PanelWishes {
     bool load = false;
     bool togglePause = false;
     bool togglePhoto = false;
+    bool savePicture = false;
     bool singleStep = false;
     bool toggleRecording = false;
     bool toggleFullScreen = false;

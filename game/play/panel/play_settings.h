@@ -65,6 +65,9 @@ void applyPreset(const Preset& preset, PlaySettings& settings);
 [[nodiscard]] core::Status
 savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings);
 
+/// The text of a settings file with these settings, which must be valid.
+[[nodiscard]] std::string formatPlaySettings(const PlaySettings& settings);
+
 /// The JSON schema of a settings file, made of the rows.
 [[nodiscard]] std::string makeSettingsSchema();
 

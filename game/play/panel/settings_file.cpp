@@ -119,6 +119,10 @@ core::Result<PlaySettings> loadPlaySettings(const std::filesystem::path& path) {
     return json::readJsonFile(path, readSettings);
 }
 
+std::string formatPlaySettings(const PlaySettings& settings) {
+    return describe(settings).dump();
+}
+
 core::Status savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings) {
     if (Status valid = validate(settings); !valid)
         return core::makeError("{} is not written: {}", path.string(), valid.error().message);

@@ -446,6 +446,23 @@ TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {
     EXPECT_TRUE(radiance) << radiance.error().message;
 }
 
+TEST(ImageFile, APngHoldsItsTextsAndThePictureIsTheSame) {
+    const TempFolder folder;
+    const image::Image ramp = makeRamp(9, 4, 3);
+    const std::string settings = "{\"version\":1,\"method\":\"truth\"}";
+    const PictureText texts[] = {{"Settings", settings}, {"Title", "rally, 1.5 s"}};
+    ASSERT_TRUE(writePngWithTexts(folder.path() / "a.png", ramp, texts).ok());
+    ASSERT_TRUE(writeImage(folder.path() / "b.png", ramp).ok());
+    std::ifstream file(folder.path() / "a.png", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    for (const PictureText& one : texts)
+        EXPECT_NE(bytes.find(one.key + '\0' + one.text), std::string::npos) << one.key;
+    const auto with = readImage(folder.path() / "a.png");
+    const auto without = readImage(folder.path() / "b.png");
+    ASSERT_TRUE(with && without);
+    EXPECT_EQ(with.value().pixels, without.value().pixels);
+}
+
 } // namespace
 
 } // namespace shutter::io
