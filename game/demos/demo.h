@@ -33,7 +33,8 @@ struct DemoControls {
 
 struct HudLine {
     std::string text;
-    bool emphasis = false; ///< of the lines the one to look at first
+    bool emphasis = false;  ///< of the lines the one to look at first
+    std::string label = ""; ///< of a value, a word or two: such lines stand side by side
 };
 
 /// What the view of a demo's world needs besides the world.
@@ -59,16 +60,26 @@ class Demo {
     virtual void step(const DemoControls& controls) = 0;
     /// Simulated so far; the step count times kDemoStepSeconds.
     [[nodiscard]] virtual double seconds() const = 0;
-    /// Score, time left, speed; the controls in one line. After the end the final score.
+    /// Score, time left, speed. After the end the final score.
     [[nodiscard]] virtual std::vector<HudLine> hud() const = 0;
     [[nodiscard]] virtual bool isOver() const = 0;
     [[nodiscard]] virtual int score() const = 0;
+    /// Whether toggleExclusion has taken the demo's body out of the blur.
+    [[nodiscard]] virtual bool isBodyExcluded() const = 0;
+};
+
+/// What the controls do in a demo, in a few words.
+struct DemoControlWords {
+    const char* turn;
+    const char* drive;
+    const char* action;
+    const char* body; ///< what toggleExclusion takes out of the blur
 };
 
 struct DemoInfo {
     const char* name;        ///< as makeDemo() takes it
     const char* description; ///< one line
-    const char* controls;    ///< in words, one line
+    DemoControlWords controls;
 };
 
 [[nodiscard]] std::span<const DemoInfo> listDemos();

@@ -5,7 +5,6 @@
 #include "engine/scene/history.h"
 #include "game/demos/stage.h"
 
-#include <string_view>
 #include <utility>
 
 namespace shutter::game {
@@ -37,16 +36,6 @@ void DemoBase::cutToNextCamera() {
 bool DemoBase::isBodyExcluded() const {
     const auto* blur = mWorld.registry.find<scene::MotionBlur>(mBody);
     return blur && blur->exclude;
-}
-
-HudLine DemoBase::controlsLine() const {
-    for (const DemoInfo& info : listDemos())
-        if (std::string_view(info.name) == name())
-            return {
-                std::string(info.controls) +
-                    (isBodyExcluded() ? " (body: not blurred)" : " (body: blurred)"),
-                false};
-    return {};
 }
 
 } // namespace shutter::game

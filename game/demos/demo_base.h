@@ -21,6 +21,7 @@ class DemoBase : public Demo {
     }
 
     void step(const DemoControls& controls) final;
+    [[nodiscard]] bool isBodyExcluded() const final;
 
   protected:
     /// \param world has a camera
@@ -33,10 +34,6 @@ class DemoBase : public Demo {
     void cutToNextCamera();
     /// To be called once when all is in its place: motion begins here.
     void recordStart();
-
-    [[nodiscard]] bool isBodyExcluded() const;
-    /// What the keys do, and whether the body is blurred.
-    [[nodiscard]] HudLine controlsLine() const;
 
   private:
     scene::World mWorld;

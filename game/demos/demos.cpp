@@ -18,16 +18,15 @@ constexpr std::array kInfos = {
     DemoInfo{
         "rally",
         "two laps by car, through gates and past posts, against the clock",
-        "turn: steer, drive: throttle and brake, action: hand brake"},
+        {"steer", "throttle and brake", "hand brake", "car"}},
     DemoInfo{
         "gallery",
         "45 seconds of throwing balls at targets that cross on rails",
-        "turn and drive: aim, action: throw"},
+        {"aim sideways", "aim up and down", "throw", "launcher"}},
     DemoInfo{
         "spin",
         "45 seconds of keeping a carousel's rate and catching its ring",
-        "drive: faster and slower, turn: walk round, action: grab the ring as the golden horse "
-        "passes"}};
+        {"walk round", "faster and slower", "grab the ring as the golden horse passes", "hub"}}};
 
 constexpr std::array<Create, kInfos.size()> kCreators = {
     &RallyDemo::create, &GalleryDemo::create, &SpinDemo::create};

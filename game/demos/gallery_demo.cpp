@@ -155,14 +155,13 @@ bool GalleryDemo::isOver() const {
 }
 
 std::vector<HudLine> GalleryDemo::hud() const {
-    const HudLine hits{fmt::format("{} hits of {} throws", mHits, mThrows), false};
+    const HudLine hits{fmt::format("{} hits of {} throws", mHits, mThrows)};
     if (isOver())
-        return {{"Closing time", true}, {fmt::format("Score {}", mScore), true}, hits};
+        return {{"Closing time", true}, {fmt::format("{}", mScore), true, "Score"}, hits};
     return {
-        {fmt::format("Score {}", mScore), true},
-        {fmt::format("{:.1f} s left", kRoundSeconds - seconds()), false},
-        hits,
-        controlsLine()};
+        {fmt::format("{}", mScore), true, "Score"},
+        {fmt::format("{:.1f} s", kRoundSeconds - seconds()), false, "Left"},
+        hits};
 }
 
 } // namespace shutter::game

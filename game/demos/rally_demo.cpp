@@ -142,7 +142,7 @@ std::vector<HudLine> RallyDemo::hud() const {
     if (isOver())
         return {
             {mProgress.lap >= kLaps ? "Finish" : "Out of time", true},
-            {fmt::format("Score {}", score()), true},
+            {fmt::format("{}", score()), true, "Score"},
             {fmt::format(
                  "{:.1f} s, {} gates, {} posts knocked over",
                  mEndSeconds,
@@ -151,17 +151,11 @@ std::vector<HudLine> RallyDemo::hud() const {
              ),
              false}};
     return {
-        {fmt::format("Score {}", score()), true},
-        {fmt::format(
-             "Lap {}/{}   {:.1f} s   {:.0f} km/h",
-             mProgress.lap + 1,
-             kLaps,
-             seconds(),
-             std::abs(car().speed()) * 3.6
-         ),
-         false},
-        {fmt::format("{} gates, {} posts knocked over", mProgress.gatesPassed, mPostsHit), false},
-        controlsLine()};
+        {fmt::format("{}", score()), true, "Score"},
+        {fmt::format("{}/{}", mProgress.lap + 1, kLaps), false, "Lap"},
+        {fmt::format("{:.1f} s", seconds()), false, "Time"},
+        {fmt::format("{:.0f} km/h", std::abs(car().speed()) * 3.6), false, "Speed"},
+        {fmt::format("{} gates, {} posts knocked over", mProgress.gatesPassed, mPostsHit)}};
 }
 
 } // namespace shutter::game

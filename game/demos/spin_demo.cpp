@@ -108,23 +108,17 @@ bool SpinDemo::isOver() const {
 
 std::vector<HudLine> SpinDemo::hud() const {
     const HudLine rings{
-        fmt::format("{} rings caught, {} grabs missed", mRules.caught, mRules.missed), false};
+        fmt::format("{} rings caught, {} grabs missed", mRules.caught, mRules.missed)};
     if (isOver())
-        return {{"The ride is over", true}, {fmt::format("Score {}", score()), true}, rings};
+        return {{"The ride is over", true}, {fmt::format("{}", score()), true, "Score"}, rings};
     constexpr double kPerMinute = 30.0 / std::numbers::pi;
     const bool isKept = std::abs(mRide.rate - mRules.targetRate) <= kRateTolerance;
     return {
-        {fmt::format("Score {}", score()), true},
-        {fmt::format(
-             "Turn {:.1f} times a minute, keep {:.1f}{}",
-             mRide.rate * kPerMinute,
-             mRules.targetRate * kPerMinute,
-             isKept ? ": kept" : ""
-         ),
-         isKept},
-        {fmt::format("{:.1f} s left", std::max(kRoundSeconds - seconds(), 0.0)), false},
-        rings,
-        controlsLine()};
+        {fmt::format("{}", score()), true, "Score"},
+        {fmt::format("{:.1f} s", std::max(kRoundSeconds - seconds(), 0.0)), false, "Left"},
+        {fmt::format("{:.1f}", mRide.rate * kPerMinute), isKept, "Turns a minute"},
+        {fmt::format("{:.1f}", mRules.targetRate * kPerMinute), isKept, isKept ? "Kept" : "Keep"},
+        rings};
 }
 
 } // namespace shutter::game

@@ -23,11 +23,13 @@ namespace {
 constexpr const char* kHeaders[] = {
     "Play",
     "Method",
+    "Picture",
     "Reduced motion",
     "Settings of the blur",
     "Shutter",
     "Times of passes",
-    "Why"};
+    "Why",
+    "Keys"};
 
 /// Something of everything that a frame can tell.
 render::FrameStatistics makeStatistics() {
@@ -69,6 +71,7 @@ class PanelOnWindow : public test::GpuTest {
             mMethods.emplace_back(method.name);
         mFacts.title = "vase";
         mFacts.hud = mHud;
+        mFacts.keys = mKeys;
         mFacts.right = &mStatistics;
         mFacts.frameMilliseconds = 41.7;
         mFacts.pictureSize = {640, 360};
@@ -101,7 +104,9 @@ class PanelOnWindow : public test::GpuTest {
     render::FrameStatistics mStatistics = makeStatistics();
     std::vector<std::string> mMethods;
     std::vector<std::string> mViews = {"motion", "tiles", "mask"};
-    std::vector<game::HudLine> mHud = {{"Score 1250", true}, {"Time 0:42"}};
+    std::vector<game::HudLine> mHud = {
+        {"1250", true, "Score"}, {"42.3 s", false, "Time"}, {"3 gates"}};
+    std::vector<game::KeyHelp> mKeys = {{"A D", "steer"}, {"Space", "hand brake"}};
     game::PanelFacts mFacts;
 };
 
@@ -109,15 +114,18 @@ TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
     app::Ui ui(device());
     game::Panel panel;
     game::PlaySettings settings;
+    settings.showPanel = true;
     draw(ui, panel, settings, {});
     unfold(
         {"Play",
          "Method",
+         "Picture",
          "Reduced motion",
          "Settings of the blur",
          "Shutter",
          "Times of passes",
-         "Why"}
+         "Why",
+         "Keys"}
     );
     const scene::ShutterResponse responses[] = {
         {},
@@ -125,6 +133,7 @@ TEST_F(PanelOnWindow, ChangesNothingThatNobodyTouches) {
         {scene::ResponseShape::Sampled, 0.0, 0.0, {0.0, 3.0, 0.1}}};
     for (size_t i = 0; i < mMethods.size(); ++i) {
         game::PlaySettings given;
+        given.showPanel = true;
         given.method = mMethods[i];
         given.leftMethod = mMethods[mMethods.size() - 1 - i];
         given.split = i % 2 == 0;
@@ -157,6 +166,7 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
     app::Ui ui(device());
     game::Panel panel;
     game::PlaySettings settings;
+    settings.showPanel = true;
     settings.method = "hybrid"; // it has the most settings to click on
     app::InputCollector input;
     std::mt19937 random(7);
@@ -167,9 +177,9 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
     int changed = 0;
     for (int frame = 0; frame < 1000; ++frame) {
         if (frame % 50 == 0)
-            unfold({kHeaders[below(7)], kHeaders[below(7)], "Settings of the blur"});
+            unfold({kHeaders[below(9)], kHeaders[below(9)], "Settings of the blur"});
         if (below(5) == 0)
-            input.movePointer({840.0 + below(440), 60.0 + below(620)});
+            input.movePointer({900.0 + below(380), 60.0 + below(620)});
         for (const app::MouseButton button : {app::MouseButton::Left, app::MouseButton::Right})
             if (below(2) == 0)
                 input.setButton(button, below(2) == 0);
@@ -235,6 +245,7 @@ TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
          {1280, 720},
          1.0,
          {"Play", "Method", "Reduced motion", "Settings of the blur"}},
+        {"picture", {1280, 720}, 1.0, {"Picture", "Keys"}},
         {"shutter", {1280, 720}, 1.0, {"Shutter"}},
         {"times", {1280, 720}, 1.0, {"Times of passes"}},
         {"why", {1280, 720}, 1.0, {"Why"}},
@@ -253,6 +264,7 @@ TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
         mSize = look.size;
         mScale = look.scale;
         game::PlaySettings settings;
+        settings.showPanel = true;
         settings.split = true;
         settings.shutter.response = {scene::ResponseShape::Trapezoid, 0.3, 0.2, {}};
         mFacts.left = &mStatistics;

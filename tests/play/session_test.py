@@ -33,7 +33,7 @@ class Session(PlayCase):
         self.assertGreater(len(set(first)), 20)
 
     def test_split_shows_both_methods(self):
-        script = Script().add(key="f1").add(key="w", action="press").wait(150).tap("p")
+        script = Script().add(key="w", action="press").wait(150).tap("p")
         script.add(screenshot="hybrid.png").wait().tap("x").wait()
         script.add(screenshot="split.png").wait().tap("x").tap("1").wait()  # preset off: sharp
         script.add(screenshot="sharp.png").wait(2)
@@ -50,7 +50,7 @@ class Session(PlayCase):
 
     def test_photo_mode_adds_rays_until_the_picture_is_the_truth(self):
         def shoot(name, *taps, frames, method, rays=1):
-            script = Script().add(key="f1").add(key="w", action="press").wait(8)
+            script = Script().add(key="w", action="press").wait(8)
             for key in taps:
                 script.tap(key)
             script.wait(frames).tap("f2").wait(2).add(window="quit")
@@ -74,6 +74,14 @@ class Session(PlayCase):
         at = bytes_.index(b"tEXtSettings\0") + len(b"tEXtSettings\0")
         settings, _ = json.JSONDecoder().raw_decode(bytes_[at:].decode("latin1"))
         self.assertEqual(settings["method"], "gather")
+        self.assertTrue(settings["showPanel"])
+        again = Script().add(key="w", action="press").wait(8).add(screenshot="over.png")
+        self.play("rally", again.wait(2).add(window="quit"), display=False, **settings)
+        photo = skimage.io.imread(photos[0])
+        shown = skimage.io.imread(self.folder / "over.png")
+        self.assertEqual(photo.shape, shown.shape)
+        # The head-up display's ground darkens the corner of what is shown alone.
+        self.assertGreater(photo[4:20, 4:20].mean(), shown[4:20, 4:20].mean() + 20)
 
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
@@ -92,7 +100,7 @@ class Session(PlayCase):
     def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
         # Pausing and going on change what a frame consists of; drivers may take tens of
         # milliseconds over an allocation.
-        script = Script().add(key="f1").wait(6)
+        script = Script().wait(6)
         for _ in range(2):
             script.tap("p").wait(6).tap("p").wait(6)
         script.wait(12)

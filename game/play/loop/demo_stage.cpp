@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/check.h"
 #include "game/play/loop/stage.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace shutter::game {
 
@@ -62,13 +64,37 @@ class DemoStage : public Stage {
         }
     }
 
-    [[nodiscard]] std::vector<HudLine> hud() const override { return mDemo->hud(); }
+    [[nodiscard]] std::vector<HudLine> hud() const override {
+        std::vector<HudLine> lines = mDemo->hud();
+        if (mDemo->isBodyExcluded())
+            lines.push_back({fmt::format("{}: not blurred", findWords().body)});
+        return lines;
+    }
+
+    [[nodiscard]] std::vector<KeyHelp> keys() const override {
+        const DemoControlWords& words = findWords();
+        return {
+            {"A D", words.turn},
+            {"W S", words.drive},
+            {"Space", words.action},
+            {"C", "next camera"},
+            {"E", fmt::format("{} in or out of the blur", words.body)}};
+    }
 
     [[nodiscard]] bool isOver() const override { return mDemo->isOver(); }
 
     [[nodiscard]] std::optional<int> score() const override { return mDemo->score(); }
 
   private:
+    [[nodiscard]] const DemoControlWords& findWords() const {
+        const auto demos = listDemos();
+        const auto found = std::find_if(demos.begin(), demos.end(), [&](const DemoInfo& info) {
+            return std::string_view(info.name) == mDemo->name();
+        });
+        SHUTTER_CHECK(found != demos.end(), "there is no demo {}", mDemo->name());
+        return found->controls;
+    }
+
     std::unique_ptr<Demo> mDemo;
     DemoControls mPressed; ///< since the last step
 };

@@ -19,6 +19,8 @@ namespace {
 /// After as many pictures all that the first view needs has been compiled.
 constexpr uint32_t kPicturesOfTheStart = 30;
 constexpr double kSingleStepSeconds = 1.0 / 60.0;
+/// The keys are shown to a new player for as long, or until the panel is opened.
+constexpr double kHintSeconds = 30.0;
 /// Windows of this height and less have text of the size that the display asks for.
 constexpr double kPlainHeightPx = 1080.0;
 /// The divider can be grabbed this far beside it.
@@ -81,6 +83,8 @@ core::Status PlayLoop::openScript() {
     if (!settings)
         return settings.error();
     mSettings = std::move(settings).value();
+    if (mKeeper.isFirstSession() && !mFiles.isFilming() && mScript == std::nullopt)
+        mHintSeconds = kHintSeconds;
     return mFiles.open(mOptions, mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps);
 }
 
@@ -249,10 +253,10 @@ void PlayLoop::dragDivider(const app::InputState& input) {
         mSettings.dividerShare = std::clamp(input.pointerPx.x / width, 0.0, 1.0);
 }
 
-PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
+PanelFacts PlayLoop::describeSession() const {
     PanelFacts facts;
     facts.title = mStage->title();
-    facts.hud = hud;
+    facts.showsHint = mHintSeconds > 0.0;
     facts.message = mMessage;
     // Times differ between sessions; the pictures of a film or a watched session must not.
     if (!mFiles.isFilming() && !mWatch) {
@@ -274,8 +278,13 @@ PanelFacts PlayLoop::describeSession(const std::vector<HudLine>& hud) const {
 PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds) {
     app::Ui& ui = mScreen.ui();
     ui.begin(input, mScreen.size(), chooseUiScale(input), wallSeconds);
+    mHintSeconds = mSettings.showPanel ? 0.0 : std::max(mHintSeconds - wallSeconds, 0.0);
     const std::vector<HudLine> hud = mStage->hud();
-    const PanelWishes wishes = mPanel.draw(describeSession(hud), mSettings);
+    const std::vector<KeyHelp> keys = mStage->keys();
+    PanelFacts facts = describeSession();
+    facts.hud = hud;
+    facts.keys = keys;
+    const PanelWishes wishes = mPanel.draw(facts, mSettings);
     ui.end();
     if (ui.wantsKeys())
         return wishes;

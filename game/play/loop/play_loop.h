@@ -52,7 +52,8 @@ class PlayLoop {
     app::InputState filterInput(const app::InputState& input);
     void dragDivider(const app::InputState& input);
     PanelWishes drawPanel(const app::InputState& input, double wallSeconds);
-    [[nodiscard]] PanelFacts describeSession(const std::vector<HudLine>& hud) const;
+    /// Without what the stage says: lines and keys.
+    [[nodiscard]] PanelFacts describeSession() const;
     void apply(const PanelWishes& wishes);
     core::Status drawPicture(double duration);
     [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
@@ -95,6 +96,7 @@ class PlayLoop {
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
     double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
+    double mHintSeconds = 0.0; ///< for which the keys are shown yet
     bool mDraggingDivider = false;
     bool mHasDrawn = false;            ///< in the last turn
     uint32_t mTurnsWithoutPicture = 0; ///< on end, of a window that is not hidden

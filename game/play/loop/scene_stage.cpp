@@ -88,9 +88,17 @@ class SceneStage : public Stage {
             const auto& lens = mWorld.registry.get<scene::Camera>(camera());
             return {{"camera " + (lens.name.empty() ? fmt::format("{}", mChosen) : lens.name)}};
         }
+        return {{mViewer.mode() == ViewerMode::Orbit ? "orbit" : "fly"}};
+    }
+
+    [[nodiscard]] std::vector<KeyHelp> keys() const override {
+        const KeyHelp next{"C", "next camera"};
+        if (mChosen < mSceneCameras.size())
+            return {next};
         if (mViewer.mode() == ViewerMode::Orbit)
-            return {{"orbit: drag turns, right drag moves, wheel zooms; C: next camera"}};
-        return {{"fly: W A S D Q E, right drag looks, wheel: speed; C: next camera"}};
+            return {
+                {"drag", "turn"}, {"right drag", "move"}, {"wheel", "nearer and farther"}, next};
+        return {{"W A S D Q E", "fly"}, {"right drag", "look"}, {"wheel", "speed"}, next};
     }
 
   private:

@@ -21,8 +21,6 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.vsync = *options.vsync;
     if (options.uiScale)
         settings.uiScale = *options.uiScale;
-    if (!options.film.empty() && options.settings.empty())
-        settings.showPanel = false;
 }
 
 } // namespace
@@ -46,7 +44,8 @@ SettingsKeeper::open(const PlayOptions& options, bool isScripted, std::string& m
     }
     // The budget keeps up a person's frame rate in the first session; scripts and films depend on
     // no clock.
-    if (isPersons && options.film.empty() && !std::filesystem::exists(mFile, ignored))
+    mIsFirstSession = isPersons && options.film.empty() && !std::filesystem::exists(mFile, ignored);
+    if (mIsFirstSession)
         settings.budget.milliseconds = kFirstBudgetMilliseconds;
     applyOptions(options, settings);
     return settings;

@@ -27,12 +27,16 @@ class SettingsKeeper {
     /// \return one line for the player; empty if there is no file to read
     [[nodiscard]] std::string load(PlaySettings& settings);
 
+    /// The player has kept no settings yet.
+    [[nodiscard]] bool isFirstSession() const { return mIsFirstSession; }
+
   private:
     std::string refuse(const std::string& why);
 
     std::filesystem::path mFile; ///< empty: settings are not kept
     bool mIsOwn = true;          ///< the user's own file, whose folder is made if need be
-    bool mIsRefused = false;     ///< the file exists and holds a mistake
+    bool mIsFirstSession = false;
+    bool mIsRefused = false; ///< the file exists and holds a mistake
 };
 
 } // namespace shutter::game

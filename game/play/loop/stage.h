@@ -7,6 +7,7 @@
 #include "engine/app/step_clock.h"
 #include "engine/core/result.h"
 #include "game/demos/demo.h"
+#include "game/play/panel/panel.h"
 #include "game/shot/shot_options.h"
 
 #include <memory>
@@ -45,6 +46,9 @@ class Stage {
 
     /// Lines for the head-up display.
     [[nodiscard]] virtual std::vector<HudLine> hud() const = 0;
+
+    /// The keys that the stage itself reads.
+    [[nodiscard]] virtual std::vector<KeyHelp> keys() const { return {}; }
 
     /// True at the end of a game.
     [[nodiscard]] virtual bool isOver() const { return false; }

@@ -10,45 +10,29 @@ namespace shutter::game {
 
 namespace {
 
-constexpr const char* kKeys[] = {
-    "M method",
-    "N left method",
-    "X split",
-    "V view",
-    "1-5 presets",
-    "B reduced motion",
-    "P pause",
-    "T photo",
-    ". step",
-    ", slower",
-    "/ faster",
-    "C camera",
-    "R record",
-    "F1 panel",
-    "F2 save picture",
-    "F5 save",
-    "F9 load",
-    "F11 full screen",
-    "Esc quit",
-};
-
-/// One line; where the window is too narrow for it, lines that end between keys.
-const std::string& describeKeys() {
-    static const std::string kHelp = [] {
-        std::string help;
-        for (const char* key : kKeys) {
-            help += help.empty() ? "" : "  ";
-            for (const char c : std::string_view(key))
-                help += c == ' ' ? "\xc2\xa0" : std::string(1, c); // a space that holds together
-        }
-        return help;
-    }();
-    return kHelp;
-}
-
 constexpr ImU32 kText = IM_COL32(245, 245, 245, 255);
+constexpr ImU32 kLabel = IM_COL32(190, 196, 204, 255);
 constexpr ImU32 kEmphasis = IM_COL32(255, 221, 120, 255);
 constexpr ImU32 kBack = IM_COL32(0, 0, 0, 150);
+
+/// One that lines do not break at.
+constexpr const char* kSpace = "\xc2\xa0";
+
+ImFont& largeFont() {
+    return *ImGui::GetIO().Fonts->Fonts[1];
+}
+
+ImVec2 measure(const ImFont& font, const std::string& text) {
+    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0.0f, text.c_str());
+}
+
+float padding() {
+    return std::floor(0.25f * ImGui::GetFontSize());
+}
+
+float margin() {
+    return std::floor(0.6f * ImGui::GetFontSize());
+}
 
 /// Lines of text, one below the other, each on a dark ground that any picture can lie behind.
 class TextColumn {
@@ -73,18 +57,44 @@ class TextColumn {
 
     [[nodiscard]] float y() const { return mPlace.y; }
 
-    static float padding() { return std::floor(0.2f * ImGui::GetFontSize()); }
-
   private:
     ImVec2 mPlace;
     float mShare;
     float mWrap = 0.0f; ///< pixels; 0: lines are as long as they are
 };
 
-void drawGame(const PanelFacts& facts, float margin) {
-    TextColumn column({margin, margin}, 0.0f);
-    for (const HudLine& line : facts.hud)
-        column.add(line.text, line.emphasis ? kEmphasis : kText, line.emphasis);
+/// Values side by side on one ground, each large below its small label.
+/// \return where the row ends, y
+float drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
+    const ImFont& small = *ImGui::GetFont();
+    ImFont& large = largeFont();
+    const float pad = padding();
+    const float gap = ImGui::GetFontSize();
+    const float bottom = place.y + small.FontSize + large.FontSize;
+    float x = place.x;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const auto widthOf = [&](const HudLine& reading) {
+        return std::max(measure(small, reading.label).x, measure(large, reading.text).x);
+    };
+    float width = gap * static_cast<float>(readings.size() - 1);
+    for (const HudLine& reading : readings)
+        width += widthOf(reading);
+    list.AddRectFilled({x - pad, place.y - pad}, {x + width + pad, bottom + pad}, kBack);
+    for (const HudLine& reading : readings) {
+        list.AddText({x, place.y}, kLabel, reading.label.c_str());
+        list.AddText(
+            &large,
+            large.FontSize,
+            {x, place.y + small.FontSize},
+            reading.emphasis ? kEmphasis : kText,
+            reading.text.c_str()
+        );
+        x += std::ceil(widthOf(reading)) + gap;
+    }
+    return bottom + 2.0f * pad;
+}
+
+std::string describeState(const PanelFacts& facts) {
     std::string state;
     if (facts.photoRays)
         state = fmt::format("photo mode: truth, {} rays per pixel", *facts.photoRays);
@@ -94,12 +104,31 @@ void drawGame(const PanelFacts& facts, float margin) {
         state = fmt::format("speed {:g}", facts.speed);
     if (facts.recording)
         state += fmt::format("{}recording", state.empty() ? "" : ", ");
-    if (!state.empty())
-        column.add(state, kEmphasis);
+    return state;
 }
 
-float drawRates(const PanelFacts& facts, const PlaySettings& settings, float margin) {
-    TextColumn column({ImGui::GetIO().DisplaySize.x - margin, margin}, 1.0f);
+void drawGame(const PanelFacts& facts) {
+    float y = margin();
+    const auto isReading = [](const HudLine& line) { return !line.label.empty(); };
+    for (auto line = facts.hud.begin(); line != facts.hud.end();) {
+        const auto end = std::find_if_not(line, facts.hud.end(), isReading);
+        if (line != end) {
+            y = drawReadings({line, end}, {margin(), y});
+            line = end;
+            continue;
+        }
+        TextColumn column({margin(), y}, 0.0f);
+        column.add(line->text, line->emphasis ? kEmphasis : kText, line->emphasis);
+        y = column.y();
+        ++line;
+    }
+    if (const std::string state = describeState(facts); !state.empty())
+        TextColumn({margin(), y}, 0.0f).add(state, kEmphasis);
+}
+
+/// \return where it ends, y
+float drawRates(const PanelFacts& facts, const PlaySettings& settings) {
+    TextColumn column({ImGui::GetIO().DisplaySize.x - margin(), margin()}, 1.0f);
     const double milliseconds = facts.frameMilliseconds;
     if (milliseconds > 0.0 && std::isfinite(milliseconds))
         column.add(fmt::format("{:.1f} fps   {:.1f} ms", 1000.0 / milliseconds, milliseconds));
@@ -120,11 +149,42 @@ void drawSides(const PanelFacts& facts, const PlaySettings& settings, float y) {
     const float width = ImGui::GetIO().DisplaySize.x;
     const float divider = std::floor(width * static_cast<float>(settings.dividerShare));
     if (facts.photoRays || !settings.split) {
-        TextColumn({gap, y}, 0.0f).add(facts.photoRays ? "truth" : settings.method);
+        TextColumn({margin(), y}, 0.0f).add(facts.photoRays ? "truth" : settings.method);
         return;
     }
     TextColumn({divider - gap, y}, 1.0f).add(settings.leftMethod);
     TextColumn({divider + gap, y}, 0.0f).add(settings.method);
+}
+
+std::string holdTogether(const std::string& text) {
+    std::string held;
+    for (const char c : text)
+        held += c == ' ' ? kSpace : std::string(1, c);
+    return held;
+}
+
+/// The keys in one line, which breaks between them.
+std::string describeKeys(std::span<const KeyHelp> keys) {
+    std::string text;
+    for (const KeyHelp& one : keys)
+        text += fmt::format(
+            "{}{}{}{}",
+            text.empty() ? "" : "    ",
+            holdTogether(one.key),
+            kSpace,
+            holdTogether(one.what)
+        );
+    return text;
+}
+
+/// Text above `y`, as wide as the window at most. \return where it begins, y
+float drawAbove(float y, const std::string& text, ImU32 color) {
+    const float wrap = std::max(ImGui::GetIO().DisplaySize.x - 2.0f * margin(), 1.0f);
+    y -= ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap).y;
+    TextColumn column({margin(), y}, 0.0f);
+    column.setWrap(wrap);
+    column.add(text, color);
+    return y - margin();
 }
 
 } // namespace
@@ -141,32 +201,22 @@ std::string describeBlurCost(
 }
 
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
-    const float line = ImGui::GetFontSize() + 2.0f * TextColumn::padding();
-    const float margin = std::floor(0.6f * ImGui::GetFontSize());
+    const float line = ImGui::GetFontSize() + 2.0f * padding();
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     HudSpace space;
-    drawGame(facts, margin);
-    space.top = drawRates(facts, settings, margin) + margin;
-    float y = window.y - margin;
-    if (settings.showPanel) {
-        const float wrap = std::max(window.x - 2.0f * margin, 1.0f);
-        y -= ImGui::CalcTextSize(describeKeys().c_str(), nullptr, false, wrap).y;
-        TextColumn help({margin, y}, 0.0f);
-        help.setWrap(wrap);
-        help.add(describeKeys());
-        y -= margin;
+    drawGame(facts);
+    space.top = drawRates(facts, settings) + margin();
+    float y = window.y - margin();
+    if (facts.showsHint) {
+        y = drawAbove(y, describeKeys(listCommonKeys()), kText);
+        if (!facts.keys.empty())
+            y = drawAbove(y, describeKeys(facts.keys), kText);
     }
-    if (!facts.message.empty()) {
-        const float wrap = std::max(window.x - 2.0f * margin, 1.0f);
-        y -= ImGui::CalcTextSize(facts.message.c_str(), nullptr, false, wrap).y;
-        TextColumn message({margin, y}, 0.0f);
-        message.setWrap(wrap);
-        message.add(facts.message, kEmphasis);
-        y -= margin;
-    }
+    if (!facts.message.empty())
+        y = drawAbove(y, facts.message, kEmphasis);
     y -= line;
     drawSides(facts, settings, y);
-    space.bottom = window.y - y + margin;
+    space.bottom = window.y - y + margin();
     return space;
 }
 

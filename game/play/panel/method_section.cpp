@@ -122,7 +122,7 @@ std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
     return names;
 }
 
-void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes) {
+void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes) {
     ButtonRow buttons;
     wishes.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
     wishes.togglePhoto = buttons.add(
@@ -153,6 +153,9 @@ void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishe
     if (moved && std::isfinite(speed))
         wishes.speed = std::clamp(speed, kSlowest, kFastest);
     drawTooltip("Of the world's time. Range: 1/64 to 1. Keys comma and slash.");
+}
+
+void drawPictureSection(const PanelFacts& facts, PlaySettings& settings) {
     drawNames(
         "View",
         facts.views,

@@ -12,13 +12,13 @@ namespace shutter::game {
 namespace {
 
 /// In characters of the font.
-constexpr float kPanelWidth = 64.0f;
+constexpr float kPanelWidth = 46.0f;
 
 /// At the right edge, between what the head-up display has there.
 bool beginPanel(const PanelFacts& facts, const HudSpace& space) {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     const float width =
-        std::min(kPanelWidth * ImGui::CalcTextSize("0").x, std::max(0.95f * window.x, 1.0f));
+        std::min(kPanelWidth * ImGui::CalcTextSize("0").x, std::max(0.6f * window.x, 1.0f));
     const float height = std::max(window.y - space.top - space.bottom, 1.0f);
     ImGui::SetNextWindowPos({window.x - width, space.top});
     ImGui::SetNextWindowSize({width, height});
@@ -45,12 +45,14 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
         return wishes;
     if (beginPanel(facts, space)) {
         if (unfold("Play", true))
-            drawPlaySection(facts, settings, wishes);
+            drawPlaySection(facts, wishes);
         if (unfold("Method", true))
             drawMethodSection(facts, settings);
-        if (unfold("Reduced motion", true))
+        if (unfold("Picture", false))
+            drawPictureSection(facts, settings);
+        if (unfold("Reduced motion", false))
             drawReducedMotionSection(settings);
-        if (unfold("Settings of the blur", true))
+        if (unfold("Settings of the blur", false))
             drawSettingSection(settings);
         if (unfold("Shutter", false))
             drawShutterSection(facts, settings);
@@ -58,6 +60,8 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
             drawTimeSection(mHistory, settings);
         if (unfold("Why", false))
             drawReasonSection(facts);
+        if (unfold("Keys", false))
+            drawKeySection(facts);
     }
     ImGui::End();
     const core::Status valid = validate(settings);

@@ -15,11 +15,19 @@
 
 namespace shutter::game {
 
+/// A key and what it does, in a few words.
+struct KeyHelp {
+    std::string key;
+    std::string what;
+};
+
 /// What a frame tells the panel.
 struct PanelFacts {
-    std::string title;            ///< of the demo or scene
-    std::span<const HudLine> hud; ///< of a demo
-    std::string message;          ///< one line, e.g. what could not be done; empty: none
+    std::string title;             ///< of the demo or scene
+    std::span<const HudLine> hud;  ///< of a demo
+    std::span<const KeyHelp> keys; ///< of the demo or scene, besides those of every session
+    bool showsHint = false;        ///< the most important keys stand below the picture
+    std::string message;           ///< one line, e.g. what could not be done; empty: none
     /// The last finished frame's; null: none yet. Passes and work say why they ran where the frame
     /// was drawn with FrameRequest::wantReasons.
     const render::FrameStatistics* right = nullptr;

@@ -15,14 +15,21 @@ namespace shutter::game {
 /// PlaySettings::denoisedRays. Empty for methods outside modules/motion_blur.
 [[nodiscard]] std::vector<std::string_view> listReadSettings(const MethodInfo& method);
 
-void drawPlaySection(const PanelFacts& facts, PlaySettings& settings, PanelWishes& wishes);
+void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes);
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings);
+/// What is drawn besides the blur, and how large.
+void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 /// All settings of the blur: those that no shown method reads are greyed, below the others.
 void drawSettingSection(PlaySettings& settings);
 void drawShutterSection(const PanelFacts& facts, PlaySettings& settings);
 void drawReducedMotionSection(PlaySettings& settings);
 void drawTimeSection(const PassHistory& history, const PlaySettings& settings);
 void drawReasonSection(const PanelFacts& facts);
+/// All keys, those of the demo or scene first.
+void drawKeySection(const PanelFacts& facts);
+
+/// The keys that a new player needs, besides those of the demo or scene.
+[[nodiscard]] std::span<const KeyHelp> listCommonKeys();
 
 /// Pixels that the lines at the right edge and at the bottom take, where no panel should lie.
 struct HudSpace {

@@ -147,7 +147,7 @@ core::SettingRows<PlaySettings> listPlayRows() {
          {.lowest = 0.5, .highest = 4},
          "Size of text and panel, on top of what the display's resolution asks for.",
          "Text size"},
-        {"showPanel", &S::showPanel, "", {}, "This panel, and the help at the bottom (F1).", "Panel"},
+        {"showPanel", &S::showPanel, "", {}, "This panel (F1).", "Panel"},
     };
     return kRows;
 }

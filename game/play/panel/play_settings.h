@@ -42,7 +42,7 @@ struct PlaySettings {
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     double uiScale = 1.0; ///< of text and panel, on top of the display's own scale, [0.5, 4]
-    bool showPanel = true;
+    bool showPanel = false;
 };
 
 /// What a method of modules/motion_blur gets: `blur` with the method, and with its own count where

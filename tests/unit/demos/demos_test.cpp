@@ -102,10 +102,10 @@ TEST_P(EveryDemo, StandsAnyControlsForAMinuteAndEnds) {
     }
     EXPECT_TRUE(hasEnded);
     EXPECT_DOUBLE_EQ(demo->seconds(), 122.0);
-    const std::string score = "Score " + std::to_string(finalScore);
     bool shown = false;
     for (const HudLine& line : demo->hud())
-        shown = shown || (line.text == score && line.emphasis);
+        shown = shown ||
+                (line.label == "Score" && line.text == std::to_string(finalScore) && line.emphasis);
     EXPECT_TRUE(shown) << "the final score is on the screen";
 }
 
@@ -136,8 +136,10 @@ TEST_P(EveryDemo, CamerasChangeByACutAndTheBodyLeavesTheBlur) {
     EXPECT_EQ(countExcluded(), 0);
     demo->step({.toggleExclusion = true});
     EXPECT_EQ(countExcluded(), 1);
+    EXPECT_TRUE(demo->isBodyExcluded());
     demo->step({.toggleExclusion = true});
     EXPECT_EQ(countExcluded(), 0);
+    EXPECT_FALSE(demo->isBodyExcluded());
 }
 
 TEST_P(EveryDemo, SaysWhatItIsAndHowToPlayIt) {
@@ -145,8 +147,15 @@ TEST_P(EveryDemo, SaysWhatItIsAndHowToPlayIt) {
     EXPECT_STREQ(demo->name(), GetParam());
     EXPECT_FALSE(demo->isOver());
     ASSERT_GE(demo->hud().size(), 3u);
-    EXPECT_EQ(demo->hud().front().text, "Score 0");
-    EXPECT_NE(demo->hud().back().text.find("turn"), std::string::npos);
+    EXPECT_EQ(demo->hud().front().label, "Score");
+    EXPECT_EQ(demo->hud().front().text, "0");
+    for (const DemoInfo& info : listDemos()) {
+        if (info.name != std::string_view(GetParam()))
+            continue;
+        const DemoControlWords& words = info.controls;
+        for (const char* word : {words.turn, words.drive, words.action, words.body})
+            EXPECT_STRNE(word, "");
+    }
 }
 
 TEST_P(EveryDemo, RefusesASceneThatLacksWhatItPlaysWith) {
