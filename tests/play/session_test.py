@@ -64,6 +64,29 @@ class Session(PlayCase):
         self.assertTrue((photo == truth).all())
         self.assertFalse((photo == shoot("three", "p", frames=0, method="truth", rays=3)).all())
 
+    def test_no_budget_takes_the_blur_away(self):
+        def drive_and_shoot(name, method, milliseconds):
+            script = Script().add(key="w", action="press").wait(90)
+            script.add(screenshot=f"{name}.png").wait(2).add(window="quit")
+            stats = self.play("rally", script, "--method", method, size="320x180", display=False,
+                              budget={"milliseconds": milliseconds})
+            picture = skimage.io.imread(self.folder / f"{name}.png")
+            return picture[100:150].astype(float), stats["reducedFrames"]
+
+        sharp, _ = drive_and_shoot("sharp", "sharp", "unlimited")
+        full, reduced = drive_and_shoot("full", "resolved", "unlimited")
+        self.assertEqual(reduced, 0)
+        blurred = abs(full - sharp).mean()
+        self.assertGreater(blurred, 0.5)
+        for milliseconds in (0.1, 16):
+            with self.subTest(milliseconds=milliseconds):
+                picture, reduced = drive_and_shoot("budget", "resolved", milliseconds)
+                # At least half of what the whole blur changes.
+                self.assertGreater(abs(picture - sharp).mean(), 0.5 * blurred)
+                if milliseconds < 1:
+                    self.assertGreater(reduced, 60)
+                    self.assertLess(abs(picture - full).mean(), 0.75 * blurred)
+
     def test_f2_saves_the_picture_with_its_settings_and_without_what_lies_over_it(self):
         script = Script().add(key="w", action="press").wait(8).tap("f1").tap("f2").tap("f2").wait()
         self.play("rally", script.add(window="quit"), "--method", "gather", display=False)

@@ -3,6 +3,7 @@
 
 #include "engine/json/json_file.h"
 #include "engine/math/statistics.h"
+#include "game/play/panel/panel_sections.h"
 
 #include <nlohmann/json.hpp>
 
@@ -41,6 +42,7 @@ void PlayRecord::addFrame(double wallSeconds) {
 void PlayRecord::addStatistics(const render::FrameStatistics& statistics) {
     const auto found = statistics.measures.find("blur ms");
     mBlurMilliseconds.push_back(found == statistics.measures.end() ? 0.0 : found->second);
+    mReducedFrames += isReduced(statistics);
 }
 
 double PlayRecord::meanMilliseconds() const {
@@ -58,6 +60,7 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     record["startSeconds"] = mStartSeconds;
     addQuartiles(record, "frameMilliseconds", mMilliseconds);
     addQuartiles(record, "blurMilliseconds", mBlurMilliseconds);
+    record["reducedFrames"] = mReducedFrames;
     if (facts.score) {
         record["score"] = *facts.score;
         record["isOver"] = facts.isOver;

@@ -63,6 +63,7 @@ class PlayRecord {
     double mStartSeconds = 0.0;
     std::optional<uint64_t> mFirstAllocations; ///< once the first second is over
     uint64_t mLastAllocations = 0;
+    uint32_t mReducedFrames = 0; ///< in which a budget made the blur give something up
     uint32_t mPictureCount = 0;
 };
 

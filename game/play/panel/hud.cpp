@@ -148,12 +148,16 @@ void drawSides(const PanelFacts& facts, const PlaySettings& settings, float y) {
     const float gap = ImGui::GetFontSize();
     const float width = ImGui::GetIO().DisplaySize.x;
     const float divider = std::floor(width * static_cast<float>(settings.dividerShare));
+    const auto describe = [&](const std::string& method, const auto* statistics) {
+        return describeMethod(method, statistics, settings.budget);
+    };
     if (facts.photoRays || !settings.split) {
-        TextColumn({margin(), y}, 0.0f).add(facts.photoRays ? "truth" : settings.method);
+        TextColumn({margin(), y}, 0.0f)
+            .add(facts.photoRays ? "truth" : describe(settings.method, facts.right));
         return;
     }
-    TextColumn({divider - gap, y}, 1.0f).add(settings.leftMethod);
-    TextColumn({divider + gap, y}, 0.0f).add(settings.method);
+    TextColumn({divider - gap, y}, 1.0f).add(describe(settings.leftMethod, facts.left));
+    TextColumn({divider + gap, y}, 0.0f).add(describe(settings.method, facts.right));
 }
 
 std::string holdTogether(const std::string& text) {
@@ -198,6 +202,21 @@ std::string describeBlurCost(
     if (frameMilliseconds > 0.0 && std::isfinite(frameMilliseconds))
         text += fmt::format(" ({:.0f} % of the frame)", 100.0 * blur / frameMilliseconds);
     return text;
+}
+
+bool isReduced(const render::FrameStatistics& statistics) {
+    const auto level = statistics.measures.find("blur budget level");
+    return level != statistics.measures.end() && level->second > 0.0;
+}
+
+std::string describeMethod(
+    const std::string& method,
+    const render::FrameStatistics* statistics,
+    const motion_blur::BlurBudget& budget
+) {
+    if (!statistics || budget.isUnlimited() || !isReduced(*statistics))
+        return method;
+    return fmt::format("{}, reduced: {:g} ms budget", method, budget.milliseconds);
 }
 
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {

@@ -84,6 +84,18 @@ void drawPlayRows(const char* id, PlaySettings& settings, std::span<const std::s
     endRows();
 }
 
+/// The budget, and what it made the blur give up.
+void drawBudget(const PanelFacts& facts, PlaySettings& settings) {
+    drawRows("budget", motion_blur::listBudgetRows(), settings.budget);
+    if (!facts.right || settings.budget.isUnlimited() || !isReduced(*facts.right))
+        return;
+    if (const auto* reason = render::findDecision(facts.right->explanations, "blur budget")) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextUnformatted(reason->reason.c_str());
+        ImGui::PopTextWrapPos();
+    }
+}
+
 /// Methods on the screen.
 std::vector<const MethodInfo*> listShown(const PlaySettings& settings) {
     std::vector<const MethodInfo*> shown;
@@ -117,7 +129,7 @@ std::vector<std::string_view> listReadSettings(const MethodInfo& method) {
     if (!method.blur)
         return {};
     std::vector<std::string_view> names = method.blur->settings;
-    if (method.sampleUnit == SampleUnit::Taps)
+    if (method.sampleUnit != SampleUnit::Rays)
         names.emplace_back("sampleCount");
     return names;
 }
@@ -196,7 +208,7 @@ void drawReducedMotionSection(PlaySettings& settings) {
     drawPlayRows("reduced", settings, std::vector<std::string_view>{"cameraBlurScale"});
 }
 
-void drawSettingSection(PlaySettings& settings) {
+void drawSettingSection(const PanelFacts& facts, PlaySettings& settings) {
     const std::vector<const MethodInfo*> shown = listShown(settings);
     std::set<std::string_view> read;
     for (const MethodInfo* method : shown)
@@ -217,7 +229,7 @@ void drawSettingSection(PlaySettings& settings) {
     else
         draw("read", true);
     if (!read.empty())
-        drawRows("budget", motion_blur::listBudgetRows(), settings.budget);
+        drawBudget(facts, settings);
     if (read.size() == motion_blur::listSettingRows().size() ||
         !ImGui::TreeNode("Of other methods"))
         return;

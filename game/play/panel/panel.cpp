@@ -53,7 +53,7 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
         if (unfold("Reduced motion", false))
             drawReducedMotionSection(settings);
         if (unfold("Settings of the blur", false))
-            drawSettingSection(settings);
+            drawSettingSection(facts, settings);
         if (unfold("Shutter", false))
             drawShutterSection(facts, settings);
         if (unfold("Times of passes", false))

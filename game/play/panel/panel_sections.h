@@ -20,7 +20,7 @@ void drawMethodSection(const PanelFacts& facts, PlaySettings& settings);
 /// What is drawn besides the blur, and how large.
 void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 /// All settings of the blur: those that no shown method reads are greyed, below the others.
-void drawSettingSection(PlaySettings& settings);
+void drawSettingSection(const PanelFacts& facts, PlaySettings& settings);
 void drawShutterSection(const PanelFacts& facts, PlaySettings& settings);
 void drawReducedMotionSection(PlaySettings& settings);
 void drawTimeSection(const PassHistory& history, const PlaySettings& settings);
@@ -39,6 +39,17 @@ struct HudSpace {
 
 /// Declared behind all windows of the current ImGui context.
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
+
+/// Whether the budget made the blur of that frame give something up.
+[[nodiscard]] bool isReduced(const render::FrameStatistics& statistics);
+
+/// "resolved", and where the budget made it give something up "resolved, reduced: 16 ms budget".
+/// \param statistics of the method's last frame; null: none is finished yet
+[[nodiscard]] std::string describeMethod(
+    const std::string& method,
+    const render::FrameStatistics* statistics,
+    const motion_blur::BlurBudget& budget
+);
 
 /// "motion blur 12.3 ms (19 % of the frame)".
 [[nodiscard]] std::string describeBlurCost(
