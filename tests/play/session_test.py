@@ -51,6 +51,7 @@ class Session(PlayCase):
     def test_photo_mode_adds_rays_until_the_picture_is_the_truth(self):
         def shoot(name, *taps, frames, method, rays=1):
             script = Script().add(key="w", action="press").wait(8)
+            script.add(key="w", action="release").wait()  # it would fly the photo's camera
             for key in taps:
                 script.tap(key)
             script.wait(frames).tap("f2").wait(2).add(window="quit")
@@ -105,6 +106,25 @@ class Session(PlayCase):
         self.assertEqual(photo.shape, shown.shape)
         # The head-up display's ground darkens the corner of what is shown alone.
         self.assertGreater(photo[4:20, 4:20].mean(), shown[4:20, 4:20].mean() + 20)
+
+    def test_the_camera_of_a_photo_flies_while_the_game_rests(self):
+        def shoot(name, *held):
+            script = Script().add(key="w", action="press").wait(8)
+            script.add(key="w", action="release").wait().tap("t")
+            for key in held:
+                script.add(key=key, action="press").wait(15).add(key=key, action="release").wait()
+            script.tap("f2").tap("t").wait(2).add(screenshot=f"{name}.png").wait(2)
+            stats = self.play("rally", script.add(window="quit"), display=False)
+            photo = skimage.io.imread(self.folder / "rally_truth_001.png").astype(int)
+            (self.folder / "rally_truth_001.png").unlink()
+            return photo, skimage.io.imread(self.folder / f"{name}.png"), stats["score"]
+
+        still, after_still, score = shoot("still")
+        flown, after_flown, score_flown = shoot("flown", "q", "d")
+        self.assertGreater(abs(still - flown).mean(), 3.0)
+        # The game has seen none of it.
+        self.assertEqual(score, score_flown)
+        self.assertTrue((after_still[60:] == after_flown[60:]).all())
 
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")

@@ -7,15 +7,17 @@
 
 namespace shutter::game {
 
-void PhotoMode::turn(bool on) {
+void PhotoMode::turn(bool on, bool traces) {
     mIsOn = on;
+    mTraces = traces;
     mRays = 0;
     mPicture.reset();
 }
 
 PlaySettings PhotoMode::choose(const PlaySettings& settings) const {
     PlaySettings chosen = settings;
-    chosen.method = "truth";
+    if (mTraces)
+        chosen.method = "truth";
     chosen.split = false;
     chosen.view.clear();
     return chosen;
@@ -48,7 +50,7 @@ uint32_t PhotoMode::begin(const scene::World& world, const extract::ViewRequest&
 }
 
 std::optional<uint32_t> PhotoMode::rays() const {
-    return mIsOn ? std::optional(mRays) : std::nullopt;
+    return isTracing() ? std::optional(mRays) : std::nullopt;
 }
 
 } // namespace shutter::game

@@ -17,9 +17,14 @@ class PhotoMode {
 
     [[nodiscard]] bool isOn() const { return mIsOn; }
 
-    void turn(bool on);
+    /// \param traces rays are there to trace; without them the picture stays the method's
+    void turn(bool on, bool traces = true);
 
-    /// The settings with which the next frame is drawn: `truth` over the whole window.
+    /// The picture is traced.
+    [[nodiscard]] bool isTracing() const { return mIsOn && mTraces; }
+
+    /// The settings with which the next frame is drawn: over the whole window, by `truth` where
+    /// rays can be traced.
     [[nodiscard]] PlaySettings choose(const PlaySettings& settings) const;
 
     /// Rays per pixel that the picture has had so far: 0 where it is another one than in the call
@@ -31,7 +36,7 @@ class PhotoMode {
 
     void end() { mRays += raysToAdd(); }
 
-    /// Rays per pixel of the last frame; nothing while it is off.
+    /// Rays per pixel of the last frame; nothing while it traces none.
     [[nodiscard]] std::optional<uint32_t> rays() const;
 
   private:
@@ -44,6 +49,7 @@ class PhotoMode {
     [[nodiscard]] static bool areSame(const Picture& a, const Picture& b);
 
     bool mIsOn = false;
+    bool mTraces = true;
     uint32_t mRays = 0;
     std::optional<Picture> mPicture;
 };

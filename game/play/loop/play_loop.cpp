@@ -33,6 +33,15 @@ math::uvec2 scaledSize(const math::uvec2& window, double scale) {
     return {side(window.x), side(window.y)};
 }
 
+std::vector<KeyHelp> listPhotoKeys() {
+    return {
+        {"W A S D Q E", "fly"},
+        {"right drag", "look"},
+        {"wheel", "speed"},
+        {"F2", "save the picture"},
+        {"T", "end"}};
+}
+
 /// What either the panel or the keyboard wishes for; the keyboard's speed wins.
 PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     PanelWishes both;
@@ -196,7 +205,12 @@ core::Status PlayLoop::advance() {
     apply(drawPanel(input, wallSeconds));
     input = filterInput(input);
     mTime = mClock.advance(wallSeconds);
-    mStage->advance(input, {mTime, wallSeconds, double(size.y), mClock.isPaused()});
+    mPhotoCamera.advance(mStage->world(), input, wallSeconds, double(size.y));
+    // The hand that is on the photo's camera is not on the game.
+    mStage->advance(
+        mPhotoCamera.isOut() ? app::InputState() : input,
+        {mTime, wallSeconds, double(size.y), mClock.isPaused()}
+    );
     SHUTTER_TRY(drawPicture(mTime.duration));
     if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
@@ -267,6 +281,7 @@ PanelFacts PlayLoop::describeSession() const {
     facts.pictureSize = scaledSize(mScreen.size(), mSettings.resolutionScale);
     facts.exposure = mExposure;
     facts.paused = mClock.isPaused();
+    facts.photo = mPhoto.isOn();
     facts.photoRays = mPhoto.rays();
     facts.speed = mClock.speed();
     facts.recording = mRecorder.isRecording();
@@ -280,10 +295,11 @@ PanelWishes PlayLoop::drawPanel(const app::InputState& input, double wallSeconds
     ui.begin(input, mScreen.size(), chooseUiScale(input), wallSeconds);
     mHintSeconds = mSettings.showPanel ? 0.0 : std::max(mHintSeconds - wallSeconds, 0.0);
     const std::vector<HudLine> hud = mStage->hud();
-    const std::vector<KeyHelp> keys = mStage->keys();
+    const std::vector<KeyHelp> keys = mPhotoCamera.isOut() ? listPhotoKeys() : mStage->keys();
     PanelFacts facts = describeSession();
     facts.hud = hud;
     facts.keys = keys;
+    facts.showsHint = facts.showsHint || mPhotoCamera.isOut();
     const PanelWishes wishes = mPanel.draw(facts, mSettings);
     ui.end();
     if (ui.wantsKeys())
@@ -295,7 +311,7 @@ void PlayLoop::apply(const PanelWishes& wishes) {
     mQuit = mQuit || wishes.quit;
     if (wishes.togglePause) {
         mClock.setPaused(!mClock.isPaused());
-        mPhoto.turn(false);
+        turnPhotoMode(false);
     }
     if (wishes.togglePhoto)
         turnPhotoMode(!mPhoto.isOn());
@@ -304,7 +320,7 @@ void PlayLoop::apply(const PanelWishes& wishes) {
     if (wishes.savePicture)
         savePicture();
     if (wishes.singleStep) {
-        mPhoto.turn(false);
+        turnPhotoMode(false);
         mClock.setPaused(true);
         mClock.stepOnce(kSingleStepSeconds);
     }
@@ -322,15 +338,25 @@ void PlayLoop::apply(const PanelWishes& wishes) {
 }
 
 void PlayLoop::turnPhotoMode(bool on) {
-    if (on && std::find(mMethods.begin(), mMethods.end(), "truth") == mMethods.end()) {
-        mMessage = fmt::format(
-            "photo mode needs ray queries, which {} cannot trace", mScreen.device().info().name
-        );
+    const bool traces = std::find(mMethods.begin(), mMethods.end(), "truth") != mMethods.end();
+    mPhoto.turn(on, traces);
+    if (!on) {
+        mPhotoCamera.putBack(mStage->world());
         return;
     }
-    mPhoto.turn(on);
-    if (on)
-        mClock.setPaused(true);
+    mClock.setPaused(true);
+    if (!mStage->holdsCamera())
+        mPhotoCamera.take(mStage->world(), mStage->camera(), mExposure.raster);
+    if (!traces)
+        mMessage = fmt::format(
+            "{} traces no ray queries: the photo is drawn by {}",
+            mScreen.device().info().name,
+            mSettings.method
+        );
+}
+
+ecs::Entity PlayLoop::camera() const {
+    return mPhotoCamera.isOut() ? mPhotoCamera.entity() : mStage->camera();
 }
 
 PlaySettings PlayLoop::chooseSettings() const {
@@ -378,7 +404,7 @@ void PlayLoop::chooseExposure(double duration) {
     const double now = mTime.seconds + mStage->startSeconds();
     scene::CameraShutter shutter = makeShutter(mSettings);
     mStage->adjustShutter(now, shutter);
-    world.registry.add(mStage->camera(), shutter);
+    world.registry.add(camera(), shutter);
     mExposure = scene::computeExposure(shutter, now, duration);
     // What is simulated is known up to now: an exposure that would go on is drawn later.
     if (mExposure.close > now)
@@ -406,7 +432,7 @@ core::Status PlayLoop::drawPicture(double duration) {
         size = {swapchain->desc().width, swapchain->desc().height};
     }
     chooseExposure(duration);
-    mRecorder.addFrame(mStage->world(), mStage->camera(), mExposure.raster);
+    mRecorder.addFrame(mStage->world(), camera(), mExposure.raster);
     PlayPicture picture = makePicture(size);
     if (swapchain)
         picture.window.acquire = [&] {
@@ -416,10 +442,10 @@ core::Status PlayLoop::drawPicture(double duration) {
         };
     if (picture.readBack && swapchain && !swapchain->canBeRead())
         return core::makeError("this display's pictures cannot be read: no film, no screenshots");
-    if (mPhoto.isOn())
+    if (mPhoto.isTracing())
         picture.moreRays = {mPhoto.begin(mStage->world(), picture.view), mPhoto.raysToAdd()};
     SHUTTER_TRY(mRenderer->draw(mStage->world(), picture, settings));
-    if (mPhoto.isOn())
+    if (mPhoto.isTracing())
         mPhoto.end();
     mTurnsWithoutPicture = shown || !swapchain ? 0 : mTurnsWithoutPicture + 1;
     if (swapchain && !shown)
@@ -434,7 +460,7 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     const math::uvec2 drawn = scaledSize(sizePx, mSettings.resolutionScale);
     const DemoLook look = mStage->look();
     PlayPicture picture;
-    picture.view.camera = mStage->camera();
+    picture.view.camera = camera();
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;

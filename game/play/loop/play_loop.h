@@ -5,6 +5,7 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "game/play/loop/flythrough_recorder.h"
+#include "game/play/loop/photo_camera.h"
 #include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"
@@ -68,6 +69,8 @@ class PlayLoop {
     void chooseExposure(double duration);
     void replaceMissingMethods();
     void turnPhotoMode(bool on);
+    /// The camera that is looked through: photo mode's, or the stage's.
+    [[nodiscard]] ecs::Entity camera() const;
     /// Asks for the next picture as a file.
     void savePicture();
     /// With which the next picture is drawn.
@@ -95,6 +98,7 @@ class PlayLoop {
     PlayRecord mRecord;
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
+    PhotoCamera mPhotoCamera;
     double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
     double mHintSeconds = 0.0; ///< for which the keys are shown yet
     bool mDraggingDivider = false;

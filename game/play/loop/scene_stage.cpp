@@ -76,6 +76,8 @@ class SceneStage : public Stage {
         );
     }
 
+    [[nodiscard]] bool holdsCamera() const override { return mChosen >= mSceneCameras.size(); }
+
     [[nodiscard]] double startSeconds() const override { return mStartSeconds; }
 
     void adjustShutter(double seconds, scene::CameraShutter& shutter) const override {

@@ -41,6 +41,9 @@ class Stage {
         (void)shutter;
     }
 
+    /// Whether the camera is in the player's hand, while the game is paused, too.
+    [[nodiscard]] virtual bool holdsCamera() const { return false; }
+
     /// Where its time starts, seconds.
     [[nodiscard]] virtual double startSeconds() const { return 0.0; }
 

@@ -96,8 +96,10 @@ float drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
 
 std::string describeState(const PanelFacts& facts) {
     std::string state;
-    if (facts.photoRays)
-        state = fmt::format("photo mode: truth, {} rays per pixel", *facts.photoRays);
+    if (facts.photo)
+        state = facts.photoRays
+                    ? fmt::format("photo mode: truth, {} rays per pixel", *facts.photoRays)
+                    : "photo mode";
     else if (facts.paused)
         state = "paused";
     else if (facts.speed != 1.0)

@@ -138,8 +138,8 @@ void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes) {
     ButtonRow buttons;
     wishes.togglePause = buttons.add(facts.paused ? "Continue" : "Pause", "Key P.");
     wishes.togglePhoto = buttons.add(
-        facts.photoRays ? "End photo" : "Photo",
-        "Pause, and trace the picture until it is the truth. Key T."
+        facts.photo ? "End photo" : "Photo",
+        "Pause, fly the camera freely, and trace the picture until it is the truth. Key T."
     );
     wishes.savePicture =
         buttons.add("Save picture", "The picture without this panel as a PNG file. Key F2.");

@@ -36,7 +36,8 @@ struct PanelFacts {
     math::uvec2 pictureSize{1u};      ///< pixels
     scene::ExposureInterval exposure; ///< of the frame
     bool paused = false;
-    std::optional<uint32_t> photoRays; ///< per pixel of photo mode's picture; nothing: it is off
+    bool photo = false;                ///< photo mode is on
+    std::optional<uint32_t> photoRays; ///< per pixel of its picture; nothing: none are traced
     double speed = 1.0;
     bool recording = false;               ///< a flythrough is being recorded
     std::span<const std::string> methods; ///< that the device can run

@@ -86,5 +86,17 @@ TEST_F(Photo, ItTracesTheWholeWindowAndLeavesTheSettings) {
     EXPECT_EQ(mode.rays(), 0u);
 }
 
+TEST_F(Photo, WithoutRaysThePictureStaysTheMethods) {
+    PlaySettings settings;
+    settings.method = "gather";
+    settings.split = true;
+    mode.turn(true, false);
+    EXPECT_TRUE(mode.isOn());
+    EXPECT_FALSE(mode.isTracing());
+    EXPECT_FALSE(mode.rays());
+    EXPECT_EQ(mode.choose(settings).method, "gather");
+    EXPECT_FALSE(mode.choose(settings).split);
+}
+
 } // namespace
 } // namespace shutter::game

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/motion.h"
+#include "game/play/loop/photo_camera.h"
+
+#include <gtest/gtest.h>
+
+namespace shutter::game {
+namespace {
+
+using app::Key;
+using math::dvec3;
+
+class PhotoFlight : public testing::Test {
+  protected:
+    PhotoFlight() {
+        stage = world.registry.create();
+        world.registry.add(stage, scene::Camera{});
+        math::Transform placement;
+        placement.translation = {1, 2, 3};
+        placement.rotation = glm::angleAxis(0.4, glm::normalize(dvec3(0.3, 1.0, 0.2))); // it rolls
+        world.registry.add(stage, scene::LocalTransform{placement});
+        world.registry.add(stage, scene::LinearVelocity{{0, 0, -20}});
+    }
+
+    void fly(Key key, double seconds) {
+        app::InputState input;
+        input.down.set(static_cast<size_t>(key));
+        camera.advance(world, input, seconds, 500.0);
+    }
+
+    [[nodiscard]] math::dmat4 at(ecs::Entity entity, double seconds) const {
+        return worldFromEntity(world, entity, seconds);
+    }
+
+    void expectNear(const math::dmat4& a, const math::dmat4& b) const {
+        for (int i = 0; i < 4; ++i)
+            EXPECT_LT(glm::distance(a[i], b[i]), 1e-9) << "column " << i;
+    }
+
+    scene::World world;
+    ecs::Entity stage;
+    PhotoCamera camera;
+    static constexpr double kNow = 0.5;
+};
+
+TEST_F(PhotoFlight, UntilItIsMovedItIsTheStagesCameraRollIncluded) {
+    camera.take(world, stage, kNow);
+    camera.advance(world, {}, 0.1, 500.0);
+    for (const double seconds : {kNow, kNow - 0.02})
+        expectNear(at(camera.entity(), seconds), at(stage, seconds));
+}
+
+TEST_F(PhotoFlight, ItFliesAheadAndKeepsTheBlurOfTheCameraItHangsOn) {
+    camera.take(world, stage, kNow);
+    const dvec3 ahead = -dvec3(at(stage, kNow)[2]);
+    fly(Key::W, 0.5);
+    const dvec3 moved = dvec3(at(camera.entity(), kNow)[3]) - dvec3(at(stage, kNow)[3]);
+    EXPECT_GT(glm::dot(moved, ahead), 0.5);
+    // It rides along: over an exposure it takes the way of the stage's camera.
+    const dvec3 way = dvec3(at(camera.entity(), kNow)[3] - at(camera.entity(), kNow - 0.02)[3]);
+    EXPECT_NEAR(way.z, -0.4, 1e-9);
+    EXPECT_NEAR(glm::length(way), 0.4, 1e-9);
+}
+
+TEST_F(PhotoFlight, ItIsMadeOnceAndLeavesNothingBehind) {
+    camera.advance(world, {}, 0.1, 500.0); // not out: nothing to move
+    const size_t before = world.registry.aliveCount();
+    camera.take(world, stage, kNow);
+    const ecs::Entity first = camera.entity();
+    fly(Key::W, 0.5);
+    camera.take(world, stage, kNow);
+    EXPECT_EQ(camera.entity(), first);
+    EXPECT_EQ(world.registry.aliveCount(), before + 1);
+    camera.putBack(world);
+    camera.putBack(world);
+    EXPECT_FALSE(camera.isOut());
+    EXPECT_EQ(world.registry.aliveCount(), before);
+}
+
+} // namespace
+} // namespace shutter::game
