@@ -2,6 +2,7 @@
 """What holds of sessions without a display: the same film twice, scores, settings, bad input."""
 
 import json
+import os
 import sys
 import unittest
 
@@ -125,6 +126,19 @@ class Session(PlayCase):
         # The game has seen none of it.
         self.assertEqual(score, score_flown)
         self.assertTrue((after_still[60:] == after_flown[60:]).all())
+
+    def test_f8_has_renderdoc_capture_one_frame_where_it_is_there(self):
+        script = Script().wait(4).tap("f8").wait(3).add(window="quit")
+        log = self.folder / "calls.txt"
+        self.play("spin", script, display=False)  # without RenderDoc: a sentence on the screen
+        self.assertFalse(log.exists())
+        os.environ["SHUTTER_CAPTURE_LOG"] = str(log)
+        os.environ["LD_PRELOAD"] = os.environ["SHUTTER_FAKE_RENDERDOC"]
+        self.addCleanup(os.environ.pop, "SHUTTER_CAPTURE_LOG")
+        self.addCleanup(os.environ.pop, "LD_PRELOAD")
+        result = self.play("spin", script, display=False)
+        self.assertEqual(result["validationMessages"], 0)
+        self.assertEqual(log.read_text(encoding="utf-8").split(), ["start", "end"])
 
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")

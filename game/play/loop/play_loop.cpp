@@ -49,6 +49,7 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
     both.savePicture = panel.savePicture || keys.savePicture;
+    both.captureFrame = panel.captureFrame || keys.captureFrame;
     both.singleStep = panel.singleStep || keys.singleStep;
     both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
@@ -212,6 +213,7 @@ core::Status PlayLoop::advance() {
         {mTime, wallSeconds, double(size.y), mClock.isPaused()}
     );
     SHUTTER_TRY(drawPicture(mTime.duration));
+    endCapture();
     if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
     SHUTTER_TRY(mFiles.takePictures(*mRenderer));
@@ -319,6 +321,8 @@ void PlayLoop::apply(const PanelWishes& wishes) {
         mClock.setSpeed(*wishes.speed);
     if (wishes.savePicture)
         savePicture();
+    if (wishes.captureFrame)
+        mMessage = mCapture.request();
     if (wishes.singleStep) {
         turnPhotoMode(false);
         mClock.setPaused(true);
@@ -418,6 +422,7 @@ core::Status PlayLoop::drawPicture(double duration) {
         return {};
     const PlaySettings settings = chooseSettings();
     mRenderer->makeRoom(settings);
+    mCapture.begin();
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
     if (swapchain) {
@@ -454,6 +459,14 @@ core::Status PlayLoop::drawPicture(double duration) {
         mScreen.present(*shown);
     notePicture();
     return {};
+}
+
+void PlayLoop::endCapture() {
+    if (!mCapture.isUnderWay())
+        return;
+    mRenderer->finishAll();
+    mMessage = mCapture.end();
+    core::logInfo("{}", mMessage);
 }
 
 PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {

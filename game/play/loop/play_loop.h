@@ -5,6 +5,7 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "game/play/loop/flythrough_recorder.h"
+#include "game/play/loop/frame_capture.h"
 #include "game/play/loop/photo_camera.h"
 #include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
@@ -57,6 +58,8 @@ class PlayLoop {
     [[nodiscard]] PanelFacts describeSession() const;
     void apply(const PanelWishes& wishes);
     core::Status drawPicture(double duration);
+    /// Ends a capture that drawPicture() began, whatever became of the picture.
+    void endCapture();
     [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
     /// Records that a picture was submitted.
     void notePicture();
@@ -99,6 +102,7 @@ class PlayLoop {
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
     PhotoCamera mPhotoCamera;
+    FrameCapture mCapture;
     double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
     double mHintSeconds = 0.0; ///< for which the keys are shown yet
     bool mDraggingDivider = false;

@@ -17,7 +17,7 @@ const std::array<KeyHelp, 6> kCommonKeys = {{
     {"Esc", "quit"},
 }};
 
-const std::array<KeyHelp, 16> kAllKeys = {{
+const std::array<KeyHelp, 17> kAllKeys = {{
     {"M, Shift+M", "next, previous method"},
     {"X", "split screen; drag the divider"},
     {"N", "method left of the split"},
@@ -32,6 +32,7 @@ const std::array<KeyHelp, 16> kAllKeys = {{
     {"R", "record the camera's flight"},
     {"F1", "this panel"},
     {"F5, F9", "save, load the settings"},
+    {"F8", "capture the next frame with RenderDoc"},
     {"F11", "full screen"},
     {"Esc", "quit"},
 }};

@@ -51,6 +51,7 @@ struct PanelWishes {
     bool togglePause = false;
     bool togglePhoto = false;
     bool savePicture = false;
+    bool captureFrame = false;
     bool singleStep = false;
     bool toggleRecording = false;
     bool toggleFullScreen = false;
