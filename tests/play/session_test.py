@@ -154,6 +154,21 @@ class Session(PlayCase):
         self.assertIn("instants", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
 
+    def test_bloom_costs_its_passes_and_none_without_a_share(self):
+        def shoot(share):
+            script = Script().add(key="f1").wait(2).add(screenshot="a.png").wait(2)
+            stats = self.play("rally", script.add(window="quit"), "--method", "gather",
+                              display=False, bloomShare=share)
+            passes = {name: count for name, count in stats["passes"].items() if "bloom" in name}
+            return passes, skimage.io.imread(self.folder / "a.png").astype(int)
+
+        passes, sharp = shoot(0)
+        self.assertEqual(passes, {})
+        # 108 lines halve four times until an image is less than four pixels high.
+        passes, bloomed = shoot(0.2)
+        self.assertEqual(passes, {"bloom down": 4, "bloom up": 4})
+        self.assertGreater(abs(bloomed - sharp).mean(), 0.5)
+
     def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
         # Pausing and going on change what a frame consists of; drivers may take tens of
         # milliseconds over an allocation.

@@ -42,6 +42,9 @@ void PlayRecord::addFrame(double wallSeconds) {
 void PlayRecord::addStatistics(const render::FrameStatistics& statistics) {
     const auto found = statistics.measures.find("blur ms");
     mBlurMilliseconds.push_back(found == statistics.measures.end() ? 0.0 : found->second);
+    mPasses.clear();
+    for (const render::PassTime& pass : statistics.passes)
+        ++mPasses[pass.name];
     mReducedFrames += isReduced(statistics);
 }
 
@@ -60,6 +63,7 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     record["startSeconds"] = mStartSeconds;
     addQuartiles(record, "frameMilliseconds", mMilliseconds);
     addQuartiles(record, "blurMilliseconds", mBlurMilliseconds);
+    record["passes"] = mPasses;
     record["reducedFrames"] = mReducedFrames;
     if (facts.score) {
         record["score"] = *facts.score;

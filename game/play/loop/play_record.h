@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,9 +57,10 @@ class PlayRecord {
     write(const std::filesystem::path& path, const SessionFacts& facts) const;
 
   private:
-    std::vector<double> mMilliseconds;     ///< of all frames, wall
-    std::vector<double> mBlurMilliseconds; ///< of finished frames, GPU
-    std::deque<double> mRecent;            ///< milliseconds of the last second
+    std::vector<double> mMilliseconds;       ///< of all frames, wall
+    std::vector<double> mBlurMilliseconds;   ///< of finished frames, GPU
+    std::map<std::string, uint32_t> mPasses; ///< of the last finished frame: how often each ran
+    std::deque<double> mRecent;              ///< milliseconds of the last second
     double mRecentSum = 0.0;
     double mStartSeconds = 0.0;
     std::optional<uint64_t> mFirstAllocations; ///< once the first second is over
