@@ -117,6 +117,12 @@ ExposureInterval computeExposure(const CameraShutter& shutter, double raster, do
     return interval;
 }
 
+int64_t numberFrame(const ExposureInterval& exposure) {
+    constexpr double kMost = 9.0e15; // whole numbers are exact below
+    const double number = exposure.raster / exposure.frameSeconds;
+    return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
+}
+
 core::Status validateResponse(const ShutterResponse& response) {
     if (response.shape == ResponseShape::Sampled)
         return validateSamples(response.samples);

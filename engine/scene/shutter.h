@@ -77,6 +77,10 @@ struct ExposureInterval {
     const CameraShutter& shutter, double raster, double frameSeconds = kStillFrameSeconds
 );
 
+/// By its time, so that a frame has the same number however it was reached. Where frames differ in
+/// length, their numbers need not follow one another; where they have none, all are 0.
+[[nodiscard]] int64_t numberFrame(const ExposureInterval& exposure);
+
 /// One sentence that names the field which is out of its range.
 [[nodiscard]] core::Status validateResponse(const ShutterResponse& response);
 

@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
+#include "engine/math/low_discrepancy.h"
 #include "engine/scene/shutter.h"
 #include "shaders/accumulate/accumulate_shared.h"
 
@@ -23,15 +24,6 @@ gpu::ComputePipelineDesc describePipeline() {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
     return desc;
-}
-
-/// Van der Corput radical inverse of `index` in `base`: [0, 1).
-double radicalInverse(uint32_t index, uint32_t base) {
-    double result = 0.0;
-    double digit = 1.0 / base;
-    for (; index > 0; index /= base, digit /= base)
-        result += digit * (index % base);
-    return result;
 }
 
 /// Cranley-Patterson shift of a seed, [0, 1); 0 for seed 0.
@@ -58,11 +50,19 @@ extract::ViewRequest makeInstant(
     instant.instant = scene::invertResponse(view.exposure.shutter.response, (index + 0.5) / count);
     if (pixel == PixelModel::Centre)
         return instant;
-    instant.jitterPx = {
-        wrap(radicalInverse(index, 2) + 0.5 / count + seedShift(seed, 0.7548776662466927)) - 0.5,
-        wrap(radicalInverse(index, 3) + 0.5 / count + seedShift(seed, 0.5698402909980532)) - 0.5};
-    instant.lodBias = view.lodBias - 0.5f * std::log2(static_cast<float>(count));
-    return instant;
+    return makeSubpixel(instant, index, count, seed);
+}
+
+extract::ViewRequest
+makeSubpixel(const extract::ViewRequest& view, uint32_t index, uint32_t count, uint32_t seed) {
+    SHUTTER_CHECK(index < count, "{} of {}", index, count);
+    extract::ViewRequest part = view;
+    const math::dvec2 place = math::halton23(index);
+    part.jitterPx = {
+        wrap(place.x + 0.5 / count + seedShift(seed, 0.7548776662466927)) - 0.5,
+        wrap(place.y + 0.5 / count + seedShift(seed, 0.5698402909980532)) - 0.5};
+    part.lodBias = view.lodBias - 0.5f * std::log2(static_cast<float>(count));
+    return part;
 }
 
 Accumulate::Accumulate(gpu::Device& device)

@@ -28,6 +28,11 @@ using extract::PixelModel;
     uint32_t seed
 );
 
+/// The i-th of `count` views that differ in their place in the pixel, which makeInstant() takes for
+/// PixelModel::Box, and in nothing else of time.
+[[nodiscard]] extract::ViewRequest
+makeSubpixel(const extract::ViewRequest& view, uint32_t index, uint32_t count, uint32_t seed);
+
 /// Adds each frame's colour to a sum. Call setInstant() before each frame; in the last one the
 /// context's colour becomes the mean.
 class Accumulate : public render::PostEffect {

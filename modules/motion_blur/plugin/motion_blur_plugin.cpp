@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 
 namespace shutter::motion_blur {
@@ -22,14 +21,6 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
                            "{} ms are too few: gave up {}", budget.budget().milliseconds, gaveUp
                        );
     explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
-}
-
-/// By its time, so that a frame has the same number however it was reached. Where frames differ in
-/// length, their numbers need not follow one another.
-int64_t numberFrame(const scene::ExposureInterval& exposure) {
-    constexpr double kMost = 9.0e15; // whole numbers are exact below
-    const double number = exposure.raster / exposure.frameSeconds;
-    return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
 }
 
 constexpr const char* kNoPicture = "the frame is drawn for what the next one looks up in it";
@@ -100,7 +91,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.normal = context.gbuffer.normal;
     inputs.entityId = context.gbuffer.entityId;
     inputs.rasterTime = context.facts.rasterTime;
-    inputs.frameNumber = numberFrame(context.view.exposure);
+    inputs.frameNumber = scene::numberFrame(context.view.exposure);
     inputs.response = gpu::splitAddress(context.response);
     inputs.colorIsWritable = true;
     inputs.measureEdgesEverywhere = context.intermediates.isWanted("edge");
