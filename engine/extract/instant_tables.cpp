@@ -3,11 +3,8 @@
 
 #include "engine/core/check.h"
 #include "engine/extract/frame_view.h"
-#include "engine/math/transform.h"
-#include "engine/scene/camera.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
-#include "engine/scene/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +17,6 @@ namespace {
 using math::dmat4;
 using math::LayerBuilder;
 using math::LayerTables;
-
-constexpr uint32_t kNoRow = 0xFFFFFFFFu;
-/// Share of a frame's duration within which two times are the same: frame times are rounded.
-constexpr double kFrameSlack = 1.0e-3;
 
 class Builder {
   public:
@@ -41,54 +34,29 @@ class Builder {
                 scene::invertResponse(view.exposure.shutter.response, (i + 0.5) / instantCount)
             );
         for (const double s : mTimes)
-            mPictures.push_back(pictureAt(s));
-        mRasterPicture = pictureAt(view.exposure.rasterTime);
+            mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
+        mRasterPicture = pictureFromWorldAt(mWorld, mView, mMotion, view.exposure.rasterTime);
     }
 
     InstantTables run(const RasterRecord* last, const InstantFrame* second) {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
-        tables.record = makeRecord(mFrame, mView.exposure.raster, mRasterPicture);
+        tables.record = makeRasterRecord(mView, mFrame, mView.exposure.raster, mRasterPicture);
         tables.raster = describeRaster();
         if (last && mayUse(*last))
             tables.last = describeLast(*last, tables.record);
         if (second)
-            tables.second = describeSecond(
-                makeRecord(
-                    second->frame, mView.exposure.at(second->instant), pictureAt(second->instant)
-                ),
-                tables.record
-            );
+            tables.second = describeSecond(makeSecondRecord(*second), tables.record);
         return tables;
     }
 
   private:
-    /// Picture space at shutter time s from the world.
-    dmat4 pictureAt(double s) const {
-        const double aspect = double(mView.width) / mView.height;
-        const dmat4 clip = makeProjection(mCamera, mMotion.cameraYFov(s), aspect);
-        const dmat4 worldFromView = computeWorldFromView(mMotion.worldFromCamera(s));
-        const math::uvec2 sizePx(mView.width, mView.height);
-        return math::pictureFromView(clip, sizePx, mView.jitterPx) * glm::inverse(worldFromView);
-    }
-
-    RasterRecord
-    makeRecord(const ExtractedFrame& frame, double seconds, const dmat4& pictureFromWorld) const {
-        RasterRecord record;
-        record.seconds = seconds;
-        record.camera = mView.camera;
-        record.width = mView.width;
-        record.height = mView.height;
-        record.pictureFromWorld = pictureFromWorld;
-        // Rows of others' making stand behind those that were drawn.
-        const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
-        record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
-        record.worldFromObject = frame.worldFromObject;
-        record.deforms.assign(frame.worldFromObject.size(), false);
-        for (const DeformedEntity& one : frame.deformed)
-            record.deforms[one.row] = one.changes;
-        return record;
+    RasterRecord makeSecondRecord(const InstantFrame& second) const {
+        ViewRequest view = mView;
+        view.jitterPx = second.jitterPx;
+        const dmat4 picture = pictureFromWorldAt(mWorld, view, mMotion, second.instant);
+        return makeRasterRecord(view, second.frame, mView.exposure.at(second.instant), picture);
     }
 
     [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {
@@ -127,49 +95,13 @@ class Builder {
     bool mayUse(const RasterRecord& last) const {
         const scene::ExposureInterval& exposure = mView.exposure;
         const double age = exposure.raster - last.seconds;
-        if (last.camera != mView.camera || last.width != mView.width ||
-            last.height != mView.height || !(age > 0.0) ||
-            std::abs(age - exposure.frameSeconds) > kFrameSlack * exposure.frameSeconds)
-            return false;
-        const scene::TimeSpan span{
-            last.seconds + kFrameSlack * exposure.frameSeconds,
-            std::max(exposure.raster, exposure.close)};
-        if (mMotion.isCut() || scene::isCut(mWorld, mView.camera, span))
-            return false;
-        const auto poseAt = [&](double seconds) {
-            return math::removeScale(scene::worldFromEntity(mWorld, mView.camera, seconds));
-        };
-        return !scene::findsCameraCut(poseAt, last.seconds, exposure.raster, exposure.shutter.cuts);
-    }
-
-    /// By row of the last raster: the same entity's row now, or kNoRow.
-    std::vector<uint32_t> findRows(const RasterRecord& last, const RasterRecord& now) const {
-        std::vector<uint32_t> rows(last.entities.size(), kNoRow);
-        if (last.entities == now.entities) {
-            for (uint32_t row = 0; row < rows.size(); ++row)
-                rows[row] = row;
-            return rows;
-        }
-        std::vector<uint32_t> rowOfEntity;
-        for (uint32_t row = 0; row < now.entities.size(); ++row) {
-            const uint32_t index = now.entities[row].index;
-            if (index >= rowOfEntity.size())
-                rowOfEntity.resize(index + size_t{1}, kNoRow);
-            rowOfEntity[index] = row;
-        }
-        for (size_t row = 0; row < rows.size(); ++row) {
-            const uint32_t index = last.entities[row].index;
-            const uint32_t found = index < rowOfEntity.size() ? rowOfEntity[index] : kNoRow;
-            if (found != kNoRow && now.entities[found] == last.entities[row])
-                rows[row] = found;
-        }
-        return rows;
+        return age > 0.0 &&
+               std::abs(age - exposure.frameSeconds) <= kFrameSlack * exposure.frameSeconds &&
+               showsTheSame(mWorld, mView, mMotion, last);
     }
 
     LayerTables describeLast(const RasterRecord& last, const RasterRecord& now) const {
-        const scene::TimeSpan span{
-            last.seconds + kFrameSlack * mView.exposure.frameSeconds,
-            std::max(mView.exposure.raster, mView.exposure.close)};
+        const scene::TimeSpan span = spanSince(last, mView.exposure);
         return describeOther(last, now, [&](ecs::Entity entity) {
             return scene::hasNoPast(mWorld, entity, span);
         });
@@ -188,7 +120,7 @@ class Builder {
     ) const {
         const size_t count = other.entities.size();
         LayerBuilder layer = begin(other.pictureFromWorld, count);
-        const std::vector<uint32_t> rows = findRows(other, now);
+        const std::vector<uint32_t> rows = findRows(other, now.entities);
         std::vector<bool> mayMove(now.entities.size(), mayScaleMotion(mWorld, mView.exposure));
         for (const uint32_t row : mFrame.movingRows)
             mayMove[row] = true;

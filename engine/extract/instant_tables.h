@@ -4,8 +4,8 @@
 // path and before any camera; what deforms is left to motion vectors.
 #pragma once
 
-#include "engine/ecs/entity.h"
 #include "engine/extract/extracted_frame.h"
+#include "engine/extract/raster_record.h"
 #include "engine/math/layer_tables.h"
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
@@ -15,18 +15,6 @@
 
 namespace shutter::extract {
 
-/// What a raster image was drawn of: enough to find its surfaces again in the frame after.
-struct RasterRecord {
-    double seconds = 0.0;
-    ecs::Entity camera;
-    uint32_t width = 0;
-    uint32_t height = 0;
-    math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
-    std::vector<ecs::Entity> entities; ///< one per row of the entity table
-    std::vector<math::dmat4> worldFromObject;
-    std::vector<bool> deforms; ///< the row's shape changes during the exposure
-};
-
 struct InstantTables : math::InstantLayers {
     RasterRecord record; ///< of this frame's raster, for the frame after
 };
@@ -35,6 +23,7 @@ struct InstantTables : math::InstantLayers {
 struct InstantFrame {
     double instant = 0.0; ///< shutter time, [0, 1]
     const ExtractedFrame& frame;
+    math::dvec2 jitterPx{0.0}; ///< of its picture
 };
 
 /// Instants are the middles of equal shares of the light, by the shutter's response.

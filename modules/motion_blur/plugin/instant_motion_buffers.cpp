@@ -13,7 +13,7 @@ InstantMotions InstantMotionBuffers::update(
     const render::SecondRasterView* const second = context.secondRaster;
     std::optional<extract::InstantFrame> secondFrame;
     if (second)
-        secondFrame.emplace(second->instant, *second->frame);
+        secondFrame.emplace(second->instant, *second->frame, context.view.jitterPx);
     extract::InstantTables tables = extract::computeInstantTables(
         context.world,
         context.view,

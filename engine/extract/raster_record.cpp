@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/raster_record.h"
+
+#include "engine/extract/frame_view.h"
+#include "engine/math/layer_tables.h"
+#include "engine/math/transform.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/motion.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace shutter::extract {
+
+using math::dmat4;
+
+dmat4 pictureFromWorldAt(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    double s
+) {
+    const auto& camera = world.registry.get<scene::Camera>(view.camera);
+    const double aspect = double(view.width) / view.height;
+    const dmat4 clip = makeProjection(camera, motion.cameraYFov(s), aspect);
+    const dmat4 worldFromView = computeWorldFromView(motion.worldFromCamera(s));
+    const math::uvec2 sizePx(view.width, view.height);
+    return math::pictureFromView(clip, sizePx, view.jitterPx) * glm::inverse(worldFromView);
+}
+
+RasterRecord makeRasterRecord(
+    const ViewRequest& view,
+    const ExtractedFrame& frame,
+    double seconds,
+    const dmat4& pictureFromWorld
+) {
+    RasterRecord record;
+    record.seconds = seconds;
+    record.camera = view.camera;
+    record.width = view.width;
+    record.height = view.height;
+    record.pictureFromWorld = pictureFromWorld;
+    // Rows of others' making stand behind those that were drawn.
+    const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
+    record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
+    record.worldFromObject = frame.worldFromObject;
+    record.deforms.assign(frame.worldFromObject.size(), false);
+    for (const DeformedEntity& one : frame.deformed)
+        record.deforms[one.row] = one.changes;
+    return record;
+}
+
+bool showsTheSame(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+) {
+    const scene::ExposureInterval& exposure = view.exposure;
+    if (last.camera != view.camera || last.width != view.width || last.height != view.height)
+        return false;
+    if (motion.isCut() || scene::isCut(world, view.camera, spanSince(last, exposure)))
+        return false;
+    const auto poseAt = [&](double seconds) {
+        return math::removeScale(scene::worldFromEntity(world, view.camera, seconds));
+    };
+    return !scene::findsCameraCut(poseAt, last.seconds, exposure.raster, exposure.shutter.cuts);
+}
+
+scene::TimeSpan spanSince(const RasterRecord& last, const scene::ExposureInterval& exposure) {
+    return {
+        last.seconds + kFrameSlack * exposure.frameSeconds,
+        std::max(exposure.raster, exposure.close)};
+}
+
+std::vector<uint32_t>
+findRows(const RasterRecord& record, const std::vector<ecs::Entity>& entities) {
+    std::vector<uint32_t> rows(record.entities.size(), kNoRow);
+    if (record.entities == entities) {
+        for (uint32_t row = 0; row < rows.size(); ++row)
+            rows[row] = row;
+        return rows;
+    }
+    std::vector<uint32_t> rowOfEntity;
+    for (uint32_t row = 0; row < entities.size(); ++row) {
+        const uint32_t index = entities[row].index;
+        if (index >= rowOfEntity.size())
+            rowOfEntity.resize(index + size_t{1}, kNoRow);
+        rowOfEntity[index] = row;
+    }
+    for (size_t row = 0; row < rows.size(); ++row) {
+        const uint32_t index = record.entities[row].index;
+        const uint32_t found = index < rowOfEntity.size() ? rowOfEntity[index] : kNoRow;
+        if (found != kNoRow && entities[found] == record.entities[row])
+            rows[row] = found;
+    }
+    return rows;
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What a raster image was drawn of, so that the frame after finds its surfaces again.
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/math/math.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "engine/scene/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Share of a frame's duration within which two times are the same: frame times are rounded.
+inline constexpr double kFrameSlack = 1.0e-3;
+/// The entity has no row.
+inline constexpr uint32_t kNoRow = 0xFFFFFFFFu;
+
+/// What a raster image was drawn of: enough to find its surfaces again in the frame after.
+struct RasterRecord {
+    double seconds = 0.0;
+    ecs::Entity camera;
+    uint32_t width = 0;
+    uint32_t height = 0;
+    math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
+    std::vector<ecs::Entity> entities; ///< one per row of the entity table
+    std::vector<math::dmat4> worldFromObject;
+    std::vector<bool> deforms; ///< the row's shape changes during the exposure
+};
+
+/// Picture space (layer_tables.h) at shutter time `s` from the world.
+/// \param motion of the view's exposure
+[[nodiscard]] math::dmat4 pictureFromWorldAt(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    double s
+);
+
+/// \param seconds when the raster is taken
+[[nodiscard]] RasterRecord makeRasterRecord(
+    const ViewRequest& view,
+    const ExtractedFrame& frame,
+    double seconds,
+    const math::dmat4& pictureFromWorld
+);
+
+/// Whether the view shows what `last` does, from elsewhere or later: the same camera draws it in
+/// the same size, and nothing was cut in between.
+/// \param motion of the view's exposure
+/// \param last not later than the view's raster
+[[nodiscard]] bool showsTheSame(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+);
+
+/// The time since `last` in which events end a thing's past.
+[[nodiscard]] scene::TimeSpan
+spanSince(const RasterRecord& last, const scene::ExposureInterval& exposure);
+
+/// By row of `record`: the same entity's row among `entities`, or kNoRow.
+[[nodiscard]] std::vector<uint32_t>
+findRows(const RasterRecord& record, const std::vector<ecs::Entity>& entities);
+
+} // namespace shutter::extract
