@@ -78,7 +78,9 @@ struct PostContext {
     const graph::TimedRays* timedRays;    ///< null where no effect asked for moving rays
     const SecondRasterView* secondRaster; ///< null where the effect does not ask for it
     graph::ImageHandle color;             ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display;           ///< display-encoded, once somebody made it
+    /// Of `color`: the raster's (ViewRequest::jitterPx), until an effect takes it out.
+    math::dvec2 colorJitterPx;
+    graph::ImageHandle display; ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants

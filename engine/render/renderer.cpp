@@ -334,6 +334,7 @@ Renderer::Tickets Renderer::declareFrame(
         moving ? &timedRays : nullptr,
         nullptr,
         gbuffer.color,
+        request.view.jitterPx,
         {},
         intermediates,
         tables.response,

@@ -8,6 +8,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
 
+#include "common/picture_space.glsl"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/resolved_shared.h"
 
@@ -53,15 +54,6 @@ bool isStillMover(LayerMotion layer, uint mover) {
     return layer.isStill != 0u && (mover == kWorldMover || mover == kSkyMover);
 }
 
-/// Picture space. \param perspective 1 or 0
-vec4 pictureSpace(vec2 at, float depth, bool perspective) {
-    return vec4(at * (perspective ? depth : 1.0f), depth, 1.0f);
-}
-
-vec3 transformRows(vec4 rows[3], vec4 point) {
-    return vec3(dot(rows[0], point), dot(rows[1], point), dot(rows[2], point));
-}
-
 /// A direction has no place: its depth is 1 and it is not displaced.
 float depthOfKey(uint key, float depth) { return key == kSkyKey ? 1.0f : depth; }
 
@@ -95,13 +87,6 @@ uint takenInstant(uint index, uint count, uint all) {
     uint fromEnd = min(index, count - 1u - index);
     uint taken = uint((float(fromEnd) + 0.5f) * (float(all) / float(count)));
     return fromEnd == index ? taken : all - 1u - taken;
-}
-
-/// Nearest depth that counts as in front of a perspective camera, metres.
-const float kLeastDepth = 1.0e-6f;
-
-vec2 projectPicture(vec3 point, bool perspective) {
-    return perspective ? point.xy * (1.0f / max(point.z, kLeastDepth)) : point.xy;
 }
 
 /// Parts of the exposure for each instant, in fixed point for partOf().

@@ -34,6 +34,7 @@ EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, ui
           nullptr,
           color,
           {},
+          {},
           intermediates,
           0,
           0,

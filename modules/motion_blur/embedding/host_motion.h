@@ -24,7 +24,8 @@ struct HostCameraKey {
     /// Perspective or orthographic, the same in all keys. Clip space is Vulkan's: x = -1 is the
     /// picture's left side, y = -1 its top, so a host that flips its viewport negates the second
     /// row. Lenses may be shifted, and depth may have any range and direction. Temporal jitter:
-    /// that of this frame's raster, in all keys.
+    /// that of HostInputs::color, in all keys: this frame's raster's, or none where temporal
+    /// anti-aliasing has taken it out before the blur.
     glm::dmat4 clipFromView{1.0};
 };
 

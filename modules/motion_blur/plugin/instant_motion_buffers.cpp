@@ -14,9 +14,11 @@ InstantMotions InstantMotionBuffers::update(
     std::optional<extract::InstantFrame> secondFrame;
     if (second)
         secondFrame.emplace(second->instant, *second->frame, context.view.jitterPx);
+    extract::ViewRequest view = context.view;
+    view.jitterPx = context.colorJitterPx;
     extract::InstantTables tables = extract::computeInstantTables(
         context.world,
-        context.view,
+        view,
         context.frame,
         instantCount,
         mLast ? &*mLast : nullptr,

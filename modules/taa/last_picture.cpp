@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "modules/taa/last_picture.h"
+
+#include "engine/gpu/vulkan.h"
+
+#include <span>
+#include <utility>
+
+namespace shutter::taa {
+
+namespace {
+
+gpu::ImageDesc describeImage(uint32_t width, uint32_t height) {
+    gpu::ImageDesc desc;
+    desc.width = width;
+    desc.height = height;
+    desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
+    return desc;
+}
+
+} // namespace
+
+LastPicture::Frame LastPicture::turn(const render::PostContext& context) {
+    extract::Reprojection reprojection = extract::computeReprojection(
+        context.world, context.view, context.frame, mRecord ? &*mRecord : nullptr
+    );
+    mRecord = std::move(reprojection.record);
+    Frame frame;
+    frame.isPerspective = reprojection.isPerspective;
+    if (reprojection.last) {
+        frame.last = &mPictures.at(mNewest);
+        frame.places = writePlaces(*reprojection.last, mBuffers.at(context.slot));
+        if (context.facts.exposureSeconds > 0.0)
+            frame.motionScale = float(reprojection.ageSeconds / context.facts.exposureSeconds);
+    }
+    mNewest = 1 - mNewest;
+    gpu::Image& kept = mPictures.at(mNewest);
+    const gpu::ImageDesc desc = describeImage(context.facts.width, context.facts.height);
+    if (!kept.handle() || !(kept.desc() == desc))
+        kept = gpu::Image(mDevice, "anti-aliased picture", desc);
+    frame.kept = &kept;
+    return frame;
+}
+
+shader::LayerMotion
+LastPicture::writePlaces(const math::LayerTables& tables, gpu::Buffer& buffer) const {
+    constexpr VkDeviceSize kAlignment = 16;
+    const VkDeviceSize moverBytes = tables.movers.size() * sizeof(uint32_t);
+    const VkDeviceSize motionsAt = (moverBytes + kAlignment - 1) / kAlignment * kAlignment;
+    const VkDeviceSize bytes = motionsAt + tables.motions.size() * sizeof(shader::InstantMotion);
+    if (buffer.bytes() < bytes)
+        buffer = gpu::Buffer(
+            mDevice,
+            "last places",
+            bytes + bytes / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Stream
+        );
+    buffer.write(std::span<const uint32_t>(tables.movers), 0);
+    buffer.write(std::span<const shader::InstantMotion>(tables.motions), motionsAt);
+    return {
+        gpu::splitAddress(buffer.address()),
+        gpu::splitAddress(buffer.address() + motionsAt),
+        static_cast<uint32_t>(tables.movers.size() - 1),
+        tables.isStill ? 1u : 0u};
+}
+
+void LastPicture::forget() {
+    mRecord.reset();
+    mPictures = {};
+    mBuffers = {};
+}
+
+} // namespace shutter::taa

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// A view's anti-aliased picture, kept for the frame after, and where this frame's surfaces are in
+// it.
+#pragma once
+
+#include "engine/extract/reprojection.h"
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
+#include "engine/render/post_effect.h"
+#include "shaders/common/instant_motion_shared.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace shutter::taa {
+
+class LastPicture {
+  public:
+    /// A frame's own share of it.
+    struct Frame {
+        const gpu::Image* last = nullptr; ///< null: nothing is known of the frame before
+        const gpu::Image* kept = nullptr; ///< for this frame's picture
+        shader::LayerMotion places{};     ///< of this frame's surfaces in `last`
+        float motionScale = 0.0f;         ///< time since `last` in exposures
+        bool isPerspective = true;
+    };
+
+    explicit LastPicture(gpu::Device& device) : mDevice(device) {}
+
+    /// \param context the slot's last frame must be finished. Its view's frames come in their order
+    [[nodiscard]] Frame turn(const render::PostContext& context);
+
+    /// The next frame has none before it; the memory goes once the GPU is done with it.
+    void forget();
+
+  private:
+    [[nodiscard]] shader::LayerMotion
+    writePlaces(const math::LayerTables& tables, gpu::Buffer& buffer) const;
+
+    gpu::Device& mDevice;
+    std::array<gpu::Image, 2> mPictures; ///< in turns: one is read while the other is written
+    uint32_t mNewest = 0;                ///< of mPictures
+    std::optional<extract::RasterRecord> mRecord; ///< of the newest
+    std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;
+};
+
+} // namespace shutter::taa
