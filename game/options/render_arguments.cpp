@@ -183,6 +183,18 @@ core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
     return {};
 }
 
+core::Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
+    if (shot.antiAliasing == AntiAliasing::None || !isSampledAnyway(method))
+        return {};
+    if (method.family == MethodFamily::MotionBlur)
+        return makeError(
+            "--aa is about the raster image, which method {} does not draw", method.name
+        );
+    return makeError(
+        "--aa is about the raster image: method {} has --pixel box instead", method.name
+    );
+}
+
 core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     RenderOptions options;
     auto shot = interpret(arguments.shot);
@@ -194,6 +206,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
         return method.error();
     options.method = std::move(method).value();
     SHUTTER_TRY(checkPixel(options.shot, *options.method.method));
+    SHUTTER_TRY(checkAntiAliasing(options.shot, *options.method.method));
     auto output = interpretOutput(arguments, options.shot, *options.method.method);
     if (!output)
         return output.error();

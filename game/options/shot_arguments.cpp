@@ -17,6 +17,8 @@ using core::makeError;
 using core::Status;
 
 constexpr std::string_view kPixelWords[] = {"centre", "box"};
+/// In the order of AntiAliasing.
+constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
 
 using A = ShotArguments;
 using Row = OptionRow<A>;
@@ -55,6 +57,10 @@ constexpr std::array kTonemapRows = {
 };
 
 constexpr std::array kFrameRows = {
+    makeWordRow<&A::antiAliasing, kAntiAliasingWords>(
+        "--aa",
+        "smooth edges: none (default), taa (by the frames before) or box (the mean of 16 frames)"
+    ),
     makeRow<&A::bloom>(
         "--bloom", "share of the light that the lens scatters, 0 to 1; default 0: no bloom"
     ),
@@ -160,6 +166,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.loop = arguments.loop;
     options.pixel = arguments.pixel;
     options.seed = arguments.seed;
+    options.antiAliasing = arguments.antiAliasing;
     options.unlit = arguments.unlit;
     options.width = arguments.size.width;
     options.height = arguments.size.height;

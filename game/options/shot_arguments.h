@@ -26,6 +26,7 @@ struct ShotArguments {
     ShutterArguments shutter;
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t seed = 0;
+    AntiAliasing antiAliasing = AntiAliasing::None;
     PictureSize size{1280, 720};
     bool unlit = false;
     math::vec3 background{0.18f};
@@ -44,7 +45,7 @@ void defineShotOptions(CLI::App& command, ShotArguments& arguments);
 void defineOutsideOption(CLI::App& command, ShotArguments& arguments);
 /// --tonemap and --ev, which defineShotOptions() includes.
 std::vector<CLI::Option*> defineTonemapOptions(CLI::App& command, ShotArguments& arguments);
-/// --size, --frames, --flythrough and --bloom. To be called after defineShotOptions().
+/// --size, --frames, --flythrough, --bloom and --aa. To be called after defineShotOptions().
 void defineFrameOptions(CLI::App& command, ShotArguments& arguments);
 
 /// Checks everything that needs no file. The flythrough is named but not read:

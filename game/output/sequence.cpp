@@ -164,7 +164,8 @@ class Sequence {
         if (count == 0)
             return {};
         core::Progress progress(
-            "rendering", count * PictureDrawer::countSteps(mOptions.method) * draws
+            "rendering",
+            count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.antiAliasing) * draws
         );
         for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
             if (!isComplete(i)) {

@@ -13,6 +13,19 @@ namespace shutter::game {
 
 namespace {
 
+bool usesTaa(const PictureRequest& request) {
+    return request.antiAliasing == AntiAliasing::Taa && !isSampledAnyway(*request.method.method);
+}
+
+bool isBox(const PictureRequest& request) {
+    return request.antiAliasing == AntiAliasing::Box && !isSampledAnyway(*request.method.method);
+}
+
+/// Several sharp or blurred frames make the picture, whose mean it is.
+bool isAverage(const PictureRequest& request) {
+    return request.method.method->family == MethodFamily::Accumulate || isBox(request);
+}
+
 bool usesFrameBefore(const MethodOptions& method) {
     const motion_blur::MotionBlurSettings& settings = method.motionBlur;
     return method.method->family == MethodFamily::MotionBlur &&
@@ -45,6 +58,19 @@ makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& sett
     return options;
 }
 
+bool isSampledAnyway(const MethodInfo& method) {
+    switch (method.family) {
+    case MethodFamily::Sharp:
+        return false;
+    case MethodFamily::MotionBlur:
+        return !method.blur->readsRaster;
+    case MethodFamily::Accumulate:
+    case MethodFamily::Truth:
+        break;
+    }
+    return true;
+}
+
 std::set<std::string> listIntermediates(const MethodInfo& method) {
     std::set<std::string> names = {"motion", "depth", "normal", "mesh_id"};
     names.insert(method.aovs.begin(), method.aovs.end());
@@ -59,6 +85,7 @@ PictureRequest makePicture(
     picture.method = method;
     picture.pixel = options.pixel;
     picture.seed = options.seed;
+    picture.antiAliasing = options.antiAliasing;
     return picture;
 }
 
@@ -75,10 +102,11 @@ PictureDrawer::~PictureDrawer() {
     }
 }
 
-uint32_t PictureDrawer::countSteps(const MethodOptions& method) {
+uint32_t PictureDrawer::countSteps(const MethodOptions& method, AntiAliasing antiAliasing) {
     const MethodFamily family = method.method->family;
-    const bool isMany = family == MethodFamily::Accumulate || family == MethodFamily::Truth;
-    return isMany ? method.samples : 1;
+    if (family == MethodFamily::Accumulate || family == MethodFamily::Truth)
+        return method.samples;
+    return antiAliasing == AntiAliasing::Box && !isSampledAnyway(*method.method) ? kBoxFrames : 1;
 }
 
 core::Result<PictureRequest>
@@ -108,7 +136,7 @@ PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest&
 
 std::vector<uint32_t>
 PictureDrawer::planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const {
-    const uint32_t total = countSteps(request.method);
+    const uint32_t total = countSteps(request.method, request.antiAliasing);
     if (request.method.method->family != MethodFamily::Truth)
         return std::vector<uint32_t>(total, 1);
     if (request.raysPerFrame == 0) {
@@ -134,10 +162,7 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
         slot.motionBlur->configure(request.method.motionBlur, request.method.budget);
         return slot.motionBlur.get();
     case MethodFamily::Accumulate:
-        if (!slot.accumulate)
-            slot.accumulate = std::make_unique<accumulate::Accumulate>(mDevice);
-        slot.accumulate->setInstant(part.done, part.total);
-        return slot.accumulate.get();
+        return nullptr; // the mean is all it is
     case MethodFamily::Truth: {
         const truth::TruthSettings settings{request.pixel, request.seed};
         finishUntil(0); // what a batch counted is read before the next one
@@ -150,6 +175,30 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
     }
     SHUTTER_CHECK(false, "{} is of no family", request.method.method->name);
     return nullptr;
+}
+
+render::PostEffect* PictureDrawer::prepareTaa(const PictureRequest& request) {
+    if (isSampledAnyway(*request.method.method) || isBox(request))
+        return nullptr;
+    Slot& slot = mSlots[request.slot];
+    if (!slot.taa)
+        slot.taa = std::make_unique<taa::Taa>(mDevice);
+    slot.taa->setEnabled(usesTaa(request));
+    return slot.taa.get();
+}
+
+std::vector<render::PostEffect*>
+PictureDrawer::prepareEffects(const PictureRequest& request, const Part& part) {
+    std::vector<render::PostEffect*> effects{prepareTaa(request), prepareEffect(request, part)};
+    if (isAverage(request)) {
+        Slot& slot = mSlots[request.slot];
+        if (!slot.accumulate)
+            slot.accumulate = std::make_unique<accumulate::Accumulate>(mDevice);
+        slot.accumulate->setInstant(part.done, part.total);
+        effects.push_back(slot.accumulate.get());
+    }
+    std::erase(effects, nullptr);
+    return effects;
 }
 
 core::Status PictureDrawer::submitFrame(
@@ -169,13 +218,14 @@ core::Status PictureDrawer::submitPart(
 ) {
     const MethodFamily family = request.method.method->family;
     const bool isLast = part.done + part.count == part.total;
-    const bool isAverage = family == MethodFamily::Accumulate;
-    const bool hasMore = isAverage && !request.frame.intermediates.empty();
+    const bool hasMore = isAverage(request) && !request.frame.intermediates.empty();
     render::FrameRequest frame = request.frame;
-    if (isAverage)
+    if (family == MethodFamily::Accumulate)
         frame.view = accumulate::makeInstant(
             request.frame.view, part.done, part.total, request.pixel, request.seed
         );
+    else
+        frame.view = placeInPixel(request, part);
     if (family == MethodFamily::Truth)
         frame.view.lodBias += truth::computeLodBias(request.pixel, part.total);
     if (!part.isShown)
@@ -185,11 +235,14 @@ core::Status PictureDrawer::submitPart(
         frame.wantDump = false;
     }
     // An instant's intermediates are not the picture's: submitIntermediates().
-    if (!isLast || isAverage)
+    if (!isLast || isAverage(request))
         frame.intermediates.clear();
-    std::vector<render::PostEffect*> effects;
-    if (render::PostEffect* own = prepareEffect(request, part))
-        effects.push_back(own);
+    if (isBox(request) && request.drawsFramesBefore && usesFrameBefore(request.method)) {
+        PictureRequest placed = request;
+        placed.frame.view = frame.view;
+        SHUTTER_TRY(submitFrameBefore(world, placed, 1));
+    }
+    std::vector<render::PostEffect*> effects = prepareEffects(request, part);
     if (part.isShown)
         effects.insert(effects.end(), request.ending.begin(), request.ending.end());
     const bool isFirst = part.done == request.raysBefore;
@@ -198,42 +251,73 @@ core::Status PictureDrawer::submitPart(
     );
 }
 
-core::Status
-PictureDrawer::submitFrameBefore(const scene::World& world, const PictureRequest& request) {
+extract::ViewRequest PictureDrawer::placeInPixel(const PictureRequest& request, const Part& part) {
     const extract::ViewRequest& view = request.frame.view;
-    const std::optional<extract::ViewRequest> drawn =
-        std::exchange(mSlots[request.slot].drawn, std::nullopt);
-    if (!usesFrameBefore(request.method))
+    if (isBox(request))
+        return accumulate::makeSubpixel(view, part.done, part.total, request.seed);
+    if (!usesTaa(request))
+        return view;
+    const int64_t number = request.drawsFramesBefore ? scene::numberFrame(view.exposure)
+                                                     : mSlots[request.slot].jitteredCount++;
+    return taa::makeJittered(view, number);
+}
+
+core::Status
+PictureDrawer::submitFramesBefore(const scene::World& world, const PictureRequest& request) {
+    const std::optional<Drawn> drawn = std::exchange(mSlots[request.slot].drawn, std::nullopt);
+    const extract::ViewRequest& view = request.frame.view;
+    const bool hasTaa = usesTaa(request);
+    const bool hasRaster = usesFrameBefore(request.method);
+    if ((!hasTaa && !hasRaster) || isBox(request))
         return {};
-    mSlots[request.slot].drawn = view;
-    if (!request.drawsFrameBefore || (drawn && isFrameBefore(*drawn, view)))
+    mSlots[request.slot].drawn = Drawn{view, hasTaa, hasRaster};
+    const bool goesOn = drawn && drawn->hasTaa == hasTaa && drawn->hasRaster == hasRaster &&
+                        isFrameBefore(drawn->view, view);
+    if (!request.drawsFramesBefore || goesOn)
         return {};
+    for (uint32_t age = hasTaa ? taa::kSettlingFrames : 1; age > 0; --age)
+        SHUTTER_TRY(submitFrameBefore(world, request, age));
+    return {};
+}
+
+core::Status PictureDrawer::submitFrameBefore(
+    const scene::World& world, const PictureRequest& request, uint32_t age
+) {
+    const extract::ViewRequest& view = request.frame.view;
     render::FrameRequest before;
     before.view = view;
     before.view.exposure = scene::computeExposure(
         view.exposure.shutter,
-        view.exposure.raster - view.exposure.frameSeconds,
+        view.exposure.raster - age * view.exposure.frameSeconds,
         view.exposure.frameSeconds
     );
+    if (usesTaa(request))
+        before.view = taa::makeJittered(before.view, scene::numberFrame(view.exposure) - age);
     before.wantColor = before.wantPicture = false;
     before.wantTrace = request.frame.wantTrace;
+    std::vector<render::PostEffect*> effects{prepareTaa(request)};
+    if (age == 1 && usesFrameBefore(request.method))
+        effects.push_back(prepareEffect(request, {}));
+    std::erase(effects, nullptr);
     return submitFrame(
         world,
         before,
-        {prepareEffect(request, {})},
+        effects,
         {.slot = request.slot, .isFirst = false, .isLast = false, .isBefore = true}
     );
 }
 
 core::Status
 PictureDrawer::submitIntermediates(const scene::World& world, const PictureRequest& request) {
-    if (request.method.method->family != MethodFamily::Accumulate ||
-        request.frame.intermediates.empty())
+    if (!isAverage(request) || request.frame.intermediates.empty())
         return {};
     render::FrameRequest raster = request.frame;
     raster.wantColor = raster.wantDisplay = raster.showsDisplay = raster.wantDump = false;
     raster.shownIntermediates.clear();
-    return submitFrame(world, raster, {}, {request.slot, false, false, true, true});
+    std::vector<render::PostEffect*> effects;
+    if (render::PostEffect* own = prepareEffect(request, {}))
+        effects.push_back(own);
+    return submitFrame(world, raster, effects, {request.slot, false, false, true, true});
 }
 
 core::Status PictureDrawer::submit(const scene::World& world, const PictureRequest& wanted) {
@@ -241,8 +325,10 @@ core::Status PictureDrawer::submit(const scene::World& world, const PictureReque
     if (!prepared)
         return prepared.error();
     const PictureRequest& request = prepared.value();
-    SHUTTER_TRY(submitFrameBefore(world, request));
-    Part part{.done = request.raysBefore, .total = request.raysBefore + countSteps(request.method)};
+    SHUTTER_TRY(submitFramesBefore(world, request));
+    Part part{
+        .done = request.raysBefore,
+        .total = request.raysBefore + countSteps(request.method, request.antiAliasing)};
     std::vector<uint32_t> counts = planParts(request, {});
     if (counts.empty())
         counts = {0}; // the mean of those before is shown once more
@@ -272,9 +358,9 @@ core::Result<render::FrameResult> PictureDrawer::draw(
     };
     if (request.method.method->family == MethodFamily::Truth)
         return drawTruth(world, request, step, checkpoints);
-    SHUTTER_TRY(submitFrameBefore(world, request));
+    SHUTTER_TRY(submitFramesBefore(world, request));
     finishUntil(0); // else its time would be counted with the frame's
-    Part part{.total = countSteps(request.method)};
+    Part part{.total = countSteps(request.method, request.antiAliasing)};
     for (; part.done < part.total; ++part.done) {
         part.isShown = part.done + 1 == part.total;
         SHUTTER_TRY(submitPart(world, request, part));

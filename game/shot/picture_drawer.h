@@ -9,6 +9,7 @@
 #include "game/shot/shot_options.h"
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "modules/taa/taa.h"
 #include "modules/truth/truth.h"
 
 #include <array>
@@ -29,14 +30,17 @@ struct PictureRequest {
     std::optional<scene::MotionCap> cap{};
     MethodOptions method;
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
-    uint32_t seed = 0;                                       ///< accumulate, truth
+    uint32_t seed = 0;                              ///< accumulate, truth, AntiAliasing::Box
+    AntiAliasing antiAliasing = AntiAliasing::None; ///< unless isSampledAnyway()
     uint32_t raysPerFrame = 0; ///< truth: most rays per pixel of one frame; 0: as the device bears
     /// truth: rays per pixel that the slot's last picture, of the same view, was left with; the
     /// method's samples, then 0 or more, are added to them.
     uint32_t raysBefore = 0;
-    /// The frame before is drawn first for a method that looks things up in it, unless it is what
-    /// the slot drew last.
-    bool drawsFrameBefore = true;
+    /// The frames before are drawn first for a method that looks things up in the last one, and
+    /// for AntiAliasing::Taa, unless the slot drew the last one last. Of them only what is looked
+    /// up is drawn: no blur, rays nor second raster. Without them, places in the pixel follow one
+    /// another as frames are drawn.
+    bool drawsFramesBefore = true;
     /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
     /// finished.
     std::vector<render::PostEffect*> ending;
@@ -49,6 +53,13 @@ struct PictureRequest {
 /// and sample count are set here
 [[nodiscard]] MethodOptions
 makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& settings = {});
+
+/// Frames of AntiAliasing::Box.
+inline constexpr uint32_t kBoxFrames = 16;
+
+/// Whether the method draws no raster image that AntiAliasing could be about: it takes many samples
+/// a pixel itself (extract::PixelModel).
+[[nodiscard]] bool isSampledAnyway(const MethodInfo& method);
 
 /// What `--aov all` reads back of the method's pictures.
 [[nodiscard]] std::set<std::string> listIntermediates(const MethodInfo& method);
@@ -87,8 +98,10 @@ class PictureDrawer {
     [[nodiscard]] static core::Status
     check(const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height);
 
-    /// How often draw() calls onStep: frames of accumulate, rays per pixel of truth, else 1.
-    [[nodiscard]] static uint32_t countSteps(const MethodOptions& method);
+    /// How often draw() calls onStep: frames of accumulate and of AntiAliasing::Box, rays per pixel
+    /// of truth, else 1.
+    [[nodiscard]] static uint32_t
+    countSteps(const MethodOptions& method, AntiAliasing antiAliasing = AntiAliasing::None);
 
     /// What the view's shutter caps, for pictures that share a view. Finishes all frames if there
     /// is a cap to measure.
@@ -114,16 +127,25 @@ class PictureDrawer {
     [[nodiscard]] std::optional<FinishedPicture> takeFinished();
 
   private:
+    /// A picture that the frame after may go on from.
+    struct Drawn {
+        extract::ViewRequest view;
+        bool hasTaa = false;
+        bool hasRaster = false; ///< the method kept it
+    };
+
     /// Effects, made when first used, and what has been collected of the slot's picture.
     struct Slot {
         std::unique_ptr<motion_blur::MotionBlurPlugin> motionBlur;
+        std::unique_ptr<taa::Taa> taa;
         std::unique_ptr<accumulate::Accumulate> accumulate;
         std::unique_ptr<truth::Truth> truth;
         truth::TruthSettings truthSettings;
         render::FrameResult result;
         std::vector<render::WrittenImage> trace; ///< of the picture's frames so far
         uint32_t tracedFrames = 0;
-        std::optional<extract::ViewRequest> drawn; ///< last, by a method that looks it up
+        std::optional<Drawn> drawn; ///< last, where the next frame may look it up
+        int64_t jitteredCount = 0;  ///< of frames whose places in the pixel follow one another
     };
 
     /// One frame of a picture.
@@ -151,7 +173,10 @@ class PictureDrawer {
     [[nodiscard]] core::Status
     submitPart(const scene::World& world, const PictureRequest& request, const Part& part);
     [[nodiscard]] core::Status
-    submitFrameBefore(const scene::World& world, const PictureRequest& request);
+    submitFramesBefore(const scene::World& world, const PictureRequest& request);
+    /// \param age in frames, above 0
+    [[nodiscard]] core::Status
+    submitFrameBefore(const scene::World& world, const PictureRequest& request, uint32_t age);
     [[nodiscard]] core::Status
     submitIntermediates(const scene::World& world, const PictureRequest& request);
     [[nodiscard]] core::Status submitFrame(
@@ -160,8 +185,17 @@ class PictureDrawer {
         const std::vector<render::PostEffect*>& effects,
         const Label& label
     );
+    /// The view of one of the picture's frames, where its samples lie in the pixel.
+    [[nodiscard]] extract::ViewRequest
+    placeInPixel(const PictureRequest& request, const Part& part);
+    /// Null: the method has none.
     [[nodiscard]] render::PostEffect*
     prepareEffect(const PictureRequest& request, const Part& part);
+    /// Null: the picture is no raster image.
+    [[nodiscard]] render::PostEffect* prepareTaa(const PictureRequest& request);
+    /// All that make the picture, before its ending.
+    [[nodiscard]] std::vector<render::PostEffect*>
+    prepareEffects(const PictureRequest& request, const Part& part);
     [[nodiscard]] core::Result<render::FrameResult> drawTruth(
         const scene::World& world,
         const PictureRequest& request,

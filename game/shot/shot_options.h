@@ -26,6 +26,13 @@ namespace shutter::game {
 /// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
 inline constexpr double kMaxSeconds = 1.0e9;
 
+/// How a picture of one raster image gets smooth edges.
+enum class AntiAliasing : uint8_t {
+    None, ///< it does not: one sample a pixel
+    Taa,  ///< by the frames before (modules/taa)
+    Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
+};
+
 /// A scene, its camera, frames, light and look.
 struct ShotOptions {
     std::filesystem::path scene;
@@ -52,6 +59,7 @@ struct ShotOptions {
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};
     extract::PixelModel pixel = extract::PixelModel::Centre;
+    AntiAliasing antiAliasing = AntiAliasing::None;
     uint32_t seed = 0; ///< of random times and places in the pixel
 };
 

@@ -57,7 +57,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     if (!method)
         return method.error();
     PictureRequest request;
-    request.drawsFrameBefore = false; // a window draws frames in their order
+    request.drawsFramesBefore = false; // a window draws frames in their order
     request.frame = frame;
     request.slot = static_cast<uint32_t>(side);
     request.method.method = method.value();

@@ -150,6 +150,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
     };
     const std::string plain = describe({});
     const std::map<std::string, Words> matters = {
+        {"--aa", {"--aa", "taa"}},
         {"--ambient", {"--ambient", "1,1,1"}},
         {"--aov", {"--aov", "motion"}},
         {"--background", {"--background", "1,1,1"}},

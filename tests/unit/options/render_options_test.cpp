@@ -355,6 +355,21 @@ TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
     EXPECT_TRUE(fs::is_empty(mFolder));
 }
 
+TEST_F(RenderOptionsTest, AntiAliasingIsAboutTheRasterImage) {
+    EXPECT_EQ(accept(Words{}).shot.antiAliasing, AntiAliasing::None);
+    EXPECT_EQ(accept(Words{"--aa=taa"}).shot.antiAliasing, AntiAliasing::Taa);
+    EXPECT_EQ(accept(Words{"--aa=box", "--method=resolved"}).shot.antiAliasing, AntiAliasing::Box);
+    refuse("--aa", Words{"--aa=msaa"});
+    for (const char* method : {"accumulate", "truth", "denoised"}) {
+        refuse(
+            "--aa is about the raster image", Words{"--aa=taa", std::string("--method=") + method}
+        );
+        refuse(
+            "--aa is about the raster image", Words{"--aa=box", std::string("--method=") + method}
+        );
+    }
+}
+
 TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
     EXPECT_EQ(accept(Words{}).shot.bloom.share, 0.0f);
     EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.bloom.share, 0.05f);
