@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/demand.h"
 
+#include "engine/extract/row_bounds.h"
 #include "engine/math/bounds.h"
 
 #include <fmt/format.h>
@@ -28,22 +29,10 @@ struct ScreenBox {
     double farthest = std::numeric_limits<double>::infinity();
 };
 
-const math::Bounds& boundsOf(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row) {
-    const auto deformed = std::lower_bound(
-        frame.deformed.begin(),
-        frame.deformed.end(),
-        row,
-        [](const DeformedEntity& entity, uint32_t wanted) { return entity.row < wanted; }
-    );
-    if (deformed != frame.deformed.end() && deformed->row == row)
-        return deformed->bounds;
-    return layout.bounds[frame.entityMeshes[row]];
-}
-
 /// The whole picture where a corner lies before the near plane.
 ScreenBox findBox(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row) {
     const shader::EntityRow& entity = frame.entities[row];
-    const math::Bounds& bounds = boundsOf(frame, layout, row);
+    const math::Bounds& bounds = findRowBounds(frame, layout, row);
     const math::vec4 forward = frame.constants.forward;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     ScreenBox box{row, {kInfinity, kInfinity}, {-kInfinity, -kInfinity}, kInfinity, -kInfinity};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/frame_view.h"
 
+#include "engine/extract/row_bounds.h"
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
@@ -36,25 +37,6 @@ dmat4 jitterClip(const ViewRequest& request) {
 
 bool isIdentical(const dmat4& a, const dmat4& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;
-}
-
-/// True when the box lies wholly beyond one of the side planes or behind the near plane.
-bool isOutside(const dmat4& clipFromObject, const math::Bounds& bounds) {
-    std::array<int, 5> outside{};
-    for (int corner = 0; corner < 8; ++corner) {
-        const dvec3 point(
-            corner & 1 ? bounds.max.x : bounds.min.x,
-            corner & 2 ? bounds.max.y : bounds.min.y,
-            corner & 4 ? bounds.max.z : bounds.min.z
-        );
-        const dvec4 clip = clipFromObject * dvec4(point, 1.0);
-        outside[0] += clip.x < -clip.w;
-        outside[1] += clip.x > clip.w;
-        outside[2] += clip.y < -clip.w;
-        outside[3] += clip.y > clip.w;
-        outside[4] += clip.z > clip.w; // reversed depth: nearer than the near plane
-    }
-    return std::any_of(outside.begin(), outside.end(), [](int count) { return count == 8; });
 }
 
 } // namespace
@@ -192,7 +174,7 @@ PlacedEntity placeEntity(
         placed.moves = shapeChanges || placed.motion.clipFromObjectOpen != unjittered ||
                        placed.motion.clipFromObjectClose != unjittered;
     }
-    placed.visible = !isOutside(clipRaster, bounds);
+    placed.visible = !isOutsideView(clipRaster, bounds);
     const double distance = glm::length(dvec3(eye * dvec4(bounds.centre(), 1.0)));
     // A camera that is nowhere sees all from as far: draws are sorted by this.
     placed.distance =
