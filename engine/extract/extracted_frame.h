@@ -5,6 +5,7 @@
 
 #include "engine/core/result.h"
 #include "engine/extract/deformed_entity.h"
+#include "engine/extract/shadow_settings.h"
 #include "engine/math/bounds.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/deformed_bounds.h"
@@ -51,13 +52,14 @@ struct ViewRequest {
     /// Shutter time of a sharp picture of one instant of the exposure; nothing: the raster instant,
     /// with the motion over the exposure.
     std::optional<double> instant;
-    uint32_t width = 1280;               ///< pixels, above 0
-    uint32_t height = 720;               ///< pixels, above 0
-    math::dvec2 jitterPx{0.0};           ///< moves the sample inside the pixel, [-0.5, 0.5]
-    math::vec3 background{0.0f};         ///< linear RGB where nothing is
-    math::vec3 ambient{0.0f};            ///< uniform radiance from everywhere, linear RGB
-    float lodBias = 0.0f;                ///< added to texture levels; negative is sharper
-    bool unlit = false;                  ///< base colour only
+    uint32_t width = 1280;       ///< pixels, above 0
+    uint32_t height = 720;       ///< pixels, above 0
+    math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]
+    math::vec3 background{0.0f}; ///< linear RGB where nothing is
+    math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
+    float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
+    bool unlit = false;          ///< base colour only
+    ShadowSettings shadows{};
     uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities
 };
 

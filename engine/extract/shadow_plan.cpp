@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/shadow_plan.h"
+
+#include "engine/core/check.h"
+#include "engine/extract/frame_view.h"
+#include "engine/extract/row_bounds.h"
+#include "engine/math/transform.h"
+#include "engine/scene/exposure_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+/// Share of the scene's extent that a light's near plane is away from it.
+constexpr double kNearShare = 1.0e-4;
+
+bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
+    for (uint32_t i = layout.firstGeometry[mesh]; i < layout.firstGeometry[mesh + 1]; ++i)
+        if (layout.geometries[i].alphaMode != scene::AlphaMode::Blend)
+            return true;
+    return false;
+}
+
+Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
+    const math::Bounds box = math::transformBounds(worldFromObject, bounds);
+    Sphere sphere{dvec3(worldFromObject * dvec4(bounds.centre(), 1.0)), 0.0};
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 point(
+            corner & 1 ? bounds.max.x : bounds.min.x,
+            corner & 2 ? bounds.max.y : bounds.min.y,
+            corner & 4 ? bounds.max.z : bounds.min.z
+        );
+        const dvec3 placed(worldFromObject * dvec4(point, 1.0));
+        sphere.radius = std::max(sphere.radius, glm::length(placed - sphere.centre));
+    }
+    // A plane seen from its edge has a sphere too.
+    sphere.radius = std::max(sphere.radius, 1.0e-6 * (1.0 + glm::length(box.size())));
+    return sphere;
+}
+
+/// A light that casts shadows, in the world.
+struct PlacedLight {
+    uint32_t index = 0; ///< of the table of lights
+    scene::Light light;
+    dvec3 position{0.0};
+    dvec3 direction{0.0, 0.0, -1.0}; ///< unit
+};
+
+/// Something that moves, and where in the exposure.
+struct Mover {
+    uint32_t row = 0;
+    Sphere sphere;
+    double seenSize = 0.0; ///< radius over distance from the camera
+};
+
+/// Plans one frame.
+class Planner {
+  public:
+    Planner(
+        const scene::World& world,
+        const SceneLayout& layout,
+        const ViewRequest& view,
+        const ExtractedFrame& frame,
+        bool keepsExposure
+    )
+        : mWorld(world), mLayout(layout), mView(view), mFrame(frame), mFrameView(world, view),
+          mBlurs(
+              view.shadows.mode == ShadowMode::Blurred && (keepsExposure || !view.instant) &&
+              view.exposure.close > view.exposure.open
+          ) {}
+
+    ShadowPlan run() {
+        mPlan.eye = eye();
+        mPlan.shadows = decide();
+        mPlan.blur = {false, "no shadow is drawn"};
+        if (!mPlan.shadows.run)
+            return std::move(mPlan);
+        collectMovers();
+        mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
+        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, 0});
+        for (const PlacedLight& light : mLights)
+            addLightMaps(light);
+        mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
+        for (const PlacedLight& light : mLights)
+            addLayers(light);
+        addInstants();
+        explainBlur();
+        return std::move(mPlan);
+    }
+
+  private:
+    core::Decision decide() {
+        if (mView.shadows.mode == ShadowMode::None)
+            return {false, "shadows are not asked for"};
+        if (mView.unlit)
+            return {false, "the picture is unlit"};
+        if (mFrame.opaque.empty() && mFrame.blended.empty())
+            return {false, "nothing in the picture receives shadows"};
+        collectLights();
+        if (mLights.empty())
+            return {false, "no light casts shadows"};
+        size_t casters = 0;
+        for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
+            casters += castsShadows(mLayout, mFrame.entityMeshes[row]);
+            mScene.add(math::transformBounds(
+                mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row)
+            ));
+        }
+        if (casters == 0)
+            return {false, "nothing casts shadows"};
+        return {
+            true,
+            fmt::format(
+                "{} light{} and {} caster{}",
+                mLights.size(),
+                mLights.size() == 1 ? "" : "s",
+                casters,
+                casters == 1 ? "" : "s"
+            )};
+    }
+
+    void collectLights() {
+        const size_t count = std::min<size_t>(mFrame.lights.size(), shader::kMaxShadowLights);
+        for (uint32_t i = 0; i < count; ++i) {
+            const ecs::Entity entity = mFrame.lightEntities[i];
+            PlacedLight placed{i, mWorld.registry.get<scene::Light>(entity)};
+            const math::vec3 radiance(mFrame.lights[i].radiance);
+            if (!(radiance.x > 0.0f || radiance.y > 0.0f || radiance.z > 0.0f))
+                continue;
+            const dmat4 world =
+                mFrameView.motion().worldFromEntity(entity, mFrameView.times().raster);
+            placed.position = dvec3(world[3]);
+            const double size = glm::length(dvec3(world[2]));
+            if (size > 0.0)
+                placed.direction = -dvec3(world[2]) / size;
+            mLights.push_back(placed);
+        }
+    }
+
+    void collectMovers() {
+        std::vector<Mover> movers;
+        const auto cap = std::min<size_t>(kMaxShadowMovers, kMaxShadowLayers / mLights.size());
+        size_t next = 0; // of movingRows
+        for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
+            const bool moving = next < mFrame.movingRows.size() && mFrame.movingRows[next] == row;
+            next += moving;
+            if (!castsShadows(mLayout, mFrame.entityMeshes[row]))
+                continue;
+            if (!moving) {
+                mPlan.mapCasters.push_back(row);
+                continue;
+            }
+            Mover mover{
+                row, boundSphere(mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row))};
+            const double distance = glm::length(mover.sphere.centre - eye());
+            mover.seenSize = mover.sphere.radius / std::max(distance, mover.sphere.radius);
+            movers.push_back(mover);
+        }
+        std::stable_sort(movers.begin(), movers.end(), [](const Mover& a, const Mover& b) {
+            return a.seenSize > b.seenSize;
+        });
+        mPlan.casterRevision = mFrame.stillSet;
+        for (const Mover& mover : movers) {
+            if (mMovers.size() < cap && fitsLayers(mover)) {
+                mMovers.push_back(mover);
+                continue;
+            }
+            mPlan.mapCasters.push_back(mover.row);
+            mPlan.casterRevision = mFrame.changes.revision; // other maps in each frame
+            ++mSharpMovers;
+        }
+    }
+
+    [[nodiscard]] bool fitsLayers(const Mover& mover) const {
+        return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
+            return light.light.kind == scene::LightKind::Directional ||
+                   fitsPointLayer(light.position, mover.sphere);
+        });
+    }
+
+    [[nodiscard]] dvec3 eye() const { return mFrameView.matrices().eye; }
+
+    void addMap(const LightView& view, uint32_t sizePx, uint32_t mover) {
+        const auto first = static_cast<uint32_t>(mPlan.texelCount);
+        mPlan.maps.push_back({view, sizePx, first, mover});
+        mPlan.texelCount += uint64_t{sizePx} * sizePx;
+    }
+
+    void addLightMaps(const PlacedLight& light) {
+        const uint32_t size = mView.shadows.mapSize;
+        const double near = kNearShare * std::max(glm::length(mScene.size()), 1.0e-3);
+        shader::ShadowLight& row = mPlan.lights[light.index];
+        row.firstMap = static_cast<uint32_t>(mPlan.maps.size());
+        if (light.light.kind == scene::LightKind::Directional) {
+            for (const LightView& view :
+                 fitCascades(sliceOfCamera(), -light.direction, mScene, findFarthest(), size))
+                addMap(view, size, shader::kNoEntity);
+        } else if (light.light.kind == scene::LightKind::Spot && light.light.outerConeAngle <= kWidestSpot) {
+            addMap(
+                fitSpot(light.position, light.direction, light.light.outerConeAngle, near, size),
+                size,
+                shader::kNoEntity
+            );
+        } else {
+            for (const LightView& view : fitCube(light.position, near, size / 2))
+                addMap(view, size / 2, shader::kNoEntity);
+        }
+        row.mapCount = static_cast<uint32_t>(mPlan.maps.size()) - row.firstMap;
+    }
+
+    void addLayers(const PlacedLight& light) {
+        const uint32_t size = mView.shadows.mapSize / 4;
+        mPlan.lights[light.index].firstLayer = static_cast<uint32_t>(mPlan.maps.size());
+        for (const Mover& mover : mMovers)
+            addMap(
+                light.light.kind == scene::LightKind::Directional
+                    ? fitLayer(-light.direction, mover.sphere, size)
+                    : fitPointLayer(light.position, mover.sphere, size),
+                size,
+                mover.row
+            );
+    }
+
+    [[nodiscard]] CameraSlice sliceOfCamera() const {
+        const shader::FrameConstants& constants = mFrame.constants;
+        CameraSlice slice;
+        slice.eye = eye();
+        slice.forward = glm::normalize(dvec3(math::vec3(constants.forward)));
+        slice.isPerspective = constants.pixelFootprint.x > 0.0f;
+        const double pixel =
+            slice.isPerspective ? constants.pixelFootprint.x : constants.pixelFootprint.y;
+        slice.cornerReach =
+            0.5 * pixel * std::hypot(double(constants.sizePx.x), double(constants.sizePx.y));
+        slice.near = mWorld.registry.get<scene::Camera>(mView.camera).near;
+        return slice;
+    }
+
+    /// Distance along the view that nothing is beyond.
+    [[nodiscard]] double findFarthest() const {
+        const dvec3 forward(math::vec3(mFrame.constants.forward));
+        double farthest = 0.0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const dvec3 point(
+                corner & 1 ? mScene.max.x : mScene.min.x,
+                corner & 2 ? mScene.max.y : mScene.min.y,
+                corner & 4 ? mScene.max.z : mScene.min.z
+            );
+            farthest = std::max(farthest, glm::dot(point - eye(), forward));
+        }
+        const double least = 2.0 * mWorld.registry.get<scene::Camera>(mView.camera).near;
+        if (mView.shadows.distance > 0.0)
+            farthest = std::min(farthest, mView.shadows.distance);
+        return std::max(farthest, least);
+    }
+
+    /// Where the picture has the mover at shutter time s.
+    [[nodiscard]] dmat4 worldAt(const Mover& mover, double s) const {
+        return mFrameView.motion().worldFromObject(mFrame.entityHandles[mover.row], s);
+    }
+
+    [[nodiscard]] math::vec4 toEye(const Sphere& sphere) const {
+        return {math::vec3(sphere.centre - eye()), float(sphere.radius)};
+    }
+
+    void addInstants() {
+        const scene::ShutterResponse& response = mView.exposure.shutter.response;
+        for (const Mover& mover : mMovers) {
+            shader::ShadowMover row{};
+            row.entity = mover.row;
+            row.sphere = row.sweptSphere = toEye(mover.sphere);
+            row.instantCount = 1;
+            row.firstInstant = static_cast<uint32_t>(mPlan.instants.size());
+            const dmat4& raster = mFrame.worldFromObject[mover.row];
+            const dmat4 fromRaster = glm::inverse(raster);
+            math::Bounds centres;
+            bool moves = false;
+            for (uint32_t i = 0; mBlurs && i < mPlan.instantCount; ++i) {
+                const double s = scene::invertResponse(response, (i + 0.5) / mPlan.instantCount);
+                const dmat4 instant = worldAt(mover, s);
+                const bool regular = isDrawable(instant);
+                const dmat4 motion = regular ? instant * fromRaster : dmat4(1.0);
+                moves = moves || motion != dmat4(1.0);
+                centres.add(dvec3(motion * dvec4(mover.sphere.centre, 1.0)));
+                mPlan.instants.push_back(makeInstant(glm::inverse(motion)));
+            }
+            if (!moves) {
+                mPlan.instants.resize(row.firstInstant);
+            } else {
+                row.instantCount = mPlan.instantCount;
+                const Sphere swept{
+                    centres.centre(),
+                    1.01 * mover.sphere.radius + 0.5 * glm::length(centres.size())};
+                row.sweptSphere = toEye(swept);
+                ++mMoving;
+            }
+            mPlan.movers.push_back(row);
+        }
+        if (mMoving == 0)
+            mPlan.instantCount = 1;
+    }
+
+    [[nodiscard]] shader::ShadowInstant makeInstant(const dmat4& rasterFromInstant) const {
+        const dmat4 matrix = glm::translate(dmat4(1.0), -eye()) * rasterFromInstant *
+                             glm::translate(dmat4(1.0), eye());
+        shader::ShadowInstant row{};
+        for (int i = 0; i < 3; ++i)
+            row.rasterFromInstant[i] =
+                math::vec4(matrix[0][i], matrix[1][i], matrix[2][i], matrix[3][i]);
+        return row;
+    }
+
+    void explainBlur() {
+        if (mView.shadows.mode != ShadowMode::Blurred)
+            mPlan.blur = {false, "sharp shadows are asked for"};
+        else if (!mBlurs)
+            mPlan.blur = {false, "the picture is of one instant"};
+        else if (mMoving == 0)
+            mPlan.blur = {false, "no caster moves during the exposure"};
+        else
+            mPlan.blur = {
+                true,
+                fmt::format(
+                    "{} caster{} in motion, {} instants{}",
+                    mMoving,
+                    mMoving == 1 ? "" : "s",
+                    mPlan.instantCount,
+                    mSharpMovers == 0 ? "" : fmt::format("; {} more stay sharp", mSharpMovers)
+                )};
+    }
+
+    const scene::World& mWorld;
+    const SceneLayout& mLayout;
+    const ViewRequest& mView;
+    const ExtractedFrame& mFrame;
+    FrameView mFrameView;
+    bool mBlurs = false;
+    std::vector<PlacedLight> mLights;
+    math::Bounds mScene; ///< all rows, world space
+    std::vector<Mover> mMovers;
+    size_t mMoving = 0;      ///< of mMovers, in the exposure
+    size_t mSharpMovers = 0; ///< that have no layers
+    ShadowPlan mPlan;
+};
+
+} // namespace
+
+core::Status validate(const ShadowSettings& settings) {
+    if (settings.mapSize < 64 || settings.mapSize > 8192 || settings.mapSize % 64 != 0)
+        return core::makeError(
+            "shadows: mapSize is {}, it must be 64 to 8192 and a multiple of 64", settings.mapSize
+        );
+    if (!(settings.distance >= 0.0 && std::isfinite(settings.distance))) // NaN too
+        return core::makeError(
+            "shadows: distance is {}, it must be 0 or more and finite", settings.distance
+        );
+    if (settings.instants < 1 || settings.instants > 64)
+        return core::makeError("shadows: instants is {}, it must be 1 to 64", settings.instants);
+    return {};
+}
+
+ShadowPlan planShadows(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const ExtractedFrame& frame,
+    bool keepsExposure
+) {
+    return Planner(world, layout, view, frame, keepsExposure).run();
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The shadows that a frame calls for: which lights have maps and from where, which casters are in
+// them, and which movers have layers of their own. Pure: nothing here knows of the device.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/shadow_settings.h"
+#include "engine/extract/shadow_views.h"
+#include "shaders/render/shadow_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Most movers with layers of their own, by how large the camera sees them. Further ones are drawn
+/// into the lights' maps, which are then drawn anew in each frame, and their shadows stay sharp.
+inline constexpr uint32_t kMaxShadowMovers = 32;
+/// Most layers, of all lights together.
+inline constexpr uint32_t kMaxShadowLayers = 64;
+
+/// A map and what is in it.
+struct PlannedMap {
+    LightView view;
+    uint32_t sizePx = 0;
+    uint32_t firstTexel = 0; ///< in the frame's texels
+    /// Row of the mover whose layer this is; shader::kNoEntity: casters of ShadowPlan::mapCasters.
+    uint32_t mover = shader::kNoEntity;
+};
+
+struct ShadowPlan {
+    core::Decision shadows;           ///< whether any light casts shadows in this frame
+    core::Decision blur;              ///< whether shadows of what moves are means over the exposure
+    std::vector<PlannedMap> maps;     ///< those of lights, then movers' layers
+    uint32_t lightMapCount = 0;       ///< of `maps`: those of lights
+    std::vector<uint32_t> mapCasters; ///< rows of the entity table
+    /// Changes whenever one of mapCasters may have changed.
+    uint64_t casterRevision = 0;
+    std::vector<shader::ShadowLight> lights; ///< one a light
+    std::vector<shader::ShadowMover> movers;
+    std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
+    uint32_t instantCount = 1;
+    uint64_t texelCount = 0;
+    math::dvec3 eye{0.0}; ///< origin of the frame's eye space, in the world
+};
+
+/// \param view the frame's; with an instant, shadows are those of that instant alone
+/// \param keepsExposure although the view has an instant, shadows are means over the exposure
+[[nodiscard]] ShadowPlan planShadows(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const ExtractedFrame& frame,
+    bool keepsExposure
+);
+
+} // namespace shutter::extract

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/result.h"
+
+#include <cstdint>
+
+namespace shutter::extract {
+
+enum class ShadowMode : uint8_t {
+    None,    ///< lights shine through everything
+    Sharp,   ///< what moves casts its shadow as at the raster instant
+    Blurred, ///< what moves casts it over the exposure
+};
+
+struct ShadowSettings {
+    ShadowMode mode = ShadowMode::None;
+    /// Width and height of a map, texels, [64, 8192], a multiple of 64: of each cascade of a
+    /// directional light and of a spot's map. The six of a point light have half of it, a mover's
+    /// layer a quarter.
+    uint32_t mapSize = 1024;
+    /// How far from the camera directional lights cast shadows, metres, 0 or more; 0: as far as the
+    /// scene reaches.
+    double distance = 0.0;
+    /// Instants of the exposure that a moving shadow is the mean of, [1, 64].
+    uint32_t instants = 16;
+};
+
+/// One sentence where a setting is out of its range.
+[[nodiscard]] core::Status validate(const ShadowSettings& settings);
+
+} // namespace shutter::extract

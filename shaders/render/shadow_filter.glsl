@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// Where a shadow map is looked up, and what its texels say. No bindings: unit tests run it too.
+#ifndef SHUTTER_SHADOW_FILTER_GLSL
+#define SHUTTER_SHADOW_FILTER_GLSL
+
+#include "common/numeric.glsl"
+#include "render/shadow_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// How far a point goes off its surface before it is looked up, for what its plane does not say:
+/// curvature, and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
+/// \return metres
+/// \param cosine of the angle between normal and light
+SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
+    float sine = sqrt(max(1.0f - cosine * cosine, 0.0f));
+    return texelMetres * (0.5f * sine + 0.05f);
+}
+
+/// How a plane's depth changes from texel to texel of a map, towards x and y (Isidoro 2006, "Shadow
+/// Mapping: GPU-based Tips and Techniques", receiver plane depth bias). Exact in perspective too:
+/// near / distance is linear in the map. 0 for a plane that the light sees from its edge.
+/// \param clip of the point; along, across: of two directions in the plane
+SHUTTER_INLINE vec2 planeSlope(vec4 clip, vec4 along, vec4 across, uint sizePx) {
+    float w = max(clip.w, 1.0e-30f);
+    vec3 at = vec3(clip) / w;
+    vec3 a = (vec3(along) - at * along.w) / w;
+    vec3 b = (vec3(across) - at * across.w) / w;
+    float determinant = a.x * b.y - a.y * b.x;
+    float size2 = (a.x * a.x + a.y * a.y) + (b.x * b.x + b.y * b.y);
+    // Beyond 84 degrees the slope is worth less than its rounding.
+    if (!(abs(determinant) > 0.05f * size2)) return vec2(0.0f);
+    vec2 slope = vec2(a.z * b.y - b.z * a.y, b.z * a.x - a.z * b.x) / determinant;
+    return slope * (2.0f / float(sizePx));
+}
+
+/// Quadratic B-spline over three texels: shadows' edges have no steps.
+/// \param offset from the middle texel's centre, texels, [-0.5, 0.5]
+SHUTTER_INLINE vec3 splineWeights(float offset) {
+    float before = 0.5f - offset;
+    float after = 0.5f + offset;
+    return vec3(0.5f * before * before, 0.75f - offset * offset, 0.5f * after * after);
+}
+
+/// A place in a map.
+struct ShadowPlace {
+    vec2 texel;      // from the map's corner
+    float depth;     // of the receiver, biased
+    vec2 slope;      // of its depth, a texel
+    bool isCovered;  // the map has all texels that the filter reads
+};
+
+/// \param clip the receiver's; w above 0 is in front of the light
+/// \param slope planeSlope()'s
+SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float depthBias) {
+    ShadowPlace place;
+    place.slope = slope;
+    float size = float(sizePx);
+    place.isCovered = clip.w > 0.0f;
+    float scale = 1.0f / max(clip.w, 1.0e-30f);
+    place.texel = (vec2(clip.x, clip.y) * scale * 0.5f + 0.5f) * size;
+    place.depth = clip.z * scale * (1.0f + 1.0e-6f) + depthBias;
+    // Written so that NaN is not covered.
+    place.isCovered = place.isCovered && place.texel.x >= kShadowFilterTexels &&
+                      place.texel.y >= kShadowFilterTexels &&
+                      place.texel.x <= size - kShadowFilterTexels &&
+                      place.texel.y <= size - kShadowFilterTexels;
+    return place;
+}
+
+/// Share of a row of three texels that lets light through. Casters of depth 0 are none.
+SHUTTER_INLINE float lightThrough(vec3 casters, vec3 weights, vec3 depths) {
+    vec3 at = max(depths, vec3(1.0e-30f));
+    return (casters.x > at.x ? 0.0f : weights.x) + (casters.y > at.y ? 0.0f : weights.y) +
+           (casters.z > at.z ? 0.0f : weights.z);
+}
+
+/// Which of a point light's six maps sees a direction: +x -x +y -y +z -z.
+SHUTTER_INLINE uint cubeFace(vec3 direction) {
+    vec3 a = abs(direction);
+    if (a.x >= a.y && a.x >= a.z) return direction.x >= 0.0f ? 0u : 1u;
+    if (a.y >= a.z) return direction.y >= 0.0f ? 2u : 3u;
+    return direction.z >= 0.0f ? 4u : 5u;
+}
+
+/// Whether the way from a point to the light passes through a sphere.
+/// \param toLight unit
+/// \param distance_ to the light, metres
+SHUTTER_INLINE bool meetsSphere(vec3 point, vec3 toLight, float distance_, vec4 sphere) {
+    vec3 offset = vec3(sphere) - point;
+    float along = dot(offset, toLight);
+    if (along < -sphere.w || along > distance_ + sphere.w) return false;
+    vec3 across = offset - toLight * along;
+    return dot(across, across) <= sphere.w * sphere.w;
+}
+
+/// Where a receiver is looked up in the layer of a mover that turned since, for a light that is far
+/// away. The layer was drawn along `toLight`; as the mover sees it the light now comes along
+/// `turned`. The ray keeps the place where it passes the mover's middle, so a turn moves the shadow
+/// by no more than the mover's own points move; only the outline is still the layer's.
+/// \param point, turned the ray as the mover sees it; both directions unit
+SHUTTER_INLINE vec3 alignRay(vec3 point, vec3 turned, vec3 toLight, vec3 centre) {
+    float along = dot(centre - point, turned);
+    return point + turned * along - toLight * along;
+}
+
+/// The same for a light at a place.
+/// \param seen where the mover sees the light, `light` where the layer saw it
+/// \return w 0: the receiver does not lie before the light as the mover sees it; else 1
+SHUTTER_INLINE vec4 alignPointRay(vec3 point, vec3 seen, vec3 light, vec3 centre) {
+    vec3 axis = centre - seen;
+    float share = dot(point - seen, axis) / max(dot(axis, axis), 1.0e-30f); // 1: beside the middle
+    if (!(share > 0.0f)) return vec4(0.0f);
+    vec3 beside = seen + (point - seen) / share;
+    return vec4(light + (beside - light) * share, 1.0f);
+}
+
+SHUTTER_SHADER_END
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Shadow maps as the shading reads them. "Texels" are floats in a buffer rather than an image, so
+// that whatever shades by a frame's constants, raster or ray, has them without a binding of its
+// own.
+#ifndef SHUTTER_SHADOW_SHARED_H
+#define SHUTTER_SHADOW_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// Lights beyond these, in the order of the table of lights, cast no shadows: neither by maps nor
+/// by rays.
+SHUTTER_CONST uint kMaxShadowLights = 16u;
+/// ShadowLight::firstMap of a light that has no maps.
+SHUTTER_CONST uint kNoShadowMap = 0xFFFFFFFFu;
+/// Texels to each side of a lookup's own that its filter may read.
+SHUTTER_CONST float kShadowFilterTexels = 1.5f;
+
+/// One view of a light. Depth is reversed: 1 nearest the light, 0 where there is no caster.
+struct ShadowMap {
+    mat4 clipFromEye;  // x, y in [-1, 1] over the map
+    uint firstTexel;   // in ShadowConstants::texels; rows of sizePx, top row first
+    uint sizePx;       // width and height
+    float texelMetres; // width of a texel, metres: at clip w = 1
+    float depthBias;   // added to a receiver's depth, towards the light
+};
+
+/// Beside each row of the table of lights.
+struct ShadowLight {
+    uint firstMap;   // of the light's maps, or kNoShadowMap: the light casts no shadows
+    uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
+    uint firstLayer; // map of the first mover's layer; the others follow
+    uint padding0;
+};
+
+/// A caster that moves, and has a layer of its own for each light.
+struct ShadowMover {
+    vec4 sphere;       // xyz eye space, w radius, metres: at the raster instant
+    vec4 sweptSphere;  // the same over the whole exposure
+    uint entity;       // row of the entity table
+    uint firstInstant; // in the table of instants
+    uint instantCount; // 1: it stands still in the exposure; else ShadowConstants::instantCount
+    uint padding0;
+};
+
+/// Where a mover is at one instant: takes points of eye space to where they are as seen from the
+/// mover at the raster instant. Rows of a 3x4 matrix.
+struct ShadowInstant {
+    vec4 rasterFromInstant[3];
+};
+
+struct ShadowConstants {
+    uvec2 texels;   // addresses: of float[]
+    uvec2 lights;   // of ShadowLight[]
+    uvec2 maps;     // of ShadowMap[]
+    uvec2 movers;   // of ShadowMover[]
+    uvec2 instants; // of ShadowInstant[]
+    uint lightCount;
+    uint moverCount;
+    uint instantCount; // 1: shadows as at the raster instant
+    uint padding0;
+};
+
+/// Push constants of the draws into shadow maps.
+struct ShadowDraw {
+    mat4 clipFromObject;
+    uvec2 frame;   // address of FrameConstants
+    uint geometry; // row of the geometry table
+    uint padding0;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::ShadowMap) == 80);
+static_assert(sizeof(shutter::shader::ShadowLight) == 16);
+static_assert(sizeof(shutter::shader::ShadowMover) == 48);
+static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
+static_assert(sizeof(shutter::shader::ShadowConstants) == 56);
+static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
+#endif
+
+#endif

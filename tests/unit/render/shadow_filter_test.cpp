@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Where shadow maps are looked up, and what their texels say.
+#include "engine/extract/shadow_views.h"
+#include "engine/math/math.h"
+#include "shaders/render/shadow_filter.glsl"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace shutter::shader {
+
+namespace {
+
+constexpr uint kSize = 128;
+
+ShadowPlace placeAt(const dmat4& clipFromWorld, const dvec3& point) {
+    return placeInMap(vec4(clipFromWorld * dvec4(point, 1.0)), vec2(0.0f), kSize, 0.0f);
+}
+
+/// Depths of a plane at two places of a map, and what its slope at one says of the other.
+void expectSlope(
+    const dmat4& clipFromWorld, const dvec3& from, const dvec3& along, const dvec3& across
+) {
+    const vec2 slope = planeSlope(
+        vec4(clipFromWorld * dvec4(from, 1.0)),
+        vec4(clipFromWorld * dvec4(along, 0.0)),
+        vec4(clipFromWorld * dvec4(across, 0.0)),
+        kSize
+    );
+    const ShadowPlace here = placeAt(clipFromWorld, from);
+    for (const dvec3& way : {along, across, along + across}) {
+        const ShadowPlace there = placeAt(clipFromWorld, from + 0.3 * way);
+        ASSERT_TRUE(there.isCovered);
+        EXPECT_NEAR(here.depth + dot(slope, there.texel - here.texel), there.depth, 1e-5f);
+    }
+    EXPECT_GT(length(slope), 1e-6f);
+}
+
+} // namespace
+
+TEST(ShadowFilter, WeightsSumToOneAndAreEvenAtTheCentre) {
+    for (const float offset : {-0.5f, -0.2f, 0.0f, 0.31f, 0.5f}) {
+        const vec3 weights = splineWeights(offset);
+        EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0f, 1e-6f);
+    }
+    EXPECT_EQ(splineWeights(0.0f).x, splineWeights(0.0f).z);
+    // From texel to texel without a step.
+    EXPECT_NEAR(splineWeights(0.5f).z, splineWeights(-0.5f).y, 1e-6f);
+}
+
+TEST(ShadowFilter, ASlopeIsExactOnAPlaneWhateverTheView) {
+    const extract::LightView layer =
+        extract::fitLayer(glm::normalize(dvec3(0.3, 1.0, 0.2)), {{0, 0, 0}, 2.0}, kSize);
+    expectSlope(layer.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0, 0}, {0, 0, 1});
+    expectSlope(layer.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0.5, 0}, {0, 0.2, 1});
+    const extract::LightView spot =
+        extract::fitSpot({0, 5, 1}, glm::normalize(dvec3(0.1, -1, 0)), 0.7, 0.01, kSize);
+    expectSlope(spot.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0.3, 0}, {0, 0.2, 1});
+}
+
+TEST(ShadowFilter, APlaneSeenFromItsEdgeHasNoSlope) {
+    const extract::LightView layer = extract::fitLayer({0, 1, 0}, {{0, 0, 0}, 2.0}, kSize);
+    const vec2 slope = planeSlope(
+        vec4(layer.clipFromWorld * dvec4(0, 0, 0, 1)),
+        vec4(layer.clipFromWorld * dvec4(1, 0, 0, 0)),
+        vec4(layer.clipFromWorld * dvec4(0, 1, 0, 0)),
+        kSize
+    );
+    EXPECT_EQ(slope, vec2(0.0f));
+}
+
+TEST(ShadowFilter, PlacesOutsideOfAMapAreNotCovered) {
+    EXPECT_TRUE(placeInMap(vec4(0, 0, 0.5f, 1), vec2(0), kSize, 0.0f).isCovered);
+    EXPECT_FALSE(placeInMap(vec4(0.999f, 0, 0.5f, 1), vec2(0), kSize, 0.0f).isCovered);
+    EXPECT_FALSE(placeInMap(vec4(0, -0.999f, 0.5f, 1), vec2(0), kSize, 0.0f).isCovered);
+    EXPECT_FALSE(placeInMap(vec4(0, 0, 0.5f, -1), vec2(0), kSize, 0.0f).isCovered);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(placeInMap(vec4(nan, 0, 0.5f, 1), vec2(0), kSize, 0.0f).isCovered);
+}
+
+TEST(ShadowFilter, EmptyTexelsHoldNoLightBackEvenBehindTheMapsReach) {
+    const vec3 weights = splineWeights(0.1f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.0f), weights, vec3(-0.5f)), 1.0f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.2f), weights, vec3(-0.5f)), 0.0f);
+    EXPECT_FLOAT_EQ(lightThrough(vec3(0.2f, 0.6f, 0.2f), weights, vec3(0.4f)), 1.0f - weights.y);
+}
+
+TEST(ShadowFilter, AMoverThatOnlyWentElsewhereKeepsItsRay) {
+    const vec3 light = normalize(vec3(0.2f, 1.0f, 0.1f));
+    const vec3 point(1.0f, -2.0f, 0.5f);
+    const vec3 aligned = alignRay(point, light, light, vec3(0.3f, 1.0f, 0.0f));
+    EXPECT_NEAR(length(aligned - point), 0.0f, 1e-5f);
+    const vec4 byPoint = alignPointRay(point, vec3(0, 5, 0), vec3(0, 5, 0), vec3(0.3f, 1.0f, 0.0f));
+    EXPECT_EQ(byPoint.w, 1.0f);
+    EXPECT_NEAR(length(vec3(byPoint) - point), 0.0f, 1e-5f);
+}
+
+TEST(ShadowFilter, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
+    const vec3 light(0.0f, 1.0f, 0.0f);
+    const vec3 turned = normalize(vec3(0.1f, 1.0f, 0.0f));
+    const vec3 centre(0.0f);
+    // Through the middle, from far below.
+    const vec3 aligned = alignRay(-8.0f * turned, turned, light, centre);
+    EXPECT_NEAR(aligned.x, 0.0f, 1e-5f);
+    EXPECT_NEAR(aligned.y, -8.0f, 1e-4f);
+}
+
+TEST(ShadowFilter, WhatIsBehindAPointLightIsNotLookedUp) {
+    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0)).w, 0.0f);
+}
+
+TEST(ShadowFilter, ARayMeetsSpheresBetweenItsEndsAlone) {
+    const vec4 sphere(0.0f, 3.0f, 0.0f, 1.0f);
+    EXPECT_TRUE(meetsSphere(vec3(0.9f, 0, 0), vec3(0, 1, 0), 10.0f, sphere));
+    EXPECT_FALSE(meetsSphere(vec3(1.1f, 0, 0), vec3(0, 1, 0), 10.0f, sphere));
+    EXPECT_FALSE(meetsSphere(vec3(0), vec3(0, 1, 0), 1.5f, sphere)) << "the light is before it";
+    EXPECT_FALSE(meetsSphere(vec3(0, 5, 0), vec3(0, 1, 0), 10.0f, sphere)) << "it lies behind";
+    EXPECT_TRUE(meetsSphere(vec3(0, 3, 0), vec3(0, 1, 0), 10.0f, sphere)) << "from inside";
+}
+
+} // namespace shutter::shader
