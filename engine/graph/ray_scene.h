@@ -17,6 +17,7 @@ struct RayScene {
     /// Access::ShaderRead; invalid where nothing is deformed.
     BufferHandle deformedBlasBuffer;
     BufferHandle deformedBuffer;
+    BufferHandle shadowBuffer; ///< read with Access::ShaderRead; invalid: there are no shadow maps
     VkAccelerationStructureKHR tlas = VK_NULL_HANDLE; ///< custom index: row of the entity table
     VkDescriptorSet textures = VK_NULL_HANDLE;        ///< set 1 of pipelines: bindless textures
     VkDeviceAddress frameConstants = 0;               ///< shader::FrameConstants

@@ -125,7 +125,7 @@ GBuffer GBufferPass::declare(
     const std::string& name,
     const extract::ExtractedFrame& frame,
     const gpu_scene::GpuScene& scene,
-    graph::BufferHandle shapes,
+    std::span<const graph::BufferHandle> reads,
     VkDeviceAddress frameConstants
 ) const {
     const auto width = static_cast<uint32_t>(frame.constants.sizePx.x);
@@ -143,8 +143,9 @@ GBuffer GBufferPass::declare(
         name,
         graph::PassKind::Raster,
         [&](graph::PassBuilder& builder, Data&) {
-            if (shapes.isValid())
-                builder.read(shapes, graph::Access::ShaderRead);
+            for (const graph::BufferHandle buffer : reads)
+                if (buffer.isValid())
+                    builder.read(buffer, graph::Access::ShaderRead);
             const auto zero = graph::ClearColor::floats(0.0f, 0.0f, 0.0f, 0.0f);
             targets.color = builder.colorTarget(targets.color, zero);
             targets.normal = builder.colorTarget(targets.normal, zero);

@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace shutter::render {
@@ -38,13 +39,13 @@ class GBufferPass {
 
     /// Declares the pass. `frame` and `scene` must live until it has been recorded.
     /// \param name of the pass
-    /// \param shapes vertices of deformed meshes; invalid: there are none
+    /// \param reads what its shaders reach by addresses; invalid ones are passed over
     [[nodiscard]] GBuffer declare(
         graph::Graph& graph,
         const std::string& name,
         const extract::ExtractedFrame& frame,
         const gpu_scene::GpuScene& scene,
-        graph::BufferHandle shapes,
+        std::span<const graph::BufferHandle> reads,
         VkDeviceAddress frameConstants
     ) const;
 

@@ -74,6 +74,7 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
     look.view = view;
     look.view.exposure.cap = {};
     look.view.instant.reset();
+    look.view.shadows.mode = extract::ShadowMode::None; // only motion counts
     look.isLook = true;
     look.wantColor = false;
     const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;

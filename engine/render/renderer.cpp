@@ -8,6 +8,7 @@
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
 
+#include <array>
 #include <chrono>
 #include <cstring>
 
@@ -53,7 +54,7 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
 
 Renderer::Slot::Slot(gpu::Device& device)
     : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
-      timedScene(device), secondRaster(device) {}
+      timedScene(device), secondRaster(device), shadows(device) {}
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
@@ -262,6 +263,9 @@ void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEf
         if (secondRasterIdle)
             slot->secondRaster.emplace(mDevice);
     }
+    if (mShadowsIdle.advance((frame.constants.flags & shader::kFrameShadows) != 0))
+        for (const auto& slot : mSlots)
+            slot->shadows.emplace(mDevice);
     if (mBlasIdle.advance(anyRays))
         mScene.releaseBlas();
 }
@@ -296,6 +300,17 @@ Renderer::Tickets Renderer::declareFrame(
         declareTlas(slot, graph, frame, shapes, rays);
         mTlasMilliseconds = nowMilliseconds() - start;
     }
+    slot.shadows->prepare(
+        extract::planShadows(world, mScene.layout(), request.view, frame, /*keepsExposure=*/false),
+        frame
+    );
+    const extract::ShadowPlan& shadows = slot.shadows->plan();
+    if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
+        mShadowPipelines.emplace(mDevice, mScene);
+    if (request.wantReasons) {
+        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
+        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
+    }
     const double start = nowMilliseconds();
     mWritten = slot.tables.updateEntities(frame);
     mTableMilliseconds = nowMilliseconds() - start;
@@ -316,9 +331,21 @@ Renderer::Tickets Renderer::declareFrame(
         );
         timedRays.deformedBuffer = shapes.buffer;
     }
+    if (mShadowPipelines) {
+        explainer.beginPasses(graph, PassOwner::Scene, "what shadow maps show has changed");
+        rays.shadowBuffer = slot.shadows->declare(
+            graph, *mShadowPipelines, frame, mScene, shapes.buffer, rays.frameConstants
+        );
+    }
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
-    const GBuffer gbuffer =
-        mGBufferPass.declare(graph, "G-buffer", frame, mScene, shapes.buffer, rays.frameConstants);
+    const GBuffer gbuffer = mGBufferPass.declare(
+        graph,
+        "G-buffer",
+        frame,
+        mScene,
+        std::array{shapes.buffer, rays.shadowBuffer},
+        rays.frameConstants
+    );
     std::set<std::string> wanted = request.intermediates;
     wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
     Intermediates intermediates(std::move(wanted));
@@ -346,7 +373,9 @@ Renderer::Tickets Renderer::declareFrame(
         one.firstPass = graph.passes().size();
         if (one.readsSecondRaster && !second) {
             explainer.beginPasses(graph, one.effect->owner(), running.secondRaster.reason);
-            second = slot.secondRaster->declare(graph, mScene, mGBufferPass);
+            second = slot.secondRaster->declare(
+                graph, mScene, mGBufferPass, mShadowPipelines ? &*mShadowPipelines : nullptr
+            );
             context.secondRaster = &*second;
         }
         explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");

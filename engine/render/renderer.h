@@ -19,6 +19,7 @@
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 #include "engine/render/second_raster.h"
+#include "engine/render/shadow_maps.h"
 
 #include <cstdint>
 #include <deque>
@@ -154,6 +155,7 @@ class Renderer {
         std::optional<rays::FrameTlas> frameTlas;
         std::optional<rays::TimedScene> timedScene;
         std::optional<SecondRaster> secondRaster;
+        std::optional<ShadowMaps> shadows;
     };
 
     /// An effect of an unfinished frame, and which of the frame's times are its own.
@@ -209,13 +211,15 @@ class Renderer {
     extract::FrameExtractor mExtractor;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     uint32_t mNextSlot = 0;
-    std::deque<PendingFrame> mPending;           ///< oldest first
-    std::optional<LongestMotion> mLongestMotion; ///< made by the first cap
+    std::deque<PendingFrame> mPending;               ///< oldest first
+    std::optional<LongestMotion> mLongestMotion;     ///< made by the first cap
+    std::optional<ShadowPipelines> mShadowPipelines; ///< made by the first that asks for shadows
     IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;
     IdleCounter mSecondRasterIdle;
     IdleCounter mBlasIdle;
+    IdleCounter mShadowsIdle;
     // Statistics of the frame declared last.
     gpu_scene::EntityTable::Written mWritten;
     double mTableMilliseconds = 0.0;

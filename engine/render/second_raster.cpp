@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/second_raster.h"
 
+#include <array>
+
 namespace shutter::render {
 
 double findOtherEnd(double rasterTime) {
@@ -16,17 +18,34 @@ core::Status SecondRaster::extract(
         return extracted.error();
     mFrame = extracted.value();
     mView = view;
+    // Lit as the frame's own raster: what moves casts the shadow of the whole exposure in both.
+    mShadows.prepare(
+        extract::planShadows(world, layout, view, *mFrame, /*keepsExposure=*/true), *mFrame
+    );
     return {};
 }
 
 SecondRasterView SecondRaster::declare(
-    graph::Graph& graph, const gpu_scene::GpuScene& scene, const GBufferPass& pass
+    graph::Graph& graph,
+    const gpu_scene::GpuScene& scene,
+    const GBufferPass& pass,
+    const ShadowPipelines* shadows
 ) {
     const gpu_scene::DeformedMeshes shapes = mDeformation.declare(graph, *mFrame, scene);
     mTables.updateEntities(*mFrame);
     const FrameTables::Addresses tables = mTables.upload(*mFrame, mView, scene, shapes.rows);
-    const GBuffer gbuffer =
-        pass.declare(graph, "second G-buffer", *mFrame, scene, shapes.buffer, tables.constants);
+    graph::BufferHandle shadowMaps;
+    if (shadows != nullptr)
+        shadowMaps =
+            mShadows.declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
+    const GBuffer gbuffer = pass.declare(
+        graph,
+        "second G-buffer",
+        *mFrame,
+        scene,
+        std::array{shapes.buffer, shadowMaps},
+        tables.constants
+    );
     return {gbuffer, mFrame, *mView.instant};
 }
 

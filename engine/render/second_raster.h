@@ -10,6 +10,7 @@
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/post_effect.h"
+#include "engine/render/shadow_maps.h"
 
 namespace shutter::render {
 
@@ -19,7 +20,8 @@ namespace shutter::render {
 /// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
 class SecondRaster {
   public:
-    explicit SecondRaster(gpu::Device& device) : mTables(device), mDeformation(device) {}
+    explicit SecondRaster(gpu::Device& device)
+        : mTables(device), mDeformation(device), mShadows(device) {}
 
     /// \param view the frame's own, which gets the other instant
     /// Error: as FrameExtractor::update.
@@ -28,13 +30,19 @@ class SecondRaster {
     );
 
     /// Declares the passes of what was extracted, which must live until they have been recorded.
-    [[nodiscard]] SecondRasterView
-    declare(graph::Graph& graph, const gpu_scene::GpuScene& scene, const GBufferPass& pass);
+    /// \param shadows null: lights cast none
+    [[nodiscard]] SecondRasterView declare(
+        graph::Graph& graph,
+        const gpu_scene::GpuScene& scene,
+        const GBufferPass& pass,
+        const ShadowPipelines* shadows
+    );
 
   private:
     extract::FrameExtractor mExtractor;
     FrameTables mTables;
     gpu_scene::DeformationPass mDeformation;
+    ShadowMaps mShadows;
     extract::ViewRequest mView;
     extract::ExtractedFrame* mFrame = nullptr;
 };

@@ -15,9 +15,7 @@ layout(constant_id = 0) const uint kBlended = 0u; // 1: blended surfaces may be 
 layout(set = 0, binding = 8) uniform accelerationStructureEXT uScene;
 
 Revealed revealHit(FrameRef frame, RayHit rayHit, vec2 centre, vec3 direction) {
-    Placement placement = placeAtRaster(frame, rayHit.id.entity);
-    ShadedHit shaded =
-        shadeHit(frame, placement, rayHit.id, direction, vec3(0.0f), lightsAtRaster(frame));
+    ShadedHit shaded = shadeRasterHit(frame, rayHit.id, direction);
     vec2 motion = motionOfPoint(frame, rayHit.id, shaded.objectPosition);
     float depth = dot(shaded.eyePosition, frame.value.forward.xyz);
     return Revealed(shaded.color, vec4(motion, depth, 0.0f), rayHit.id.entity);

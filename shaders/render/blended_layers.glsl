@@ -23,10 +23,7 @@ vec3 seenThroughBlended(
         );
         if (!hit.found) break;
         tMin = hit.t; // the surface itself is excluded: the interval is open
-        ShadedHit shaded = shadeHit(
-            frame, placeAtRaster(frame, hit.id.entity), hit.id, direction, vec3(0.0f),
-            lightsAtRaster(frame)
-        );
+        ShadedHit shaded = shadeRasterHit(frame, hit.id, direction);
         sum += transmitted * shaded.alpha * shaded.color;
         transmitted *= 1.0f - shaded.alpha;
     }

@@ -44,8 +44,10 @@ DistributedSample traceDistributed(
             break;
         }
         Placement placement = placeAt(moving, rayHit.id.entity, s);
-        ShadedHit shaded =
-            shadeHit(frame, placement, rayHit.id, ray.direction, ray.eye, lights);
+        Hit hit = fetchHit(frame, placement, rayHit.id);
+        ShadedHit shaded = shadeHit(
+            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, 0u, rayHit.id.entity)
+        );
         // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;
         float share = last ? 1.0f : shaded.alpha;

@@ -57,7 +57,8 @@ void main() {
     if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;
 
     vec3 color = shadeSurface(
-        frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame)
+        frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame),
+        ShadowSource(true, 0u, draw.entity)
     );
     outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
     outNormal = vec4(surface.normal, 0.0f);

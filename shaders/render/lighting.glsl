@@ -3,6 +3,7 @@
 #define SHUTTER_LIGHTING_GLSL
 
 #include "render/brdf.glsl"
+#include "render/shadow_lookup.glsl"
 #include "render/surface.glsl"
 
 /// Direction to the light (unit) and the irradiance it gives a surface facing it.
@@ -63,7 +64,7 @@ LightRow lightAt(LightSet lights, uint index) {
 /// \param viewDirection unit, from the camera to the surface
 vec3 shadeSurface(
     FrameRef frame, MaterialRow material, Surface surface, vec3 position, vec3 viewDirection,
-    LightSet lights
+    LightSet lights, ShadowSource shadows
 ) {
     if ((frame.value.flags & kFrameUnlit) != 0u || (material.flags & kMaterialUnlit) != 0u)
         return storableColor(surface.baseColor);
@@ -73,10 +74,16 @@ vec3 shadeSurface(
     vec3 mirrored = environmentBrdf(f0, roughness, saturate(abs(dot(surface.normal, v))));
     vec3 diffuse = surface.baseColor * (1.0f - surface.metallic) * (vec3(1.0f) - mirrored);
     vec3 color = frame.value.ambient.rgb * (diffuse + mirrored) * surface.occlusion;
+    bool castsShadows = (frame.value.flags & kFrameShadows) != 0u;
     for (uint i = 0u; i < lights.count; ++i) {
         vec3 toLight;
         vec3 irradiance;
-        evaluateLight(lightAt(lights, i), position, toLight, irradiance);
+        LightRow light = lightAt(lights, i);
+        evaluateLight(light, position, toLight, irradiance);
+        if (castsShadows && dot(surface.normal, toLight) > 0.0f)
+            irradiance *= lightReaching(
+                frame, shadows, i, light, position, surface.geometricNormal, toLight
+            );
         color += irradiance * reflectLight(
                                   surface.baseColor, surface.metallic, roughness, surface.normal, v,
                                   toLight

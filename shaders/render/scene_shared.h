@@ -103,7 +103,8 @@ struct LightRow {
     uint padding0;
 };
 
-SHUTTER_CONST uint kFrameUnlit = 1u; // base colour only
+SHUTTER_CONST uint kFrameUnlit = 1u;   // base colour only
+SHUTTER_CONST uint kFrameShadows = 2u; // lights cast shadows
 
 struct FrameConstants {
     mat4 clipFromEye;
@@ -125,6 +126,7 @@ struct FrameConstants {
     uvec2 materials;
     uvec2 lights;
     uvec2 movingTlas; // address of a second top level, of what moves; 0: there is none
+    uvec2 shadows;    // address of ShadowConstants; 0: there are no shadow maps
 };
 
 /// Push constants of the G-buffer's draws.
@@ -144,7 +146,7 @@ static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 384);
+static_assert(sizeof(shutter::shader::FrameConstants) == 392);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif
 

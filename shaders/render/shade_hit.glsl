@@ -17,19 +17,27 @@ struct ShadedHit {
 /// \param direction unit, from the camera
 /// \param eye place of the camera, eye space
 ShadedHit shadeHit(
-    FrameRef frame, Placement placement, HitId id, vec3 direction, vec3 eye, LightSet lights
+    FrameRef frame, Hit hit, vec3 direction, vec3 eye, LightSet lights, ShadowSource shadows
 ) {
-    Hit hit = fetchHit(frame, placement, id);
     ShadedHit shaded;
     shaded.eyePosition = hit.point.eyePosition;
     shaded.objectPosition = hit.objectPosition;
     hit.point.eyePosition -= eye; // a texture's level follows the distance from the camera
     MaterialRow material = MaterialTable(frame.value.materials).rows[hit.material];
     Surface surface = evaluateSurface(frame, material, hit.point, direction);
-    shaded.color = shadeSurface(frame, material, surface, shaded.eyePosition, direction, lights);
+    shaded.color =
+        shadeSurface(frame, material, surface, shaded.eyePosition, direction, lights, shadows);
     shaded.alpha = (material.flags & kMaterialBlend) != 0u ? saturate(surface.alpha) : 1.0f;
     shaded.normal = surface.normal;
     return shaded;
+}
+
+/// The same at the raster instant, with the shadows of the frame's maps.
+ShadedHit shadeRasterHit(FrameRef frame, HitId id, vec3 direction) {
+    Hit hit = fetchHit(frame, placeAtRaster(frame, id.entity), id);
+    return shadeHit(
+        frame, hit, direction, vec3(0.0f), lightsAtRaster(frame), ShadowSource(true, 0u, id.entity)
+    );
 }
 
 #endif

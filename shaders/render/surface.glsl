@@ -21,6 +21,7 @@ struct Surface {
     vec3 baseColor;
     float alpha;
     vec3 normal; // eye space, unit, on the viewer's side
+    vec3 geometricNormal; // of the triangle: likewise
     float metallic;
     float roughness;
     float occlusion;
@@ -122,8 +123,10 @@ Surface evaluateSurface(
         }
     }
     // Back faces are lit as if turned round.
-    if (dot(geometricNormal, viewDirection) > 0.0f) normal = -normal;
+    bool isBack = dot(geometricNormal, viewDirection) > 0.0f;
+    if (isBack) normal = -normal;
     surface.normal = normal;
+    surface.geometricNormal = isBack ? -geometricNormal : geometricNormal;
     surface.roughness = clamp(surface.roughness, 0.0f, 1.0f);
     return surface;
 }

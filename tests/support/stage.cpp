@@ -25,6 +25,7 @@ render::FrameRequest makeRequest(const SceneBuilder& scene, const Shot& shot) {
     request.view.height = shot.height;
     request.view.background = shot.background;
     request.view.ambient = shot.ambient;
+    request.view.shadows = shot.shadows;
     request.intermediates = shot.aovs;
     request.wantDisplay = shot.wantDisplay;
     return request;

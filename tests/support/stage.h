@@ -38,6 +38,7 @@ struct Shot {
     std::optional<double> instant{}; ///< sharp: shutter time; none: the raster instant
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
+    extract::ShadowSettings shadows{};
     uint32_t instants = 16; ///< accumulate: instants; truth: rays per pixel
     uint32_t seed = 0;      ///< truth only
     uint32_t batch = 0;     ///< truth: rays per pixel of each frame; 0: all in one

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "engine/render/shadow_maps.h"
+
+#include "spirv/render/shadow_map.frag.h"
+#include "spirv/render/shadow_map.vert.h"
+
+#include "engine/extract/row_bounds.h"
+#include "engine/gpu/frame.h"
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/execute.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace shutter::render {
+
+namespace {
+
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+/// Width of the image that maps are drawn into, unless one map is wider.
+constexpr uint32_t kImageWidth = 4096;
+
+gpu::GraphicsPipelineDesc describeCasters(const gpu_scene::GpuScene& scene, bool masked) {
+    gpu::GraphicsPipelineDesc desc;
+    desc.name = "shadow map";
+    desc.vertexSpirv = render_shadow_map_vert;
+    desc.fragmentSpirv = render_shadow_map_frag;
+    desc.interface.pushConstantBytes = sizeof(shader::ShadowDraw);
+    desc.interface.sceneLayout = scene.textureLayout();
+    desc.specialization = {masked};
+    desc.depthFormat = kDepthFormat;
+    return desc;
+}
+
+VkDeviceSize alignTable(VkDeviceSize bytes) {
+    return (bytes + 255) / 256 * 256;
+}
+
+/// Appends tables to one mapped buffer.
+class TableWriter {
+  public:
+    template <class Row> size_t add(const std::vector<Row>& rows) {
+        return addBytes(rows.data(), rows.size() * sizeof(Row));
+    }
+
+    size_t addBytes(const void* data, size_t bytes) {
+        const size_t at = mBytes.size();
+        mBytes.resize(at + alignTable(bytes));
+        if (bytes > 0)
+            std::memcpy(mBytes.data() + at, data, bytes);
+        return at;
+    }
+
+    [[nodiscard]] std::vector<std::byte>& bytes() { return mBytes; }
+
+  private:
+    std::vector<std::byte> mBytes;
+};
+
+shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye) {
+    shader::ShadowMap row{};
+    row.clipFromEye = math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
+    row.firstTexel = map.firstTexel;
+    row.sizePx = map.sizePx;
+    row.texelMetres = float(map.view.texelMetres);
+    // Rounding of depths in [0, 1]; those of perspective views are rounded in proportion.
+    row.depthBias = map.view.isPerspective ? 0.0f : 5.0e-7f;
+    return row;
+}
+
+/// Records the draws of one map after another.
+class Recorder {
+  public:
+    Recorder(
+        graph::PassContext& context,
+        const ShadowPipelines& pipelines,
+        const extract::ExtractedFrame& frame,
+        const gpu_scene::GpuScene& scene,
+        VkDeviceAddress constants
+    )
+        : mContext(context), mPipelines(pipelines), mFrame(frame), mScene(scene),
+          mConstants(gpu::splitAddress(constants)) {
+        vkCmdBindIndexBuffer(mContext.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
+    }
+
+    void begin(const extract::LightView& view, const VkRect2D& place) {
+        VkViewport viewport{};
+        viewport.x = float(place.offset.x);
+        viewport.y = float(place.offset.y);
+        viewport.width = float(place.extent.width);
+        viewport.height = float(place.extent.height);
+        viewport.maxDepth = 1.0f;
+        vkCmdSetViewport(mContext.commands, 0, 1, &viewport);
+        vkCmdSetScissor(mContext.commands, 0, 1, &place);
+        mView = &view;
+    }
+
+    void draw(uint32_t row) {
+        const math::dmat4 clipFromObject = mView->clipFromWorld * mFrame.worldFromObject[row];
+        const extract::SceneLayout& layout = mScene.layout();
+        if (extract::isOutsideView(clipFromObject, extract::findRowBounds(mFrame, layout, row)))
+            return;
+        shader::ShadowDraw push{math::mat4(clipFromObject), mConstants, 0, 0};
+        const uint32_t mesh = mFrame.entityMeshes[row];
+        const uint32_t first = layout.firstGeometry[mesh];
+        for (uint32_t i = first; i < layout.firstGeometry[mesh + 1]; ++i) {
+            const extract::SceneLayout::GeometryInfo& info = layout.geometries[i];
+            if (info.alphaMode == scene::AlphaMode::Blend)
+                continue;
+            const gpu::Pipeline& pipeline =
+                info.alphaMode == scene::AlphaMode::Mask ? mPipelines.masked : mPipelines.solid;
+            bind(pipeline);
+            push.geometry = mFrame.entities[row].firstGeometry + i - first;
+            vkCmdPushConstants(
+                mContext.commands, pipeline.layout(), pipeline.stages(), 0, sizeof(push), &push
+            );
+            vkCmdDrawIndexed(mContext.commands, info.indexCount, 1, info.firstIndex, 0, 0);
+        }
+    }
+
+  private:
+    void bind(const gpu::Pipeline& pipeline) {
+        if (std::exchange(mBound, &pipeline) == &pipeline)
+            return;
+        mContext.frame.bind(pipeline, {}, nullptr, 0, mScene.textureSet());
+        // Both sides of a surface hold light back.
+        vkCmdSetCullMode(mContext.commands, VK_CULL_MODE_NONE);
+        vkCmdSetFrontFace(mContext.commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    }
+
+    graph::PassContext& mContext;
+    const ShadowPipelines& mPipelines;
+    const extract::ExtractedFrame& mFrame;
+    const gpu_scene::GpuScene& mScene;
+    math::uvec2 mConstants;
+    const extract::LightView* mView = nullptr;
+    const gpu::Pipeline* mBound = nullptr;
+};
+
+} // namespace
+
+ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene)
+    : solid(device, describeCasters(scene, false)), masked(device, describeCasters(scene, true)) {}
+
+void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame) {
+    mPlan = std::move(plan);
+    frame.constants.shadows = {0, 0};
+    if (!mPlan.shadows.run)
+        return;
+    const VkDeviceSize bytes = mPlan.texelCount * sizeof(float);
+    if (mTexels.bytes() < bytes) {
+        mTexels = gpu::Buffer(
+            mDevice,
+            "shadow maps",
+            bytes,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Device
+        );
+        mKept.clear();
+    }
+    std::vector<shader::ShadowMap> maps;
+    for (const extract::PlannedMap& map : mPlan.maps)
+        maps.push_back(makeRow(map, mPlan.eye));
+    shader::ShadowConstants constants{};
+    TableWriter writer;
+    (void)writer.addBytes(&constants, sizeof(constants));
+    const size_t lightsAt = writer.add(mPlan.lights);
+    const size_t mapsAt = writer.add(maps);
+    const size_t moversAt = writer.add(mPlan.movers);
+    const size_t instantsAt = writer.add(mPlan.instants);
+    if (mTables.bytes() < writer.bytes().size())
+        mTables = gpu::Buffer(
+            mDevice,
+            "shadow tables",
+            writer.bytes().size() * 3 / 2,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Stream
+        );
+    const auto addressOf = [&](size_t at) { return gpu::splitAddress(mTables.address() + at); };
+    constants.texels = gpu::splitAddress(mTexels.address());
+    constants.lights = addressOf(lightsAt);
+    constants.maps = addressOf(mapsAt);
+    constants.movers = addressOf(moversAt);
+    constants.instants = addressOf(instantsAt);
+    constants.lightCount = static_cast<uint32_t>(mPlan.lights.size());
+    constants.moverCount = static_cast<uint32_t>(mPlan.movers.size());
+    constants.instantCount = mPlan.instantCount;
+    std::memcpy(writer.bytes().data(), &constants, sizeof(constants));
+    mTables.writeBytes(writer.bytes().data(), writer.bytes().size(), 0);
+    frame.constants.shadows = addressOf(0);
+    frame.constants.flags |= shader::kFrameShadows;
+}
+
+ShadowMaps::Kept ShadowMaps::describe(const extract::PlannedMap& map) const {
+    return {map.view.clipFromWorld, map.sizePx, map.firstTexel, mPlan.casterRevision};
+}
+
+VkExtent2D ShadowMaps::placeMaps() {
+    mDrawn.clear();
+    mKept.resize(mPlan.lightMapCount);
+    for (uint32_t i = 0; i < mPlan.maps.size(); ++i)
+        if (i >= mPlan.lightMapCount || mKept[i] != describe(mPlan.maps[i]))
+            mDrawn.push_back({i, {}});
+    // Rows of maps as they come: lights' maps before the smaller layers.
+    VkExtent2D size{};
+    for (const Drawn& drawn : mDrawn)
+        size.width = std::max(size.width, mPlan.maps[drawn.map].sizePx);
+    const uint32_t limit = std::max(size.width, kImageWidth);
+    uint32_t x = 0;
+    uint32_t y = 0;
+    for (Drawn& drawn : mDrawn) {
+        const uint32_t side = mPlan.maps[drawn.map].sizePx;
+        if (x + side > limit) {
+            x = 0;
+            y = size.height;
+        }
+        drawn.place = {{int32_t(x), int32_t(y)}, {side, side}};
+        x += side;
+        size.width = std::max(size.width, x);
+        size.height = std::max(size.height, y + side);
+    }
+    return size;
+}
+
+graph::BufferHandle ShadowMaps::declare(
+    graph::Graph& graph,
+    const ShadowPipelines& pipelines,
+    const extract::ExtractedFrame& frame,
+    const gpu_scene::GpuScene& scene,
+    graph::BufferHandle shapes,
+    VkDeviceAddress frameConstants
+) {
+    mDrawn.clear();
+    if (!mPlan.shadows.run)
+        return {};
+    const VkExtent2D size = placeMaps();
+    graph::BufferHandle texels =
+        graph.importBuffer("shadow maps", mTexels.handle(), mTexels.bytes());
+    if (mDrawn.empty())
+        return texels;
+    const graph::ImageHandle image =
+        graph.createImage("shadow casters", {size.width, size.height, kDepthFormat});
+
+    struct Casters {
+        graph::ImageHandle depth;
+    };
+
+    const Casters& casters = graph.addPass<Casters>(
+        "shadow maps",
+        graph::PassKind::Raster,
+        [&](graph::PassBuilder& builder, Casters& data) {
+            if (shapes.isValid())
+                builder.read(shapes, graph::Access::ShaderRead);
+            data.depth = builder.depthTarget(image, 0.0f);
+        },
+        [this, &pipelines, &frame, &scene, frameConstants](
+            const Casters&, graph::PassContext& context
+        ) {
+            Recorder recorder(context, pipelines, frame, scene, frameConstants);
+            for (const Drawn& drawn : mDrawn) {
+                const extract::PlannedMap& map = mPlan.maps[drawn.map];
+                recorder.begin(map.view, drawn.place);
+                if (map.mover != shader::kNoEntity)
+                    recorder.draw(map.mover);
+                else
+                    for (const uint32_t row : mPlan.mapCasters)
+                        recorder.draw(row);
+            }
+        }
+    );
+
+    struct Keep {
+        graph::ImageHandle depth;
+        graph::BufferHandle texels;
+    };
+
+    const Keep& keep = graph.addPass<Keep>(
+        "keep shadow maps",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, Keep& data) {
+            data.depth = builder.read(casters.depth, graph::Access::TransferRead);
+            data.texels = builder.write(texels, graph::Access::TransferWrite);
+        },
+        [this](const Keep& data, graph::PassContext& context) {
+            std::vector<VkBufferImageCopy> copies;
+            for (const Drawn& drawn : mDrawn) {
+                const extract::PlannedMap& map = mPlan.maps[drawn.map];
+                VkBufferImageCopy copy{};
+                copy.bufferOffset = VkDeviceSize{map.firstTexel} * sizeof(float);
+                copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+                copy.imageOffset = {drawn.place.offset.x, drawn.place.offset.y, 0};
+                copy.imageExtent = {map.sizePx, map.sizePx, 1};
+                copies.push_back(copy);
+                // Only what is recorded is kept: a frame that reads no shadows has no such pass.
+                if (drawn.map < mPlan.lightMapCount)
+                    mKept[drawn.map] = describe(map);
+            }
+            vkCmdCopyImageToBuffer(
+                context.commands,
+                context.resources.image(data.depth).handle(),
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                context.resources.buffer(data.texels),
+                static_cast<uint32_t>(copies.size()),
+                copies.data()
+            );
+        }
+    );
+    return keep.texels;
+}
+
+} // namespace shutter::render

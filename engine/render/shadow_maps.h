@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Shadow maps on the device: those of lights are kept and drawn anew only when something in them
+// has changed, movers' layers are drawn each frame.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/shadow_plan.h"
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu_scene/gpu_scene.h"
+#include "engine/graph/graph.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::render {
+
+/// The pipelines of shadow maps; one a scene (they know its texture table).
+struct ShadowPipelines {
+    ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene);
+
+    gpu::Pipeline solid;
+    gpu::Pipeline masked;
+};
+
+/// One for each raster of a frame in flight: the GPU must be done with the frame that it was
+/// prepared for last.
+class ShadowMaps {
+  public:
+    explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
+
+    /// Makes the tables; the frame's constants get their address, and the flag that says whether
+    /// lights cast shadows. Comes before the constants are written.
+    void prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame);
+
+    /// Declares the passes of what was prepared: none where there are no shadows. `frame` and
+    /// `scene` must live until they have been recorded.
+    /// \param shapes vertices of deformed meshes; invalid: there are none
+    /// \return what shading reads with Access::ShaderRead; invalid: there are no shadows
+    [[nodiscard]] graph::BufferHandle declare(
+        graph::Graph& graph,
+        const ShadowPipelines& pipelines,
+        const extract::ExtractedFrame& frame,
+        const gpu_scene::GpuScene& scene,
+        graph::BufferHandle shapes,
+        VkDeviceAddress frameConstants
+    );
+
+    /// Of the frame prepared last.
+    [[nodiscard]] const extract::ShadowPlan& plan() const { return mPlan; }
+
+    /// Maps and layers that the passes declared last draw.
+    [[nodiscard]] size_t drawnCount() const { return mDrawn.size(); }
+
+  private:
+    /// A map's place in the image that maps are drawn into.
+    struct Drawn {
+        uint32_t map = 0; ///< index of ShadowPlan::maps
+        VkRect2D place{};
+    };
+
+    /// What a kept map shows.
+    struct Kept {
+        math::dmat4 clipFromWorld{0.0};
+        uint32_t sizePx = 0;
+        uint32_t firstTexel = 0;
+        uint64_t casterRevision = 0;
+
+        bool operator==(const Kept&) const = default;
+    };
+
+    [[nodiscard]] Kept describe(const extract::PlannedMap& map) const;
+    /// Which maps have to be drawn, and where. \return the size of the image
+    VkExtent2D placeMaps();
+
+    gpu::Device& mDevice;
+    extract::ShadowPlan mPlan;
+    gpu::Buffer mTables; ///< mapped
+    gpu::Buffer mTexels;
+    std::vector<Kept> mKept; ///< by index of the lights' maps
+    std::vector<Drawn> mDrawn;
+};
+
+} // namespace shutter::render

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// How much of a light reaches a point: by maps of what stands still and of what moves, or as a ray
+// has found it.
+#ifndef SHUTTER_SHADOW_LOOKUP_GLSL
+#define SHUTTER_SHADOW_LOOKUP_GLSL
+
+#include "render/scene_bindings.glsl"
+#include "render/shadow_filter.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef {
+    ShadowConstants value;
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowMapTable {
+    ShadowMap rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowLightTable {
+    ShadowLight rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowMoverTable {
+    ShadowMover rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowInstantTable {
+    ShadowInstant rows[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTexels {
+    float values[];
+};
+
+/// What a point's shadows come from.
+struct ShadowSource {
+    bool byMaps;   // the frame's maps, where it has any; else `dark`
+    uint dark;     // a bit for each light that does not reach the point
+    uint receiver; // row of the entity table
+};
+
+/// The point that receives light.
+struct Receiver {
+    vec3 position;  // eye space, metres
+    vec3 normal;    // unit, of the triangle, on the light's side
+    vec3 toLight;   // unit
+    float distance_; // to the light, metres
+    uint entity;    // row of the entity table
+};
+
+/// Share of the light that passes the casters of one map; `place` is covered.
+float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
+    ShadowTexels texels = ShadowTexels(shadows.value.texels);
+    vec2 middle = floor(place.texel);
+    vec2 offset = place.texel - middle - 0.5f;
+    vec3 across = splineWeights(offset.x);
+    vec3 down = splineWeights(offset.y);
+    uint last = map.sizePx - 1u;
+    uvec2 at = min(uvec2(middle), uvec2(last));
+    uint x0 = max(at.x, 1u) - 1u;
+    uint x2 = min(at.x + 1u, last);
+    float light = 0.0f;
+    float depth = place.depth - dot(place.slope, offset); // at the middle texel's centre
+    for (uint row = 0u; row < 3u; ++row) {
+        uint y = min(max(at.y + row, 1u) - 1u, last);
+        uint first = map.firstTexel + y * map.sizePx;
+        vec3 casters = vec3(
+            texels.values[first + x0], texels.values[first + at.x], texels.values[first + x2]
+        );
+        float own = depth + place.slope.y * (float(row) - 1.0f);
+        vec3 depths = own + place.slope.x * vec3(-1.0f, 0.0f, 1.0f);
+        light += down[row] * lightThrough(casters, across, depths);
+    }
+    return light;
+}
+
+/// Where the receiver is in a map, lifted off its surface.
+ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosine) {
+    vec4 clip = map.clipFromEye * vec4(position, 1.0f);
+    // A map that does not have the place is left for the next before anything else is worked out.
+    ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx, map.depthBias);
+    if (!place.isCovered) return place;
+    vec3 lift = normal * normalOffset(map.texelMetres * clip.w, cosine);
+    vec3 helper = abs(normal.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
+    vec3 along = normalize(cross(normal, helper));
+    vec2 slope = planeSlope(
+        clip, map.clipFromEye * vec4(along, 0.0f),
+        map.clipFromEye * vec4(cross(normal, along), 0.0f), map.sizePx
+    );
+    clip += map.clipFromEye * vec4(lift, 0.0f);
+    return placeInMap(clip, slope, map.sizePx, map.depthBias);
+}
+
+/// Light that passes what is in the light's own maps.
+float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
+    ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
+    float cosine = dot(receiver.normal, receiver.toLight);
+    uint first = own.firstMap;
+    uint count = own.mapCount;
+    if (light.kind == kLightPoint || (light.kind == kLightSpot && count > 1u)) {
+        first += cubeFace(receiver.position - light.positionRange.xyz);
+        count = 1u;
+    }
+    for (uint i = 0u; i < count; ++i) {
+        ShadowMap map = maps.rows[first + i];
+        ShadowPlace place = placeReceiver(map, receiver.position, receiver.normal, cosine);
+        if (place.isCovered) return filterMap(shadows, map, place);
+    }
+    return 1.0f;
+}
+
+/// Light that passes one mover at one instant.
+float passMover(
+    ShadowRef shadows, ShadowMap layer, ShadowMover mover, vec4 rasterFromInstant[3], LightRow light,
+    Receiver receiver
+) {
+    vec4 p = vec4(receiver.position, 1.0f);
+    vec3 d = receiver.toLight;
+    vec3 n = receiver.normal;
+    vec3 point = vec3(
+        dot(rasterFromInstant[0], p), dot(rasterFromInstant[1], p), dot(rasterFromInstant[2], p)
+    );
+    vec3 toLight = normalize(vec3(
+        dot(rasterFromInstant[0].xyz, d), dot(rasterFromInstant[1].xyz, d),
+        dot(rasterFromInstant[2].xyz, d)
+    ));
+    if (!meetsSphere(point, toLight, receiver.distance_, mover.sphere)) return 1.0f;
+    vec3 normal = normalize(vec3(
+        dot(rasterFromInstant[0].xyz, n), dot(rasterFromInstant[1].xyz, n),
+        dot(rasterFromInstant[2].xyz, n)
+    ));
+    float cosine = dot(normal, toLight);
+    if (light.kind == kLightDirectional) {
+        point = alignRay(point, toLight, d, mover.sphere.xyz);
+    } else {
+        vec4 l = vec4(light.positionRange.xyz, 1.0f);
+        vec3 seen = vec3(
+            dot(rasterFromInstant[0], l), dot(rasterFromInstant[1], l), dot(rasterFromInstant[2], l)
+        );
+        vec4 aligned = alignPointRay(point, seen, l.xyz, mover.sphere.xyz);
+        if (aligned.w == 0.0f) return 1.0f;
+        point = aligned.xyz;
+    }
+    ShadowPlace place = placeReceiver(layer, point, normal, cosine);
+    return place.isCovered ? filterMap(shadows, layer, place) : 1.0f;
+}
+
+/// The movers whose shadows may touch the receiver in the exposure, a bit each of the first 32, and
+/// whether one of them moves there.
+uint findMovers(ShadowRef shadows, Receiver receiver, out bool moves) {
+    ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
+    uint found = 0u;
+    bool receives = false; // the receiver itself is a mover in motion
+    moves = false;
+    for (uint i = 0u; i < shadows.value.moverCount; ++i) {
+        bool inMotion = movers.rows[i].instantCount > 1u;
+        receives = receives || (inMotion && movers.rows[i].entity == receiver.entity);
+        vec4 sphere = movers.rows[i].sweptSphere;
+        if (!meetsSphere(receiver.position, receiver.toLight, receiver.distance_, sphere)) continue;
+        found |= 1u << i;
+        moves = moves || inMotion;
+    }
+    // What is looked up is a point of the surface, and a blur carries it along: what moves by itself
+    // is lit as at the raster instant.
+    moves = moves && !receives;
+    return found;
+}
+
+/// The mean over the exposure of what passes the movers.
+float passMovers(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
+    bool moves;
+    uint found = findMovers(shadows, receiver, moves);
+    if (found == 0u) return 1.0f;
+    ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
+    ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
+    ShadowInstantTable instants = ShadowInstantTable(shadows.value.instants);
+    uint count = moves ? shadows.value.instantCount : 1u;
+    float sum = 0.0f;
+    for (uint instant = 0u; instant < count; ++instant) {
+        float passed = 1.0f;
+        for (uint left = found; left != 0u && passed > 0.0f; left &= left - 1u) {
+            uint index = uint(findLSB(left));
+            ShadowMover mover = movers.rows[index];
+            vec4 rows[3] = vec4[3](
+                vec4(1.0f, 0.0f, 0.0f, 0.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f),
+                vec4(0.0f, 0.0f, 1.0f, 0.0f)
+            );
+            if (moves && mover.instantCount > 1u)
+                rows = instants.rows[mover.firstInstant + instant].rasterFromInstant;
+            passed *= passMover(
+                shadows, maps.rows[own.firstLayer + index], mover, rows, light, receiver
+            );
+        }
+        sum += passed;
+    }
+    return sum / float(count);
+}
+
+/// Share of a light that reaches a point, [0, 1], at the raster instant or, for shadows of what
+/// moves, over the exposure.
+/// \param index of the light
+/// \param normal of the triangle, unit, on the viewer's side
+/// \param toLight unit
+float lightReaching(
+    FrameRef frame, ShadowSource source, uint index, LightRow light, vec3 position, vec3 normal,
+    vec3 toLight
+) {
+    if (index >= kMaxShadowLights) return 1.0f;
+    if (!source.byMaps) return (source.dark >> index & 1u) != 0u ? 0.0f : 1.0f;
+    uvec2 address = frame.value.shadows;
+    if ((address.x | address.y) == 0u) return 1.0f;
+    ShadowRef shadows = ShadowRef(address);
+    if (index >= shadows.value.lightCount) return 1.0f;
+    ShadowLight own = ShadowLightTable(shadows.value.lights).rows[index];
+    if (own.firstMap == kNoShadowMap) return 1.0f;
+    Receiver receiver;
+    receiver.position = position;
+    receiver.toLight = toLight;
+    receiver.normal = dot(normal, toLight) < 0.0f ? -normal : normal;
+    receiver.distance_ = light.kind == kLightDirectional
+                             ? 1.0e15f
+                             : distance(light.positionRange.xyz, position);
+    receiver.entity = source.receiver;
+    float passed = passStill(shadows, own, light, receiver);
+    return passed > 0.0f ? passed * passMovers(shadows, own, light, receiver) : 0.0f;
+}
+
+#endif
