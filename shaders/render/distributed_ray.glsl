@@ -18,6 +18,40 @@ struct DistributedSample {
     uint rays;           // traced for it
 };
 
+/// Start of a shadow ray off its surface, metres, for the rounding of where it is.
+float shadowRayOffset(vec3 position) {
+    vec3 a = abs(position);
+    return 2.0e-5f * max(max(a.x, a.y), max(a.z, 1.0e-2f));
+}
+
+/// Lights that the point does not see at the query's time, a bit each.
+/// \param query of the ray that met the point
+uint traceShadows(
+    accelerationStructureEXT scene, FrameRef frame, TimedRef moving, SurfacePoint point,
+    vec3 direction, TimedQuery query, LightSet lights
+) {
+    if ((frame.value.flags & kFrameShadows) == 0u) return 0u;
+    vec3 normal = safeNormalize(point.geometricNormal, -direction);
+    query.mask = kSolidMask;
+    query.tMin = 0.0f;
+    query.isShadow = true;
+    uint dark = 0u;
+    for (uint i = 0u; i < min(lights.count, kMaxShadowLights); ++i) {
+        LightRow light = lightAt(lights, i);
+        vec3 toLight;
+        vec3 irradiance;
+        evaluateLight(light, point.eyePosition, toLight, irradiance);
+        if (irradiance == vec3(0.0f)) continue;
+        vec3 side = dot(normal, toLight) < 0.0f ? -normal : normal;
+        vec3 start = point.eyePosition + side * shadowRayOffset(point.eyePosition);
+        query.tMax = light.kind == kLightDirectional
+                         ? 1.0e30f
+                         : distance(light.positionRange.xyz, point.eyePosition);
+        if (traceTimedRay(scene, frame, moving, start, toLight, query).found) dark |= 1u << i;
+    }
+    return dark;
+}
+
 /// \param screenPx pixels from the top left corner
 /// \param s shutter time, [0, 1]
 DistributedSample traceDistributed(
@@ -34,7 +68,7 @@ DistributedSample traceDistributed(
     result.eyePosition = vec3(0.0f);
     result.rays = 0u;
     float transmitted = 1.0f;
-    TimedQuery query = TimedQuery(s, ray.eye, kSolidMask | kBlendedMask, 0.0f, 1.0e30f);
+    TimedQuery query = TimedQuery(s, ray.eye, kSolidMask | kBlendedMask, 0.0f, 1.0e30f, false);
     while (true) {
         RayHit rayHit =
             traceTimedRay(scene, frame, moving, ray.origin, ray.direction, query);
@@ -45,8 +79,9 @@ DistributedSample traceDistributed(
         }
         Placement placement = placeAt(moving, rayHit.id.entity, s);
         Hit hit = fetchHit(frame, placement, rayHit.id);
+        uint dark = traceShadows(scene, frame, moving, hit.point, ray.direction, query, lights);
         ShadedHit shaded = shadeHit(
-            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, 0u, rayHit.id.entity)
+            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, dark, rayHit.id.entity)
         );
         // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;

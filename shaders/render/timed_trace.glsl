@@ -14,7 +14,12 @@ struct TimedQuery {
     uint mask; // kSolidMask, kBlendedMask or both
     float tMin;
     float tMax;
+    bool isShadow; // whether anything solid is met is all that counts; both sides of it hold light
 };
+
+uint findTimedFlags(TimedQuery query) {
+    return query.isShadow ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsCullBackFacingTrianglesEXT;
+}
 
 /// A ray in the space of one entity at the ray's own time.
 struct ObjectRay {
@@ -69,7 +74,7 @@ void traceEntity(
     HitId deformed = HitId(entity, 0u, 0u, vec2(0.0f));
     rayQueryEXT inner;
     rayQueryInitializeEXT(
-        inner, accelerationStructureEXT(address), gl_RayFlagsCullBackFacingTrianglesEXT, query.mask,
+        inner, accelerationStructureEXT(address), findTimedFlags(query), query.mask,
         ray.origin, query.tMin, ray.direction, best.t
     );
     while (rayQueryProceedEXT(inner)) {
@@ -80,7 +85,7 @@ void traceEntity(
         if (rayQueryGetIntersectionTypeEXT(inner, false) ==
             gl_RayQueryCandidateIntersectionTriangleEXT) {
             id.barycentrics = rayQueryGetIntersectionBarycentricsEXT(inner, false);
-            bool frontFace = rayQueryGetIntersectionFrontFaceEXT(inner, false);
+            bool frontFace = query.isShadow || rayQueryGetIntersectionFrontFaceEXT(inner, false);
             if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
                 rayQueryConfirmIntersectionEXT(inner);
             continue;
@@ -88,7 +93,7 @@ void traceEntity(
         TriangleHit hit = meetTriangle(frame, placement, id, ray);
         if (!hit.found || !(hit.t > query.tMin) || !(hit.t < best.t)) continue;
         id.barycentrics = hit.barycentrics;
-        bool frontFace = hit.frontFace != mirrored;
+        bool frontFace = query.isShadow || hit.frontFace != mirrored;
         if (!isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask)) continue;
         best.found = true;
         best.t = hit.t;
@@ -115,7 +120,7 @@ RayHit traceTimedRay(
 ) {
     rayQueryEXT outer;
     rayQueryInitializeEXT(
-        outer, scene, gl_RayFlagsCullBackFacingTrianglesEXT, query.mask, origin, query.tMin,
+        outer, scene, findTimedFlags(query), query.mask, origin, query.tMin,
         direction, query.tMax
     );
     RayHit best; // nearest so far, moving or still
@@ -134,7 +139,7 @@ RayHit traceTimedRay(
                 uint(rayQueryGetIntersectionPrimitiveIndexEXT(outer, false)),
                 rayQueryGetIntersectionBarycentricsEXT(outer, false)
             );
-            bool frontFace = rayQueryGetIntersectionFrontFaceEXT(outer, false);
+            bool frontFace = query.isShadow || rayQueryGetIntersectionFrontFaceEXT(outer, false);
             Placement placement = placeAt(moving, id.entity, query.s);
             if (isDrawn(frame, placement, id, frontFace, direction, query.eye, query.mask))
                 rayQueryConfirmIntersectionEXT(outer);

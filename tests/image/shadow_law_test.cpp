@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Shadows of maps against those of rays, at every scale, and shadows of what moves against the mean
+// of many instants.
+#include "engine/image/metrics.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace shutter {
+namespace {
+
+using extract::ShadowMode;
+using math::dvec3;
+using test::SceneBuilder;
+using test::Shot;
+using test::Stage;
+
+class ShadowLaw : public test::GpuTest {};
+
+const math::dquat kFlat = glm::angleAxis(-glm::radians(90.0), dvec3(1, 0, 0));
+
+/// A floor seen from above, and a box over it.
+SceneBuilder makeFloor(const test::Placement& box, double scale = 1.0) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9, 0.05 * scale);
+    const auto white = scene.addMaterial({});
+    scene.moveCamera(
+        {.position = dvec3(0, 4, 4) * scale,
+         .rotation = glm::angleAxis(-glm::radians(45.0), dvec3(1, 0, 0))}
+    );
+    scene.add(test::makeQuad(8 * scale, 8 * scale, white), {.rotation = kFlat});
+    test::Placement placed = box;
+    placed.position *= scale;
+    placed.velocity *= scale;
+    scene.add(test::makeBox(dvec3(0.8 * scale), white), placed);
+    return scene;
+}
+
+Shot makeShot(ShadowMode mode) {
+    Shot shot;
+    shot.width = 160;
+    shot.height = 120;
+    shot.exposureSeconds = 0.0;
+    shot.ambient = math::vec3(0.1f);
+    shot.shadows = {.mode = mode, .mapSize = 2048, .distance = 0.0, .instants = 32};
+    return shot;
+}
+
+/// Brightness of the picture's darkest pixel.
+double findDarkest(const image::Image& picture) {
+    float darkest = 1.0e9f;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            darkest = std::min(darkest, picture.at(x, y, 0));
+    return darkest;
+}
+
+TEST_F(ShadowLaw, MapsAndRaysAgreeFromACentimetreToAKilometre) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << device().info().name << " has no ray queries";
+    for (const double scale : {0.01, 1.0, 1000.0}) {
+        // It stands on the floor: a gap or a leak at its foot would count.
+        SceneBuilder scene = makeFloor({.position = {0.3, 0.4, 0.2}}, scale);
+        scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
+        Stage stage(device(), scene);
+        Shot shot = makeShot(ShadowMode::Sharp);
+        const auto maps = stage.render(shot);
+        shot.method = "truth";
+        const auto rays = stage.render(shot);
+        shot.shadows.mode = ShadowMode::None;
+        const auto none = stage.render(shot);
+        const double psnr = image::computePsnr(maps.color, rays.color);
+        EXPECT_GT(psnr, 45.0) << scale;
+        EXPECT_GT(psnr - image::computePsnr(none.color, rays.color), 10.0) << scale;
+    }
+}
+
+TEST_F(ShadowLaw, ALitPlaneHasNoAcneAtAnyAngle) {
+    for (const double height : {2.0, 0.5, 0.15}) {
+        SceneBuilder scene = makeFloor({.position = {0, 100, 0}});
+        scene.addSun({-1.0, -height, -0.3}, 3.0f);
+        Stage stage(device(), scene);
+        Shot shot = makeShot(ShadowMode::None);
+        shot.shadows.mapSize = 512;
+        const auto lit = stage.render(shot);
+        shot.shadows.mode = ShadowMode::Sharp;
+        const auto shadowed = stage.render(shot);
+        EXPECT_EQ(lit.color.pixels, shadowed.color.pixels) << height;
+    }
+}
+
+TEST_F(ShadowLaw, SpotsAndPointLightsCastThemToo) {
+    if (!device().hasRayQuery())
+        GTEST_SKIP() << device().info().name << " has no ray queries";
+    for (const auto& [kind, cone] :
+         {std::pair{scene::LightKind::Spot, 0.9f},
+          {scene::LightKind::Spot, 1.4f},
+          {scene::LightKind::Point, 0.0f}}) {
+        SceneBuilder scene = makeFloor({.position = {0.3, 0.6, 0.2}});
+        const ecs::Entity light = scene.world.registry.create();
+        scene.place(light, {.position = {1.0, 3.0, 0.5}, .rotation = kFlat});
+        scene.world.registry.add(
+            light, scene::Light{.kind = kind, .intensity = 30.0f, .outerConeAngle = cone}
+        );
+        Stage stage(device(), scene);
+        Shot shot = makeShot(ShadowMode::Sharp);
+        const auto maps = stage.render(shot);
+        shot.method = "truth";
+        const auto rays = stage.render(shot);
+        shot.shadows.mode = ShadowMode::None;
+        const auto none = stage.render(shot);
+        const double psnr = image::computePsnr(maps.color, rays.color);
+        EXPECT_GT(psnr, 40.0) << int(kind) << " " << cone;
+        EXPECT_GT(psnr - image::computePsnr(none.color, rays.color), 10.0)
+            << int(kind) << " " << cone;
+    }
+}
+
+/// Decibels by which shadows over the exposure are nearer to the mean of 64 instants than shadows
+/// of the raster instant, in a picture of the floor alone: the caster is above the camera.
+double measureGain(gpu::Device& device, const SceneBuilder& scene) {
+    Stage stage(device, scene);
+    Shot shot = makeShot(ShadowMode::Sharp);
+    shot.exposureSeconds = 1.0;
+    const auto sharp = stage.render(shot);
+    shot.shadows.mode = ShadowMode::Blurred;
+    const auto blurred = stage.render(shot);
+    shot.method = "accumulate";
+    shot.instants = 64;
+    const auto mean = stage.render(shot);
+    EXPECT_LT(findDarkest(sharp.color), 0.2) << "no shadow is in the picture";
+    return image::computePsnr(blurred.color, mean.color) -
+           image::computePsnr(sharp.color, mean.color);
+}
+
+TEST_F(ShadowLaw, AShadowOfWhatMovesIsTheMeanOverTheExposure) {
+    SceneBuilder scene = makeFloor({.position = {2, 8, 1}, .velocity = {2.0, 0, 0.5}});
+    scene.addSun({-0.25, -1.0, -0.1}, 3.0f);
+    EXPECT_GT(measureGain(device(), scene), 20.0);
+}
+
+TEST_F(ShadowLaw, AShadowOfWhatTurnsIsNearTheMean) {
+    SceneBuilder scene =
+        makeFloor({.position = {2, 8, 1}, .scale = {3, 0.3, 0.3}, .angularVelocity = {0, 0.7, 0}});
+    scene.addSun({-0.25, -1.0, -0.1}, 3.0f);
+    EXPECT_GT(measureGain(device(), scene), 10.0);
+}
+
+TEST_F(ShadowLaw, WhatCastsNoShadowCostsNothing) {
+    const auto countPasses = [](const render::FrameResult& result) {
+        return std::count_if(
+            result.statistics.passes.begin(),
+            result.statistics.passes.end(),
+            [](const auto& pass) { return pass.name.find("shadow") != std::string::npos; }
+        );
+    };
+    SceneBuilder dark = makeFloor({.position = {0, 1, 0}});
+    EXPECT_EQ(countPasses(test::renderOnce(device(), dark, makeShot(ShadowMode::Sharp))), 0);
+    SceneBuilder scene = makeFloor({.position = {0, 1, 0}});
+    scene.addSun({-0.25, -1.0, -0.1}, 3.0f);
+    Stage stage(device(), scene);
+    EXPECT_EQ(countPasses(stage.render(makeShot(ShadowMode::None))), 0);
+    EXPECT_EQ(countPasses(stage.render(makeShot(ShadowMode::Sharp))), 2);
+    EXPECT_EQ(countPasses(stage.render(makeShot(ShadowMode::Sharp))), 0) << "nothing has changed";
+}
+
+} // namespace
+} // namespace shutter
