@@ -19,6 +19,7 @@ using core::Status;
 constexpr std::string_view kPixelWords[] = {"centre", "box"};
 /// In the order of AntiAliasing.
 constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
+constexpr std::string_view kShadowWords[] = {"none", "sharp", "blurred"};
 
 using A = ShotArguments;
 using Row = OptionRow<A>;
@@ -49,6 +50,21 @@ constexpr std::array kLookRows = {
         "--background", "linear R,G,B where nothing is hit; default 0.18,0.18,0.18"
     ),
     makeRow<&A::ambient>("--ambient", "uniform light, R,G,B; default 0.25,0.25,0.25"),
+    makeWordRow<&A::shadows, kShadowWords>(
+        "--shadows",
+        "shadows of lights: none (default), sharp, or blurred: what moves casts them over the "
+        "exposure"
+    ),
+    makeRow<&A::shadowMapSize>(
+        "--shadow-map-size", "width of a shadow map, texels, 64 to 8192; default 1024"
+    ),
+    makeRow<&A::shadowDistance>(
+        "--shadow-distance",
+        "how far directional lights cast shadows, metres; default 0: as far as the scene reaches"
+    ),
+    makeRow<&A::shadowInstants>(
+        "--shadow-instants", "instants of a blurred shadow, 1 to 64; default 16"
+    ),
 };
 
 constexpr std::array kTonemapRows = {
@@ -105,6 +121,24 @@ Status parseTimes(const ShotArguments& arguments, ShotOptions& options) {
         return makeError("--frames {}: the last comes before the first", match.str());
     options.isSequence = true;
     return planFrames("--frames", first, last, options);
+}
+
+Status parseShadows(const ShotArguments& arguments, ShotOptions& options) {
+    options.shadows = {
+        .mode = arguments.shadows,
+        .mapSize = arguments.shadowMapSize,
+        .distance = arguments.shadowDistance,
+        .instants = arguments.shadowInstants};
+    // Written so that NaN fails.
+    if (!(arguments.shadowDistance >= 0.0 && std::isfinite(arguments.shadowDistance)))
+        return makeError("--shadow-distance {} must be 0 or more", arguments.shadowDistance);
+    if (arguments.shadowInstants < 1 || arguments.shadowInstants > 64)
+        return makeError("--shadow-instants {} must lie in [1, 64]", arguments.shadowInstants);
+    if (!extract::validate(options.shadows).ok())
+        return makeError(
+            "--shadow-map-size {} must be a multiple of 64 from 64 to 8192", arguments.shadowMapSize
+        );
+    return {};
 }
 
 Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
@@ -172,7 +206,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.height = arguments.size.height;
     options.background = arguments.background;
     options.ambient = arguments.ambient;
-    for (const auto step : {parseTimes, parseFlythrough})
+    for (const auto step : {parseTimes, parseShadows, parseFlythrough})
         SHUTTER_TRY(step(arguments, options));
     auto shutter = interpretShutter(arguments.shutter);
     if (!shutter)

@@ -32,6 +32,10 @@ struct ShotArguments {
     math::vec3 background{0.18f};
     math::vec3 ambient{0.25f};
     float bloom = 0.0f; ///< share of the light
+    extract::ShadowMode shadows = extract::ShadowMode::None;
+    uint32_t shadowMapSize = extract::ShadowSettings{}.mapSize;
+    double shadowDistance = 0.0;
+    uint32_t shadowInstants = extract::ShadowSettings{}.instants;
     double exposureValue = 0.0;
     tonemap::Operator tonemap = tonemap::Operator::Neutral;
 };

@@ -166,6 +166,7 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.background = options.background;
     view.ambient = options.ambient;
     view.unlit = options.unlit;
+    view.shadows = options.shadows;
     return view;
 }
 

@@ -56,6 +56,7 @@ struct ShotOptions {
     bool unlit = false;
     math::vec3 background{0.0f}; ///< linear
     math::vec3 ambient{0.0f};    ///< linear
+    extract::ShadowSettings shadows{};
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};
     extract::PixelModel pixel = extract::PixelModel::Centre;

@@ -377,6 +377,25 @@ TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
         refuse("--bloom", Words{"--bloom=" + wordOf(value)});
 }
 
+TEST_F(RenderOptionsTest, ShadowsAreOffUnlessAskedFor) {
+    EXPECT_EQ(accept(Words{}).shot.shadows.mode, extract::ShadowMode::None);
+    EXPECT_EQ(accept(Words{"--shadows=sharp"}).shot.shadows.mode, extract::ShadowMode::Sharp);
+    EXPECT_EQ(accept(Words{"--shadows=blurred"}).shot.shadows.mode, extract::ShadowMode::Blurred);
+    refuse("--shadows", Words{"--shadows=soft"});
+}
+
+TEST_F(RenderOptionsTest, SizesDistancesAndInstantsOfShadowsHaveRanges) {
+    EXPECT_EQ(accept(Words{"--shadow-map-size=2048"}).shot.shadows.mapSize, 2048u);
+    for (const char* value : {"0", "32", "100", "8256"})
+        refuse("--shadow-map-size", Words{std::string("--shadow-map-size=") + value});
+    EXPECT_EQ(accept(Words{"--shadow-distance=30"}).shot.shadows.distance, 30.0);
+    for (const double value : {-1.0, kNan, kInfinity})
+        refuse("--shadow-distance", Words{"--shadow-distance=" + wordOf(value)});
+    EXPECT_EQ(accept(Words{"--shadow-instants=8"}).shot.shadows.instants, 8u);
+    for (const char* value : {"0", "65"})
+        refuse("--shadow-instants", Words{std::string("--shadow-instants=") + value});
+}
+
 TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
     EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(accept(Words{"--unlit"}).shot.tonemap.op, tonemap::Operator::None);
