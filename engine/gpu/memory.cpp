@@ -211,7 +211,12 @@ std::string nameFormat(VkFormat format) {
         SHUTTER_FORMAT(R32G32_SFLOAT)
         SHUTTER_FORMAT(R32G32B32A32_UINT)
         SHUTTER_FORMAT(R32G32B32A32_SFLOAT)
+        SHUTTER_FORMAT(B10G11R11_UFLOAT_PACK32)
+        SHUTTER_FORMAT(R16G16B16A16_UNORM)
         SHUTTER_FORMAT(D16_UNORM)
+        SHUTTER_FORMAT(X8_D24_UNORM_PACK32)
+        SHUTTER_FORMAT(D24_UNORM_S8_UINT)
+        SHUTTER_FORMAT(D32_SFLOAT_S8_UINT)
         SHUTTER_FORMAT(D32_SFLOAT)
 #undef SHUTTER_FORMAT
     default:
@@ -220,7 +225,17 @@ std::string nameFormat(VkFormat format) {
 }
 
 VkImageAspectFlags aspectOf(VkFormat format) {
-    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    switch (format) {
+    case VK_FORMAT_D16_UNORM:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_D32_SFLOAT:
+        return VK_IMAGE_ASPECT_DEPTH_BIT;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+        return VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+    default:
+        return VK_IMAGE_ASPECT_COLOR_BIT;
+    }
 }
 
 Image::Image(Device& device, std::string name, const ImageDesc& desc)
@@ -309,7 +324,9 @@ void Image::createView() {
     info.image = mImage;
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     info.format = mDesc.format;
-    info.subresourceRange = {aspectOf(mDesc.format), 0, mDesc.mipLevels, 0, 1};
+    // Shaders sample one aspect, and nothing here reads a stencil.
+    const VkImageAspectFlags aspect = aspectOf(mDesc.format) & ~VK_IMAGE_ASPECT_STENCIL_BIT;
+    info.subresourceRange = {aspect, 0, mDesc.mipLevels, 0, 1};
     require(vkCreateImageView(mDevice->handle(), &info, nullptr, &mView), "creating a view");
 }
 

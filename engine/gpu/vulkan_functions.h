@@ -93,6 +93,7 @@
     X(GetImageMemoryRequirements)                                                                  \
     X(GetInstanceProcAddr)                                                                         \
     X(GetPhysicalDeviceFeatures2)                                                                  \
+    X(GetPhysicalDeviceFormatProperties)                                                           \
     X(GetPhysicalDeviceMemoryProperties)                                                           \
     X(GetPhysicalDeviceProperties)                                                                 \
     X(GetPhysicalDeviceProperties2)                                                                \

@@ -67,6 +67,24 @@ makeImage(gpu::Device& device, const char* name, VkFormat format, uint32_t width
              VK_IMAGE_USAGE_TRANSFER_DST_BIT}};
 }
 
+/// The image is as kCopied says, the buffer one for reading.
+inline void
+copyToBuffer(VkCommandBuffer commands, const gpu::Image& image, const gpu::Buffer& buffer) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {image.desc().width, image.desc().height, 1};
+    vkCmdCopyImageToBuffer(commands, image.handle(), kCopied.layout, buffer.handle(), 1, &region);
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 /// A picture in half floats that is copied to where the CPU reads it.
 class Picture {
   public:
@@ -78,23 +96,7 @@ class Picture {
     [[nodiscard]] VkImage handle() const { return mImage.handle(); }
 
     /// The image is as kCopied says.
-    void recordReadback(VkCommandBuffer commands) const {
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {mSize.x, mSize.y, 1};
-        vkCmdCopyImageToBuffer(
-            commands, mImage.handle(), kCopied.layout, mPixels.handle(), 1, &region
-        );
-        VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-    }
+    void recordReadback(VkCommandBuffer commands) const { copyToBuffer(commands, mImage, mPixels); }
 
     [[nodiscard]] image::Image read() const {
         image::Image picture(mSize.x, mSize.y, 4);

@@ -9,6 +9,7 @@
 #include "engine/graph/transient_pool.h"
 #include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/instant_motions.h"
+#include "shaders/render/scene_shared.h"
 
 #include <array>
 #include <deque>
@@ -26,14 +27,56 @@ using core::makeError;
 constexpr uint32_t kMostFrames = 64;
 constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
 
-constexpr VkImageUsageFlags kRead = VK_IMAGE_USAGE_SAMPLED_BIT;
-constexpr VkImageUsageFlags kWritten = VK_IMAGE_USAGE_STORAGE_BIT;
+constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kMotionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kIdFormat = VK_FORMAT_R32_UINT;
+constexpr std::array kColorFormats{
+    kColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32};
+constexpr std::array kMotionFormats{kMotionFormat};
+constexpr std::array kNormalFormats{kColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT};
+constexpr std::array kIdFormats{kIdFormat, VK_FORMAT_R16_UINT, VK_FORMAT_R8_UINT};
 
-core::Status checkImage(const char* name, const HostImage& image) {
-    if (!image.image)
-        return makeError("motion blur: {}.image is null", name);
-    if (image.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
-        return makeError("motion blur: {}.before.layout is undefined, its contents are lost", name);
+/// The part of the image that is used is one that the effect may read, or write, itself.
+bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture) {
+    return (image.format == VK_FORMAT_UNDEFINED || image.format == format) &&
+           isWhole(image, picture);
+}
+
+VkExtent2D pictureOf(const HostInputs& inputs) {
+    return {inputs.width, inputs.height};
+}
+
+HostImageRule colorRule(const HostInputs& inputs) {
+    HostImageRule rule{.name = "color", .formats = kColorFormats};
+    if (isOwn(inputs.color, kColorFormat, pictureOf(inputs)))
+        rule.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (!inputs.output.image)
+        rule.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    return rule;
+}
+
+HostImageRule outputRule(const HostInputs& inputs) {
+    HostImageRule rule{
+        .name = "output",
+        .formats = kColorFormats,
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+        .isWritten = true};
+    if (isOwn(inputs.output, kColorFormat, pictureOf(inputs)))
+        rule.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return rule;
+}
+
+const HostImageRule kMotionRule{.name = "motionDepth", .formats = kMotionFormats};
+const HostImageRule kNormalRule{.name = "normal", .formats = kNormalFormats};
+const HostImageRule kIdRule{.name = "entityId", .formats = kIdFormats, .hasPictureSize = false};
+
+/// motionDepth is read as it is.
+core::Status checkMotionDepth(const HostInputs& inputs) {
+    const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(checkImage(inputs.motionDepth, kMotionRule, picture));
+    if (!isWhole(inputs.motionDepth, picture))
+        return makeError("motion blur: motionDepth is part of a larger image; give it as "
+                         "convention.vectors and convention.depth, which may be");
     return {};
 }
 
@@ -44,9 +87,12 @@ core::Status checkDistinct(const HostInputs& inputs) {
         VkImage image;
     };
 
+    const HostConvention& convention = inputs.convention;
+    const bool isMade = !inputs.motionDepth.image;
     const std::array<Named, 5> images{
         {{"color", inputs.color.image},
-         {"motionDepth", inputs.motionDepth.image},
+         {isMade ? "convention.vectors.image" : "motionDepth",
+          isMade ? convention.vectors.image.image : inputs.motionDepth.image},
          {"normal", inputs.normal.image},
          {"entityId", inputs.entityId.image},
          {"output", inputs.output.image}}};
@@ -84,6 +130,7 @@ struct EmbeddedMotionBlur::Slot {
     /// not be the same image. A deque, since the graph points to them.
     std::deque<gpu::Image> images;
     gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
+    gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
     uint64_t handedOver = 0; ///< timeline value of what was recorded last
 };
 
@@ -98,6 +145,32 @@ struct EmbeddedMotionBlur::View {
         last.reset();
         history.forget();
     }
+};
+
+/// A recording under way.
+struct EmbeddedMotionBlur::Frame {
+    Slot& slot;
+    graph::Graph& graph;
+    const HostInputs& inputs;
+
+    /// Invalid where there is no image.
+    [[nodiscard]] graph::ImageHandle import(
+        gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule
+    ) {
+        if (!given.image)
+            return {};
+        const VkExtent2D extent = extentOf(given, pictureOf(inputs));
+        // Only what shaders do counts here: it is what views are for.
+        const VkImageUsageFlags usage =
+            rule.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
+        const gpu::Image& image = slot.images.emplace_back(gpu::Image::adopt(
+            device, name, given.image, {extent.width, extent.height, formatOf(given, rule), usage}
+        ));
+        return graph.importImage(name, image, given.before, given.after);
+    }
+
+    graph::ImageHandle color;  ///< the host's own
+    graph::ImageHandle output; ///< the same; in place: invalid
 };
 
 core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(const HostDevice& host
@@ -140,7 +213,7 @@ core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(con
 
 EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host)
     : mDevice(std::move(device)), mHasRays(host.rayTier != gpu::RayTier::None),
-      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE) {
+      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE), mPreparation(*mDevice) {
     for (uint32_t i = 0; i < host.framesInFlight; ++i) {
         mSlots.push_back(std::make_unique<Slot>(*mDevice));
         mViews.push_back(std::make_unique<View>(*mDevice));
@@ -167,9 +240,9 @@ core::Status EmbeddedMotionBlur::checkMethod(
             "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
         );
     if (method.readsNormal)
-        SHUTTER_TRY(checkImage("normal", inputs.normal));
+        SHUTTER_TRY(check(inputs.normal, kNormalRule, pictureOf(inputs)));
     if (method.readsEntityId)
-        SHUTTER_TRY(checkImage("entityId", inputs.entityId));
+        SHUTTER_TRY(check(inputs.entityId, kIdRule, pictureOf(inputs)));
     if (method.readsInstantMotions && settings.secondRaster)
         return makeError(
             "motion blur: secondRaster is true, but hosts have one raster; it must be false"
@@ -187,6 +260,27 @@ core::Status EmbeddedMotionBlur::checkMethod(
             "motion blur: rays.{} is null", inputs.rays.tlasBuffer ? "scene" : "tlasBuffer"
         );
     return {};
+}
+
+core::Status EmbeddedMotionBlur::check(
+    const HostImage& image, const HostImageRule& rule, VkExtent2D picture
+) const {
+    SHUTTER_TRY(checkImage(image, rule, picture));
+    return checkSupport(mDevice->physical(), image, rule);
+}
+
+core::Status EmbeddedMotionBlur::checkMadeMotion(const HostInputs& inputs) const {
+    const HostConvention& convention = inputs.convention;
+    if (!convention.vectors.image.image)
+        return makeError(
+            "motion blur: motionDepth.image is null, and so is convention.vectors.image.image"
+        );
+    SHUTTER_TRY(checkConvention(convention, pictureOf(inputs)));
+    SHUTTER_TRY(checkSupport(mDevice->physical(), convention.vectors.image, kVectorsRule));
+    SHUTTER_TRY(checkSupport(mDevice->physical(), convention.depth.image, kDepthRule));
+    if (!convention.scales.perPixel.image)
+        return {};
+    return checkSupport(mDevice->physical(), convention.scales.perPixel, kBlurScaleRule);
 }
 
 core::Status EmbeddedMotionBlur::check(
@@ -209,8 +303,13 @@ core::Status EmbeddedMotionBlur::check(
         );
     if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
         return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
-    SHUTTER_TRY(checkImage("color", inputs.color));
-    SHUTTER_TRY(checkImage("motionDepth", inputs.motionDepth));
+    SHUTTER_TRY(check(inputs.color, colorRule(inputs), pictureOf(inputs)));
+    if (inputs.output.image)
+        SHUTTER_TRY(check(inputs.output, outputRule(inputs), pictureOf(inputs)));
+    if (inputs.motionDepth.image)
+        SHUTTER_TRY(checkMotionDepth(inputs));
+    else
+        SHUTTER_TRY(checkMadeMotion(inputs));
     SHUTTER_TRY(checkDistinct(inputs));
     if (inputs.motion.view >= mViews.size())
         return makeError(
@@ -278,6 +377,72 @@ InstantMotions EmbeddedMotionBlur::describeInstants(
     return motions;
 }
 
+MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
+    const HostInputs& inputs = frame.inputs;
+    const VkExtent2D picture = pictureOf(inputs);
+    graph::Graph& graph = frame.graph;
+    gpu::Device& device = *mDevice;
+    MotionBlurInputs own; // slot 0 in each frame: it is for counters
+    own.wantsCounters = false;
+    frame.color = frame.import(device, "color", inputs.color, colorRule(inputs));
+    frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
+    const bool isOwnColor = isOwn(inputs.color, kColorFormat, picture);
+    own.color =
+        isOwnColor ? frame.color : mPreparation.addColor(graph, frame.color, inputs.color, picture);
+    own.colorIsWritable = !isOwnColor || !inputs.output.image;
+    if (inputs.output.image && isOwn(inputs.output, kColorFormat, picture))
+        own.target = frame.output;
+    else if (!inputs.output.image && isOwnColor)
+        own.target = frame.color;
+    // Those the method does not read are imported as well: they go over to their next use.
+    if (inputs.motionDepth.image) {
+        own.motionDepth = frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
+    } else {
+        const HostConvention& convention = inputs.convention;
+        const auto vectors =
+            frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
+        const auto depth = frame.import(device, "depth", convention.depth.image, kDepthRule);
+        const auto scales =
+            frame.import(device, "blur scale", convention.scales.perPixel, kBlurScaleRule);
+        const shader::PrepareTable table = makePrepareTable(convention, picture);
+        if (!frame.slot.convention)
+            frame.slot.convention = gpu::Buffer(
+                device,
+                "convention",
+                sizeof(table),
+                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                gpu::MemoryUse::Stream
+            );
+        frame.slot.convention.writeBytes(&table, sizeof(table), 0);
+        own.motionDepth = mPreparation.addMotionDepth(
+            graph, vectors, depth, scales, frame.slot.convention.address(), picture
+        );
+    }
+    own.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
+    if (own.normal.isValid() && !isOwn(inputs.normal, kColorFormat, picture))
+        own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
+    own.entityId = frame.import(device, "entity id", inputs.entityId, kIdRule);
+    if (own.entityId.isValid() &&
+        (!isOwn(inputs.entityId, kIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
+        own.entityId =
+            mPreparation.addIds(graph, own.entityId, inputs.entityId, inputs.noEntity, picture);
+    return own;
+}
+
+void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const {
+    const bool inPlace = !frame.inputs.output.image;
+    const HostImage& given = inPlace ? frame.inputs.color : frame.inputs.output;
+    if (!isOwn(given, kColorFormat, pictureOf(frame.inputs)))
+        picture = mPreparation.addDelivery(
+            frame.graph,
+            picture,
+            inPlace ? frame.color : frame.output,
+            given.format == VK_FORMAT_UNDEFINED ? kColorFormat : given.format,
+            given.area.offset
+        );
+    frame.graph.markOutput(picture);
+}
+
 core::Status EmbeddedMotionBlur::recordInto(
     Slot& slot,
     VkCommandBuffer commands,
@@ -286,30 +451,8 @@ core::Status EmbeddedMotionBlur::recordInto(
 ) {
     slot.images.clear();
     graph::Graph graph;
-    const auto import =
-        [&](const char* name, VkFormat format, VkImageUsageFlags usage, const HostImage& given
-        ) -> graph::ImageHandle {
-        if (!given.image)
-            return {};
-        const gpu::Image& image = slot.images.emplace_back(gpu::Image::adopt(
-            *mDevice, name, given.image, {inputs.width, inputs.height, format, usage}
-        ));
-        return graph.importImage(name, image, given.before, given.after);
-    };
-    const bool inPlace = !inputs.output.image;
-    MotionBlurInputs own; // slot 0 in each frame: it is for counters, which nobody reads here
-    // Those the method does not read are imported as well: they go over to their next use.
-    own.color = import(
-        "color", VK_FORMAT_R16G16B16A16_SFLOAT, inPlace ? kRead | kWritten : kRead, inputs.color
-    );
-    own.motionDepth =
-        import("motion and depth", VK_FORMAT_R32G32B32A32_SFLOAT, kRead, inputs.motionDepth);
-    own.normal = import("normal", VK_FORMAT_R16G16B16A16_SFLOAT, kRead, inputs.normal);
-    own.entityId = import("entity id", VK_FORMAT_R32_UINT, kRead, inputs.entityId);
-    own.target = import("output", VK_FORMAT_R16G16B16A16_SFLOAT, kWritten, inputs.output);
-    own.colorIsWritable = inPlace;
-    if (inPlace)
-        own.target = own.color;
+    Frame frame{slot, graph, inputs};
+    MotionBlurInputs own = prepare(frame);
     own.rasterTime = inputs.rasterTime;
     own.response = gpu::splitAddress(inputs.response);
     own.frameNumber = inputs.frameNumber;
@@ -329,7 +472,7 @@ core::Status EmbeddedMotionBlur::recordInto(
         own.instantMotions = describeInstants(slot, view, inputs, settings);
     else
         view.forget();
-    graph.markOutput(mEffect.add(graph, own, settings).color);
+    deliver(frame, mEffect.add(graph, own, settings).color);
 
     slot.frame->beginIn(commands);
     slot.pool.keepFor(inputs.width, inputs.height);

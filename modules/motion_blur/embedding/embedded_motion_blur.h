@@ -8,9 +8,11 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "engine/graph/types.h"
+#include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_features.h"
+#include "modules/motion_blur/embedding/host_image.h"
 #include "modules/motion_blur/embedding/host_motion.h"
+#include "modules/motion_blur/embedding/host_preparation.h"
 #include "modules/motion_blur/motion_blur.h"
 
 #include <cstdint>
@@ -40,15 +42,6 @@ struct HostDevice {
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
 };
 
-/// An image of the host: 2D, one level, one layer, one sample, owned by the queue family of the
-/// command buffer, in the format and with the usage that HostInputs asks for. It may be
-/// destroyed once the frame is done.
-struct HostImage {
-    VkImage image = VK_NULL_HANDLE;
-    graph::OutsideUse before; ///< the host's last use, which is waited for
-    graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
-};
-
 /// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
 /// RayNeed::Any fills those tables.
 struct HostRays {
@@ -61,14 +54,23 @@ struct HostRays {
     bool hasBlended = false; ///< blended surfaces may be in the picture
 };
 
+/// The first format of each image is its own: what has another one, or is part of a larger image,
+/// is copied first.
 struct HostInputs {
-    uint32_t width = 0; ///< pixels of every image, [1, 32768]
+    uint32_t width = 0; ///< of the picture, pixels, [1, 32768]
     uint32_t height = 0;
-    HostImage color;       ///< RGBA16F; sampled, transfer source; in place: storage, too
-    HostImage motionDepth; ///< RGBA32F: motion.xy, depth; every value finite; sampled
-    HostImage normal;      ///< RGBA16F: xyz unit; sampled; for Method::readsNormal
-    HostImage entityId;    ///< R32_UINT; sampled; for Method::readsEntityId
-    /// RGBA16F; storage, transfer target. Null: in place, the blurred picture replaces `color`.
+    /// RGBA16F, RGBA32F or B10G11R11; sampled. Of the own format and size: transfer source, too; in
+    /// place: storage, too.
+    HostImage color;
+    /// RGBA32F: motion.xy, depth; every value finite; sampled. Null: made of `convention`.
+    HostImage motionDepth;
+    HostConvention convention; ///< where motionDepth.image is null
+    HostImage normal;          ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
+    /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId
+    HostImage entityId;
+    uint32_t noEntity = 0xFFFFFFFF; ///< value of entityId where nothing is
+    /// RGBA16F, RGBA32F or B10G11R11; storage; of the own format and size: transfer target, too.
+    /// Null: in place, the blurred picture replaces `color`.
     HostImage output;
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
@@ -121,8 +123,12 @@ class EmbeddedMotionBlur {
   private:
     struct Slot;
     struct View;
+    struct Frame;
 
     EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host);
+    [[nodiscard]] core::Status
+    check(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) const;
+    [[nodiscard]] core::Status checkMadeMotion(const HostInputs& inputs) const;
     [[nodiscard]] core::Status check(
         VkCommandBuffer commands,
         uint32_t frame,
@@ -143,6 +149,9 @@ class EmbeddedMotionBlur {
         const HostInputs& inputs,
         const MotionBlurSettings& settings
     );
+    /// Imports the images, and declares what makes the effect's inputs of them.
+    [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
+    void deliver(Frame& frame, graph::ImageHandle picture) const;
     [[nodiscard]] InstantMotions describeInstants(
         Slot& slot, View& view, const HostInputs& inputs, const MotionBlurSettings& settings
     );
@@ -150,6 +159,7 @@ class EmbeddedMotionBlur {
     std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
     bool mHasRays;
     MotionBlur mEffect;
+    HostPreparation mPreparation;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     std::vector<std::unique_ptr<View>> mViews; ///< as many: frames in flight include views
 };

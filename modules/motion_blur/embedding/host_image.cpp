@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_image.h"
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/vulkan.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+constexpr std::array<std::pair<VkImageUsageFlags, const char*>, 4> kUsages{
+    {{VK_IMAGE_USAGE_SAMPLED_BIT, "SAMPLED"},
+     {VK_IMAGE_USAGE_STORAGE_BIT, "STORAGE"},
+     {VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "TRANSFER_SRC"},
+     {VK_IMAGE_USAGE_TRANSFER_DST_BIT, "TRANSFER_DST"}}};
+
+std::string listFormats(std::span<const VkFormat> formats) {
+    std::string list;
+    for (const VkFormat format : formats)
+        list += (list.empty() ? "" : ", ") + gpu::nameFormat(format);
+    return list;
+}
+
+core::Status checkFormat(const HostImage& image, const HostImageRule& rule) {
+    const VkFormat format = formatOf(image, rule);
+    if (std::find(rule.formats.begin(), rule.formats.end(), format) != rule.formats.end())
+        return {};
+    return makeError(
+        "motion blur: {}.format is {}, it must be one of {}",
+        rule.name,
+        gpu::nameFormat(format),
+        listFormats(rule.formats)
+    );
+}
+
+core::Status checkUsage(const HostImage& image, const HostImageRule& rule) {
+    if (image.usage == 0)
+        return {};
+    for (const auto& [bit, name] : kUsages)
+        if ((rule.usage & bit) != 0 && (image.usage & bit) == 0)
+            return makeError(
+                "motion blur: {}.usage lacks VK_IMAGE_USAGE_{}_BIT, which the image needs",
+                rule.name,
+                name
+            );
+    return {};
+}
+
+core::Status checkArea(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
+    const VkRect2D area = areaOf(image, picture);
+    const VkExtent2D extent = extentOf(image, picture);
+    if ((image.area.extent.width == 0) != (image.area.extent.height == 0))
+        return makeError(
+            "motion blur: {}.area.extent is {} x {}, both must be 0 or neither",
+            rule.name,
+            image.area.extent.width,
+            image.area.extent.height
+        );
+    if (area.offset.x < 0 || area.offset.y < 0)
+        return makeError(
+            "motion blur: {}.area.offset is {}, {}, it must not be negative",
+            rule.name,
+            area.offset.x,
+            area.offset.y
+        );
+    if (uint64_t(area.offset.x) + area.extent.width > extent.width ||
+        uint64_t(area.offset.y) + area.extent.height > extent.height)
+        return makeError(
+            "motion blur: {}.area ends at {}, {}, beyond its extent of {} x {}",
+            rule.name,
+            uint64_t(area.offset.x) + area.extent.width,
+            uint64_t(area.offset.y) + area.extent.height,
+            extent.width,
+            extent.height
+        );
+    if (rule.hasPictureSize &&
+        (area.extent.width != picture.width || area.extent.height != picture.height))
+        return makeError(
+            "motion blur: {}.area.extent is {} x {}, it must be the picture's {} x {}",
+            rule.name,
+            area.extent.width,
+            area.extent.height,
+            picture.width,
+            picture.height
+        );
+    return {};
+}
+
+} // namespace
+
+VkFormat formatOf(const HostImage& image, const HostImageRule& rule) {
+    return image.format == VK_FORMAT_UNDEFINED ? rule.formats.front() : image.format;
+}
+
+VkRect2D areaOf(const HostImage& image, VkExtent2D picture) {
+    const bool isGiven = image.area.extent.width != 0 || image.area.extent.height != 0;
+    return {image.area.offset, isGiven ? image.area.extent : picture};
+}
+
+VkExtent2D extentOf(const HostImage& image, VkExtent2D picture) {
+    if (image.extent.width != 0 && image.extent.height != 0)
+        return image.extent;
+    const VkRect2D area = areaOf(image, picture);
+    return {
+        uint32_t(std::max(area.offset.x, 0)) + area.extent.width,
+        uint32_t(std::max(area.offset.y, 0)) + area.extent.height};
+}
+
+bool isWhole(const HostImage& image, VkExtent2D picture) {
+    const VkRect2D area = areaOf(image, picture);
+    const VkExtent2D extent = extentOf(image, picture);
+    return area.offset.x == 0 && area.offset.y == 0 && area.extent.width == picture.width &&
+           area.extent.height == picture.height && extent.width == picture.width &&
+           extent.height == picture.height;
+}
+
+core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
+    if (!image.image)
+        return makeError("motion blur: {}.image is null", rule.name);
+    if (!rule.isWritten && image.before.layout == VK_IMAGE_LAYOUT_UNDEFINED)
+        return makeError(
+            "motion blur: {}.before.layout is undefined, its contents are lost", rule.name
+        );
+    SHUTTER_TRY(checkFormat(image, rule));
+    SHUTTER_TRY(checkUsage(image, rule));
+    return checkArea(image, rule, picture);
+}
+
+core::Status
+checkSupport(VkPhysicalDevice device, const HostImage& image, const HostImageRule& rule) {
+    const VkFormat format = formatOf(image, rule);
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+    const auto lacks = [&](VkImageUsageFlags usage, VkFormatFeatureFlags feature) {
+        return (rule.usage & usage) != 0 && (properties.optimalTilingFeatures & feature) == 0;
+    };
+    const bool lacksStorage =
+        lacks(VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT);
+    if (lacksStorage || lacks(VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+        return makeError(
+            "motion blur: {}.format is {}, of which the device has no {} images",
+            rule.name,
+            gpu::nameFormat(format),
+            lacksStorage ? "storage" : "sampled"
+        );
+    return {};
+}
+
+} // namespace shutter::motion_blur

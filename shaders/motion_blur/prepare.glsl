@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A host's motion vectors and depth as the motion blur takes them.
+#ifndef SHUTTER_PREPARE_GLSL
+#define SHUTTER_PREPARE_GLSL
+
+#include "common/numeric.glsl"
+#include "motion_blur/prepare_shared.h"
+#include "render/motion.glsl"
+#include "render/scene_shared.h"
+
+SHUTTER_SHADER_BEGIN
+
+SHUTTER_INLINE bool prepareHas(PrepareTable table, uint flag) {
+    return (table.flags & flag) != 0u;
+}
+
+/// Texture coordinates of a place of the picture, pixels.
+SHUTTER_INLINE vec2 placeInArea(PrepareArea area, vec2 place) {
+    return area.origin + place * area.perPixel;
+}
+
+/// Metres along the view, (0, kSkyDepth]; the latter for the sky, and for what is no depth.
+SHUTTER_INLINE float metresOfDepth(PrepareTable table, float value) {
+    if (!isFinite(value) || value == table.skyValue)
+        return kSkyDepth;
+    if (prepareHas(table, kPrepareSkyBeyond) && value > table.skyValue)
+        return kSkyDepth;
+    vec4 k = table.depthFromValue;
+    float metres = (k.x + k.y * value) / (k.z + k.w * value);
+    return isFinite(metres) && metres > 0.0f ? min(metres, kSkyDepth) : kSkyDepth;
+}
+
+/// Displacement in a frame, pixels, of a place that stands still in the world: what the camera's
+/// own motion makes of it. 0 where it cannot be told.
+SHUTTER_INLINE vec2 motionOfCamera(PrepareTable table, vec2 place, float metres) {
+    bool isSky = metres >= kSkyDepth;
+    bool isPerspective = prepareHas(table, kPreparePerspective);
+    // An orthographic camera sees the sky alike from everywhere.
+    if (isSky && !isPerspective)
+        return vec2(0.0f);
+    // The sky is a direction: nothing of the translation counts.
+    vec4 now = isPerspective
+                   ? (isSky ? vec4(place, 1.0f, 0.0f) : vec4(place * metres, metres, 1.0f))
+                   : vec4(place, metres, 1.0f);
+    vec3 before = vec3(
+        dot(table.beforeFromNow[0], now),
+        dot(table.beforeFromNow[1], now),
+        dot(table.beforeFromNow[2], now)
+    );
+    vec2 from = vec2(before.x, before.y);
+    if (isPerspective) {
+        // What was behind the camera comes in from where it was last in front.
+        vec3 visible = vec3(now.x, now.y, now.z);
+        before = pullInFront(before, visible, 1.0e-3f * visible.z);
+        from = vec2(before.x, before.y) / before.z;
+    }
+    return place - from;
+}
+
+/// A motion that every later sum is finite with; 0 for what is no number.
+SHUTTER_INLINE vec2 storableMotion(vec2 motion) {
+    float speed = length(motion);
+    if (!isFinite(speed))
+        return vec2(0.0f);
+    return speed > kMaxMotionPx ? motion * (kMaxMotionPx / speed) : motion;
+}
+
+/// Displacement over the exposure, pixels right and down.
+/// \param vector as it is in the image
+/// \param blurScale of the pixel, [0, 1]
+SHUTTER_INLINE vec2
+preparedMotion(PrepareTable table, vec2 place, vec2 vector, float metres, float blurScale) {
+    vec2 own = vector * table.pixelsPerUnit - table.jitterPx;
+    // Scales of 0 must not meet infinity.
+    if (!isFinite(own.x) || !isFinite(own.y))
+        own = vec2(0.0f);
+    if (!prepareHas(table, kPrepareHasCameras))
+        return storableMotion(own * (table.objectScale * blurScale));
+    vec2 camera = motionOfCamera(table, place, metres);
+    if (!isFinite(camera.x) || !isFinite(camera.y))
+        camera = vec2(0.0f);
+    vec2 object = prepareHas(table, kPrepareVectorsHaveCamera) ? own - camera : own;
+    // Hosts seldom write vectors where nothing is drawn.
+    if (metres >= kSkyDepth)
+        object = vec2(0.0f);
+    vec2 motion = camera * table.cameraScale + object * table.objectScale;
+    return storableMotion(motion * blurScale);
+}
+
+SHUTTER_SHADER_END
+
+#endif

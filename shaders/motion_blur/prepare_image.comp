@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Part of a host's image, in any format of floats, as a picture of its own in half floats.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "common/numeric.glsl"
+#include "motion_blur/motion_blur_shared.h"
+#include "motion_blur/prepare_shared.h"
+
+/// Colours that half floats cannot hold become ones that they can; normals have signs.
+layout(constant_id = 0) const bool kIsColor = true;
+
+layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
+layout(push_constant, scalar) uniform Push {
+    uvec2 sizePx;
+    PrepareArea area;
+} params;
+layout(binding = 0) uniform sampler2D uImage;
+layout(binding = 1, rgba16f) uniform writeonly image2D uPicture;
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, params.sizePx))) return;
+    vec2 place = vec2(pixel) + 0.5f;
+    vec4 value = textureLod(uImage, params.area.origin + place * params.area.perPixel, 0.0f);
+    if (kIsColor) value.rgb = storableColor(value.rgb);
+    imageStore(uPicture, ivec2(pixel), value);
+}

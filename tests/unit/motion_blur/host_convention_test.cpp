@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+// A host's motion vectors, depth and cameras in the motion blur's own terms, against formulas that
+// know the points themselves.
+#include "engine/math/math.h"
+#include "engine/math/transform.h"
+#include "modules/motion_blur/embedding/host_convention.h"
+#include "shaders/motion_blur/prepare.glsl"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace shutter::motion_blur {
+namespace {
+
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+constexpr VkExtent2D kPicture{200, 100};
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Any image but null.
+const auto kSomeImage = reinterpret_cast<VkImage>(uintptr_t{16});
+
+HostImage makeImage(VkFormat format) {
+    HostImage image;
+    image.image = kSomeImage;
+    image.before.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    image.format = format;
+    return image;
+}
+
+struct Projection {
+    const char* name;
+    dmat4 clipFromView;
+    bool aheadIsPlusZ = false;
+};
+
+constexpr double kNear = 0.1;
+constexpr double kFar = 50.0;
+
+/// Depth from 0 near to 1 far, as GLM makes it; y down.
+dmat4 forward() {
+    dmat4 clip = glm::perspectiveRH_ZO(0.9, 2.0, kNear, kFar);
+    clip[1].y = -clip[1].y;
+    return clip;
+}
+
+dmat4 aheadPlusZ() {
+    dmat4 clip = glm::perspectiveLH_ZO(0.9, 2.0, kNear, kFar);
+    clip[1].y = -clip[1].y;
+    return clip;
+}
+
+/// With a lens that is shifted.
+dmat4 shifted() {
+    dmat4 clip = math::clipFromViewPerspective(0.9, 2.0, kNear);
+    clip[2].x = 0.3;
+    clip[2].y = -0.2;
+    return clip;
+}
+
+std::vector<Projection> listProjections() {
+    return {
+        {"reversed, infinite", math::clipFromViewPerspective(0.9, 2.0, kNear)},
+        {"forward", forward()},
+        {"ahead is +Z", aheadPlusZ(), true},
+        {"shifted", shifted()},
+        {"scaled as a whole", 3.0 * forward()},
+        {"orthographic", math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar)}};
+}
+
+HostConvention makeConvention(const Projection& projection) {
+    HostConvention convention;
+    convention.vectors.image = makeImage(VK_FORMAT_R32G32_SFLOAT);
+    convention.depth.image = makeImage(VK_FORMAT_D32_SFLOAT);
+    convention.depth.skyValue = kNaN;
+    HostCameras& cameras = convention.cameras;
+    cameras.areGiven = true;
+    cameras.clipFromView = projection.clipFromView;
+    cameras.clipFromViewBefore = projection.clipFromView;
+    cameras.aheadIsPlusZ = projection.aheadIsPlusZ;
+    convention.scales.exposureShare = 1.0f;
+    return convention;
+}
+
+/// A camera's way from one frame to the next.
+dmat4 viewBefore() {
+    return glm::rotate(
+        glm::translate(dmat4(1.0), dvec3(0.2, -0.1, 0.3)), 0.05, dvec3(0.3, 1.0, 0.2)
+    );
+}
+
+/// Clip space of a point `metres` ahead of the camera, off its axis.
+dvec3 pointAhead(const Projection& projection, double metres) {
+    return {0.12 * metres, -0.07 * metres, projection.aheadIsPlusZ ? metres : -metres};
+}
+
+dvec3 project(const dmat4& clipFromWorld, const dvec3& point) {
+    const dvec4 clip = clipFromWorld * dvec4(point, 1.0);
+    return {
+        (clip.x / clip.w * 0.5 + 0.5) * kPicture.width,
+        (clip.y / clip.w * 0.5 + 0.5) * kPicture.height,
+        clip.z / clip.w};
+}
+
+TEST(HostConvention, RawDepthOfEachProjectionIsMetres) {
+    for (const Projection& projection : listProjections()) {
+        SCOPED_TRACE(projection.name);
+        const shader::PrepareTable table = makePrepareTable(makeConvention(projection), kPicture);
+        for (const double metres : {0.2, 1.0, 7.0, 40.0}) {
+            const double value = project(projection.clipFromView, pointAhead(projection, metres)).z;
+            EXPECT_NEAR(shader::metresOfDepth(table, float(value)), metres, 2.0e-3 * metres);
+        }
+    }
+}
+
+TEST(HostConvention, TheSkyIsToldByItsValue) {
+    HostConvention convention = makeConvention({"", forward()});
+    convention.depth.skyValue = 1.0f;
+    const shader::PrepareTable raw = makePrepareTable(convention, kPicture);
+    EXPECT_EQ(shader::metresOfDepth(raw, 1.0f), shader::kSkyDepth);
+    EXPECT_NEAR(shader::metresOfDepth(raw, 0.5f), 0.2f, 1.0e-3f);
+    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), false, 0.01f, 6000.0f};
+    const shader::PrepareTable linear = makePrepareTable(convention, kPicture);
+    EXPECT_EQ(shader::metresOfDepth(linear, 500.0f), 5.0f) << "centimetres";
+    EXPECT_EQ(shader::metresOfDepth(linear, 6000.0f), shader::kSkyDepth);
+    EXPECT_EQ(shader::metresOfDepth(linear, 7000.0f), shader::kSkyDepth);
+    // Reversed and infinite: the buffer's 0 is infinitely far whatever the host says.
+    const shader::PrepareTable infinite = makePrepareTable(
+        makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)}), kPicture
+    );
+    EXPECT_EQ(shader::metresOfDepth(infinite, 0.0f), shader::kSkyDepth);
+}
+
+TEST(HostConvention, WhatIsNoDepthIsTheSky) {
+    const shader::PrepareTable table = makePrepareTable(makeConvention({"", forward()}), kPicture);
+    for (const float value : {kNaN, kInfinity, -kInfinity, 3.0f})
+        EXPECT_EQ(shader::metresOfDepth(table, value), shader::kSkyDepth) << value;
+}
+
+TEST(HostConvention, TheCamerasPartComesFromDepth) {
+    for (const Projection& projection : listProjections()) {
+        SCOPED_TRACE(projection.name);
+        HostConvention convention = makeConvention(projection);
+        convention.vectors.haveCamera = false;
+        convention.cameras.viewFromWorldBefore = viewBefore();
+        for (const bool hasJitter : {false, true}) {
+            const math::dvec2 jitter = hasJitter ? math::dvec2(0.3, -0.4) : math::dvec2(0.0);
+            convention.cameras.jitterPx = jitter;
+            const shader::PrepareTable table = makePrepareTable(convention, kPicture);
+            for (const double metres : {0.5, 4.0, 30.0}) {
+                const dvec3 point = pointAhead(projection, metres);
+                const dvec3 now = project(projection.clipFromView, point);
+                const dvec3 before = project(projection.clipFromView * viewBefore(), point);
+                const glm::vec2 place(now.x - jitter.x, now.y - jitter.y);
+                const glm::vec2 motion =
+                    shader::preparedMotion(table, place, glm::vec2(0.0f), float(metres), 1.0f);
+                EXPECT_NEAR(motion.x, now.x - before.x, 1.0e-3);
+                EXPECT_NEAR(motion.y, now.y - before.y, 1.0e-3);
+            }
+        }
+    }
+}
+
+TEST(HostConvention, TheSkyMovesAsTheCameraTurns) {
+    const Projection projection{"", math::clipFromViewPerspective(0.9, 2.0, kNear)};
+    HostConvention convention = makeConvention(projection);
+    convention.cameras.viewFromWorldBefore = viewBefore();
+    const shader::PrepareTable table = makePrepareTable(convention, kPicture);
+    const dvec3 direction = pointAhead(projection, 1.0e7);
+    const dvec3 now = project(projection.clipFromView, direction);
+    const dvec3 before = project(projection.clipFromView * viewBefore(), direction);
+    // Whatever the image holds there.
+    const glm::vec2 motion =
+        shader::preparedMotion(table, {now.x, now.y}, {77.0f, 5.0f}, shader::kSkyDepth, 1.0f);
+    EXPECT_NEAR(motion.x, now.x - before.x, 1.0e-3);
+    EXPECT_NEAR(motion.y, now.y - before.y, 1.0e-3);
+    convention = makeConvention({"", math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar)});
+    convention.cameras.viewFromWorldBefore = viewBefore();
+    EXPECT_EQ(
+        shader::preparedMotion(
+            makePrepareTable(convention, kPicture),
+            {9.0f, 9.0f},
+            {77.0f, 5.0f},
+            shader::kSkyDepth,
+            1.0f
+        ),
+        glm::vec2(0.0f)
+    );
+}
+
+TEST(HostConvention, WhatComesFromBehindTheCameraMovesAFiniteWay) {
+    HostConvention convention =
+        makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)});
+    // The camera went back by 3 m: what is 2 m ahead of it now was 1 m behind it.
+    convention.cameras.viewFromWorldBefore = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, 3.0));
+    const shader::PrepareTable table = makePrepareTable(convention, kPicture);
+    const glm::vec2 motion = shader::motionOfCamera(table, {150.0f, 50.0f}, 2.0f);
+    EXPECT_LT(motion.x, -1000.0f) << "towards the middle, from far outside";
+    EXPECT_TRUE(std::isfinite(motion.x) && std::isfinite(motion.y));
+    const glm::vec2 stored = shader::preparedMotion(table, {150.0f, 50.0f}, {}, 2.0f, 1.0f);
+    EXPECT_LE(glm::length(stored), shader::kMaxMotionPx * 1.001f);
+}
+
+TEST(HostConvention, VectorsAreTurnedScaledAndFreedOfJitter) {
+    HostConvention convention = makeConvention({"", forward()});
+    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), false, 1.0f, kNaN};
+    convention.cameras.areGiven = false;
+    convention.scales.exposureShare = 0.5f;
+    convention.vectors.pixelsPerUnit = {-200.0f, 50.0f}; // to before; x in uv, y in NDC, up
+    const auto prepare = [&](const glm::vec2& vector, float blurScale = 1.0f) {
+        return shader::preparedMotion(
+            makePrepareTable(convention, kPicture), {10.0f, 10.0f}, vector, 3.0f, blurScale
+        );
+    };
+    EXPECT_EQ(prepare({-0.1f, 0.2f}), glm::vec2(10.0f, 5.0f));
+    EXPECT_EQ(prepare({-0.1f, 0.2f}, 0.25f), glm::vec2(2.5f, 1.25f));
+    convention.scales.displayedPerRendered = 2.0f;
+    EXPECT_EQ(prepare({-0.1f, 0.2f}), glm::vec2(5.0f, 2.5f));
+    convention.scales.displayedPerRendered = 1.0f;
+    convention.scales.isCut = true;
+    EXPECT_EQ(prepare({-0.1f, 0.2f}), glm::vec2(0.0f));
+    convention.scales.isCut = false;
+    // A still point that both frames' jitter moved.
+    convention.vectors.pixelsPerUnit = {1.0f, 1.0f};
+    convention.vectors.haveJitter = true;
+    convention.cameras.jitterPx = {0.25, -0.5};
+    convention.cameras.jitterPxBefore = {-0.25, 0.125};
+    EXPECT_EQ(prepare({-0.5f, 0.625f}), glm::vec2(0.0f));
+    convention.vectors.haveJitter = false;
+    EXPECT_EQ(prepare({-0.5f, 0.625f}), glm::vec2(-0.25f, 0.3125f));
+}
+
+TEST(HostConvention, CameraAndObjectsHaveScalesOfTheirOwn) {
+    HostConvention convention =
+        makeConvention({"", math::clipFromViewPerspective(0.9, 2.0, kNear)});
+    convention.cameras.viewFromWorldBefore = viewBefore();
+    const glm::vec2 place(120.0f, 30.0f);
+    const glm::vec2 camera =
+        shader::motionOfCamera(makePrepareTable(convention, kPicture), place, 4.0f);
+    ASSERT_GT(glm::length(camera), 1.0f);
+    const glm::vec2 object(3.0f, -2.0f);
+    const auto prepare = [&](bool haveCamera, float cameraScale, float objectScale) {
+        convention.vectors.haveCamera = haveCamera;
+        convention.scales.camera = cameraScale;
+        convention.scales.object = objectScale;
+        const glm::vec2 vector = haveCamera ? camera + object : object;
+        return shader::preparedMotion(
+            makePrepareTable(convention, kPicture), place, vector, 4.0f, 1.0f
+        );
+    };
+    for (const bool haveCamera : {true, false}) {
+        EXPECT_LT(glm::distance(prepare(haveCamera, 1.0f, 1.0f), camera + object), 1.0e-4f);
+        EXPECT_LT(glm::distance(prepare(haveCamera, 1.0f, 0.0f), camera), 1.0e-4f);
+        EXPECT_LT(glm::distance(prepare(haveCamera, 0.0f, 1.0f), object), 1.0e-4f);
+        EXPECT_LT(
+            glm::distance(prepare(haveCamera, 0.25f, 0.5f), 0.25f * camera + 0.5f * object), 1.0e-4f
+        );
+    }
+}
+
+TEST(HostConvention, WhatIsNoVectorIsNoMotion) {
+    for (const bool hasCameras : {false, true}) {
+        HostConvention convention = makeConvention({"", forward()});
+        convention.cameras.areGiven = hasCameras;
+        convention.depth.isRaw = false;
+        const shader::PrepareTable table = makePrepareTable(convention, kPicture);
+        for (const float value : {kNaN, kInfinity, -kInfinity, 3.0e38f}) {
+            const glm::vec2 motion =
+                shader::preparedMotion(table, {5.0f, 5.0f}, {value, 1.0f}, 2.0f, 1.0f);
+            EXPECT_TRUE(std::isfinite(motion.x) && std::isfinite(motion.y)) << value;
+            EXPECT_LE(glm::length(motion), shader::kMaxMotionPx * 1.001f) << value;
+        }
+    }
+}
+
+TEST(HostConvention, PartsOfImagesAreReadWhereTheyLie) {
+    HostImage image = makeImage(VK_FORMAT_R32G32_SFLOAT);
+    image.extent = {400, 160};
+    image.area = {{30, 20}, {100, 50}}; // at half of the picture's resolution
+    const shader::PrepareArea area = makeArea(image, kPicture);
+    const glm::vec2 uv = shader::placeInArea(area, {0.5f, 99.5f});
+    EXPECT_NEAR(uv.x * 400.0f, 30.25f, 1.0e-4f);
+    EXPECT_NEAR(uv.y * 160.0f, 69.75f, 1.0e-4f);
+}
+
+TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
+    const HostConvention good = makeConvention({"", forward()});
+    ASSERT_TRUE(checkConvention(good, kPicture).ok());
+    const auto refuse = [&](const std::function<void(HostConvention&)>& change,
+                            const std::string& part) {
+        HostConvention convention = good;
+        change(convention);
+        const core::Status status = checkConvention(convention, kPicture);
+        ASSERT_FALSE(status.ok()) << "expected: " << part;
+        EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
+    };
+    using C = HostConvention;
+    refuse([](C& c) { c.vectors.image.image = VK_NULL_HANDLE; }, "vectors.image.image is null");
+    refuse([](C& c) { c.depth.image.image = VK_NULL_HANDLE; }, "depth.image.image is null");
+    refuse(
+        [](C& c) { c.vectors.image.format = VK_FORMAT_R8G8B8A8_UNORM; },
+        "vectors.image.format is R8G8B8A8_UNORM, it must be one of R16G16_SFLOAT"
+    );
+    refuse(
+        [](C& c) { c.vectors.image.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; },
+        "vectors.image.before.layout is undefined"
+    );
+    refuse(
+        [](C& c) { c.depth.image.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT; },
+        "depth.image.usage lacks VK_IMAGE_USAGE_SAMPLED_BIT"
+    );
+    refuse([](C& c) { c.depth.image.area.offset = {-1, 0}; }, "depth.image.area.offset is -1, 0");
+    refuse(
+        [](C& c) {
+            c.depth.image.extent = {200, 100};
+            c.depth.image.area.offset = {1, 0};
+        },
+        "depth.image.area ends at 201, 100, beyond its extent of 200 x 100"
+    );
+    refuse(
+        [](C& c) {
+            c.depth.image.area.extent = {5, 0};
+        },
+        "area.extent is 5 x 0, both must be 0"
+    );
+    refuse([](C& c) { c.vectors.pixelsPerUnit.y = 0.0f; }, "pixelsPerUnit holds 0");
+    refuse([](C& c) { c.vectors.pixelsPerUnit.x = kNaN; }, "pixelsPerUnit holds nan");
+    refuse(
+        [](C& c) {
+            c.depth.isRaw = false;
+            c.depth.metresPerUnit = 0.0f;
+        },
+        "metresPerUnit is 0"
+    );
+    refuse([](C& c) { c.scales.exposureShare = -1.0f; }, "scales.exposureShare is -1");
+    refuse([](C& c) { c.scales.camera = kInfinity; }, "scales.camera is inf");
+    refuse([](C& c) { c.scales.object = kNaN; }, "scales.object is nan");
+    refuse([](C& c) { c.scales.displayedPerRendered = 0.5f; }, "displayedPerRendered is 0.5");
+    refuse(
+        [](C& c) { c.scales.perPixel = makeImage(VK_FORMAT_R32_UINT); },
+        "scales.perPixel.format is R32_UINT"
+    );
+    refuse([](C& c) { c.cameras.jitterPx.x = kNaN; }, "cameras.jitterPx is not finite");
+    refuse([](C& c) { c.cameras.viewFromWorld[0].w = 1.0; }, "cameras.viewFromWorld is not affine");
+    refuse(
+        [](C& c) { c.cameras.viewFromWorldBefore = dmat4(0.0); },
+        "cameras.viewFromWorldBefore is not affine"
+    );
+    refuse(
+        [](C& c) { c.cameras.clipFromView[0].x = double(kNaN); },
+        "cameras.clipFromView is not finite"
+    );
+    refuse(
+        [](C& c) { c.cameras.clipFromView = aheadPlusZ(); },
+        "clipFromView looks along +Z, convention.cameras.aheadIsPlusZ says -Z"
+    );
+    refuse(
+        [](C& c) {
+            c.cameras.clipFromViewBefore = math::clipFromViewOrthographic(6.0, 3.0, kNear, kFar);
+        },
+        "clipFromViewBefore is orthographic, clipFromView is not"
+    );
+    const auto refuseWithoutCameras = [&](const std::function<void(HostConvention&)>& change,
+                                          const std::string& part) {
+        refuse(
+            [&](C& c) {
+                c.cameras.areGiven = false;
+                c.depth.isRaw = false;
+                change(c);
+            },
+            part + ", which needs convention.cameras"
+        );
+    };
+    refuseWithoutCameras([](C& c) { c.depth.isRaw = true; }, "depth.isRaw is true");
+    refuseWithoutCameras([](C& c) { c.vectors.haveCamera = false; }, "haveCamera is false");
+    refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "camera is not scales.object");
+}
+
+} // namespace
+} // namespace shutter::motion_blur
