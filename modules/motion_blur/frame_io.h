@@ -21,6 +21,7 @@
 namespace shutter::motion_blur {
 
 class RasterHistory;
+struct OwnReveal;
 
 /// A raster of the world at the other end of the exposure, with entity ids of its own.
 struct SecondRaster {
@@ -47,9 +48,10 @@ struct MotionBlurInputs {
     graph::ImageHandle entityId;    ///< R32_UINT; for Method::readsEntityId
     double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
     glm::uvec2 response{0u};        ///< address of shader::ResponseTable; 0: a box
-    /// For methods of RayNeed::Any (CHECKed). Without a TLAS nothing but sky lies behind what moves
-    /// and no ray is traced; `frameConstants` alone counts then.
+    /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS nothing but
+    /// sky lies behind what moves and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;
+    const OwnReveal* reveal = nullptr;            ///< in place of `rays`; it must outlive the graph
     std::optional<graph::TimedRays> timedRays;    ///< for methods of RayNeed::Query (CHECKed)
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.

@@ -33,7 +33,7 @@ MotionBlurOutputs MotionBlur::add(
     const Method& method = *settings.method;
     const bool hasRays = mParts->sceneLayout && mParts->device.hasRays();
     SHUTTER_CHECK(
-        method.rays != RayNeed::Any || (hasRays && inputs.rays),
+        method.rays != RayNeed::Any || inputs.reveal || (hasRays && inputs.rays),
         "the method {} needs rays",
         method.name
     );

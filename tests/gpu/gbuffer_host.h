@@ -42,6 +42,8 @@ class HostOfTheGBuffer : public render::PostEffect {
     /// Says how things move in the frame. What it points to must last until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
+    /// Turns the rays that are handed in into a reveal of the host's own.
+    std::function<void(motion_blur::HostInputs&)> takeRays;
     /// Changes what rays meet. What it points to must last until the frame has ended.
     std::function<void(const render::PostContext&, motion_blur::HostRays&)> changeRays;
 
@@ -101,13 +103,15 @@ class HostOfTheGBuffer : public render::PostEffect {
                 given.entityId = give(data.entityId);
                 if (level.isValid())
                     given.rays.tlasBuffer = pass.resources.buffer(level);
+                if (takeRays)
+                    takeRays(given);
                 recordBoth(pass.commands, given);
             }
         );
     }
 
   private:
-    void recordBoth(VkCommandBuffer commands, motion_blur::HostInputs inputs) {
+    void recordBoth(VkCommandBuffer commands, motion_blur::HostInputs& inputs) {
         inputs.output = {output.handle(), kNothing, kCopied};
         const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
         ASSERT_TRUE(other.ok()) << other.error().message;

@@ -235,9 +235,18 @@ core::Status EmbeddedMotionBlur::checkMethod(
         return makeError(
             "motion blur: the method {} needs timed rays, which hosts cannot give", method.name
         );
-    if (method.rays != RayNeed::None && !mHasRays)
+    const bool hasOwnReveal = method.rays == RayNeed::Any && inputs.reveal.record;
+    if (method.rays != RayNeed::None && !mHasRays && !hasOwnReveal)
         return makeError(
-            "motion blur: the method {} needs rays, and HostDevice::rayTier was none", method.name
+            "motion blur: the method {} needs rays: reveal.record is empty, and "
+            "HostDevice::rayTier "
+            "was none",
+            method.name
+        );
+    if (hasOwnReveal && settings.rayShare < 1.0f)
+        return makeError(
+            "motion blur: rayShare is {}, but reveal.record answers each pixel; it must be 1",
+            settings.rayShare
         );
     if (method.readsNormal)
         SHUTTER_TRY(check(inputs.normal, kNormalRule, pictureOf(inputs)));
@@ -249,7 +258,7 @@ core::Status EmbeddedMotionBlur::checkMethod(
         );
     if (method.readsInstantMotions)
         SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
-    if (method.rays == RayNeed::None && !method.readsCamera)
+    if (hasOwnReveal || (method.rays == RayNeed::None && !method.readsCamera))
         return {};
     if (inputs.rays.frameConstants == 0)
         return makeError(
@@ -457,7 +466,9 @@ core::Status EmbeddedMotionBlur::recordInto(
     own.response = gpu::splitAddress(inputs.response);
     own.frameNumber = inputs.frameNumber;
     const Method& method = *settings.method;
-    if (method.rays == RayNeed::Any || method.readsCamera) {
+    if (method.rays == RayNeed::Any && inputs.reveal.record) {
+        own.reveal = &inputs.reveal;
+    } else if (method.rays == RayNeed::Any || method.readsCamera) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (method.rays == RayNeed::Any && inputs.rays.tlas) {
             rays.tlasBuffer = graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);

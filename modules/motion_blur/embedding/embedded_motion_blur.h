@@ -14,6 +14,7 @@
 #include "modules/motion_blur/embedding/host_motion.h"
 #include "modules/motion_blur/embedding/host_preparation.h"
 #include "modules/motion_blur/motion_blur.h"
+#include "modules/motion_blur/own_reveal.h"
 
 #include <cstdint>
 #include <memory>
@@ -74,9 +75,10 @@ struct HostInputs {
     HostImage output;
     double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
     VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
-    HostRays rays;                ///< for methods of RayNeed::Any
-    int64_t frameNumber = 0;      ///< for InstantNoise::Turning; the next frame has the next number
-    HostMotion motion;            ///< for Method::readsInstantMotions; its `view` for all
+    HostRays rays;                ///< for methods of RayNeed::Any, unless `reveal.record` is there
+    OwnReveal reveal;        ///< in place of `rays`: needs no tables and no HostDevice::rayTier
+    int64_t frameNumber = 0; ///< for InstantNoise::Turning; the next frame has the next number
+    HostMotion motion;       ///< for Method::readsInstantMotions; its `view` for all
 };
 
 class EmbeddedMotionBlur {

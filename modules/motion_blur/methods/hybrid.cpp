@@ -5,6 +5,7 @@
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/passes/gather.h"
+#include "modules/motion_blur/passes/own_reveal_pass.h"
 #include "modules/motion_blur/passes/ray_mask.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
 #include "modules/motion_blur/passes/revealed_layer.h"
@@ -20,7 +21,8 @@ namespace {
 class HybridPasses : public MethodPasses {
   public:
     HybridPasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mMask(device), mReveal(device, sceneLayout), mLayer(device), mGather(device) {}
+        : mDevice(device), mMask(device), mReveal(device, sceneLayout), mLayer(device),
+          mGather(device) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -36,6 +38,7 @@ class HybridPasses : public MethodPasses {
     }
 
   private:
+    gpu::Device& mDevice;
     RayMask mMask;
     RayReveal mReveal;
     RevealedLayerPasses mLayer;
@@ -51,7 +54,8 @@ MotionBlurOutputs HybridPasses::add(
 ) {
     PassParams params = resolved;
     auto own = params.getMethod<shader::HybridParams>();
-    own.frame = gpu::splitAddress(inputs.rays->frameConstants);
+    if (inputs.rays)
+        own.frame = gpu::splitAddress(inputs.rays->frameConstants);
     params.setMethod(own);
     const TileMotionOutputs tiles = shared.tileMotion.add(graph, inputs.motionDepth, params);
     const SortedBlocks sorted = shared.sorter.add(graph, tiles, params, true);
@@ -62,19 +66,19 @@ MotionBlurOutputs HybridPasses::add(
     );
     if (inputs.wantsCounters)
         shared.sorter.addCounters(graph, mask.blocks, params, inputs.slot);
-    const RayRevealOutputs reveal = mReveal.add(
-        graph,
-        {inputs.color,
-         inputs.motionDepth,
-         inputs.entityId,
-         mask.mask,
-         mask.list,
-         mask.arguments,
-         *inputs.rays,
-         inputs.slot,
-         inputs.wantsCounters},
-        params
-    );
+    const RayRevealInputs revealInputs{
+        inputs.color,
+        inputs.motionDepth,
+        inputs.entityId,
+        mask.mask,
+        mask.list,
+        mask.arguments,
+        inputs.rays.value_or(graph::RayScene{}),
+        inputs.slot,
+        inputs.wantsCounters};
+    const RayRevealOutputs reveal = inputs.reveal
+                                        ? addOwnReveal(graph, mDevice, revealInputs, *inputs.reveal)
+                                        : mReveal.add(graph, revealInputs, params);
     const RevealedLayerInputs layerInputs{
         inputs.color, inputs.motionDepth, tiles.tiles, mask, reveal};
     const RevealedLayer layer{

@@ -88,10 +88,18 @@ const gpu::Pipeline& RayReveal::findPipeline(const graph::RayScene& rays) {
     return tracer->pipeline();
 }
 
-graph::BufferHandle RayReveal::addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const {
+RayRevealOutputs createRevealed(graph::Graph& graph, const RayRevealInputs& inputs) {
+    const auto create = [&](const char* name, graph::ImageHandle like) {
+        return graph.createImage(name, graph.describeImage(like));
+    };
+    return {
+        create("reveal color", inputs.color),
+        create("reveal motion depth", inputs.motionDepth),
+        create("reveal entity id", inputs.entityId)};
+}
+
+graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) {
     using graph::Access;
-    if (!mDevice.info().tracesIndirect)
-        return {};
 
     struct Data {
         graph::BufferHandle list;
@@ -149,17 +157,13 @@ void RayReveal::launch(
 RayRevealOutputs
 RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params) {
     using graph::Access;
-    const auto create = [&](const char* name, graph::ImageHandle like) {
-        return graph.createImage(name, graph.describeImage(like));
-    };
-    const RayRevealOutputs outputs{
-        create("reveal color", inputs.color),
-        create("reveal motion depth", inputs.motionDepth),
-        create("reveal entity id", inputs.entityId)};
+    const RayRevealOutputs outputs = createRevealed(graph, inputs);
     const bool skyOnly = inputs.rays.tlas == VK_NULL_HANDLE;
     const bool byCompute = skyOnly || mDevice.hasRayQuery();
-    const graph::BufferHandle launchSize =
-        byCompute ? graph::BufferHandle{} : addLaunchSize(graph, inputs.list);
+    // Where the device reads no launch's size from memory, there is a launch for every pixel.
+    const graph::BufferHandle launchSize = byCompute || !mDevice.info().tracesIndirect
+                                               ? graph::BufferHandle{}
+                                               : addLaunchSize(graph, inputs.list);
     const gpu::Pipeline& pipeline = findPipeline(inputs.rays);
 
     struct RevealData {

@@ -35,6 +35,13 @@ struct RayRevealOutputs {
     graph::ImageHandle entityId;
 };
 
+/// The images of a frame's reveal, which nothing has written yet.
+[[nodiscard]] RayRevealOutputs createRevealed(graph::Graph& graph, const RayRevealInputs& inputs);
+
+/// VkTraceRaysIndirectCommandKHR of one launch a masked pixel.
+/// \param list of RayMask
+[[nodiscard]] graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list);
+
 /// By ray queries in a compute shader, or by a ray-tracing pipeline: what the device has.
 class RayReveal {
   public:
@@ -52,8 +59,6 @@ class RayReveal {
     [[nodiscard]] Counts count(uint32_t slot) const;
 
   private:
-    /// One launch a masked pixel, or invalid where the device reads no launch's size from memory.
-    graph::BufferHandle addLaunchSize(graph::Graph& graph, graph::BufferHandle list) const;
     /// Made for the first frame that needs it.
     const gpu::Pipeline& findPipeline(const graph::RayScene& rays);
     void addCounters(graph::Graph& graph, graph::BufferHandle list, uint32_t slot) const;

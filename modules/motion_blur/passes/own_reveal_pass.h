@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/own_reveal.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
+
+namespace shutter::motion_blur {
+
+/// The pass in which a host's commands reveal what lies behind masked pixels.
+/// \param inputs of which the scene and the slot do not count
+/// \param own must outlive the graph
+[[nodiscard]] RayRevealOutputs addOwnReveal(
+    graph::Graph& graph,
+    const gpu::Device& device,
+    const RayRevealInputs& inputs,
+    const OwnReveal& own
+);
+
+} // namespace shutter::motion_blur
