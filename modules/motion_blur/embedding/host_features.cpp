@@ -23,7 +23,137 @@ constexpr VkBool32 VkPhysicalDeviceVulkan12Features::*kBindless[] = {
     &VkPhysicalDeviceVulkan12Features::runtimeDescriptorArray,
     &VkPhysicalDeviceVulkan12Features::shaderSampledImageArrayNonUniformIndexing};
 
+/// A feature, in the structure of the Vulkan version that took it up or in the one that it came
+/// with.
+struct Feature {
+    const char* name;
+    VkStructureType type;
+    VkBool32* (*find)(VkBaseOutStructure* structure);
+    VkStructureType firstType;
+    VkBool32* (*findFirst)(VkBaseOutStructure* structure);
+};
+
+template <class Structure, VkBool32 Structure::*member>
+VkBool32* findMember(VkBaseOutStructure* structure) {
+    return &(reinterpret_cast<Structure*>(structure)->*member);
+}
+
+using V12 = VkPhysicalDeviceVulkan12Features;
+using V13 = VkPhysicalDeviceVulkan13Features;
+using Indexing = VkPhysicalDeviceDescriptorIndexingFeatures;
+using Structures = VkPhysicalDeviceAccelerationStructureFeaturesKHR;
+using Query = VkPhysicalDeviceRayQueryFeaturesKHR;
+using Pipelines = VkPhysicalDeviceRayTracingPipelineFeaturesKHR;
+
+constexpr VkStructureType kV12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+constexpr VkStructureType kV13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+constexpr VkStructureType kIndexing =
+    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES;
+constexpr VkStructureType kStructures =
+    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+constexpr VkStructureType kQuery = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
+constexpr VkStructureType kPipelines =
+    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR;
+
+#define SHUTTER_IN(Structure, member) findMember<Structure, &Structure::member>
+constexpr std::array kFeatures{
+    Feature{
+        "bufferDeviceAddress",
+        kV12,
+        SHUTTER_IN(V12, bufferDeviceAddress),
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES,
+        SHUTTER_IN(VkPhysicalDeviceBufferDeviceAddressFeatures, bufferDeviceAddress)},
+    Feature{
+        "scalarBlockLayout",
+        kV12,
+        SHUTTER_IN(V12, scalarBlockLayout),
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,
+        SHUTTER_IN(VkPhysicalDeviceScalarBlockLayoutFeatures, scalarBlockLayout)},
+    Feature{
+        "synchronization2",
+        kV13,
+        SHUTTER_IN(V13, synchronization2),
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+        SHUTTER_IN(VkPhysicalDeviceSynchronization2Features, synchronization2)},
+    Feature{
+        "maintenance4",
+        kV13,
+        SHUTTER_IN(V13, maintenance4),
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
+        SHUTTER_IN(VkPhysicalDeviceMaintenance4Features, maintenance4)}};
+constexpr std::array kRayFeatures{
+    Feature{
+        "runtimeDescriptorArray",
+        kV12,
+        SHUTTER_IN(V12, runtimeDescriptorArray),
+        kIndexing,
+        SHUTTER_IN(Indexing, runtimeDescriptorArray)},
+    Feature{
+        "shaderSampledImageArrayNonUniformIndexing",
+        kV12,
+        SHUTTER_IN(V12, shaderSampledImageArrayNonUniformIndexing),
+        kIndexing,
+        SHUTTER_IN(Indexing, shaderSampledImageArrayNonUniformIndexing)},
+    Feature{
+        "accelerationStructure",
+        kStructures,
+        SHUTTER_IN(Structures, accelerationStructure),
+        kStructures,
+        SHUTTER_IN(Structures, accelerationStructure)}};
+constexpr Feature kQueryFeature{
+    "rayQuery", kQuery, SHUTTER_IN(Query, rayQuery), kQuery, SHUTTER_IN(Query, rayQuery)};
+constexpr Feature kPipelineFeature{
+    "rayTracingPipeline",
+    kPipelines,
+    SHUTTER_IN(Pipelines, rayTracingPipeline),
+    kPipelines,
+    SHUTTER_IN(Pipelines, rayTracingPipeline)};
+#undef SHUTTER_IN
+
+/// Null: no structure of the chain has it.
+VkBool32* findIn(VkPhysicalDeviceFeatures2& chain, const Feature& feature) {
+    for (auto* at = static_cast<VkBaseOutStructure*>(chain.pNext); at; at = at->pNext) {
+        if (at->sType == feature.type)
+            return feature.find(at);
+        if (at->sType == feature.firstType)
+            return feature.findFirst(at);
+    }
+    return nullptr;
+}
+
+std::vector<Feature> listFeatures(gpu::RayTier rays) {
+    std::vector<Feature> features(kFeatures.begin(), kFeatures.end());
+    if (rays == gpu::RayTier::None)
+        return features;
+    features.insert(features.end(), kRayFeatures.begin(), kRayFeatures.end());
+    features.push_back(rays == gpu::RayTier::RayQuery ? kQueryFeature : kPipelineFeature);
+    return features;
+}
+
 } // namespace
+
+core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays) {
+    std::vector<VkBool32*> wanted;
+    for (const Feature& feature : listFeatures(rays)) {
+        VkBool32* const found = findIn(chain, feature);
+        if (!found)
+            return core::makeError(
+                "motion blur: the chain of features has no structure with {}", feature.name
+            );
+        wanted.push_back(found);
+    }
+    for (VkBool32* const feature : wanted)
+        *feature = VK_TRUE;
+    chain.features.shaderStorageImageExtendedFormats = VK_TRUE;
+    if (rays == gpu::RayTier::None)
+        return {};
+    chain.features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
+    // Vulkan 1.2's structure has one more for the whole of descriptor indexing.
+    for (auto* at = static_cast<VkBaseOutStructure*>(chain.pNext); at; at = at->pNext)
+        if (at->sType == kV12)
+            reinterpret_cast<V12*>(at)->descriptorIndexing = VK_TRUE;
+    return {};
+}
 
 HostFeatures::HostFeatures(gpu::RayTier rays) : mRays(rays) {
     features.pNext = &v12;

@@ -43,6 +43,12 @@ class HostFeatures {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
 };
 
+/// Switches the features on in a chain of the host's own, in whichever structures it holds for
+/// them: those of a Vulkan version or of the extension that a feature comes from. Changes nothing
+/// else. Error: names a feature that the chain has no structure for; nothing was changed.
+[[nodiscard]] core::Status
+addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays = gpu::RayTier::None);
+
 /// Whether the device could have the features enabled, and the queue family runs compute shaders;
 /// one sentence that names what is missing where it cannot. What a host did enable Vulkan does not
 /// tell anybody; the validation layer does.
