@@ -145,8 +145,8 @@ void addHeaders(
     if (!visited.insert(file).second)
         return;
     for (const Include& include : tree.at(file).includes) {
-        if (!include.quoted)
-            headers.insert(include.target);
+        if (!include.quoted) // a header for C has the C library's
+            headers.insert(include.target == "stdint.h" ? "cstdint" : include.target);
         else if (const auto next = findFile(tree, include))
             addHeaders(tree, *next, headers, visited);
     }

@@ -62,6 +62,11 @@ TEST(StandardHeaders, AHeaderOfAnotherLibraryBringsNone) {
     EXPECT_EQ(findMissingHeaders(tree), Strings{"engine/a.h uses std::uint8_t without <cstdint>"});
 }
 
+TEST(StandardHeaders, AHeaderForCBringsTheIntegerTypes) {
+    const SourceTree tree = makeTree({{"engine/a.h", "#include <stdint.h>\nuint8_t a;\n"}});
+    EXPECT_EQ(findMissingHeaders(tree), Strings{});
+}
+
 TEST(StandardHeaders, TheTreeIncludesWhatItUses) {
     const std::filesystem::path root = SHUTTER_SOURCE_DIR;
     SourceTree tree;

@@ -347,10 +347,14 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     const HostInputs& inputs,
     const MotionBlurSettings& settings
 ) {
+    mHasLeftAPart = false;
     try {
         SHUTTER_TRY(check(commands, frame, inputs, settings));
         markDone(frame);
-        return recordInto(*mSlots[frame], commands, inputs, settings);
+        mHasLeftAPart = true;
+        core::Status done = recordInto(*mSlots[frame], commands, inputs, settings);
+        mHasLeftAPart = !done;
+        return done;
     } catch (const gpu::DeviceError& error) {
         return core::Error{error.what()};
     } catch (const std::bad_alloc&) {

@@ -109,6 +109,9 @@ class EmbeddedMotionBlur {
         const MotionBlurSettings& settings
     );
 
+    /// Whether the last record() that returned an error left a part of its commands behind.
+    [[nodiscard]] bool hasLeftAPart() const { return mHasLeftAPart; }
+
     /// Tells the same of `frame` as recording it anew. To be called for a number that will not be
     /// recorded again (a view was closed, fewer frames are in flight): what was retired after it,
     /// by any frame, is kept until then. Also for a host that wants memory back early: what
@@ -160,6 +163,7 @@ class EmbeddedMotionBlur {
 
     std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
     bool mHasRays;
+    bool mHasLeftAPart = false;
     MotionBlur mEffect;
     HostPreparation mPreparation;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight

@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * Motion blur for an engine that uses nothing else of Shutter, in C11: made from Vulkan handles,
+ * recorded into the host's own command buffers, from the host's images into an image of the host.
+ *
+ * Structures that begin with their size are made by the function of their name, which sets the size
+ * and the default of every field:
+ *
+ *     ShutterBlurInputs inputs = shutterBlurDefaultInputs();
+ *
+ * A library takes the structures of older headers of its own major and minor version.
+ *
+ * Nothing is thrown and nothing aborts. What cannot be done is refused: the function returns an
+ * error, and shutterBlurGetMessage() says in one sentence which field is wrong.
+ *
+ * An object may be used by one thread at a time. Matrices are column by column and take columns. */
+#ifndef SHUTTER_MOTION_BLUR_H
+#define SHUTTER_MOTION_BLUR_H
+
+#include <vulkan/vulkan.h>
+
+#include <stdint.h>
+#include <string.h>
+
+#define SHUTTER_BLUR_VERSION_MAJOR 0
+#define SHUTTER_BLUR_VERSION_MINOR 1
+#define SHUTTER_BLUR_VERSION_PATCH 0
+#define SHUTTER_BLUR_VERSION                                                                       \
+    ((uint32_t                                                                                     \
+    )((SHUTTER_BLUR_VERSION_MAJOR << 22) | (SHUTTER_BLUR_VERSION_MINOR << 12) |                    \
+      SHUTTER_BLUR_VERSION_PATCH))
+
+#if defined(_WIN32) && defined(SHUTTER_BLUR_SHARED)
+#if defined(SHUTTER_BLUR_BUILDS)
+#define SHUTTER_BLUR_API __declspec(dllexport)
+#else
+#define SHUTTER_BLUR_API __declspec(dllimport)
+#endif
+#elif defined(SHUTTER_BLUR_BUILDS)
+#define SHUTTER_BLUR_API __attribute__((visibility("default")))
+#else
+#define SHUTTER_BLUR_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ShutterBlurResult {
+    SHUTTER_BLUR_SUCCESS = 0,
+    SHUTTER_BLUR_ERROR_REFUSED = -1, /* an argument is wrong; nothing was done */
+    SHUTTER_BLUR_ERROR_FAILED = -2,  /* out of memory, or the device is lost; reset the commands */
+    SHUTTER_BLUR_RESULT_MAX = 0x7FFFFFFF
+} ShutterBlurResult;
+
+/* ---- Version ------------------------------------------------------------------------------- */
+
+/* The library's SHUTTER_BLUR_VERSION. */
+SHUTTER_BLUR_API uint32_t shutterBlurGetVersion(void);
+
+/* Whether a program compiled with a header of this SHUTTER_BLUR_VERSION may use the library: the
+ * same major and minor version, and a patch that is not newer. */
+SHUTTER_BLUR_API VkBool32 shutterBlurIsCompatible(uint32_t headerVersion);
+
+/* Why the last call of this thread that returned an error did so; empty: none has. Valid until the
+ * thread's next call. */
+SHUTTER_BLUR_API const char* shutterBlurGetMessage(void);
+
+/* ---- What the device must have -------------------------------------------------------------- */
+
+/* Switches the features on that the motion blur needs, in the structures that the chain holds:
+ * `features` itself, VkPhysicalDeviceVulkan12Features or the ones that it replaces
+ * (BufferDeviceAddress, ScalarBlockLayout), VkPhysicalDeviceVulkan13Features or the ones that it
+ * replaces (Synchronization2, Maintenance4). All else in the chain is left as it is. Refused where
+ * the chain has no structure for a feature; the message names it. Vulkan 1.3 is needed, and no
+ * extension. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurAddFeatures(VkPhysicalDeviceFeatures2* features);
+
+/* Refused, with a message that names what is missing, if the device cannot do that, or the queue
+ * family runs no compute shaders. */
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t queueFamily);
+
+/* ---- The object ----------------------------------------------------------------------------- */
+
+typedef struct ShutterBlur ShutterBlur;
+
+/* Handles stay the host's and must outlive the object. */
+typedef struct ShutterBlurDevice {
+    uint32_t structBytes;
+    VkPhysicalDevice physical;
+    VkDevice device;         /* made with Vulkan 1.3 and the features above */
+    uint32_t queueFamily;    /* of the command buffers */
+    uint32_t framesInFlight; /* frames in flight times views, [1, 64] */
+    VkBool32 hasDebugUtils;  /* VK_EXT_debug_utils is enabled: objects and passes get names */
+    /* Where pipelines are looked up and kept; null: in one that goes with the object. */
+    VkPipelineCache pipelineCache;
+    /* The feature rayTracingPipelineTraceRaysIndirect is enabled. */
+    VkBool32 tracesIndirect;
+} ShutterBlurDevice;
+
+static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
+    ShutterBlurDevice made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    made.framesInFlight = 2;
+    return made;
+}
+
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurCreate(const ShutterBlurDevice* device, ShutterBlur** blur);
+
+/* The GPU must be done with all that was recorded. Null: does nothing. */
+SHUTTER_BLUR_API void shutterBlurDestroy(ShutterBlur* blur);
+
+/* ---- Settings ------------------------------------------------------------------------------- */
+
+/* "sampleCount" and "15", or "history" and "false": names, values and ranges are those of the page
+ * docs/settings.md. */
+typedef struct ShutterBlurValue {
+    const char* name;
+    const char* value;
+} ShutterBlurValue;
+
+typedef struct ShutterBlurSettings {
+    uint32_t structBytes;
+    const char* method;   /* one of shutterBlurGetMethod() */
+    uint32_t sampleCount; /* taps or instants; 0: the method's own number */
+    uint32_t valueCount;
+    const ShutterBlurValue* values; /* all others are as the method's page has them */
+} ShutterBlurSettings;
+
+static inline ShutterBlurSettings shutterBlurDefaultSettings(void) {
+    ShutterBlurSettings made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    made.method = "gather";
+    return made;
+}
+
+/* Name of the index-th method that hosts can run, in the order in which quality rises; null: there
+ * are not so many. */
+SHUTTER_BLUR_API const char* shutterBlurGetMethod(uint32_t index);
+
+/* ---- Inputs --------------------------------------------------------------------------------- */
+
+/* What the host does with an image before the motion blur or after it. Stages of 0 are all
+ * commands, with all they read and write; otherwise as in VkImageMemoryBarrier2. No barrier of the
+ * host's is needed in between. */
+typedef struct ShutterBlurUse {
+    VkImageLayout layout; /* before: UNDEFINED drops the contents. After: UNDEFINED, as it comes */
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 access;
+} ShutterBlurUse;
+
+/* 2D, one level, one layer, one sample, owned by the queue family of the commands. It may be
+ * destroyed once the frame is done. */
+typedef struct ShutterBlurImage {
+    VkImage image;
+    VkFormat format;         /* UNDEFINED: the first that the input takes */
+    VkExtent2D extent;       /* of the whole image; 0 x 0: it ends where `area` does */
+    VkRect2D area;           /* the part that is used; an extent of 0 x 0: the picture's size */
+    VkImageUsageFlags usage; /* that it was made with, to be checked; 0: not said */
+    ShutterBlurUse before;
+    ShutterBlurUse after;
+} ShutterBlurImage;
+
+/* The camera of this frame and of the one before. */
+typedef struct ShutterBlurCameras {
+    VkBool32 areGiven;     /* the fields below count */
+    VkBool32 aheadIsPlusZ; /* of view space; 0: ahead is -Z */
+    double viewFromWorld[16];
+    /* Perspective or orthographic, any range and direction of depth, without jitter. y = -1 is the
+     * picture's top: a host that flips its viewport negates the second row. */
+    double clipFromView[16];
+    double viewFromWorldBefore[16];
+    double clipFromViewBefore[16];
+    /* By how much the pictures' samples lie right and down of their pixels' centres, pixels. */
+    double jitterPx[2];
+    double jitterPxBefore[2];
+} ShutterBlurCameras;
+
+/* The camera at one shutter time, for "resolved". */
+typedef struct ShutterBlurCameraKey {
+    double time; /* shutter time, [0, 1]: 0 open, 1 close */
+    double viewFromWorld[16];
+    double clipFromView[16]; /* as above, with this frame's jitter in all keys */
+} ShutterBlurCameraKey;
+
+/* An entity that may not stand still in the world, for "resolved". */
+typedef struct ShutterBlurMover {
+    uint32_t row; /* its value in `entityId`, below rowCount */
+    /* World from the entity's own space, 16 numbers for each camera key; null: it changes its
+     * shape, or its way is not known, and its motion vectors are followed. */
+    const double* worldFromObject;
+} ShutterBlurMover;
+
+typedef struct ShutterBlurRevealTarget {
+    VkImage image;
+    VkImageView view;
+} ShutterBlurRevealTarget;
+
+/* For "hybrid": what the host's commands, which recordReveal() records, read and write. All of it
+ * is ready for compute shaders, and for ray-tracing shaders with revealByRayPipeline; what is
+ * written needs no barrier of the host's. Its images are in VK_IMAGE_LAYOUT_GENERAL. The images of
+ * ShutterBlurInputs that the effect reads may be sampled: they are in
+ * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL. */
+typedef struct ShutterBlurRevealTask {
+    uint32_t structBytes;
+    VkCommandBuffer commands; /* those of the recording */
+    uint32_t width;           /* of the picture */
+    uint32_t height;
+    /* How many pixels ask (uint32_t), 12 bytes of other counts, then the pixels: x | y << 16. */
+    VkBuffer list;
+    VkDeviceAddress listAddress;
+    VkDeviceSize listBytes;
+    /* VkDispatchIndirectCommand: groups of 64 threads. Thread t of group (x, y) serves pixel
+     * (y * 256 + x) * 64 + t, if so many ask. */
+    VkBuffer groups;
+    /* VkTraceRaysIndirectCommandKHR, one launch a pixel; null unless
+     * ShutterBlurDevice::tracesIndirect. */
+    VkBuffer launch;
+    VkDeviceAddress launchAddress;
+    /* Storage images of the picture's size, to be written at every pixel that asks: what is seen
+     * there past the entity in front. */
+    ShutterBlurRevealTarget color;       /* RGBA16F */
+    ShutterBlurRevealTarget motionDepth; /* RGBA32F: as ShutterBlurInputs::motionDepth */
+    ShutterBlurRevealTarget entityId;    /* R32_UINT; 0xFFFFFFFF: the sky */
+} ShutterBlurRevealTask;
+
+/* Records the host's commands, outside of rendering; they may bind anything. */
+typedef void (*ShutterBlurRecordReveal)(void* user, const ShutterBlurRevealTask* task);
+
+typedef struct ShutterBlurInputs {
+    uint32_t structBytes;
+    uint32_t width; /* of the picture, pixels, [1, 32768] */
+    uint32_t height;
+    /* RGBA16F, RGBA32F or B10G11R11; linear. Sampled; RGBA16F of the picture's size: transfer
+     * source, too; in place: storage, too. */
+    ShutterBlurImage color;
+    /* As `color`; storage; RGBA16F of the picture's size: transfer target, too. Null: in place, the
+     * blurred picture replaces `color`. */
+    ShutterBlurImage output;
+
+    /* Either the motion blur's own, RGBA32F: displacement over the exposure, pixels right and down;
+     * metres along the view, 1e9 where nothing is. */
+    ShutterBlurImage motionDepth;
+    /* Or motion vectors and depth of the host's, of any size; sampled. */
+    ShutterBlurImage vectors; /* RG16F, RG32F, RGBA16F or RGBA32F */
+    ShutterBlurImage depth;   /* D32F, D16, X8D24, D24S8, D32FS8, or a first channel of floats */
+    /* What the vectors are multiplied by to be pixels of the picture, right and down, from the
+     * frame before to this one: (-width, -height) where they lead back in texture coordinates,
+     * (-width / 2, height / 2) back in normalised device coordinates with y up. */
+    float pixelsPerUnit[2];
+    VkBool32 vectorsLackCamera; /* the camera's part is not in them; `cameras` gives it */
+    VkBool32 vectorsHaveJitter; /* cameras.jitterPx is left in them */
+    VkBool32 depthIsLinear;     /* along the view; 0: as the hardware stores it, by `cameras` */
+    float metresPerUnit;        /* of linear depth */
+    float skyValue;             /* of the depth where nothing is; linear: that and all beyond it */
+    ShutterBlurCameras cameras;
+    /* Exposure over the time between the frames, [0, 16]: 0.5 is a shutter of 180 degrees. With
+     * motionDepth it does not count. */
+    float exposureShare;
+    float cameraScale; /* share of the camera's motion that is blurred, [0, 16] */
+    float objectScale; /* the same of what objects move by themselves */
+    /* Frames that are shown for each one drawn, where others are generated between, [1, 16]. */
+    float displayedPerRendered;
+    ShutterBlurImage blurScale; /* R8, R16F or R32F: the pixels' share of the blur; null: 1 */
+    VkBool32 isCut;             /* the frame before was of another place: nothing is blurred */
+
+    double rasterTime;   /* the raster instant in the exposure: 0 open, 0.5 centre, 1 close */
+    int64_t frameNumber; /* the next frame has the next number */
+
+    /* For "resolved": */
+    ShutterBlurImage entityId;        /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled */
+    uint32_t noEntity;                /* its value where nothing is */
+    uint32_t rowCount;                /* values are below it, [1, 2^24 - 1] */
+    uint32_t keyCount;                /* [1, 64] */
+    const ShutterBlurCameraKey* keys; /* times rising, one at rasterTime; cameras.aheadIsPlusZ */
+    uint32_t moverCount;
+    const ShutterBlurMover* movers; /* every row without one stands still in the world */
+    const uint64_t* rowIds;         /* rowCount ids that last from frame to frame; null: the rows */
+    uint32_t view;                  /* number of the view, below framesInFlight */
+    /* The recording before of this view shows the frame before: its raster is looked up, too. */
+    VkBool32 followsLast;
+
+    /* For "hybrid", with entityId and noEntity: */
+    ShutterBlurImage normal;              /* RGBA16F or RGBA32F: xyz unit, of one space; sampled */
+    ShutterBlurRecordReveal recordReveal; /* called once, before shutterBlurRecord() returns */
+    void* revealUser;                     /* its first argument */
+    VkBool32 revealByRayPipeline;         /* its commands launch a ray-tracing pipeline */
+} ShutterBlurInputs;
+
+static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
+    ShutterBlurInputs made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    made.pixelsPerUnit[0] = made.pixelsPerUnit[1] = 1.0f;
+    made.metresPerUnit = 1.0f;
+    made.exposureShare = 0.5f;
+    made.cameraScale = made.objectScale = 1.0f;
+    made.displayedPerRendered = 1.0f;
+    made.rasterTime = 1.0;
+    made.noEntity = 0xFFFFFFFFu;
+    return made;
+}
+
+/* ---- Each frame ----------------------------------------------------------------------------- */
+
+/* Records the effect into `commands`, which are being recorded, outside of rendering, and are
+ * submitted once at most. It binds pipelines, sets 0 and push constants of the compute bind point.
+ * `frame` is below framesInFlight: the GPU must be done with what was recorded last under it.
+ * Settings may be null. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
+    ShutterBlur* blur,
+    VkCommandBuffer commands,
+    uint32_t frame,
+    const ShutterBlurInputs* inputs,
+    const ShutterBlurSettings* settings
+);
+
+/* The GPU is done with `frame`, and it will not be recorded soon. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame);
+
+/* The view was closed: what "resolved" keeps of its last raster goes once its frames are done. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view);
+
+/* Device memory that the object holds now. */
+typedef struct ShutterBlurMemory {
+    uint32_t structBytes;
+    uint32_t blockCount;
+    uint64_t bytes;
+} ShutterBlurMemory;
+
+static inline ShutterBlurMemory shutterBlurDefaultMemory(void) {
+    ShutterBlurMemory made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    return made;
+}
+
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurGetMemory(const ShutterBlur* blur, ShutterBlurMemory* memory);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/c_interface/structures.h"
+
+#include "engine/core/setting_row.h"
+
+#include <string>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+graph::OutsideUse convert(const ShutterBlurUse& given) {
+    graph::OutsideUse use;
+    use.layout = given.layout;
+    if (given.stages == 0)
+        return use; // any command
+    use.stages = given.stages;
+    use.access = given.access;
+    return use;
+}
+
+HostImage convert(const ShutterBlurImage& given) {
+    HostImage image;
+    image.image = given.image;
+    image.before = convert(given.before);
+    image.after = convert(given.after);
+    image.format = given.format;
+    image.extent = given.extent;
+    image.area = given.area;
+    image.usage = given.usage;
+    return image;
+}
+
+glm::dmat4 convertMatrix(const double* columns) {
+    glm::dmat4 matrix;
+    std::memcpy(&matrix[0].x, columns, sizeof(matrix));
+    return matrix;
+}
+
+HostCameras convert(const ShutterBlurCameras& given) {
+    HostCameras cameras;
+    cameras.areGiven = given.areGiven != VK_FALSE;
+    cameras.aheadIsPlusZ = given.aheadIsPlusZ != VK_FALSE;
+    cameras.viewFromWorld = convertMatrix(given.viewFromWorld);
+    cameras.clipFromView = convertMatrix(given.clipFromView);
+    cameras.viewFromWorldBefore = convertMatrix(given.viewFromWorldBefore);
+    cameras.clipFromViewBefore = convertMatrix(given.clipFromViewBefore);
+    cameras.jitterPx = {given.jitterPx[0], given.jitterPx[1]};
+    cameras.jitterPxBefore = {given.jitterPxBefore[0], given.jitterPxBefore[1]};
+    return cameras;
+}
+
+HostConvention convertConvention(const ShutterBlurInputs& given) {
+    HostConvention convention;
+    convention.vectors.image = convert(given.vectors);
+    convention.vectors.pixelsPerUnit = {given.pixelsPerUnit[0], given.pixelsPerUnit[1]};
+    convention.vectors.haveCamera = given.vectorsLackCamera == VK_FALSE;
+    convention.vectors.haveJitter = given.vectorsHaveJitter != VK_FALSE;
+    convention.depth.image = convert(given.depth);
+    convention.depth.isRaw = given.depthIsLinear == VK_FALSE;
+    convention.depth.metresPerUnit = given.metresPerUnit;
+    convention.depth.skyValue = given.skyValue;
+    convention.cameras = convert(given.cameras);
+    convention.scales.exposureShare = given.exposureShare;
+    convention.scales.camera = given.cameraScale;
+    convention.scales.object = given.objectScale;
+    convention.scales.displayedPerRendered = given.displayedPerRendered;
+    convention.scales.perPixel = convert(given.blurScale);
+    convention.scales.isCut = given.isCut != VK_FALSE;
+    return convention;
+}
+
+core::Status checkArray(const char* name, const void* array, const char* count, uint32_t length) {
+    if (length > 0 && !array)
+        return makeError("motion blur: {} is null, {} is {}", name, count, length);
+    return {};
+}
+
+core::Status checkArrays(const ShutterBlurInputs& given) {
+    SHUTTER_TRY(checkArray("keys", given.keys, "keyCount", given.keyCount));
+    return checkArray("movers", given.movers, "moverCount", given.moverCount);
+}
+
+HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
+    arrays.keys.clear();
+    for (uint32_t i = 0; i < given.keyCount; ++i) {
+        const ShutterBlurCameraKey& key = given.keys[i];
+        arrays.keys.push_back(
+            {key.time, convertMatrix(key.viewFromWorld), convertMatrix(key.clipFromView)}
+        );
+    }
+    arrays.matrices.clear();
+    for (uint32_t i = 0; i < given.moverCount; ++i)
+        if (const double* matrices = given.movers[i].worldFromObject)
+            for (uint32_t key = 0; key < given.keyCount; ++key)
+                arrays.matrices.push_back(convertMatrix(matrices + 16 * size_t{key}));
+    arrays.movers.clear();
+    size_t first = 0; // the matrices have their places from here on
+    for (uint32_t i = 0; i < given.moverCount; ++i) {
+        HostMover mover{given.movers[i].row, {}};
+        if (given.movers[i].worldFromObject) {
+            mover.worldFromObject = {arrays.matrices.data() + first, given.keyCount};
+            first += given.keyCount;
+        }
+        arrays.movers.push_back(mover);
+    }
+    HostMotion motion;
+    motion.keys = arrays.keys;
+    motion.aheadIsPlusZ = given.cameras.aheadIsPlusZ != VK_FALSE;
+    motion.rowCount = given.rowCount;
+    motion.movers = arrays.movers;
+    if (given.rowIds)
+        motion.rowIds = {given.rowIds, given.rowCount};
+    motion.view = given.view;
+    motion.followsLast = given.followsLast != VK_FALSE;
+    return motion;
+}
+
+OwnReveal convertReveal(const ShutterBlurInputs& given) {
+    OwnReveal reveal;
+    reveal.byRayPipeline = given.revealByRayPipeline != VK_FALSE;
+    if (!given.recordReveal)
+        return reveal;
+    reveal.record = [record = given.recordReveal, user = given.revealUser](const RevealTask& task) {
+        ShutterBlurRevealTask told{};
+        told.structBytes = sizeof(told);
+        told.commands = task.commands;
+        told.width = task.sizePx.x;
+        told.height = task.sizePx.y;
+        told.list = task.list;
+        told.listAddress = task.listAddress;
+        told.listBytes = task.listBytes;
+        told.groups = task.groups;
+        told.launch = task.launch;
+        told.launchAddress = task.launchAddress;
+        told.color = {task.color.image, task.color.view};
+        told.motionDepth = {task.motionDepth.image, task.motionDepth.view};
+        told.entityId = {task.entityId.image, task.entityId.view};
+        record(user, &told);
+    };
+    return reveal;
+}
+
+core::Result<const Method*> findHostMethod(const char* name) {
+    if (!name)
+        return makeError("motion blur: settings.method is null");
+    const Method* method = findMethod(name);
+    if (method && isForHosts(*method))
+        return method;
+    std::string names;
+    for (const Method* one : listMethods())
+        if (isForHosts(*one))
+            names += (names.empty() ? "" : ", ") + std::string(one->name);
+    return makeError("motion blur: settings.method is '{}', it must be one of {}", name, names);
+}
+
+core::Status apply(const ShutterBlurValue& given, MotionBlurSettings& settings) {
+    if (!given.name || !given.value)
+        return makeError("motion blur: a name or value of settings.values is null");
+    const auto* row = core::findRow(listSettingRows(), given.name);
+    if (!row)
+        return makeError("motion blur: settings.values has no '{}'", given.name);
+    if (const core::Status parsed = core::parseValue(*row, given.value, settings); !parsed)
+        return makeError("motion blur: {}: {}", given.name, parsed.error().message);
+    return {};
+}
+
+} // namespace
+
+bool isForHosts(const Method& method) {
+    return method.readsRaster && method.rays != RayNeed::Query && !method.readsCamera;
+}
+
+core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
+    const auto taken = takeStructure("device", given, shutterBlurDefaultDevice());
+    if (!taken)
+        return taken.error();
+    HostDevice device;
+    device.physical = taken.value().physical;
+    device.device = taken.value().device;
+    device.queueFamily = taken.value().queueFamily;
+    device.framesInFlight = taken.value().framesInFlight;
+    device.hasDebugUtils = taken.value().hasDebugUtils != VK_FALSE;
+    device.pipelineCache = taken.value().pipelineCache;
+    device.tracesIndirect = taken.value().tracesIndirect != VK_FALSE;
+    return device;
+}
+
+core::Result<MotionBlurSettings> convert(const ShutterBlurSettings* given) {
+    const ShutterBlurSettings defaults = shutterBlurDefaultSettings();
+    const auto taken = takeStructure("settings", given ? given : &defaults, defaults);
+    if (!taken)
+        return taken.error();
+    const ShutterBlurSettings& wanted = taken.value();
+    const auto method = findHostMethod(wanted.method);
+    if (!method)
+        return method.error();
+    SHUTTER_TRY(checkArray("settings.values", wanted.values, "valueCount", wanted.valueCount));
+    MotionBlurSettings settings;
+    settings.method = method.value();
+    settings.sampleCount =
+        wanted.sampleCount == 0 ? settings.method->defaultSamples : wanted.sampleCount;
+    for (uint32_t i = 0; i < wanted.valueCount; ++i)
+        SHUTTER_TRY(apply(wanted.values[i], settings));
+    return settings;
+}
+
+core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& arrays) {
+    const auto taken = takeStructure("inputs", given, shutterBlurDefaultInputs());
+    if (!taken)
+        return taken.error();
+    const ShutterBlurInputs& wanted = taken.value();
+    SHUTTER_TRY(checkArrays(wanted));
+    HostInputs inputs;
+    inputs.width = wanted.width;
+    inputs.height = wanted.height;
+    inputs.color = convert(wanted.color);
+    inputs.output = convert(wanted.output);
+    inputs.motionDepth = convert(wanted.motionDepth);
+    inputs.convention = convertConvention(wanted);
+    inputs.entityId = convert(wanted.entityId);
+    inputs.noEntity = wanted.noEntity;
+    inputs.rasterTime = wanted.rasterTime;
+    inputs.frameNumber = wanted.frameNumber;
+    inputs.motion = convertMotion(wanted, arrays);
+    inputs.normal = convert(wanted.normal);
+    inputs.reveal = convertReveal(wanted);
+    return inputs;
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The C interface's structures as the C++ interface has them.
+#pragma once
+
+#include "engine/core/result.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+/// A structure of this header or of an older one, whose missing fields are as in `defaults`.
+template <class T>
+[[nodiscard]] core::Result<T> takeStructure(const char* name, const T* given, const T& defaults) {
+    if (!given)
+        return core::makeError("motion blur: {} is null", name);
+    if (given->structBytes <= sizeof(given->structBytes) || given->structBytes > sizeof(T))
+        return core::makeError(
+            "motion blur: {}.structBytes is {}, it must be {}, or less of an older header",
+            name,
+            given->structBytes,
+            sizeof(T)
+        );
+    T taken = defaults;
+    std::memcpy(&taken, given, given->structBytes);
+    return taken;
+}
+
+[[nodiscard]] core::Result<HostDevice> convert(const ShutterBlurDevice* given);
+
+/// Null: those of gather.
+[[nodiscard]] core::Result<MotionBlurSettings> convert(const ShutterBlurSettings* given);
+
+/// What HostInputs point to; it is kept from frame to frame, so that none allocates.
+struct InputArrays {
+    std::vector<HostCameraKey> keys;
+    std::vector<HostMover> movers;
+    std::vector<glm::dmat4> matrices;
+};
+
+/// \param arrays must outlive the result
+[[nodiscard]] core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& arrays);
+
+/// Whether a host can run the method through the C interface; `hybrid`, by its own reveal.
+[[nodiscard]] bool isForHosts(const Method& method);
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// The C interface gives the bits of the C++ one, and refuses in sentences what that one refuses,
+// and what only C can get wrong.
+#include "engine/gpu/frame.h"
+#include "engine/math/transform.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+#include "tests/gpu/embedding_host.h"
+#include "tests/support/picture.h"
+
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace shutter {
+namespace {
+
+using test::HostFrame;
+using test::kCopied;
+using test::kNothing;
+using test::kSampled;
+using test::kWritten;
+
+constexpr uint32_t kWidth = 64;
+constexpr uint32_t kHeight = 48;
+
+ShutterBlurUse convert(const graph::OutsideUse& use) {
+    return {use.layout, use.stages, use.access};
+}
+
+void expectRefusal(ShutterBlurResult result, const std::string& part) {
+    EXPECT_EQ(result, SHUTTER_BLUR_ERROR_REFUSED) << "expected: " << part;
+    const std::string message = shutterBlurGetMessage();
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+class CInterface : public test::EmbeddedTest {
+  protected:
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        mHost.emplace(device(), kWidth, kHeight);
+        mFrame.emplace(device());
+        const ShutterBlurDevice described = describeDevice();
+        ASSERT_EQ(shutterBlurCreate(&described, &mBlur), SHUTTER_BLUR_SUCCESS)
+            << shutterBlurGetMessage();
+    }
+
+    void TearDown() override {
+        shutterBlurDestroy(mBlur);
+        mFrame.reset();
+        mHost.reset();
+        EmbeddedTest::TearDown();
+    }
+
+    static ShutterBlurDevice describeDevice() {
+        ShutterBlurDevice described = shutterBlurDefaultDevice();
+        described.physical = device().physical();
+        described.device = device().handle();
+        described.queueFamily = device().queueFamily();
+        described.hasDebugUtils = VK_TRUE;
+        return described;
+    }
+
+    [[nodiscard]] ShutterBlurInputs makeInputs() const {
+        ShutterBlurInputs inputs = shutterBlurDefaultInputs();
+        inputs.width = kWidth;
+        inputs.height = kHeight;
+        inputs.color.image = mHost->color.handle();
+        inputs.color.before = convert(kWritten);
+        inputs.color.after = convert(kSampled);
+        inputs.motionDepth = inputs.color;
+        inputs.motionDepth.image = mHost->motionDepth.handle();
+        return inputs;
+    }
+
+    ShutterBlurResult record(
+        const ShutterBlurInputs& inputs,
+        const ShutterBlurSettings* settings = nullptr,
+        const std::function<void(VkCommandBuffer)>& behind = {}
+    ) {
+        mFrame->begin();
+        mHost->recordClears(mFrame->commands());
+        const ShutterBlurResult result =
+            shutterBlurRecord(mBlur, mFrame->commands(), 0, &inputs, settings);
+        if (behind && result == SHUTTER_BLUR_SUCCESS)
+            behind(mFrame->commands());
+        mFrame->submit();
+        mFrame->wait();
+        return result;
+    }
+
+    /// All pixels are entity 0, which moves.
+    static void recordIds(VkCommandBuffer commands, const gpu::Image& ids) {
+        test::moveOn(commands, ids.handle(), kNothing, kWritten);
+        const VkClearColorValue zero{};
+        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        vkCmdClearColorImage(commands, ids.handle(), kWritten.layout, &zero, 1, &all);
+    }
+
+    ShutterBlur* mBlur = nullptr;
+    std::optional<HostFrame> mHost;
+    std::optional<gpu::Frame> mFrame;
+};
+
+TEST_F(CInterface, EachMethodGivesTheBitsOfTheCppInterface) {
+    const auto reference = create(describeHost());
+    ASSERT_TRUE(reference);
+    const auto draw = [&](const std::function<core::Status(VkCommandBuffer, VkImage)>& blur) {
+        const test::Picture output(device(), "output", {kWidth, kHeight});
+        mFrame->begin();
+        mHost->recordClears(mFrame->commands());
+        const core::Status done = blur(mFrame->commands(), output.handle());
+        EXPECT_TRUE(done.ok()) << done.error().message;
+        output.recordReadback(mFrame->commands());
+        mFrame->submit();
+        mFrame->wait();
+        return output.read();
+    };
+    const gpu::Image ids = test::makeImage(device(), "ids", VK_FORMAT_R32_UINT, kWidth, kHeight);
+    const auto projection = math::clipFromViewPerspective(1.0, 1.5, 0.1);
+    std::set<std::string> names;
+    for (uint32_t i = 0; shutterBlurGetMethod(i); ++i) {
+        const std::string name = shutterBlurGetMethod(i);
+        SCOPED_TRACE(name);
+        names.insert(name);
+        if (name == "hybrid")
+            continue; // own_reveal_test.cpp
+        motion_blur::MotionBlurSettings own;
+        own.method = &motion_blur::getMethod(name);
+        own.sampleCount = 9;
+        own.jitter = 0.0f;
+        const image::Image wanted = draw([&](VkCommandBuffer commands, VkImage output) {
+            motion_blur::HostInputs inputs = mHost->inputs();
+            inputs.output = {output, kNothing, kCopied};
+            inputs.entityId = {ids.handle(), kWritten, kSampled};
+            const motion_blur::HostCameraKey key{1.0, glm::dmat4(1.0), projection};
+            const motion_blur::HostMover mover{0, {}};
+            inputs.motion.keys = {&key, 1};
+            inputs.motion.movers = {&mover, 1};
+            inputs.motion.rowCount = 4;
+            recordIds(commands, ids);
+            return reference->record(commands, 0, inputs, own);
+        });
+        const image::Image made = draw([&](VkCommandBuffer commands, VkImage output) {
+            ShutterBlurInputs inputs = makeInputs();
+            inputs.output.image = output;
+            inputs.output.before = convert(kNothing);
+            inputs.output.after = convert(kCopied);
+            inputs.entityId = inputs.color;
+            inputs.entityId.image = ids.handle();
+            ShutterBlurCameraKey key{1.0, {}, {}};
+            const glm::dmat4 unit(1.0);
+            std::memcpy(key.viewFromWorld, &unit, sizeof(unit));
+            std::memcpy(key.clipFromView, &projection, sizeof(projection));
+            const ShutterBlurMover mover{0, nullptr};
+            inputs.keyCount = inputs.moverCount = 1;
+            inputs.keys = &key;
+            inputs.movers = &mover;
+            inputs.rowCount = 4;
+            ShutterBlurSettings settings = shutterBlurDefaultSettings();
+            settings.method = name.c_str();
+            settings.sampleCount = 9;
+            const ShutterBlurValue value{"jitter", "0"};
+            settings.values = &value;
+            settings.valueCount = 1;
+            recordIds(commands, ids);
+            const ShutterBlurResult result =
+                shutterBlurRecord(mBlur, commands, 0, &inputs, &settings);
+            return result == SHUTTER_BLUR_SUCCESS ? core::Status()
+                                                  : core::Status({shutterBlurGetMessage()});
+        });
+        EXPECT_TRUE(test::sameBits(made, wanted));
+    }
+    EXPECT_TRUE(names.contains("gather") && names.contains("resolved"));
+    EXPECT_FALSE(names.contains("adaptive") || names.contains("denoised"));
+}
+
+TEST_F(CInterface, WhatIsWrongIsNamed) {
+    const auto refuse = [&](const std::function<void(ShutterBlurInputs&)>& change,
+                            const std::string& part) {
+        ShutterBlurInputs inputs = makeInputs();
+        change(inputs);
+        expectRefusal(record(inputs), part);
+    };
+    EXPECT_EQ(record(makeInputs()), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
+    using I = ShutterBlurInputs;
+    refuse([](I& in) { in.structBytes = 0; }, "inputs.structBytes is 0");
+    refuse([](I& in) { in.structBytes = 4; }, "inputs.structBytes is 4");
+    refuse([](I& in) { in.structBytes += 8; }, "or less of an older header");
+    refuse([](I& in) { in.width = 0; }, "the size is 0 x 48");
+    refuse([](I& in) { in.color.format = VK_FORMAT_R8G8B8A8_UNORM; }, "color.format is R8G8B8A8");
+    refuse([](I& in) { in.color.usage = VK_IMAGE_USAGE_SAMPLED_BIT; }, "color.usage lacks");
+    refuse(
+        [](I& in) {
+            in.color.extent = {32, 48};
+        },
+        "color.area ends at 64, 48, beyond its extent"
+    );
+    refuse(
+        [](I& in) {
+            in.motionDepth.extent = {80, 48};
+        },
+        "motionDepth is part of a larger image"
+    );
+    refuse([](I& in) { in.motionDepth = {}; }, "motionDepth.image is null, and so is");
+    refuse([](I& in) { in.keyCount = 1; }, "keys is null, keyCount is 1");
+    refuse([](I& in) { in.moverCount = 2; }, "movers is null, moverCount is 2");
+    refuse([](I& in) { in.view = 7; }, "motion.view is 7");
+    mFrame->begin();
+    expectRefusal(
+        shutterBlurRecord(mBlur, mFrame->commands(), 0, nullptr, nullptr), "inputs is null"
+    );
+    const ShutterBlurInputs inputs = makeInputs();
+    expectRefusal(shutterBlurRecord(mBlur, VK_NULL_HANDLE, 0, &inputs, nullptr), "command buffer");
+    expectRefusal(shutterBlurRecord(mBlur, mFrame->commands(), 9, &inputs, nullptr), "frame is 9");
+    expectRefusal(
+        shutterBlurRecord(nullptr, mFrame->commands(), 0, &inputs, nullptr), "blur is null"
+    );
+    mFrame->submit();
+    mFrame->wait();
+    expectRefusal(shutterBlurMarkDone(mBlur, 2), "frame is 2, framesInFlight 2");
+    expectRefusal(shutterBlurCloseView(mBlur, 2), "view is 2, framesInFlight 2");
+    expectRefusal(shutterBlurGetMemory(mBlur, nullptr), "memory is null");
+}
+
+TEST_F(CInterface, WrongSettingsAreNamed) {
+    const auto refuse = [&](const std::function<void(ShutterBlurSettings&)>& change,
+                            const std::string& part) {
+        ShutterBlurSettings settings = shutterBlurDefaultSettings();
+        change(settings);
+        expectRefusal(record(makeInputs(), &settings), part);
+    };
+    using S = ShutterBlurSettings;
+    static const ShutterBlurValue kUnknown{"speed", "1"};
+    static const ShutterBlurValue kWord{"history", "perhaps"};
+    static const ShutterBlurValue kRange{"jitter", "7"};
+    static const ShutterBlurValue kNull{"jitter", nullptr};
+    const auto refuseValue = [&](const ShutterBlurValue& value, const std::string& part) {
+        refuse(
+            [&](S& settings) {
+                settings.values = &value;
+                settings.valueCount = 1;
+            },
+            part
+        );
+    };
+    refuse(
+        [](S& settings) { settings.method = "teapot"; }, "settings.method is 'teapot', it must be"
+    );
+    refuse([](S& settings) { settings.method = "adaptive"; }, "settings.method is 'adaptive'");
+    refuse([](S& settings) { settings.method = nullptr; }, "settings.method is null");
+    refuse([](S& settings) { settings.sampleCount = 1000000; }, "sampleCount");
+    refuse([](S& settings) { settings.method = "hybrid"; }, "reveal.record is empty");
+    refuse([](S& settings) { settings.valueCount = 1; }, "settings.values is null");
+    refuseValue(kUnknown, "settings.values has no 'speed'");
+    refuseValue(kWord, "history: 'perhaps' is not true or false");
+    refuseValue(kRange, "jitter: 7 must be");
+    refuseValue(kNull, "a name or value of settings.values is null");
+}
+
+TEST_F(CInterface, AWrongDeviceIsNamed) {
+    const auto refuse = [](const std::function<void(ShutterBlurDevice&)>& change,
+                           const std::string& part) {
+        ShutterBlurDevice described = describeDevice();
+        change(described);
+        ShutterBlur* blur = reinterpret_cast<ShutterBlur*>(uintptr_t{1});
+        expectRefusal(shutterBlurCreate(&described, &blur), part);
+        EXPECT_EQ(blur, nullptr);
+    };
+    using D = ShutterBlurDevice;
+    refuse([](D& device) { device.physical = VK_NULL_HANDLE; }, "physical is null");
+    refuse([](D& device) { device.framesInFlight = 0; }, "framesInFlight is 0");
+    refuse([](D& device) { device.queueFamily = 99; }, "queueFamily 99");
+    refuse([](D& device) { device.structBytes = 1; }, "device.structBytes is 1");
+    ShutterBlur* blur = nullptr;
+    expectRefusal(shutterBlurCreate(nullptr, &blur), "device is null");
+    const ShutterBlurDevice described = describeDevice();
+    expectRefusal(shutterBlurCreate(&described, nullptr), "blur is null");
+    expectRefusal(shutterBlurCheckDevice(VK_NULL_HANDLE, 0), "physical is null");
+    expectRefusal(shutterBlurCheckDevice(device().physical(), 99), "queueFamily 99");
+    EXPECT_EQ(
+        shutterBlurCheckDevice(device().physical(), device().queueFamily()), SHUTTER_BLUR_SUCCESS
+    );
+    shutterBlurDestroy(nullptr);
+}
+
+TEST_F(CInterface, OlderStructuresAreTaken) {
+    ShutterBlurInputs inputs = makeInputs();
+    // A header that ended before the fields of "resolved".
+    inputs.structBytes = offsetof(ShutterBlurInputs, entityId);
+    inputs.keyCount = 77; // behind its end
+    EXPECT_EQ(record(inputs), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
+}
+
+TEST_F(CInterface, MemoryIsTold) {
+    ASSERT_EQ(record(makeInputs()), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
+    ShutterBlurMemory memory = shutterBlurDefaultMemory();
+    ASSERT_EQ(shutterBlurGetMemory(mBlur, &memory), SHUTTER_BLUR_SUCCESS);
+    EXPECT_GT(memory.bytes, 0u);
+    EXPECT_GT(memory.blockCount, 0u);
+}
+
+TEST(CInterfaceVersion, IsThatOfTheHeader) {
+    EXPECT_EQ(shutterBlurGetVersion(), SHUTTER_BLUR_VERSION);
+    EXPECT_TRUE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION));
+    EXPECT_FALSE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION + 1)) << "a newer patch";
+    EXPECT_FALSE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION + (1u << 12)));
+    EXPECT_FALSE(shutterBlurIsCompatible(SHUTTER_BLUR_VERSION + (1u << 22)));
+    EXPECT_EQ(
+        std::to_string(SHUTTER_BLUR_VERSION_MAJOR) + "." +
+            std::to_string(SHUTTER_BLUR_VERSION_MINOR) + "." +
+            std::to_string(SHUTTER_BLUR_VERSION_PATCH),
+        SHUTTER_PROJECT_VERSION
+    );
+}
+
+TEST(CInterfaceFeatures, AreAddedToAHostsOwnChain) {
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    v13.dynamicRendering = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features v12{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    ASSERT_EQ(shutterBlurAddFeatures(&features), SHUTTER_BLUR_SUCCESS);
+    EXPECT_TRUE(features.features.shaderStorageImageExtendedFormats);
+    EXPECT_TRUE(v12.bufferDeviceAddress && v12.scalarBlockLayout);
+    EXPECT_TRUE(v13.synchronization2 && v13.maintenance4 && v13.dynamicRendering);
+
+    // A host of structures that came before those of the versions.
+    VkPhysicalDeviceMaintenance4Features maintenance{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
+    VkPhysicalDeviceSynchronization2Features synchronization{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES, &maintenance};
+    VkPhysicalDeviceScalarBlockLayoutFeatures scalar{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES, &synchronization};
+    VkPhysicalDeviceBufferDeviceAddressFeatures address{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES, &scalar};
+    VkPhysicalDeviceFeatures2 old{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &address};
+    ASSERT_EQ(shutterBlurAddFeatures(&old), SHUTTER_BLUR_SUCCESS);
+    EXPECT_TRUE(
+        address.bufferDeviceAddress && scalar.scalarBlockLayout &&
+        synchronization.synchronization2 && maintenance.maintenance4
+    );
+
+    address.pNext = &synchronization;
+    address.bufferDeviceAddress = VK_FALSE;
+    expectRefusal(shutterBlurAddFeatures(&old), "no structure with scalarBlockLayout");
+    EXPECT_FALSE(address.bufferDeviceAddress) << "all or nothing";
+    expectRefusal(shutterBlurAddFeatures(nullptr), "features is null");
+}
+
+} // namespace
+} // namespace shutter
