@@ -61,6 +61,26 @@ function(shutter_install_library name)
             ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
 endfunction()
 
+# shutter_install_shared(<name> <header>)
+# Installs the shared library shutter_<name> as Shutter::<name>, with the one header that it needs
+# besides Vulkan's and a file for pkg-config, which has the name of the library's file.
+function(shutter_install_shared name header)
+    set_target_properties(shutter_${name} PROPERTIES EXPORT_NAME ${name})
+    target_include_directories(
+        shutter_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    set_property(GLOBAL PROPERTY SHUTTER_PACKAGES_${name} Vulkan)
+    set_property(GLOBAL APPEND PROPERTY SHUTTER_COMPONENTS ${name})
+    install(TARGETS shutter_${name} EXPORT ShutterLibraries
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT Development)
+    get_target_property(file shutter_${name} OUTPUT_NAME)
+    file(RELATIVE_PATH up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+    configure_file(${SHUTTER_ROOT}/cmake/shared_library.pc.in ${CMAKE_BINARY_DIR}/package/${file}.pc
+                   @ONLY)
+    install(FILES ${CMAKE_BINARY_DIR}/package/${file}.pc
+            DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT Development)
+endfunction()
+
 # Once all libraries are declared.
 function(shutter_install_package)
     install(DIRECTORY ${SHUTTER_ROOT}/engine ${SHUTTER_ROOT}/modules

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Installs into a folder of its own, builds both examples against what is there, as projects of
+"""Installs into a folder of its own, builds the examples against what is there, as projects of
 their own, and runs them under validation; their pictures must show what they promise."""
 
 import os
@@ -16,8 +16,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "game/examples"
 BUILD = pathlib.Path(os.environ["SHUTTER_BUILD"])
 CMAKE = os.environ["SHUTTER_CMAKE"]
-MOST_LINES = {"bare_renderer": 150, "new_effect": 99}
-SOURCES = {".cpp", ".h", ".comp", ".txt"}
+MOST_LINES = {"bare_renderer": 150, "c_host": 150, "new_effect": 99}
+SOURCES = {".c", ".cpp", ".h", ".comp", ".txt"}
 
 
 def fail(what):
@@ -36,7 +36,7 @@ def run(command, folder, env=None):
 def check_lengths():
     for name, most in MOST_LINES.items():
         files = [file for file in (EXAMPLES / name).iterdir() if file.suffix in SOURCES]
-        # bare_renderer's limit is on its C++; new_effect's on all that it consists of.
+        # The hosts' limits are on their code; new_effect's on all that it consists of.
         counted = [file for file in files if name == "new_effect" or file.suffix != ".txt"]
         lines = [line for file in counted for line in file.read_text().splitlines()]
         if len(lines) > most:
@@ -48,6 +48,7 @@ def check_lengths():
 def check_installed(prefix):
     for file in ("bin/shutter", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
                  "include/shutter/modules/motion_blur/embedding/embedded_motion_blur.h",
+                 "include/shutter_motion_blur.h",
                  "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
         if not (prefix / file).is_file():
             fail(f"{file} is not installed")
@@ -86,6 +87,37 @@ def build_example(name, prefix, folder):
     run([CMAKE, "--build", folder, "--parallel", "2"], folder)
 
 
+def list_symbols(library, *options):
+    return [line.split()[-1] for line in
+            run(["nm", "-D", *options, library], library.parent).splitlines() if line]
+
+
+def check_shared_library(prefix):
+    """A host may bring its own Vulkan loader, volk's variables, and any version of fmt."""
+    library = next(prefix.rglob("libshutter_motion_blur.so"))
+    defined = list_symbols(library, "--defined-only")
+    if foreign := [name for name in defined if not name.startswith("shutterBlur")]:
+        fail(f"{library.name} exports {foreign[0]}, and {len(foreign)} names in all that are not "
+             "of its interface")
+    if len(defined) < 10:
+        fail(f"{library.name} exports only {defined}")
+    if foreign := [name for name in list_symbols(library, "--undefined-only")
+                   if name.startswith("vk") or "N3fmt" in name]:
+        fail(f"{library.name} needs {foreign[0]} from its host")
+
+
+def build_by_pkg_config(prefix, folder):
+    """The C host by the compiler alone."""
+    folder.mkdir()
+    packages = [file.parent for file in prefix.rglob("shutter_motion_blur.pc")]
+    env = dict(os.environ, PKG_CONFIG_PATH=str(packages[0]))
+    words = run(["pkg-config", "--cflags", "--libs", "shutter_motion_blur"], folder, env).split()
+    libraries = next(prefix.rglob("libshutter_motion_blur.so")).parent
+    run([os.environ["SHUTTER_CC"], "-std=c11", "-pedantic-errors", "-Wall", "-Wextra", "-Werror",
+         EXAMPLES / "c_host/main.c", "-o", "c_host", *words, f"-Wl,-rpath,{libraries}", "-lvulkan"],
+        folder)
+
+
 def run_validated(command, folder):
     """Runs with core and synchronization validation, which must be there and have nothing to say."""
     env = dict(os.environ, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
@@ -109,15 +141,15 @@ def read_ppm(file):
     return width, height, lambda x, y: pixels[3 * (y * width + x):3 * (y * width + x) + 3]
 
 
-def check_blur(folder):
-    """The square moved by 24 px: its vertical edges are smears as long, all else is as it was."""
+def check_blur(folder, left):
+    """The square, 60 x 60 at (left, 60), moved by 24 px: its vertical edges are smears as long, all
+    else is as it was."""
     width, height, before = read_ppm(folder / "before.ppm")
     _, _, after = read_ppm(folder / "after.ppm")
     changed = {(x, y) for y in range(height) for x in range(width) if before(x, y) != after(x, y)}
-    # The square is 60 x 60, its left edge at 40 + 4 * 24, and nothing farther than 24 px from it
-    # (and the half pixel that a tap may reach) sees it.
+    # Nothing farther than 24 px from it (and the half pixel that a tap may reach) sees it.
     far = [(x, y) for x, y in changed
-           if not (136 - 26 <= x < 196 + 26 and 60 - 2 <= y < 120 + 2)]
+           if not (left - 26 <= x < left + 86 and 60 - 2 <= y < 120 + 2)]
     if far:
         fail(f"{len(far)} pixels that the square does not pass were changed, e.g. {far[0]}")
     # Along a row through the square's middle red falls from the square's 255 by steps.
@@ -125,7 +157,7 @@ def check_blur(folder):
     levels = {value for value in row if 140 < value < 250}
     if len(levels) < 5:
         fail(f"the square's edges are not blurred: reds between are {sorted(levels)}")
-    if not any((x, 90) in changed for x in range(136, 196)):
+    if not any((x, 90) in changed for x in range(left, left + 60)):
         fail("nothing inside of the square's place was blurred")
 
 
@@ -211,13 +243,18 @@ def main():
     run([CMAKE, "--install", BUILD, "--prefix", prefix], folder)
     check_installed(prefix)
     check_components(prefix, folder / "asks")
+    check_shared_library(prefix)
     for name in MOST_LINES:
         build_example(name, prefix, folder / name)
+    build_by_pkg_config(prefix, folder / "by_pkg_config")
     if not has_device(prefix, folder) and not os.environ.get("SHUTTER_REQUIRE_DEVICE"):
         print("no Vulkan device: the examples were built but not run")
         sys.exit(77)
     run_validated([folder / "bare_renderer/bare_renderer"], folder)
-    check_blur(folder)
+    check_blur(folder, left=136)
+    for host in ("c_host", "by_pkg_config"):
+        run_validated([folder / host / "c_host"], folder)
+        check_blur(folder, left=120)
     scene = prefix / "share/shutter/assets/vase.glb"
     run_validated([folder / "new_effect/new_effect", scene, "vignette.png"], folder)
     check_vignette(prefix, folder, folder / "vignette.png")
