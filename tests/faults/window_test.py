@@ -2,24 +2,32 @@
 """Windows that change and go away between any two pictures, and devices lost before one."""
 
 import json
-import shutil
+import pathlib
 import sys
 import unittest
 
-if not shutil.which("xvfb-run"):
-    print("skipped: xvfb-run is missing (package xvfb)")
-    sys.exit(77)
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+
+from display import Display, skip_without_display
+
+skip_without_display()
 
 from fault_case import ASSETS, FaultCase
 
 FRAMES = 8
-ON_DISPLAY = ["xvfb-run", "-a", "-s", "-screen 0 640x480x24"]
 SESSION = ["play", "rally", "--assets", ASSETS, "--frames", str(FRAMES), "--size", "64x36"]
 
 
 class Window(FaultCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.display = Display("640x480x24")
+        cls.addClassCleanup(cls.display.close)
+
     def play(self, faults, *more):
-        return self.run_faulty([*SESSION, *more], faults, before=ON_DISPLAY)
+        return self.run_faulty([*SESSION, *more], faults,
+                               before=["env", f"DISPLAY={self.display.name}"])
 
     def test_play_goes_on_after_every_answer_of_the_window(self):
         counts = self.folder / "counts.json"
@@ -40,9 +48,12 @@ class Window(FaultCase):
         counts = self.folder / "counts.json"
         self.expect_done(self.play({"counts": counts}))
         last = json.loads(counts.read_text(encoding="utf-8"))["submissions"]
+        # In the middle of the pictures: how many submissions come before the first may differ by a
+        # few between runs.
+        middle = last - FRAMES // 2
         for kind in ("submission", "execution"):
             with self.subTest(kind=kind):
-                self.expect_sentence(self.play({kind: last - 2}), "the device was lost")
+                self.expect_sentence(self.play({kind: middle}), "the device was lost")
 
     def test_a_swapchain_that_cannot_be_made_is_told(self):
         # The first one, and one that is made anew for a window that has changed.
@@ -66,8 +77,7 @@ class Window(FaultCase):
 
     def test_a_device_that_shows_no_pictures_is_told(self):
         result = self.play({"hide": "VK_KHR_swapchain"})
-        self.assertNotEqual(result.returncode, 0)
-        # xvfb-run complains, too, of a program that ends before its display is up.
+        self.assertEqual(result.returncode, 1)
         self.assertIn("shutter: no device can run the engine", result.stderr)
         self.assertIn("lacks VK_KHR_swapchain\n", result.stderr)
 

@@ -14,10 +14,14 @@ EXECUTABLE = os.environ["SHUTTER_EXECUTABLE"]
 ASSETS = os.environ["SHUTTER_ASSETS"]
 FRAME_SECONDS = 1 / 30
 
-for needed, package in (("xvfb-run", "xvfb"), ("openbox", "openbox")):
-    if not shutil.which(needed):
-        print(f"skipped: {needed} is missing (package {package})")
-        sys.exit(77)
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+
+from display import Display, skip_without_display
+
+skip_without_display()
+if not shutil.which("openbox"):
+    print("skipped: openbox is missing (package openbox)")
+    sys.exit(77)
 
 
 class Script:
@@ -46,18 +50,24 @@ class Script:
 
 
 class PlayCase(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display("1024x768x24")
+        cls.addClassCleanup(cls.display.close)
+        # It minimises and restores windows; a bare display would not.
+        manager = subprocess.Popen(
+            ["openbox"], env={**os.environ, "DISPLAY": cls.display.name},
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(manager.wait)
+        cls.addClassCleanup(manager.terminate)
+
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="shutter_play_"))
         self.addCleanup(shutil.rmtree, self.folder)
 
     def run_shutter(self, arguments, display=True):
         command = [EXECUTABLE, "play", *arguments, *(() if display else ("--no-window",))]
-        if display:
-            # A window manager minimises and restores; a bare display would not.
-            inner = 'openbox >/dev/null 2>&1 & "$@"; status=$?; kill $! 2>/dev/null; exit $status'
-            command = ["xvfb-run", "-a", "-s", "-screen 0 1024x768x24", "bash", "-c", inner, "-",
-                       *command]
-        environment = {**os.environ, "HOME": str(self.folder)}
+        environment = {**os.environ, "HOME": str(self.folder), "DISPLAY": self.display.name}
         environment.pop("XDG_CONFIG_HOME", None)
         return subprocess.run(
             command,

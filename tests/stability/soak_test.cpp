@@ -6,7 +6,6 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/temp_folder.h"
 
-#include <chrono>
 #include <cstring>
 #include <memory>
 
@@ -39,7 +38,7 @@ TEST_F(SoakLaw, AThousandFramesGainNothingAndRepeatThemselves) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found.value().findings.curves.size(), 4u);
     EXPECT_EQ(found.value().findings.checks.size(), 15u);
-    // Times of a thousand frames beside other tests say nothing; the next test sees that they
+    // Times of a thousand frames beside other tests say nothing; unit/SoakSamples sees that they
     // count.
     for (const stability::Measured& row : found.value().findings.checks)
         EXPECT_TRUE(stability::holds(row) || row.check.ends_with("time of a frame"))
@@ -67,10 +66,6 @@ class Saboteur {
                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                 gpu::MemoryUse::Device
             );
-        const auto end = std::chrono::steady_clock::now() +
-                         std::chrono::microseconds(12'000 * moment.picture / kFrames);
-        while (std::chrono::steady_clock::now() < end) {
-        }
         if (moment.picture + 1 == kFrames)
             mBuffers.clear(); // before their device
     }
@@ -88,7 +83,7 @@ class Saboteur {
     std::vector<gpu::Buffer> mBuffers;
 };
 
-TEST_F(SoakLaw, ALeakASlowerFrameAndAnotherPictureAreNoticed) {
+TEST_F(SoakLaw, ALeakAndAnotherPictureAreNoticed) {
     soak::SoakOptions options = makeOptions();
     Saboteur saboteur;
     options.disturb = [&](const soak::SoakOptions::Moment& moment) { saboteur.disturb(moment); };
@@ -96,7 +91,8 @@ TEST_F(SoakLaw, ALeakASlowerFrameAndAnotherPictureAreNoticed) {
     ASSERT_TRUE(found) << found.error().message;
     std::vector<std::string> broken;
     for (const stability::Measured& row : found.value().findings.checks)
-        if (!stability::holds(row) && !row.check.starts_with("run 2"))
+        if (!stability::holds(row) && !row.check.starts_with("run 2") &&
+            !row.check.ends_with("time of a frame"))
             broken.push_back(row.check);
     EXPECT_EQ(
         broken,
@@ -105,8 +101,7 @@ TEST_F(SoakLaw, ALeakASlowerFrameAndAnotherPictureAreNoticed) {
             "run 1: memory of the process gained",
             "run 1: device memory gained",
             "run 1: blocks of device memory gained",
-            "run 1: buffers gained",
-            "run 1: time of a frame"})
+            "run 1: buffers gained"})
     );
 }
 
