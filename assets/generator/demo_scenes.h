@@ -30,7 +30,7 @@ namespace shutter::generator {
 /// `sun`: the one light of a demo.
 void addDemoSun(GltfWriter& writer, glm::vec3 direction);
 
-/// Of the closed centre line of the rally's course.
+/// A point of the closed centre line of the rally's course.
 struct CoursePoint {
     glm::vec2 place{0.0f};     ///< x, z, metres
     glm::vec2 direction{0.0f}; ///< of driving, unit

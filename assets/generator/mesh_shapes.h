@@ -21,7 +21,7 @@ struct Shape {
 
 void addVertex(Shape& shape, glm::vec3 position, glm::vec3 normal, glm::vec2 uv);
 
-/// Of three vertices of the shape, counter-clockwise.
+/// A triangle of three vertices of the shape, counter-clockwise.
 void addTriangle(Shape& shape, size_t a, size_t b, size_t c);
 
 /// Adds `added`, moved by `transform` (no mirroring: it would turn the winding round).
@@ -69,7 +69,7 @@ roundedBox(glm::vec3 halfExtents, float radius, int cornerSteps, float tileMetre
 [[nodiscard]] Shape
 tube(std::span<const glm::vec3> path, std::span<const float> radii, int segmentCount);
 
-/// Of one radius throughout.
+/// A tube of one radius throughout.
 [[nodiscard]] Shape tube(std::span<const glm::vec3> path, float radius, int segmentCount);
 
 /// A rounded rectangle across Z, for loft().

@@ -12,7 +12,7 @@ namespace {
 constexpr double kDragRadians = 3.0;
 constexpr double kPadRadiansPerSecond = 2.0;
 constexpr double kKeyRadiansPerSecond = 1.5;
-/// Of the distance or the speed, a wheel's step.
+/// Factor of the distance or the speed per step of the wheel.
 constexpr double kWheelFactor = 1.15;
 constexpr double kFastFactor = 4.0;
 

@@ -25,7 +25,7 @@ class KeptPicture : public render::PostEffect {
 
     void declare(render::PostContext& context) override;
 
-    /// Of the frame declared last, in SHADER_READ_ONLY layout; null before the first.
+    /// The picture of the frame declared last, in SHADER_READ_ONLY layout; null before the first.
     [[nodiscard]] const gpu::Image* image() const { return mImage.handle() ? &mImage : nullptr; }
 
   private:

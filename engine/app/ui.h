@@ -15,7 +15,7 @@ namespace shutter::app {
 
 /// Height of a line of text at scale 1, pixels.
 inline constexpr float kTextPx = 15.0f;
-/// Of what is read at a glance.
+/// The same for what is read at a glance.
 inline constexpr float kLargeTextPx = 24.0f;
 
 /// One at a time. Widgets are declared with ImGui's own functions between begin() and end(), in

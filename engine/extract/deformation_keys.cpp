@@ -145,9 +145,9 @@ double measureDeformationDeviation(
     double t,
     const PoseReach& reach
 ) {
-    // Of v(s) = M(s) (p + d(s)) with M and d a vertex's blended matrix and morph displacement, the
-    // straight way from key to key is M' (p + d') + t (1 - t) (M_b - M_a) (d_b - d_a), with M' and
-    // d' on their own straight ways.
+    // For v(s) = M(s) (p + d(s)), with M and d a vertex's blended matrix and morph displacement,
+    // the straight way from key to key is M' (p + d') + t (1 - t) (M_b - M_a) (d_b - d_a), with M'
+    // and d' on their own straight ways.
     const MorphDeviation morph = measureMorph(exact, a, b, t, reach);
     const size_t jointCount = std::min(reach.joints.size(), exact.objectFromBind.size());
     if (exact.objectFromBind.empty())

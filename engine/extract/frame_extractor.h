@@ -44,7 +44,7 @@ class FrameExtractor {
         bool mirrored = false; ///< the transform or the skeleton turns the winding round
     };
 
-    /// Of an entity that can be drawn.
+    /// An entity that can be drawn, where it is.
     struct Posed {
         ObjectPoses poses;
         std::optional<DeformedEntity> shape; ///< without row and mesh

@@ -60,7 +60,7 @@ listForgotten(const ExtractedFrame& frame, const std::vector<uint32_t>& moving) 
     return rows;
 }
 
-/// Of the bounds, as a share of their distance; any monotonic measure would do.
+/// Size of the bounds as a share of their distance; any monotonic measure would do.
 double computeApparentSize(const shader::EntityRow& row, const math::Bounds& bounds) {
     math::dmat4 matrix(1.0);
     for (int r = 0; r < 3; ++r)

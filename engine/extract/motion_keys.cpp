@@ -18,7 +18,7 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-/// Of single precision, relative: a few roundings of a matrix product.
+/// Relative noise of single precision: a few roundings of a matrix product.
 constexpr double kFloatNoise = 4.0 * std::numeric_limits<float>::epsilon();
 
 double findLargestCoordinate(const Bounds& bounds) {

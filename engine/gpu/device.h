@@ -166,7 +166,7 @@ class Device {
 
     [[nodiscard]] VkPipelineCache pipelineCache() const { return mPipelineCache; }
 
-    /// Of DeviceOptions. Pipelines alone may be made on other threads.
+    /// As DeviceOptions says. Only pipelines may be made on other threads.
     [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
 
     /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is

@@ -49,7 +49,7 @@ class DeformedBlas {
         const gpu_scene::DeformedMeshes& shapes
     );
 
-    /// Of ExtractedFrame::deformed[index]; 0: it has no triangles.
+    /// The structure of ExtractedFrame::deformed[index]; 0: it has no triangles.
     [[nodiscard]] VkDeviceAddress address(size_t index) const { return mAddresses[index]; }
 
     /// The last declare() declared a build: structures above have to be built too.

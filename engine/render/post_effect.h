@@ -78,7 +78,7 @@ struct PostContext {
     const graph::TimedRays* timedRays;    ///< null where no effect asked for moving rays
     const SecondRasterView* secondRaster; ///< null where the effect does not ask for it
     graph::ImageHandle color;             ///< linear HDR so far; an effect replaces it
-    /// Of `color`: the raster's (ViewRequest::jitterPx), until an effect takes it out.
+    /// Jitter of `color`: the raster's (ViewRequest::jitterPx), until an effect takes it out.
     math::dvec2 colorJitterPx;
     graph::ImageHandle display; ///< display-encoded, once somebody made it
     Intermediates& intermediates;

@@ -46,7 +46,7 @@ class ShadowMaps {
         VkDeviceAddress frameConstants
     );
 
-    /// Of the frame prepared last.
+    /// The plan of the frame prepared last.
     [[nodiscard]] const extract::ShadowPlan& plan() const { return mPlan; }
 
     /// Maps and layers that the passes declared last draw.

@@ -30,11 +30,12 @@ class ExposureMotion {
 
     /// Shutter time s in [0, 1] below; `entity` and its parents are alive.
     [[nodiscard]] math::dmat4 worldFromEntity(ecs::Entity entity, double s) const;
-    /// Of the space that deformed vertices are given in (deformation.h), where the picture has it:
-    /// an entity of its own scale (MotionBlur) rides with the camera for the part that is not its.
+    /// From the space that deformed vertices are given in (deformation.h), where the picture has
+    /// it: an entity of its own scale (MotionBlur) rides with the camera for the part that is not
+    /// its.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
-    /// Of the camera's entity; may hold scale.
+    /// From the space of the camera's entity; may hold scale.
     [[nodiscard]] math::dmat4 worldFromCamera(double s) const;
     /// Vertical field of view of the camera, radians; orthographic cameras have none.
     [[nodiscard]] double cameraYFov(double s) const;
@@ -56,9 +57,9 @@ class ExposureMotion {
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
     [[nodiscard]] double yFovAt(double seconds) const;
     [[nodiscard]] bool mayCameraMove() const;
-    /// Of the nearest MotionBlur upwards, [0, 2].
+    /// Scale of the nearest MotionBlur upwards, [0, 2].
     [[nodiscard]] double blurScaleOf(ecs::Entity entity) const;
-    /// The same, and of the frame's cap: of the entity's motion on the screen.
+    /// The same times the frame's cap: the scale of the entity's motion on the screen.
     [[nodiscard]] double screenScaleOf(ecs::Entity entity) const;
     /// True where the entity's own motion is none in this frame.
     [[nodiscard]] bool isHeld(ecs::Entity entity) const;

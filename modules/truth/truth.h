@@ -45,7 +45,7 @@ class Truth : public render::PostEffect {
     /// \param count rays a pixel of this batch; 0, after the first, shows the mean once more
     void setBatch(uint32_t first, uint32_t count);
 
-    /// Of the frame collected last: standard error of the mean in linear light, root mean square
+    /// In the frame collected last: standard error of the mean in linear light, root mean square
     /// over pixels and channels. Nothing below two rays a pixel: one ray has no error to see.
     [[nodiscard]] std::optional<double> standardError() const { return mStandardError; }
 

@@ -56,7 +56,7 @@ bool isMet(
     FrameRef frame, HitId id, float t, bool frontFace, vec3 direction, uint mask, LeftSurface left
 ) {
     if (id.entity == left.entity && t <= left.until) return false;
-    // Of an entity without a row nothing is known: it hides what lies behind it.
+    // Nothing is known of an entity without a row: it hides what lies behind it.
     if (!hasEntityRow(frame, id.entity)) return (mask & kSolidMask) != 0u;
     Placement placement = placeAtRaster(frame, id.entity);
     return isDrawn(frame, placement, id, frontFace, direction, vec3(0.0f), mask);

@@ -12,7 +12,7 @@ namespace shutter::faults {
 
 namespace {
 
-// Of the process, which may fail before it has anything to count them in.
+// Counts of the process, which may fail before it has anything to count them in.
 std::atomic<uint32_t> sInstanceCount = 0;
 std::atomic<uint32_t> sDeviceCount = 0;
 

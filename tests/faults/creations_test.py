@@ -9,7 +9,7 @@ import unittest
 
 from fault_case import ASSETS, FaultCase
 
-# Of each kind that a frame makes more of.
+# The first ones of each kind that a frame makes more of.
 MOST_OF_A_KIND = 3
 # A frame of any method needs these; rays and raster have pipelines and structures of their own.
 KINDS_OF_A_FRAME = {

@@ -23,7 +23,7 @@ class Memory(FaultCase):
         frame = self.render("--out", "a.png")
         self.expect_done(self.run_shutter(frame))
         picture = (self.folder / "a.png").read_bytes()
-        # Of each kind that is asked for there are two.
+        # There are two of each kind that is asked for.
         types = ("local,visible+coherent,visible+coherent+cached,visible+cached,"
                  "local+visible+coherent,local")
         count = self.count_calls(frame)["allocations"]

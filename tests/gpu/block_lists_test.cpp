@@ -85,7 +85,7 @@ vec2 at(const Image& picture, int x, int y) {
     return {picture.at(uint32_t(x), uint32_t(y), 0), picture.at(uint32_t(x), uint32_t(y), 1)};
 }
 
-/// Of the pixels themselves: every one that a tap may meet.
+/// Class of the pixels themselves: every one that a tap may meet.
 float expectClass(const Image& motion, const Sorted& sorted, ivec2 tile, int size, float uniform) {
     const vec2 dominant = at(sorted.dominant, tile.x, tile.y);
     float deviation = 0.0f;

@@ -80,7 +80,7 @@ class EmbeddedIds : public test::EmbeddedTest {
             constants.entityCount = rowCount;
             rays.frameConstants = upload(&constants, sizeof(constants));
         };
-        // Of the renderer's own effects one has to ask for rays.
+        // One of the renderer's own effects has to ask for rays.
         motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), settings);
         const std::array<render::PostEffect*, 2> effects{&host, &plugin};
         render::FrameRequest request;

@@ -94,7 +94,7 @@ TEST_F(MotionCapLaw, TheCameraMovesLessForAllThatStandsStillAndMoversKeepTheirWa
 }
 
 TEST_F(MotionCapLaw, TruthShowsAShorterExposure) {
-    // Of one mover before a camera that stands, the cap is an exposure in that proportion.
+    // For one mover before a camera at rest, the cap is an exposure in that proportion.
     const SceneBuilder scene = makeScene({24, 0, 0});
     SceneBuilder alone;
     alone.setPixelView(64);

@@ -158,7 +158,7 @@ TEST_P(RevealOfScenes, OneTraversalFindsWhatSteppingFinds) {
         // rounding.
         EXPECT_LE(found.worstColor, 1.0 / 256);
         EXPECT_LE(found.worstDepth, 1.0e-5);
-        // Of these scenes' objects none has more surfaces than the second limit.
+        // None of these scenes' objects has more surfaces than the second limit.
         EXPECT_TRUE(limit == 5u || found.stopped == 0u) << found.stopped;
     }
     const auto& counters = single.statistics.counters;

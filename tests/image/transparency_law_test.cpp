@@ -26,7 +26,7 @@ class TransparencyLaw : public test::GpuTest {
 };
 
 constexpr math::vec3 kBackground(0.2f, 0.3f, 0.4f);
-/// Of one step of an 8-bit display; blending in half floats stays far below.
+/// One step of an 8-bit display; blending in half floats stays far below.
 constexpr double kStep = 1.0 / 255.0;
 
 scene::AssetIndex addGlass(SceneBuilder& scene, const vec4& color, bool doubleSided = false) {

@@ -21,7 +21,7 @@ struct HostImage {
     graph::OutsideUse before; ///< the host's last use, which is waited for
     graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
     VkFormat format = VK_FORMAT_UNDEFINED; ///< UNDEFINED: the first that the input takes
-    /// Of the whole image, pixels; 0 x 0: it ends where the part that is used does.
+    /// Size of the whole image, pixels; 0 x 0: it ends where the part that is used does.
     VkExtent2D extent{0, 0};
     /// The part that is used: a picture of `area.extent` from `area.offset`; an extent of 0 x 0:
     /// the picture's size. Inputs of another size than the picture's are read at the nearest pixel.

@@ -55,8 +55,8 @@ class BlockSorter {
         graph::Graph& graph, const SortedBlocks& sorted, const PassParams& params, uint32_t slot = 0
     );
 
-    /// Of the frame declared last for the slot, once the GPU is done with it; before the first
-    /// all 0.
+    /// Counts of the frame declared last for the slot, once the GPU is done with it; before the
+    /// first all 0.
     [[nodiscard]] BlockCounters counters(uint32_t slot = 0) const;
 
   private:

@@ -190,7 +190,7 @@ TEST(RallyPosts, AHitPostIsThrownAndTheCarPaysForIt) {
     EXPECT_EQ(hitPosts(registry, car), 1);
     EXPECT_EQ(hitPosts(registry, car), 0) << "it counts once";
     const Rod thrown = std::as_const(registry).get<Post>(entity).rod;
-    // Of the posts' mass, a two-hundredth of the car's.
+    // A post has a two-hundredth of the car's mass.
     EXPECT_LT(measureEnergy(thrown) - 9.81 * 0.55, 200.0 * 0.5 * (400.0 - 19.4 * 19.4));
     for (int i = 0; i < 120 * 20; ++i)
         stepPosts(registry);

@@ -174,7 +174,7 @@ TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
     EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}, all));
     EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}, all));
     EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}, all));
-    // Of a skeleton that several meshes share, only this mesh's joints have a say.
+    // Only this mesh's joints of a skeleton that several meshes share have a say.
     scene::PoseReach first;
     first.joints = {deformed, {}, {}};
     EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), dmat4(1.0)}, {}}, first));

@@ -86,7 +86,7 @@ class EditedWorld : public KeptFrame {
             world.registry.add(entity, scene::MeshInstance{below(5)});
         if (below(6) == 0)
             world.registry.add(entity, scene::Light{});
-        // Of an older one: no cycles.
+        // A child of an older one: no cycles.
         if (!entities.empty() && below(3) == 0)
             world.registry.add(entity, scene::Parent{any()});
         entities.push_back(entity);

@@ -59,7 +59,8 @@ class Extraction : public testing::Test {
         return std::move(frame).value();
     }
 
-    /// Of a row of the table; one without motion is at the ends where it is at the raster instant.
+    /// Motion of a row of the table; one without motion is at the ends where it is at the raster
+    /// instant.
     static shader::EntityMotion motionOf(const ExtractedFrame& frame, size_t row) {
         const shader::EntityRow& entry = frame.entities.at(row);
         if (entry.motion == shader::kNoMotion)

@@ -47,7 +47,7 @@ MotionKeys compute(const MatrixAt& matrixAt, const KeyTolerance& tolerance = per
     return keys.value_or(MotionKeys{});
 }
 
-/// Of the interpolated corners from the true ones, at many times.
+/// Largest distance of interpolated corners from the true ones, at many times.
 double findLargestDeviation(const MotionKeys& keys, const MatrixAt& matrixAt) {
     double largest = 0.0;
     for (int i = 0; i <= 9973; ++i) {

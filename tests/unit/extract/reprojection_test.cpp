@@ -36,7 +36,7 @@ class ReprojectionTest : public Extraction {
         return computeReprojection(world, request, extract(), last);
     }
 
-    /// Of the frame at 1 s, after one at `seconds`.
+    /// Reprojection of the frame at 1 s, after one at `seconds`.
     Reprojection computeAfter(double seconds) {
         setTime(seconds);
         request.jitterPx = {0.3, -0.2}; // of no account

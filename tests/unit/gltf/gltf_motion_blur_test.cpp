@@ -14,7 +14,7 @@ core::Result<LoadedScene> loadExtras(const std::string& extras) {
     );
 }
 
-/// Of the only node.
+/// Component of the only node.
 const scene::MotionBlur* findBlur(const LoadedScene& loaded) {
     for (auto [entity, blur] : loaded.world.registry.view<scene::MotionBlur>()) {
         (void)entity;

@@ -52,7 +52,7 @@ std::vector<double> toValues(const Ranks& ranks) {
     return {ranks.begin(), ranks.end()};
 }
 
-/// Of `sets` parts of the ranks, after a turn by a share of all.
+/// Values of `sets` parts of the ranks, after a turn by a share of all.
 std::vector<double> toSets(const Ranks& ranks, double turn, int sets) {
     std::vector<double> values;
     for (const uint32_t rank : ranks) {

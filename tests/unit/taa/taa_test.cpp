@@ -19,7 +19,7 @@ using shader::Kept;
 
 constexpr float kLeastShare = 1.0f / float(kPlaceCount);
 
-/// Of a neighbourhood that spreads evenly around a grey.
+/// Moments of a neighbourhood that spreads evenly around a grey.
 ColorMoments makeMoments(float middle, float spread) {
     ColorMoments moments{vec3(0.0f), vec3(0.0f), 0.0f};
     for (const float offset : {-spread, 0.0f, spread})
