@@ -28,8 +28,8 @@ void transition(
     vkCmdPipelineBarrier2(commands, &info);
 }
 
-/// Half of a mip extent, at least 1.
-int32_t halve(uint32_t extent, uint32_t mip) {
+/// An extent at a mip level, at least 1.
+int32_t shrink(uint32_t extent, uint32_t mip) {
     return static_cast<int32_t>(std::max(extent >> mip, 1u));
 }
 
@@ -51,9 +51,9 @@ void buildMipLevels(VkCommandBuffer commands, const Image& target) {
         );
         VkImageBlit blit{};
         blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1};
-        blit.srcOffsets[1] = {halve(desc.width, mip - 1), halve(desc.height, mip - 1), 1};
+        blit.srcOffsets[1] = {shrink(desc.width, mip - 1), shrink(desc.height, mip - 1), 1};
         blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1};
-        blit.dstOffsets[1] = {halve(desc.width, mip), halve(desc.height, mip), 1};
+        blit.dstOffsets[1] = {shrink(desc.width, mip), shrink(desc.height, mip), 1};
         vkCmdBlitImage(
             commands,
             image,
@@ -162,9 +162,11 @@ uint32_t countMipLevels(uint32_t width, uint32_t height) {
 
 namespace {
 
-/// Rows of a texture that wait in the staging buffer.
+/// Rows of a level of a texture that wait in the staging buffer.
 struct StagedRows {
     const Image* target = nullptr;
+    uint32_t mip = 0;
+    bool buildsMips = false; ///< once they are there, of the level the others
     VkDeviceSize offset = 0; ///< in the staging buffer
     uint32_t firstRow = 0;
     uint32_t rowCount = 0;
@@ -179,19 +181,23 @@ class TextureStaging {
     TextureStaging(Device& device, VkDeviceSize bytes)
         : mDevice(device), mBuffer(device, "staging", bytes, 0, MemoryUse::Staging) {}
 
-    void add(const Image& target, std::span<const std::byte> texels) {
+    /// \param buildsMips the levels above are made of this one
+    void
+    add(const Image& target, uint32_t mip, std::span<const std::byte> texels, bool buildsMips) {
         const ImageDesc& desc = target.desc();
-        const VkDeviceSize rowBytes = VkDeviceSize(desc.width) * texelBytes(desc.format);
-        for (uint32_t row = 0; row < desc.height;) {
+        const auto height = static_cast<uint32_t>(shrink(desc.height, mip));
+        const VkDeviceSize rowBytes =
+            VkDeviceSize(shrink(desc.width, mip)) * texelBytes(desc.format);
+        for (uint32_t row = 0; row < height;) {
             const VkDeviceSize free = mBuffer.bytes() - std::min(mUsed, mBuffer.bytes());
             const auto rows =
-                static_cast<uint32_t>(std::min<VkDeviceSize>(free / rowBytes, desc.height - row));
+                static_cast<uint32_t>(std::min<VkDeviceSize>(free / rowBytes, height - row));
             if (rows == 0) {
                 flush();
                 continue;
             }
             mBuffer.writeBytes(texels.data() + row * rowBytes, rows * rowBytes, mUsed);
-            mStaged.push_back({&target, mUsed, row, rows});
+            mStaged.push_back({&target, mip, buildsMips, mUsed, row, rows});
             mUsed = (mUsed + rows * rowBytes + kStagedAlignment - 1) / kStagedAlignment *
                     kStagedAlignment;
             row += rows;
@@ -211,19 +217,21 @@ class TextureStaging {
   private:
     void record(VkCommandBuffer commands, const StagedRows& rows) const {
         const ImageDesc& desc = rows.target->desc();
+        const auto height = static_cast<uint32_t>(shrink(desc.height, rows.mip));
         if (rows.firstRow == 0)
             transition(
                 commands,
                 rows.target->handle(),
-                0,
+                rows.mip,
                 VK_IMAGE_LAYOUT_UNDEFINED,
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL
             );
         VkBufferImageCopy region{};
         region.bufferOffset = rows.offset;
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, rows.mip, 0, 1};
         region.imageOffset.y = static_cast<int32_t>(rows.firstRow);
-        region.imageExtent = {desc.width, rows.rowCount, 1};
+        region.imageExtent = {
+            static_cast<uint32_t>(shrink(desc.width, rows.mip)), rows.rowCount, 1};
         vkCmdCopyBufferToImage(
             commands,
             mBuffer.handle(),
@@ -232,8 +240,18 @@ class TextureStaging {
             1,
             &region
         );
-        if (rows.firstRow + rows.rowCount == desc.height)
+        if (rows.firstRow + rows.rowCount < height)
+            return;
+        if (rows.buildsMips)
             buildMipLevels(commands, *rows.target);
+        else
+            transition(
+                commands,
+                rows.target->handle(),
+                rows.mip,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+            );
     }
 
     Device& mDevice;
@@ -258,7 +276,28 @@ void uploadTextures(Device& device, std::span<const TextureUpload> uploads) {
         return;
     TextureStaging staging(device, std::max(longestRow, std::min(total, kStagingBytes)));
     for (const TextureUpload& upload : uploads)
-        staging.add(*upload.target, upload.texels);
+        staging.add(*upload.target, 0, upload.texels, /*buildsMips=*/true);
+    staging.flush();
+}
+
+void uploadLevels(
+    Device& device, const Image& target, std::span<const std::span<const std::byte>> levels
+) {
+    const ImageDesc& desc = target.desc();
+    SHUTTER_CHECK_EQ(levels.size(), size_t(desc.mipLevels));
+    VkDeviceSize total = 0;
+    for (uint32_t mip = 0; mip < desc.mipLevels; ++mip) {
+        SHUTTER_CHECK_EQ(
+            levels[mip].size(),
+            size_t(shrink(desc.width, mip)) * size_t(shrink(desc.height, mip)) *
+                texelBytes(desc.format)
+        );
+        total += levels[mip].size() + kStagedAlignment;
+    }
+    const VkDeviceSize rowBytes = VkDeviceSize(desc.width) * texelBytes(desc.format);
+    TextureStaging staging(device, std::max(rowBytes, std::min(total, kStagingBytes)));
+    for (uint32_t mip = 0; mip < desc.mipLevels; ++mip)
+        staging.add(target, mip, levels[mip], /*buildsMips=*/false);
     staging.flush();
 }
 

@@ -48,6 +48,12 @@ struct TextureUpload {
 /// The same for many, which share submissions of kStagingBytes each.
 void uploadTextures(Device& device, std::span<const TextureUpload> uploads);
 
+/// Fills every mip level with its own texels (tightly packed), as many as the image has (CHECKed).
+/// Leaves the image in SHADER_READ_ONLY_OPTIMAL.
+void uploadLevels(
+    Device& device, const Image& target, std::span<const std::span<const std::byte>> levels
+);
+
 /// Mip levels of a full chain.
 [[nodiscard]] uint32_t countMipLevels(uint32_t width, uint32_t height);
 
