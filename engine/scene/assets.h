@@ -5,6 +5,7 @@
 
 #include "engine/math/bounds.h"
 #include "engine/math/math.h"
+#include "engine/scene/environment.h"
 
 #include <array>
 #include <cstdint>
@@ -143,6 +144,7 @@ struct Assets {
     std::vector<TextureImage> images;
     std::vector<AnimationClip> clips;
     std::vector<Skin> skins;
+    std::optional<Environment> environment; ///< nothing: --background and --ambient alone
 };
 
 } // namespace shutter::scene

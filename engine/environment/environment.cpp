@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "engine/environment/environment.h"
+
+#include "engine/environment/directions.h"
+#include "engine/environment/irradiance.h"
+#include "engine/environment/prefilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace shutter::environment {
+
+namespace {
+
+using core::makeError;
+
+constexpr float kMostHalf = 65504.0f;
+
+core::Status validate(const image::Image& picture, const EnvironmentSettings& settings) {
+    // Written so that NaN fails.
+    if (!(settings.intensity >= 0.0 && settings.intensity <= 1000.0))
+        return makeError("an intensity of {} must lie in [0, 1000]", settings.intensity);
+    if (!(std::abs(settings.rotationDegrees) <= 360.0))
+        return makeError("a rotation of {} must lie in [-360, 360]", settings.rotationDegrees);
+    if (picture.width < kLeastPictureWidth || picture.width > kMostPictureWidth)
+        return makeError(
+            "it is {} pixels wide; an environment is {} to {}",
+            picture.width,
+            kLeastPictureWidth,
+            kMostPictureWidth
+        );
+    if (picture.width != 2 * picture.height)
+        return makeError(
+            "it is {}x{}; an environment shows all directions (equirectangular) and is twice as "
+            "wide as high",
+            picture.width,
+            picture.height
+        );
+    return {};
+}
+
+/// Three channels of numbers that half floats hold.
+image::Image clean(const image::Image& picture, float intensity) {
+    image::Image result(picture.width, picture.height, 3);
+    for (size_t i = 0; i < size_t(picture.width) * picture.height; ++i)
+        for (uint32_t c = 0; c < 3; ++c) {
+            const float value =
+                picture.pixels[i * picture.channels + (picture.channels < 3 ? 0 : c)];
+            // Written so that NaN gives 0.
+            result.pixels[i * 3 + c] = value > 0.0f ? std::min(value * intensity, kMostHalf) : 0.0f;
+        }
+    return result;
+}
+
+scene::DirectionPicture pack(const image::Image& picture) {
+    image::Image rgba(picture.width, picture.height, 4);
+    for (size_t i = 0; i < size_t(picture.width) * picture.height; ++i) {
+        for (uint32_t c = 0; c < 3; ++c)
+            rgba.pixels[i * 4 + c] = std::min(picture.pixels[i * 3 + c], kMostHalf);
+        rgba.pixels[i * 4 + 3] = 1.0f;
+    }
+    return {picture.width, picture.height, image::packHalf(rgba)};
+}
+
+scene::Environment gather(const image::Image& background, const image::Image& light) {
+    scene::Environment environment;
+    for (const image::Image& level : makePyramid(background, 1))
+        environment.background.push_back(pack(level));
+    for (const image::Image& level : prefilterMirrored(light))
+        environment.mirrored.push_back(pack(level));
+    // Harmonics of second order see nothing that this many texels do not show.
+    constexpr uint32_t kHarmonicsWidth = 128;
+    environment.irradiance = projectIrradiance(makePyramid(light, kHarmonicsWidth).back());
+    return environment;
+}
+
+} // namespace
+
+core::Result<scene::Environment>
+makeEnvironment(image::Image picture, const EnvironmentSettings& settings) {
+    SHUTTER_TRY(validate(picture, settings));
+    picture = clean(picture, static_cast<float>(settings.intensity));
+    while (picture.width > kMostWidth)
+        picture = halve(picture);
+    scene::Environment environment = gather(picture, picture);
+    const double angle = -glm::radians(settings.rotationDegrees);
+    environment.mapFromWorld =
+        math::mat3(glm::rotate(math::dmat4(1.0), angle, math::dvec3(0.0, 1.0, 0.0)));
+    return environment;
+}
+
+scene::Environment makeSky(const SkySettings& settings) {
+    const SkyPictures pictures = drawSky(settings, kSkyWidth);
+    return gather(clean(pictures.background, 1.0f), clean(pictures.light, 1.0f));
+}
+
+} // namespace shutter::environment

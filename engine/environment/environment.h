@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// From a picture of all directions to what a scene is lit by.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/environment/sky_model.h"
+#include "engine/image/image.h"
+#include "engine/scene/environment.h"
+
+#include <cstdint>
+
+namespace shutter::environment {
+
+/// Widest background: every device takes it. Wider pictures are halved.
+inline constexpr uint32_t kMostWidth = 4096;
+/// Smallest and largest picture that is read.
+inline constexpr uint32_t kLeastPictureWidth = 8;
+inline constexpr uint32_t kMostPictureWidth = 32768;
+/// Width of a sky: the sun's disc is three texels wide.
+inline constexpr uint32_t kSkyWidth = 2048;
+
+struct EnvironmentSettings {
+    double intensity = 1.0;       ///< factor of the picture, [0, 1000]
+    double rotationDegrees = 0.0; ///< about +Y: positive turns the surroundings to the left
+};
+
+/// \param picture linear, equirectangular, twice as wide as high; one channel is grey, more than
+/// three are not looked at. Negative values and NaN count as 0, and what half floats cannot hold as
+/// the most that they can.
+/// Error: a size or a setting out of its range, without the file's name.
+[[nodiscard]] core::Result<scene::Environment>
+makeEnvironment(image::Image picture, const EnvironmentSettings& settings);
+
+/// A clear sky whose sun is the scene's.
+[[nodiscard]] scene::Environment makeSky(const SkySettings& settings);
+
+} // namespace shutter::environment
