@@ -111,6 +111,8 @@ core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layo
     if (visitRows(frame.opaque.moving, addMover) ||
         (cameraMoves && visitRows(frame.opaque.still, addMover)))
         return {true, fmt::format("more than {} entities move in the picture", kMostMovers)};
+    if (!movers.empty() && (frame.constants.flags & shader::kFrameEnvironment) != 0)
+        return {true, "an environment comes into sight behind what moves"};
     const auto isRevealed = [&](uint32_t row) {
         const ScreenBox box = findBox(frame, layout, row);
         return std::any_of(movers.begin(), movers.end(), [&](const ScreenBox& mover) {

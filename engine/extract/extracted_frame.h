@@ -44,6 +44,7 @@ struct SceneLayout {
     std::vector<GeometryInfo> geometries;  ///< all meshes' primitives in order
     std::vector<math::Bounds> bounds;      ///< one per mesh, object space, undeformed
     std::vector<scene::PoseReach> reaches; ///< one per mesh
+    bool hasEnvironment = false;           ///< the scene is lit by one
 };
 
 struct ViewRequest {
@@ -59,6 +60,8 @@ struct ViewRequest {
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
     float lodBias = 0.0f;        ///< added to texture levels; negative is sharper
     bool unlit = false;          ///< base colour only
+    /// Where the scene has an environment: it is seen and lights, in place of the two colours.
+    bool environment = true;
     ShadowSettings shadows{};
     uint32_t entityLimit = kMaxEntities; ///< most rows of the entity table, up to kMaxEntities
 };

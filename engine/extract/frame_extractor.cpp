@@ -58,6 +58,8 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.changes.ownRows = mRows.size();
     mView = view.matrices();
     mFrame.constants = view.constants();
+    if (layout.hasEnvironment && request.environment)
+        mFrame.constants.flags |= shader::kFrameEnvironment;
     addLights(frame);
     mFrame.moves = view.moves() || mMovesInView > 0;
     return &mFrame;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -99,6 +100,35 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Assets& assets)
       mTextures(device, assets, findUsedTextures(assets)) {
     uploadMeshes(assets);
     uploadMaterials(assets);
+    if (assets.environment)
+        uploadEnvironment(*assets.environment);
+}
+
+void GpuScene::uploadEnvironment(const scene::Environment& environment) {
+    shader::EnvironmentConstants constants{};
+    for (size_t i = 0; i < environment.irradiance.size(); ++i)
+        constants.irradiance[i] = math::vec4(environment.irradiance[i], 0.0f);
+    for (int row = 0; row < 3; ++row)
+        constants.mapFromWorld[row] = math::vec4(
+            environment.mapFromWorld[0][row],
+            environment.mapFromWorld[1][row],
+            environment.mapFromWorld[2][row],
+            0.0f
+        );
+    constants.background = mTextures.environment().background;
+    constants.mirrored = mTextures.environment().mirrored;
+    constants.roughestLevel = static_cast<float>(environment.mirrored.size() - 1);
+    constants.texelsPerRadian =
+        static_cast<float>(environment.background.front().width / (2.0 * std::numbers::pi));
+    mEnvironment = gpu::Buffer(
+        mDevice,
+        "environment",
+        sizeof(constants),
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+        gpu::MemoryUse::Device
+    );
+    gpu::uploadBuffer(mDevice, mEnvironment, std::as_bytes(std::span(&constants, 1)));
+    mLayout.hasEnvironment = true;
 }
 
 void GpuScene::uploadMeshes(const scene::Assets& assets) {

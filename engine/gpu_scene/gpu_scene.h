@@ -40,6 +40,9 @@ class GpuScene {
 
     [[nodiscard]] VkDeviceAddress materialTable() const { return mMaterials.address(); }
 
+    /// shader::EnvironmentConstants, where layout().hasEnvironment.
+    [[nodiscard]] VkDeviceAddress environment() const { return mEnvironment.address(); }
+
     [[nodiscard]] VkDescriptorSetLayout textureLayout() const { return mTextures.layout(); }
 
     [[nodiscard]] VkDescriptorSet textureSet() const { return mTextures.set(); }
@@ -74,6 +77,7 @@ class GpuScene {
   private:
     void uploadMeshes(const scene::Assets& assets);
     void uploadMaterials(const scene::Assets& assets);
+    void uploadEnvironment(const scene::Environment& environment);
 
     gpu::Device& mDevice;
     extract::SceneLayout mLayout;
@@ -83,6 +87,7 @@ class GpuScene {
     std::vector<shader::Geometry> mGeometryRows;
     DeformSources mDeformSources;
     gpu::Buffer mMaterials;
+    gpu::Buffer mEnvironment;
     TextureTable mTextures;
     std::vector<gpu::AccelerationStructure> mBlas;
     std::vector<gpu::AccelerationStructure> mMeshScenes;

@@ -62,8 +62,9 @@ TextureTable::TextureTable(
 )
     : TextureTable(device) { // made from here on: what throws below leaves nothing behind
     const auto count = static_cast<uint32_t>(used.size());
+    const uint32_t places = count + (assets.environment ? 2 : 0);
     const TextureLimit limit = findTextureLimit(device.limits());
-    if (count > limit.count)
+    if (places > limit.count)
         throw gpu::DeviceError(fmt::format(
             "the scene has {} textures, twice each in the table; {} takes a table of {} ({})",
             count / 2,
@@ -71,23 +72,51 @@ TextureTable::TextureTable(
             limit.count,
             limit.name
         ));
-    createSet(std::max(count, 1u));
+    createSet(std::max(places, 1u));
     const std::vector<VkImageView> views = uploadImages(assets, used);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (!views[i])
-            continue;
-        const VkDescriptorImageInfo entry{
-            findSampler(assets.textures[i / 2]),
-            views[i],
-            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = mSet;
-        write.dstArrayElement = i;
-        write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-        write.pImageInfo = &entry;
-        vkUpdateDescriptorSets(mDevice.handle(), 1, &write, 0, nullptr);
-    }
+    for (uint32_t i = 0; i < count; ++i)
+        if (views[i])
+            write(i, findSampler(assets.textures[i / 2]), views[i]);
+    if (assets.environment)
+        addEnvironment(*assets.environment, count);
+}
+
+void TextureTable::write(uint32_t place, VkSampler sampler, VkImageView view) {
+    const VkDescriptorImageInfo entry{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = mSet;
+    write.dstArrayElement = place;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.pImageInfo = &entry;
+    vkUpdateDescriptorSets(mDevice.handle(), 1, &write, 0, nullptr);
+}
+
+void TextureTable::addEnvironment(const scene::Environment& environment, uint32_t first) {
+    mEnvironment = {first, first + 1};
+    addDirections("environment background", environment.background, mEnvironment.background);
+    addDirections("environment mirrored", environment.mirrored, mEnvironment.mirrored);
+}
+
+void TextureTable::addDirections(
+    const char* name, std::span<const scene::DirectionPicture> levels, uint32_t place
+) {
+    gpu::ImageDesc desc;
+    desc.width = levels.front().width;
+    desc.height = levels.front().height;
+    desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    desc.mipLevels = static_cast<uint32_t>(levels.size());
+    mDirections.emplace_back(mDevice, name, desc);
+    std::vector<std::span<const std::byte>> texels;
+    for (const scene::DirectionPicture& level : levels)
+        texels.push_back(std::as_bytes(std::span(level.rgba)));
+    gpu::uploadLevels(mDevice, mDirections.back(), texels);
+    // Round the horizon there is no border; beyond a pole lies what is beside it.
+    scene::Texture around;
+    around.wrapU = scene::Wrap::Repeat;
+    around.wrapV = scene::Wrap::ClampToEdge;
+    write(place, findSampler(around), mDirections.back().view());
 }
 
 TextureTable::~TextureTable() {

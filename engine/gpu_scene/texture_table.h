@@ -7,6 +7,7 @@
 #include "engine/scene/assets.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace shutter::gpu_scene {
@@ -24,9 +25,10 @@ struct TextureLimit {
 /// and 4000 samplers, and some have no more.
 class TextureTable {
   public:
-    /// The set holds each texture of the scene twice, as sRGB at 2i and linear at 2i + 1.
-    /// \param used which of these a material reads; only they get an image
-    /// Throws DeviceError, with the limit's name, for more textures than the device takes.
+    /// The set holds each texture of the scene twice, as sRGB at 2i and linear at 2i + 1, and
+    /// behind them the pictures of its environment, where it has one. \param used which of these a
+    /// material reads; only they get an image Throws DeviceError, with the limit's name, for more
+    /// textures than the device takes.
     TextureTable(gpu::Device& device, const scene::Assets& assets, const std::vector<bool>& used);
     ~TextureTable();
     TextureTable(const TextureTable&) = delete;
@@ -36,6 +38,14 @@ class TextureTable {
 
     [[nodiscard]] VkDescriptorSet set() const { return mSet; }
 
+    /// Places in the set, where the scene has an environment.
+    struct EnvironmentPlaces {
+        uint32_t background = 0;
+        uint32_t mirrored = 0;
+    };
+
+    [[nodiscard]] const EnvironmentPlaces& environment() const { return mEnvironment; }
+
   private:
     explicit TextureTable(gpu::Device& device) : mDevice(device) {}
 
@@ -43,6 +53,11 @@ class TextureTable {
     /// \return by place in the set, null where no image is
     std::vector<VkImageView>
     uploadImages(const scene::Assets& assets, const std::vector<bool>& used);
+    void addEnvironment(const scene::Environment& environment, uint32_t first);
+    void addDirections(
+        const char* name, std::span<const scene::DirectionPicture> levels, uint32_t place
+    );
+    void write(uint32_t place, VkSampler sampler, VkImageView view);
     VkSampler findSampler(const scene::Texture& texture);
 
     struct KnownSampler {
@@ -55,6 +70,8 @@ class TextureTable {
     gpu::Device& mDevice;
     std::vector<gpu::MemoryBlock> mBlocks; // before mImages: they must outlive them
     std::vector<gpu::Image> mImages;
+    std::vector<gpu::Image> mDirections; ///< of the environment, each with its own memory
+    EnvironmentPlaces mEnvironment;
     std::vector<KnownSampler> mSamplers;
     VkDescriptorSetLayout mLayout = VK_NULL_HANDLE;
     VkDescriptorPool mPool = VK_NULL_HANDLE;

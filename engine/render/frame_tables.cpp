@@ -45,6 +45,8 @@ FrameTables::Addresses FrameTables::upload(
         deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt
     );
     frame.constants.materials = gpu::splitAddress(scene.materialTable());
+    if ((frame.constants.flags & shader::kFrameEnvironment) != 0)
+        frame.constants.environment = gpu::splitAddress(scene.environment());
     mBuffer.writeBytes(&frame.constants, sizeof(frame.constants), 0);
     mBuffer.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
     if (response)

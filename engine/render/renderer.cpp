@@ -37,6 +37,13 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     return facts;
 }
 
+core::Decision
+decideEnvironment(const extract::ExtractedFrame& frame, const gpu_scene::GpuScene& scene) {
+    if ((frame.constants.flags & shader::kFrameEnvironment) != 0)
+        return {true, "it is seen where nothing is and lights surfaces"};
+    return {false, scene.layout().hasEnvironment ? "the view leaves it out" : "the scene has none"};
+}
+
 /// What all effects together want: the first that wants it, or the last that says why not.
 void join(core::Decision& all, const std::string& effect, const core::Decision& own) {
     if (!all.run && !own.reason.empty())
@@ -308,6 +315,7 @@ Renderer::Tickets Renderer::declareFrame(
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
         mShadowPipelines.emplace(mDevice, mScene);
     if (request.wantReasons) {
+        explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
         explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
         explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
     }

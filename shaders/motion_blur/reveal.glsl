@@ -58,7 +58,9 @@ Revealed traceReveal(ivec2 pixel, out uint rays) {
         );
         ++rays;
         if (!hit.found) {
-            revealed = revealSky(frame, centre, ray.direction);
+            revealed = revealSky(
+                frame, backgroundRadiance(frame, ray.direction), centre, ray.direction
+            );
             t = 1.0e30f;
             break;
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The reveal where nothing but sky lies behind what moves: no ray has to find that.
+// The reveal where nothing but a sky of one colour lies behind what moves: no ray has to find that.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "motion_blur/revealed_pixels.glsl"
@@ -14,7 +14,10 @@ void main() {
     vec2 uv = centre / vec2(params.sizePx);
     FrameRef frame = FrameRef(method.frame);
     bool sky = textureLod(uEntityId, uv, 0.0f).x == kNoEntity;
-    Revealed revealed = sky ? keepRaster(uv)
-                            : revealSky(frame, centre, makeViewRay(frame, centre).direction);
+    Revealed revealed =
+        sky ? keepRaster(uv)
+            : revealSky(
+                  frame, frame.value.background.rgb, centre, makeViewRay(frame, centre).direction
+              );
     storeRevealed(pixels[index], revealed);
 }

@@ -38,9 +38,10 @@ Revealed keepRaster(vec2 uv) {
     );
 }
 
-Revealed revealSky(FrameRef frame, vec2 centre, vec3 direction) {
+/// \param color of the sky in that direction
+Revealed revealSky(FrameRef frame, vec3 color, vec2 centre, vec3 direction) {
     return Revealed(
-        frame.value.background.rgb,
+        color,
         vec4(skyMotion(frame, centre, direction), kSkyDepth, 0.0f), kNoEntity
     );
 }

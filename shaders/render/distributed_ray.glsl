@@ -74,7 +74,7 @@ DistributedSample traceDistributed(
             traceTimedRay(scene, frame, moving, ray.origin, ray.direction, query);
         ++result.rays;
         if (!rayHit.found) {
-            result.radiance += transmitted * frame.value.background.rgb;
+            result.radiance += transmitted * backgroundRadiance(frame, ray.direction);
             break;
         }
         Placement placement = placeAt(moving, rayHit.id.entity, s);

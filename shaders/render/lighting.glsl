@@ -3,6 +3,7 @@
 #define SHUTTER_LIGHTING_GLSL
 
 #include "render/brdf.glsl"
+#include "render/environment.glsl"
 #include "render/shadow_lookup.glsl"
 #include "render/surface.glsl"
 
@@ -73,7 +74,9 @@ vec3 shadeSurface(
     vec3 f0 = mix(vec3(0.04f), surface.baseColor, surface.metallic);
     vec3 mirrored = environmentBrdf(f0, roughness, saturate(abs(dot(surface.normal, v))));
     vec3 diffuse = surface.baseColor * (1.0f - surface.metallic) * (vec3(1.0f) - mirrored);
-    vec3 color = frame.value.ambient.rgb * (diffuse + mirrored) * surface.occlusion;
+    vec3 color =
+        surface.occlusion *
+        reflectEnvironment(frame, diffuse, mirrored, roughness, surface.normal, v);
     bool castsShadows = (frame.value.flags & kFrameShadows) != 0u;
     for (uint i = 0u; i < lights.count; ++i) {
         vec3 toLight;

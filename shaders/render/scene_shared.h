@@ -103,8 +103,19 @@ struct LightRow {
     uint padding0;
 };
 
-SHUTTER_CONST uint kFrameUnlit = 1u;   // base colour only
-SHUTTER_CONST uint kFrameShadows = 2u; // lights cast shadows
+SHUTTER_CONST uint kFrameUnlit = 1u;       // base colour only
+SHUTTER_CONST uint kFrameShadows = 2u;     // lights cast shadows
+SHUTTER_CONST uint kFrameEnvironment = 4u; // an environment is seen and lights the scene
+
+/// What a scene is lit by beside its own lights (scene::Environment).
+struct EnvironmentConstants {
+    vec4 irradiance[9];   // rgb: factors of the polynomials of evaluateIrradiance()
+    vec4 mapFromWorld[3]; // xyz: rows
+    uint background;      // indices of the bindless array
+    uint mirrored;
+    float roughestLevel;   // of `mirrored`: for a roughness of 1
+    float texelsPerRadian; // of `background`, at the horizon
+};
 
 struct FrameConstants {
     mat4 clipFromEye;
@@ -125,8 +136,9 @@ struct FrameConstants {
     uvec2 geometries;
     uvec2 materials;
     uvec2 lights;
-    uvec2 movingTlas; // address of a second top level, of what moves; 0: there is none
-    uvec2 shadows;    // address of ShadowConstants; 0: there are no shadow maps
+    uvec2 movingTlas;  // address of a second top level, of what moves; 0: there is none
+    uvec2 shadows;     // address of ShadowConstants; 0: there are no shadow maps
+    uvec2 environment; // address of EnvironmentConstants, where kFrameEnvironment is set
 };
 
 /// Push constants of the G-buffer's draws.
@@ -146,7 +158,8 @@ static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 392);
+static_assert(sizeof(shutter::shader::FrameConstants) == 400);
+static_assert(sizeof(shutter::shader::EnvironmentConstants) == 208);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif
 
