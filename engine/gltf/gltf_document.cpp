@@ -23,6 +23,7 @@ constexpr size_t kChunkHeaderBytes = 8;
 constexpr int kMaxNesting = 256;
 
 constexpr std::array kSupportedExtensions = {
+    std::string_view("EXT_lights_image_based"),
     std::string_view("EXT_mesh_gpu_instancing"),
     std::string_view("KHR_lights_punctual"),
     std::string_view("KHR_materials_emissive_strength"),

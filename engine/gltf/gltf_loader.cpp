@@ -45,6 +45,7 @@ LoadedScene buildScene(
     checkAccessors(context);
     warnIgnoredExtensions(context);
     loadMaterials(context, loaded.world.assets);
+    loadEnvironment(context, loaded.world.assets);
     loadMeshes(context, loaded.world.assets);
     loadSkins(context, loaded.world.assets);
     bindMeshes(context, loaded.world.assets);

@@ -50,7 +50,6 @@ class GltfTextures {
   private:
     [[nodiscard]] scene::AssetIndex addTexture(size_t index);
     [[nodiscard]] scene::AssetIndex addImage(size_t index);
-    [[nodiscard]] scene::TextureImage decodeImage(size_t index);
 
     GltfContext& mContext;
     scene::Assets& mAssets;
@@ -111,30 +110,11 @@ AssetIndex GltfTextures::addTexture(size_t index) {
 AssetIndex GltfTextures::addImage(size_t index) {
     if (mImageOf[index] != kNone)
         return mImageOf[index];
-    scene::TextureImage image = decodeImage(index);
+    scene::TextureImage image = decodeImage(mContext, index);
     mContext.spendImageBytes(image.rgba.size());
     mImageOf[index] = AssetIndex(mAssets.images.size());
     mAssets.images.push_back(std::move(image));
     return mImageOf[index];
-}
-
-scene::TextureImage GltfTextures::decodeImage(size_t index) {
-    const std::string label = mContext.resources.imageLabel(index);
-    const int viewIndex = mContext.resources.imageBufferView(index);
-    std::vector<uint8_t> file;
-    std::span<const uint8_t> encoded;
-    if (viewIndex >= 0) {
-        const tinygltf::BufferView& view = mContext.model.bufferViews[size_t(viewIndex)];
-        encoded = mContext.resources.buffer(size_t(view.buffer))
-                      .subspan(view.byteOffset, view.byteLength);
-    } else {
-        file = mContext.resources.readImageUri(index);
-        encoded = file;
-    }
-    core::Result<scene::TextureImage> image = io::decodeTexture(encoded, label);
-    if (!image)
-        failGltf("{}", image.error().message);
-    return std::move(image).value();
 }
 
 /// The largest half float; a brighter surface would become infinite in the picture.
@@ -231,6 +211,25 @@ class MaterialReader {
 };
 
 } // namespace
+
+scene::TextureImage decodeImage(const GltfContext& context, size_t index) {
+    const std::string label = context.resources.imageLabel(index);
+    const int viewIndex = context.resources.imageBufferView(index);
+    std::vector<uint8_t> file;
+    std::span<const uint8_t> encoded;
+    if (viewIndex >= 0) {
+        const tinygltf::BufferView& view = context.model.bufferViews[size_t(viewIndex)];
+        encoded =
+            context.resources.buffer(size_t(view.buffer)).subspan(view.byteOffset, view.byteLength);
+    } else {
+        file = context.resources.readImageUri(index);
+        encoded = file;
+    }
+    core::Result<scene::TextureImage> image = io::decodeTexture(encoded, label);
+    if (!image)
+        failGltf("{}", image.error().message);
+    return std::move(image).value();
+}
 
 void loadMaterials(GltfContext& context, scene::Assets& assets) {
     GltfTextures textures(context, assets);

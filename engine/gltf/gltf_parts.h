@@ -21,6 +21,14 @@ namespace shutter::gltf {
 /// outside the range that glTF gives them, with a warning.
 void loadMaterials(GltfContext& context, scene::Assets& assets);
 
+/// images[index], decoded. Throws GltfError when it cannot be.
+[[nodiscard]] scene::TextureImage decodeImage(const GltfContext& context, size_t index);
+
+/// Fills Assets::environment where the default scene names a light of EXT_lights_image_based. Its
+/// sharpest cube alone is read: what surfaces mirror and the irradiance are computed from it, as
+/// those of every other environment are.
+void loadEnvironment(GltfContext& context, scene::Assets& assets);
+
 /// Fills Assets::meshes (same indices as in the file). Requires the materials: tangents are needed
 /// where one has a normal map.
 void loadMeshes(GltfContext& context, scene::Assets& assets);

@@ -95,6 +95,7 @@ TEST(GltfDocument, RequiredExtensionsAreNamedWhenTheyAreNotSupported) {
     expectRefused(loadMembers(R"("extensionsRequired":["EXT_foo"])"), "EXT_foo");
     expectLoads(loadMembers(
         R"("extensionsRequired":["KHR_materials_unlit","KHR_texture_transform",
+            "EXT_lights_image_based",
             "KHR_lights_punctual","KHR_materials_emissive_strength","KHR_physics_rigid_bodies",
             "KHR_mesh_quantization"])"
     ));
