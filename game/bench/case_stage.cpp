@@ -8,6 +8,7 @@
 #include "engine/io/image_file.h"
 #include "game/bench/truth_cache.h"
 #include "game/options/render_arguments.h"
+#include "game/shot/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -46,9 +47,13 @@ setUpCase(const Case& shot, const gpu::DeviceInfo& device, const fs::path& folde
     auto program = io::computeFileHash("/proc/self/exe");
     if (!program)
         return program.error();
+    auto surroundings = game::computeSurroundingsHash(shot.shot.environment);
+    if (!surroundings)
+        return surroundings.error();
     const std::string facts = fmt::format(
-        "scene {} program {} device {} {} {}",
+        "scene {} surroundings {} program {} device {} {} {}",
         sceneHash.value(),
+        surroundings.value(),
         program.value(),
         device.name,
         device.driver,

@@ -50,6 +50,24 @@ constexpr std::array kLookRows = {
         "--background", "linear R,G,B where nothing is hit; default 0.18,0.18,0.18"
     ),
     makeRow<&A::ambient>("--ambient", "uniform light, R,G,B; default 0.25,0.25,0.25"),
+    makeRow<&A::environment>(
+        "--environment",
+        "picture of all directions (.hdr, .exr, equirectangular): the background, and what lights "
+        "the scene, in place of --background and --ambient",
+        Matters::ToNoPicture // the file counts by its contents
+    ),
+    makeRow<&A::environmentIntensity>(
+        "--environment-intensity",
+        "factor of the light of --environment or --sky, 0 to 1000; default 1"
+    ),
+    makeRow<&A::environmentRotation>(
+        "--environment-rotation", "turns the environment to the left, degrees; default 0"
+    ),
+    makeRow<&A::sky>(
+        "--sky",
+        "a clear sky of this turbidity, 1.7 (mountain air) to 10 (haze), whose sun is the scene's; "
+        "default 0: none"
+    ),
     makeWordRow<&A::shadows, kShadowWords>(
         "--shadows",
         "shadows of lights: none (default), sharp, or blurred: what moves casts them over the "
@@ -141,6 +159,34 @@ Status parseShadows(const ShotArguments& arguments, ShotOptions& options) {
     return {};
 }
 
+Status parseSurroundings(const ShotArguments& arguments, ShotOptions& options) {
+    options.environment = arguments.environment;
+    options.surroundings = {
+        .intensity = arguments.environmentIntensity,
+        .rotationDegrees = arguments.environmentRotation};
+    options.turbidity = arguments.sky;
+    // Written so that NaN fails.
+    if (!(arguments.environmentIntensity >= 0.0 && arguments.environmentIntensity <= 1000.0))
+        return makeError(
+            "--environment-intensity {} must lie in [0, 1000]", arguments.environmentIntensity
+        );
+    if (!(std::abs(arguments.environmentRotation) <= 360.0))
+        return makeError(
+            "--environment-rotation {} must lie in [-360, 360]", arguments.environmentRotation
+        );
+    if (arguments.sky != 0.0 && !(arguments.sky >= environment::kLeastTurbidity &&
+                                  arguments.sky <= environment::kMostTurbidity))
+        return makeError(
+            "--sky {} must lie in [{}, {}], or be 0",
+            arguments.sky,
+            environment::kLeastTurbidity,
+            environment::kMostTurbidity
+        );
+    if (arguments.sky != 0.0 && !arguments.environment.empty())
+        return makeError("--sky and --environment exclude each other");
+    return {};
+}
+
 Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
     constexpr std::string_view kClip = "clip:";
     if (arguments.flythrough.starts_with(kClip)) {
@@ -206,7 +252,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.height = arguments.size.height;
     options.background = arguments.background;
     options.ambient = arguments.ambient;
-    for (const auto step : {parseTimes, parseShadows, parseFlythrough})
+    for (const auto step : {parseTimes, parseSurroundings, parseShadows, parseFlythrough})
         SHUTTER_TRY(step(arguments, options));
     auto shutter = interpretShutter(arguments.shutter);
     if (!shutter)

@@ -31,7 +31,11 @@ struct ShotArguments {
     bool unlit = false;
     math::vec3 background{0.18f};
     math::vec3 ambient{0.25f};
-    float bloom = 0.0f; ///< share of the light
+    std::string environment; ///< file; empty: none
+    double environmentIntensity = environment::EnvironmentSettings{}.intensity;
+    double environmentRotation = 0.0; ///< degrees
+    double sky = 0.0;                 ///< turbidity; 0: no sky
+    float bloom = 0.0f;               ///< share of the light
     extract::ShadowMode shadows = extract::ShadowMode::None;
     uint32_t shadowMapSize = extract::ShadowSettings{}.mapSize;
     double shadowDistance = 0.0;

@@ -10,6 +10,7 @@
 #include "game/output/sequence_journal.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
+#include "game/shot/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -79,9 +80,14 @@ computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) 
     auto program = io::computeFileHash("/proc/self/exe");
     if (!program)
         return program.error();
+    auto surroundings = computeSurroundingsHash(options.shot.environment);
+    if (!surroundings)
+        return surroundings.error();
     return io::computeContentHash(fmt::format(
-        "scene {} program {} device {} {} flythrough {} clip {} fps {} first {} options {}",
+        "scene {} surroundings {} program {} device {} {} flythrough {} clip {} fps {} first {} "
+        "options {}",
         scene.value(),
+        surroundings.value(),
         program.value(),
         device.name,
         device.driver,

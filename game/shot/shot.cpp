@@ -5,6 +5,7 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/world.h"
+#include "game/shot/surroundings.h"
 
 #include <algorithm>
 #include <charconv>
@@ -150,7 +151,10 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
         return camera.error();
     shot.camera = camera.value();
     shot.world.registry.add(shot.camera, options.shutter);
-    lightUnlitScene(shot.world);
+    // Surroundings of its own light a scene; a sky is that of the scene's sun.
+    if (options.environment.empty() && !shot.world.assets.environment)
+        lightUnlitScene(shot.world);
+    SHUTTER_TRY(addSurroundings(shot.world, options));
     return shot;
 }
 

@@ -3,6 +3,7 @@
 // command line.
 #pragma once
 
+#include "engine/environment/environment.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/flythrough/flythrough.h"
 #include "engine/io/uri.h"
@@ -54,8 +55,11 @@ struct ShotOptions {
     uint32_t width = 0;  ///< pixels
     uint32_t height = 0; ///< pixels
     bool unlit = false;
-    math::vec3 background{0.0f}; ///< linear
-    math::vec3 ambient{0.0f};    ///< linear
+    math::vec3 background{0.0f};                     ///< linear
+    math::vec3 ambient{0.0f};                        ///< linear
+    std::filesystem::path environment;               ///< a picture of all directions; empty: none
+    environment::EnvironmentSettings surroundings{}; ///< of `environment`
+    double turbidity = 0.0;                          ///< of a clear sky; 0: no sky
     extract::ShadowSettings shadows{};
     bloom::BloomSettings bloom{};
     tonemap::TonemapSettings tonemap{};

@@ -25,6 +25,16 @@ constexpr double kDefaultFps = 30.0;
 constexpr std::array kShotRows = {
     makeRow<&ShotArguments::background>("--background", "background of a scene, linear R,G,B"),
     makeRow<&ShotArguments::ambient>("--ambient", "uniform light of a scene, R,G,B"),
+    makeRow<&ShotArguments::environment>(
+        "--environment", "picture of all directions that a scene is seen before and lit by"
+    ),
+    makeRow<&ShotArguments::environmentIntensity>(
+        "--environment-intensity", "factor of its light, 0 to 1000; default 1"
+    ),
+    makeRow<&ShotArguments::environmentRotation>(
+        "--environment-rotation", "turns it to the left, degrees; default 0"
+    ),
+    makeRow<&ShotArguments::sky>("--sky", "clear sky of a scene: its turbidity, 1.7 to 10"),
     makeRow<&ShotArguments::size>("--size", "window size WxH; default 960x540"),
 };
 

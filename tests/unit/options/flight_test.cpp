@@ -163,6 +163,8 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--cut-angle", {"--cut-angle", "7"}},
         {"--cut-detection", {"--cut-detection", "off"}},
         {"--cut-distance", {"--cut-distance", "7"}},
+        {"--environment-intensity", {"--environment-intensity", "2"}},
+        {"--environment-rotation", {"--environment-rotation", "45"}},
         {"--error", {"--method", "truth", "--error", "0.1"}},
         {"--ev", {"--ev", "1"}},
         {"--exposure", {"--exposure", "1"}},
@@ -187,6 +189,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--shutter-angle", {"--shutter-angle", "90"}},
         {"--shutter-mode", {"--shutter-mode", "angle"}},
         {"--size", {"--size", "8x8"}},
+        {"--sky", {"--sky", "2.5"}},
         {"--time", {"--time", "1"}},
         {"--tonemap", {"--tonemap", "none"}},
         {"--unlit", {"--unlit"}}};
@@ -195,6 +198,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--allow-outside", {"--allow-outside"}}, // told by content
         {"--device", {"--device", "llvmpipe"}},
         {"--dump-graph", {"--dump-graph"}},
+        {"--environment", {"--environment", "e.hdr"}}, // told by content
         {"--explain", {"--explain"}},
         {"--ffmpeg", {}},                             // needs a film
         {"--flythrough", {"--flythrough", "f.json"}}, // told by content

@@ -396,6 +396,22 @@ TEST_F(RenderOptionsTest, SizesDistancesAndInstantsOfShadowsHaveRanges) {
         refuse("--shadow-instants", Words{std::string("--shadow-instants=") + value});
 }
 
+TEST_F(RenderOptionsTest, SurroundingsAreAFileOrASkyWithinTheirRanges) {
+    EXPECT_EQ(accept(Words{}).shot.turbidity, 0.0);
+    EXPECT_TRUE(accept(Words{}).shot.environment.empty());
+    EXPECT_EQ(accept(Words{"--sky=2.5"}).shot.turbidity, 2.5);
+    for (const double value : {-1.0, 1.0, 10.5, kNan, kInfinity})
+        refuse("--sky", Words{"--sky=" + wordOf(value)});
+    EXPECT_EQ(accept(Words{"--environment=a.hdr"}).shot.environment, "a.hdr");
+    refuse("exclude", Words{"--environment=a.hdr", "--sky=2.5"});
+    EXPECT_EQ(accept(Words{"--environment-intensity=3"}).shot.surroundings.intensity, 3.0);
+    for (const double value : {-1.0, 1001.0, kNan, kInfinity})
+        refuse("--environment-intensity", Words{"--environment-intensity=" + wordOf(value)});
+    EXPECT_EQ(accept(Words{"--environment-rotation=-90"}).shot.surroundings.rotationDegrees, -90.0);
+    for (const double value : {-361.0, 400.0, kNan, kInfinity})
+        refuse("--environment-rotation", Words{"--environment-rotation=" + wordOf(value)});
+}
+
 TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
     EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.tonemap.op, tonemap::Operator::None);
     EXPECT_EQ(accept(Words{"--unlit"}).shot.tonemap.op, tonemap::Operator::None);

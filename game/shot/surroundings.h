@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// What a world is lit by beside its own lights: a picture of all directions, or a sky.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/scene/world.h"
+#include "game/shot/shot_options.h"
+
+#include <filesystem>
+#include <string>
+
+namespace shutter::game {
+
+/// Gives the world a clear sky whose sun is its first directional light, at `seconds`; a world
+/// without one gets the sky of a sun above left, which casts no light of its own.
+/// \param turbidity [environment::kLeastTurbidity, environment::kMostTurbidity]
+/// \param intensity factor of the sky's light beside the sun's, [0, 1000]; 1: as it is outside
+void addSky(scene::World& world, double turbidity, double intensity, double seconds);
+
+/// Gives the world what `options` name; does nothing where they name neither.
+/// Error: names --environment, the file and why.
+[[nodiscard]] core::Status addSurroundings(scene::World& world, const ShotOptions& options);
+
+/// Hash of the contents of the file that --environment names; empty without one.
+[[nodiscard]] core::Result<std::string> computeSurroundingsHash(const std::filesystem::path& file);
+
+} // namespace shutter::game
