@@ -41,6 +41,9 @@ struct HudLine {
 struct DemoLook {
     math::vec3 background{0.0f}; ///< linear RGB where nothing is drawn: the sky
     math::vec3 ambient{0.0f};    ///< linear RGB of the light from everywhere
+    double turbidity = 0.0; ///< of the clear sky that takes the place of both; 0: there is none
+    /// Factor of that sky over what it is outside: games are seen in brighter light than deserts.
+    double skyIntensity = 1.0;
 };
 
 /// Fixed steps alone change a demo: no clock, no random numbers but its own. The same controls

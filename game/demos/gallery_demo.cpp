@@ -147,7 +147,7 @@ void GalleryDemo::simulate(const DemoControls& controls) {
 }
 
 DemoLook GalleryDemo::look() const {
-    return {{0.42f, 0.58f, 0.78f}, {0.42f, 0.42f, 0.44f}};
+    return {{0.42f, 0.58f, 0.78f}, {0.42f, 0.42f, 0.44f}, 3.0, 2.0};
 }
 
 bool GalleryDemo::isOver() const {

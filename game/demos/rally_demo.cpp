@@ -124,7 +124,7 @@ void RallyDemo::simulate(const DemoControls& controls) {
 }
 
 DemoLook RallyDemo::look() const {
-    return {{0.30f, 0.52f, 0.86f}, {0.34f, 0.38f, 0.44f}};
+    return {{0.30f, 0.52f, 0.86f}, {0.34f, 0.38f, 0.44f}, 2.2, 2.0};
 }
 
 bool RallyDemo::isOver() const {

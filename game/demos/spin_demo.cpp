@@ -99,7 +99,7 @@ void SpinDemo::simulate(const DemoControls& controls) {
 }
 
 DemoLook SpinDemo::look() const {
-    return {{0.34f, 0.55f, 0.86f}, {0.40f, 0.40f, 0.42f}};
+    return {{0.34f, 0.55f, 0.86f}, {0.40f, 0.40f, 0.42f}, 2.0, 2.0};
 }
 
 bool SpinDemo::isOver() const {

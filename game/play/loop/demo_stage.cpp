@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/check.h"
 #include "game/play/loop/stage.h"
+#include "game/shot/surroundings.h"
 
 #include <algorithm>
 #include <string_view>
@@ -36,7 +37,10 @@ DemoControls readControls(const InputState& input) {
 
 class DemoStage : public Stage {
   public:
-    explicit DemoStage(std::unique_ptr<Demo> demo) : mDemo(std::move(demo)) {}
+    explicit DemoStage(std::unique_ptr<Demo> demo) : mDemo(std::move(demo)) {
+        if (const DemoLook look = mDemo->look(); look.turbidity > 0.0)
+            addSky(mDemo->world(), look.turbidity, look.skyIntensity, mDemo->seconds());
+    }
 
     [[nodiscard]] std::string title() const override { return mDemo->name(); }
 
