@@ -88,6 +88,8 @@ struct DeviceTable {
     SHUTTER_NEXT_OF_DEVICE(SHUTTER_FIELD)
     SHUTTER_CREATIONS(SHUTTER_FIELD)
 
+    bool checksBuffers = false; ///< the device was made with robustBufferAccess
+    bool checksBounds = false;  ///< and with VK_EXT_robustness2
     std::atomic<bool> isLost = false;
     std::atomic<uint32_t> allocationCount = 0;
     std::atomic<uint32_t> livingMemories = 0;

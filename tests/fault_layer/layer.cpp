@@ -45,6 +45,20 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
     return result;
 }
 
+/// What the program asked the device to check.
+void noteBounds(const VkDeviceCreateInfo& info, DeviceTable& table) {
+    for (auto* next = static_cast<const VkBaseInStructure*>(info.pNext); next; next = next->pNext) {
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2)
+            table.checksBuffers = reinterpret_cast<const VkPhysicalDeviceFeatures2*>(next)
+                                      ->features.robustBufferAccess == VK_TRUE;
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT) {
+            const auto* robust =
+                reinterpret_cast<const VkPhysicalDeviceRobustness2FeaturesEXT*>(next);
+            table.checksBounds = robust->robustBufferAccess2 && robust->robustImageAccess2;
+        }
+    }
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     VkPhysicalDevice physical,
     const VkDeviceCreateInfo* info,
@@ -65,7 +79,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(
     );
     const VkResult result = create(physical, info, allocator, device);
     if (result == VK_SUCCESS)
-        addDevice(*device, getProcAddr);
+        noteBounds(*info, addDevice(*device, getProcAddr));
     return result;
 }
 
@@ -96,7 +110,13 @@ void writeCounts(const DeviceTable& table) {
     );
     for (size_t i = 0; i < names.size(); ++i)
         std::fprintf(file, ", \"%s\": %u", names[i], table.creationCounts[i].load());
-    std::fprintf(file, "}}\n");
+    const auto wordOf = [](bool value) { return value ? "true" : "false"; };
+    std::fprintf(
+        file,
+        "}, \"checksBuffers\": %s, \"checksBounds\": %s}\n",
+        wordOf(table.checksBuffers),
+        wordOf(table.checksBounds)
+    );
     std::fclose(file);
 }
 

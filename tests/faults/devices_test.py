@@ -18,6 +18,12 @@ class Devices(FaultCase):
         self.expect_sentence(self.run_faulty(arguments, faults), *mentions)
         self.assertEqual(self.list_files(), set())
 
+    def test_a_validated_device_and_no_other_checks_bounds(self):
+        for more, checked in ((["--validate"], True), ([], False)):
+            counted = self.count_calls(self.render("--out", "a.png", *more, method="gather"))
+            self.assertEqual((counted["checksBuffers"], counted["checksBounds"]),
+                             (checked, checked))
+
     def test_without_rays_the_methods_that_need_none_draw_the_same(self):
         for method in ("resolved", "gather"):
             pictures = []
