@@ -53,6 +53,9 @@ struct ViewRequest {
     /// Shutter time of a sharp picture of one instant of the exposure; nothing: the raster instant,
     /// with the motion over the exposure.
     std::optional<double> instant;
+    /// Where the picture is taken and its motion begins and ends, for a part of the exposure;
+    /// nothing: all of it. `instant` takes precedence.
+    std::optional<DeformationTimes> part{};
     uint32_t width = 1280;       ///< pixels, above 0
     uint32_t height = 720;       ///< pixels, above 0
     math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]

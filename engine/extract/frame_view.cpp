@@ -25,6 +25,8 @@ static_assert(sizeof(ViewMatrices) == (4 * 16 + 3) * sizeof(double), "compared b
 DeformationTimes findPoseTimes(const ViewRequest& request) {
     if (request.instant)
         return {*request.instant, *request.instant, *request.instant};
+    if (request.part)
+        return *request.part;
     return {0.0, request.exposure.rasterTime, 1.0};
 }
 

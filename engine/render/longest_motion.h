@@ -20,7 +20,7 @@ class LongestMotion : public PostEffect {
     [[nodiscard]] std::string name() const override { return "longest motion"; }
 
     [[nodiscard]] core::Decision ask(const ViewFacts&) const override {
-        return {true, "the motion is capped"};
+        return {true, "it is measured for the picture to come"};
     }
 
     void declare(PostContext& context) override;

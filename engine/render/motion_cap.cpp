@@ -70,28 +70,20 @@ Renderer::measureMotionCap(const scene::World& world, const extract::ViewRequest
     scene::MotionCap cap;
     if (!std::isfinite(percent) || !(view.exposure.open < view.exposure.close))
         return cap;
-    FrameRequest look;
-    look.view = view;
-    look.view.exposure.cap = {};
-    look.view.instant.reset();
-    look.view.shadows.mode = extract::ShadowMode::None; // only motion counts
-    look.isLook = true;
-    look.wantColor = false;
+    extract::ViewRequest look = view;
     const double maxPx = std::max(percent, 0.0) / 100.0 * view.width;
     std::optional<scene::ExposureMotion> uncapped; // made once the world was found to be valid
     for (int i = 0; i < kLooks; ++i) {
-        look.view.exposure.cap = cap;
-        auto frame = extract::extractFrame(world, mScene.layout(), look.view);
+        look.exposure.cap = cap;
+        auto frame = extract::extractFrame(world, mScene.layout(), look);
         if (!frame)
             return frame.error();
         if (!uncapped)
-            uncapped.emplace(world, view.camera, look.view.exposure);
-        if (!mLongestMotion)
-            mLongestMotion.emplace(mDevice);
-        PostEffect* const effect = &*mLongestMotion;
-        if (const auto seen = renderFrame(world, look, std::span(&effect, 1)); !seen)
-            return seen.error();
-        if (!tightenCap(cap, frame.value(), mLongestMotion->take(), *uncapped, maxPx))
+            uncapped.emplace(world, view.camera, look.exposure);
+        const auto longest = lookAtMotion(world, look);
+        if (!longest)
+            return longest.error();
+        if (!tightenCap(cap, frame.value(), longest.value(), *uncapped, maxPx))
             break;
     }
     return cap;

@@ -83,6 +83,14 @@ class IdleCounter {
     uint32_t mIdle = 0;
 };
 
+/// How far what a picture shows moves in its exposure.
+struct LongestPath {
+    /// Longest way of a visible point across the picture, or of a caster of shadows, which need not
+    /// be visible; pixels. 0: nothing moves.
+    double px = 0.0;
+    bool movesLight = false; ///< one that lights the picture does
+};
+
 /// Draws frames of one world's assets; effects are the caller's. Frames are submitted and finished
 /// in one order: with one frame in flight one by one, with more the CPU goes ahead of the GPU.
 class Renderer {
@@ -115,6 +123,11 @@ class Renderer {
     /// which is drawn up to four times for it; nothing is drawn where there is no cap.
     [[nodiscard]] core::Result<scene::MotionCap>
     measureMotionCap(const scene::World& world, const extract::ViewRequest& view);
+
+    /// How far the picture's points move in the exposure. Measured on raster images, one for each
+    /// part of the exposure (extract::planMotionParts); nothing is drawn where nothing moves.
+    [[nodiscard]] core::Result<LongestPath>
+    measureLongestPath(const scene::World& world, const extract::ViewRequest& view);
 
     [[nodiscard]] const gpu_scene::GpuScene& scene() const { return mScene; }
 
@@ -176,6 +189,10 @@ class Renderer {
         FrameResult result;            ///< what is known of it without the GPU
     };
 
+    /// Draws the view's motion in a frame of its own. \return pixels from open to close, a number
+    /// per row, and the sky's behind them
+    core::Result<std::vector<float>>
+    lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
     static RunningEffects
     askEffects(std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer);
     Tickets declareFrame(
