@@ -109,31 +109,6 @@ uint32_t PictureDrawer::countSteps(const MethodOptions& method, AntiAliasing ant
     return antiAliasing == AntiAliasing::Box && !isSampledAnyway(*method.method) ? kBoxFrames : 1;
 }
 
-core::Result<PictureRequest>
-PictureDrawer::prepare(const scene::World& world, const PictureRequest& request) {
-    SHUTTER_CHECK(request.slot < kSlots, "slot {} of {}", request.slot, kSlots);
-    const extract::ViewRequest& view = request.frame.view;
-    SHUTTER_TRY(check(mDevice, request.method, view.width, view.height));
-    if (countSteps(request.method) + request.raysBefore == 0)
-        return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
-    PictureRequest prepared = request;
-    if (!prepared.cap) {
-        auto cap = measureCap(world, view);
-        if (!cap)
-            return cap.error();
-        prepared.cap = std::move(cap).value();
-    }
-    prepared.frame.view.exposure.cap = *prepared.cap;
-    return prepared;
-}
-
-core::Result<scene::MotionCap>
-PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
-    if (std::isfinite(view.exposure.shutter.maxBlurPercent))
-        finishUntil(0); // measuring draws frames of its own
-    return mRenderer.measureMotionCap(world, view);
-}
-
 std::vector<uint32_t>
 PictureDrawer::planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const {
     const uint32_t total = countSteps(request.method, request.antiAliasing);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What has to be known of a picture before its frames can be drawn.
+#include "engine/core/check.h"
+#include "game/shot/picture_drawer.h"
+
+#include <cmath>
+#include <utility>
+
+namespace shutter::game {
+
+core::Result<PictureRequest>
+PictureDrawer::prepare(const scene::World& world, const PictureRequest& request) {
+    SHUTTER_CHECK(request.slot < kSlots, "slot {} of {}", request.slot, kSlots);
+    const extract::ViewRequest& view = request.frame.view;
+    SHUTTER_TRY(check(mDevice, request.method, view.width, view.height));
+    if (countSteps(request.method) + request.raysBefore == 0)
+        return core::makeError("--samples 0: {} needs at least one", request.method.method->name);
+    PictureRequest prepared = request;
+    if (!prepared.cap) {
+        auto cap = measureCap(world, view);
+        if (!cap)
+            return cap.error();
+        prepared.cap = std::move(cap).value();
+    }
+    prepared.frame.view.exposure.cap = *prepared.cap;
+    return prepared;
+}
+
+core::Result<scene::MotionCap>
+PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
+    if (std::isfinite(view.exposure.shutter.maxBlurPercent))
+        finishUntil(0); // measuring draws frames of its own
+    return mRenderer.measureMotionCap(world, view);
+}
+
+} // namespace shutter::game
