@@ -20,6 +20,9 @@ using core::makeError;
 using core::Status;
 
 constexpr uint32_t kMaxSamples = 65536;
+constexpr double kLeastStepPx = 1.0e-3;
+constexpr double kMostStepPx = 1.0e3;
+constexpr uint32_t kMostInstants = 1024; ///< of `--instants auto` without --samples
 
 using A = MethodArguments;
 
@@ -34,6 +37,15 @@ constexpr std::array kRows = {
         "denoised)"
     ),
     makeRow<&A::error>("--error", "stop truth at this standard error (linear RMS)"),
+    makeRow<&A::instants>(
+        "--instants",
+        "auto: accumulate takes as many instants as the frame moves, --samples at most"
+    ),
+    makeRow<&A::maxStepPx>(
+        "--max-step",
+        "with --instants auto: what nothing moves farther than between two of them, pixels; "
+        "default 1"
+    ),
     makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
 };
 
@@ -83,6 +95,30 @@ Status interpretError(const MethodArguments& arguments, MethodOptions& options) 
     return {};
 }
 
+Status interpretInstants(const MethodArguments& arguments, MethodOptions& options) {
+    if (arguments.instants.empty())
+        return arguments.maxStepPx ? makeError("--max-step requires --instants auto") : Status();
+    if (arguments.instants != "auto")
+        return makeError(
+            "--instants '{}' is not auto; --samples sets a number", arguments.instants
+        );
+    if (options.method->family != MethodFamily::Accumulate)
+        return makeError(
+            "--instants auto is for accumulate: method {} draws one raster image, or rays that "
+            "--error ends",
+            options.method->name
+        );
+    options.maxStepPx = arguments.maxStepPx.value_or(1.0);
+    // Written so that NaN fails.
+    if (!(*options.maxStepPx >= kLeastStepPx && *options.maxStepPx <= kMostStepPx))
+        return makeError(
+            "--max-step {} must lie in [{}, {}]", *options.maxStepPx, kLeastStepPx, kMostStepPx
+        );
+    if (!arguments.samples)
+        options.samples = kMostInstants;
+    return {};
+}
+
 } // namespace
 
 void defineMethodOptions(CLI::App& command, MethodArguments& arguments) {
@@ -93,7 +129,7 @@ void defineMethodOptions(CLI::App& command, MethodArguments& arguments) {
 
 core::Result<MethodOptions> interpret(const MethodArguments& arguments) {
     MethodOptions options;
-    for (const auto step : {chooseMethod, interpretSamples, interpretError})
+    for (const auto step : {chooseMethod, interpretSamples, interpretInstants, interpretError})
         SHUTTER_TRY(step(arguments, options));
     for (const std::string& setting : arguments.settings)
         SHUTTER_TRY(applySetting(setting, *options.method, options.motionBlur));

@@ -22,6 +22,8 @@ struct MethodArguments {
     std::string preset; ///< chooses method and settings in place of `method`; empty: none
     std::optional<uint32_t> samples; ///< else the method's own number
     std::optional<double> error;
+    std::string instants; ///< "auto"; empty: as many as `samples`
+    std::optional<double> maxStepPx;
     std::vector<std::string> settings; ///< NAME=VALUE
     motion_blur::BlurBudget budget{};
     std::set<std::string> typed; ///< "--budget" if it was given

@@ -4,6 +4,8 @@
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -104,6 +106,8 @@ PictureDrawer::~PictureDrawer() {
 
 uint32_t PictureDrawer::countSteps(const MethodOptions& method, AntiAliasing antiAliasing) {
     const MethodFamily family = method.method->family;
+    if (method.maxStepPx)
+        return 1;
     if (family == MethodFamily::Accumulate || family == MethodFamily::Truth)
         return method.samples;
     return antiAliasing == AntiAliasing::Box && !isSampledAnyway(*method.method) ? kBoxFrames : 1;
@@ -340,10 +344,21 @@ core::Result<render::FrameResult> PictureDrawer::draw(
         part.isShown = part.done + 1 == part.total;
         SHUTTER_TRY(submitPart(world, request, part));
         finishUntil(0);
-        step();
+        if (!request.instants || part.isShown)
+            step();
     }
     SHUTTER_TRY(submitIntermediates(world, request));
-    return takeOnly();
+    render::FrameResult result = takeOnly();
+    if (request.instants) {
+        result.statistics.counters["instants"] = request.instants->count;
+        result.statistics.explanations.push_back(
+            {render::ExplainedKind::Work,
+             "instants",
+             {true,
+              fmt::format("{} of them: {}", request.instants->count, request.instants->reason)}}
+        );
+    }
+    return result;
 }
 
 core::Result<render::FrameResult> PictureDrawer::drawTruth(

@@ -5,6 +5,7 @@
 
 #include "engine/core/result.h"
 #include "engine/render/renderer.h"
+#include "game/shot/instants.h"
 #include "game/shot/shot.h"
 #include "game/shot/shot_options.h"
 #include "modules/accumulate/accumulate.h"
@@ -29,6 +30,8 @@ struct PictureRequest {
     /// The exposure's cap; nothing: the drawer measures it (measureCap).
     std::optional<scene::MotionCap> cap{};
     MethodOptions method;
+    /// With MethodOptions::maxStepPx; nothing: the drawer measures the motion.
+    std::optional<InstantChoice> instants{};
     extract::PixelModel pixel = extract::PixelModel::Centre; ///< accumulate, truth
     uint32_t seed = 0;                              ///< accumulate, truth, AntiAliasing::Box
     AntiAliasing antiAliasing = AntiAliasing::None; ///< unless isSampledAnyway()
@@ -99,7 +102,8 @@ class PictureDrawer {
     check(const gpu::Device& device, const MethodOptions& method, uint32_t width, uint32_t height);
 
     /// How often draw() calls onStep: frames of accumulate and of AntiAliasing::Box, rays per pixel
-    /// of truth, else 1.
+    /// of truth, else 1; also where the picture itself tells how many frames it takes
+    /// (MethodOptions::maxStepPx).
     [[nodiscard]] static uint32_t
     countSteps(const MethodOptions& method, AntiAliasing antiAliasing = AntiAliasing::None);
 
@@ -166,6 +170,8 @@ class PictureDrawer {
         bool isBefore = false; ///< the frame before the picture's, drawn for what the effect keeps
     };
 
+    /// Sets the method's samples.
+    [[nodiscard]] core::Status prepareInstants(const scene::World& world, PictureRequest& request);
     [[nodiscard]] core::Result<PictureRequest>
     prepare(const scene::World& world, const PictureRequest& request);
     [[nodiscard]] std::vector<uint32_t>

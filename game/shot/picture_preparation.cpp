@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What has to be known of a picture before its frames can be drawn.
+// What has to be known of a picture before its frames can be drawn: what its shutter caps, and how
+// many instants it takes.
 #include "engine/core/check.h"
+#include "engine/core/log.h"
 #include "game/shot/picture_drawer.h"
 
 #include <cmath>
@@ -23,7 +25,31 @@ PictureDrawer::prepare(const scene::World& world, const PictureRequest& request)
         prepared.cap = std::move(cap).value();
     }
     prepared.frame.view.exposure.cap = *prepared.cap;
+    if (prepared.method.maxStepPx)
+        SHUTTER_TRY(prepareInstants(world, prepared));
     return prepared;
+}
+
+core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
+    if (!request.instants) {
+        finishUntil(0); // measuring draws frames of its own
+        const auto path = mRenderer.measureLongestPath(world, request.frame.view);
+        if (!path)
+            return path.error();
+        request.instants =
+            chooseInstants(path.value(), *request.method.maxStepPx, request.method.samples);
+        if (request.instants->stepPx > *request.method.maxStepPx * (1.0 + 1.0e-9))
+            core::logWarning(
+                "frame at {} s: {} instants are {:.2f} px apart, not {} (--samples allows more)",
+                request.frame.view.exposure.raster,
+                request.instants->count,
+                request.instants->stepPx,
+                *request.method.maxStepPx
+            );
+    }
+    request.method.samples = request.instants->count;
+    request.method.maxStepPx.reset();
+    return {};
 }
 
 core::Result<scene::MotionCap>

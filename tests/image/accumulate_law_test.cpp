@@ -79,5 +79,45 @@ TEST_F(AccumulateLaw, OneInstantIsTheSharpPictureOfTheMiddle) {
     EXPECT_TRUE(test::sameBits(sharp.color, one.color));
 }
 
+/// One metre is one pixel.
+uint64_t countInstants(gpu::Device& device, const test::Placement& placement) {
+    SceneBuilder scene;
+    scene.setPixelView(64);
+    scene.add(test::makeQuad(40, 6, scene.addColor({1, 1, 1})), placement);
+    const auto result = test::renderOnce(
+        device, scene, {.method = "accumulate", .instants = 1024, .maxStepPx = 1.0}
+    );
+    return result.statistics.counters.at("instants");
+}
+
+TEST_F(AccumulateLaw, InstantsFollowTheLongestWay) {
+    EXPECT_EQ(countInstants(device(), {.position = {0, 0, -10}}), 1u);
+    const uint64_t straight =
+        countInstants(device(), {.position = {0, 0, -10}, .velocity = {11.5, 0, 0}});
+    EXPECT_EQ(straight, 12u);
+}
+
+TEST_F(AccumulateLaw, ATurnCountsThoughItEndsWhereItBegan) {
+    const double turn = 2.0 * 3.14159265358979;
+    const uint64_t instants =
+        countInstants(device(), {.position = {0, 0, -10}, .angularVelocity = {0, 0, turn}});
+    // Corners go 127 px; chords of the parts are up to a tenth shorter, pixels' centres lie within.
+    EXPECT_GT(instants, 105u);
+    EXPECT_LE(instants, 128u);
+}
+
+TEST_F(AccumulateLaw, AStillFrameByItsOwnInstantsIsTheSharpPicture) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(
+        test::makeQuad(6, 5, scene.addTextured(scene.addWaveTexture())), {.position = {0, 0, -5}}
+    );
+    Stage stage(device(), scene);
+    const auto sharp = stage.render({});
+    const auto own = stage.render({.method = "accumulate", .instants = 1024, .maxStepPx = 1.0});
+    EXPECT_TRUE(test::sameBits(sharp.color, own.color));
+    EXPECT_EQ(own.statistics.counters.at("instants"), 1u);
+}
+
 } // namespace
 } // namespace shutter

@@ -41,6 +41,7 @@ core::Result<game::PictureRequest> makePicture(const SceneBuilder& scene, const 
     picture.frame = makeRequest(scene, shot);
     picture.method.method = method.value();
     picture.method.samples = shot.instants;
+    picture.method.maxStepPx = shot.maxStepPx;
     picture.method.motionBlur = shot.settings;
     if (family == game::MethodFamily::MotionBlur)
         picture.method.motionBlur.method = method.value()->blur;

@@ -39,9 +39,10 @@ struct Shot {
     math::vec3 background{0.0f};
     math::vec3 ambient{0.0f};
     extract::ShadowSettings shadows{};
-    uint32_t instants = 16; ///< accumulate: instants; truth: rays per pixel
-    uint32_t seed = 0;      ///< truth only
-    uint32_t batch = 0;     ///< truth: rays per pixel of each frame; 0: all in one
+    uint32_t instants = 16;            ///< accumulate: instants; truth: rays per pixel
+    std::optional<double> maxStepPx{}; ///< accumulate: so many instants that none is farther apart
+    uint32_t seed = 0;                 ///< truth only
+    uint32_t batch = 0;                ///< truth: rays per pixel of each frame; 0: all in one
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
     motion_blur::MotionBlurSettings settings{}; ///< of the motion blur; its method is set here
     std::set<std::string> aovs{};

@@ -189,6 +189,27 @@ TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     refuse("--samples", Words{"--method=accumulate", "--samples=65537"});
 }
 
+TEST_F(RenderOptionsTest, InstantsFollowTheMotionWhereTheyAreAuto) {
+    const Words autoWords{"--method=accumulate", "--instants=auto"};
+    EXPECT_EQ(accept(autoWords).method.maxStepPx, 1.0);
+    EXPECT_EQ(accept(autoWords).method.samples, 1024u); // at most
+    EXPECT_EQ(accept(Words{"--method=accumulate"}).method.maxStepPx, std::nullopt);
+    const RenderOptions chosen =
+        accept(Words{"--method=accumulate", "--instants=auto", "--max-step=0.25", "--samples=64"});
+    EXPECT_EQ(chosen.method.maxStepPx, 0.25);
+    EXPECT_EQ(chosen.method.samples, 64u);
+    refuse("--instants '16' is not auto", Words{"--method=accumulate", "--instants=16"});
+    refuse("--instants auto is for accumulate", Words{"--method=truth", "--instants=auto"});
+    refuse("--max-step requires --instants auto", Words{"--method=accumulate", "--max-step=1"});
+    refuse(
+        "--max-step 0 must lie in", Words{"--method=accumulate", "--instants=auto", "--max-step=0"}
+    );
+    refuse(
+        "--max-step nan must lie in",
+        Words{"--method=accumulate", "--instants=auto", "--max-step=nan"}
+    );
+}
+
 TEST_F(RenderOptionsTest, OnlyManySamplesFillAPixel) {
     EXPECT_EQ(
         accept(Words{"--method=accumulate", "--pixel=box"}).shot.pixel, extract::PixelModel::Box
