@@ -74,7 +74,7 @@ class Measured(unittest.TestCase):
         # So small and once only, times say nothing: claims may break, but each is measured. Toggles
         # has a test of its own.
         names = ["Still", "MovingShare", "Reveal", "Entities", "FullScreen", "MethodsAgainstGather",
-                 "RevealTraversal"]
+                 "RevealTraversal", "Instants"]
         cases = [word for name in names for word in ("--case", name)]
         results = self.measure("--suite", "demand", *cases, statuses=(0, 1), size="160x90")
         self.validate(results)
@@ -84,6 +84,9 @@ class Measured(unittest.TestCase):
             self.assertNotIn("failure", claim)
             self.assertTrue(claim["checks"])
         for check in claims["Still"]["checks"]:
+            if "time" not in check["check"]:
+                self.assertTrue(check["held"], check)
+        for check in claims["Instants"]["checks"]:
             if "time" not in check["check"]:
                 self.assertTrue(check["held"], check)
         shares = [[p["x"] for p in curve["points"]] for curve in claims["MovingShare"]["curves"]]

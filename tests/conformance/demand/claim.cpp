@@ -12,6 +12,7 @@ std::vector<Claim> listClaims() {
         makeFullScreenClaim(),
         makeMethodsClaim(),
         makeTraversalClaim(),
+        makeInstantsClaim(),
         makeTogglesClaim()};
 }
 

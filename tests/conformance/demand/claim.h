@@ -64,6 +64,7 @@ struct Claim {
 [[nodiscard]] Claim makeFullScreenClaim();
 [[nodiscard]] Claim makeMethodsClaim();
 [[nodiscard]] Claim makeTraversalClaim();
+[[nodiscard]] Claim makeInstantsClaim();
 [[nodiscard]] Claim makeTogglesClaim();
 
 } // namespace shutter::demand

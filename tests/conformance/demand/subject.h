@@ -79,6 +79,9 @@ class Subject {
 
     void setDump(bool wanted) { mWantsDump = wanted; }
 
+    /// MethodOptions::maxStepPx; accumulate only.
+    void setMaxStep(double px) { mMethod.maxStepPx = px; }
+
     /// By how much a picture's time is later than that of the one before; 0 at first.
     void setStep(double seconds) { mStepSeconds = seconds; }
 
