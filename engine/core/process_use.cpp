@@ -3,17 +3,19 @@
 
 #include <ctime>
 #include <fstream>
-#include <unistd.h>
+#include <string>
 
 namespace shutter::core {
 
 std::optional<uint64_t> findResidentBytes() {
-    std::ifstream file("/proc/self/statm");
-    uint64_t all = 0;
-    uint64_t resident = 0;
-    if (!(file >> all >> resident))
+    std::ifstream file("/proc/self/status");
+    std::string word;
+    while (file >> word && word != "VmRSS:")
+        ;
+    uint64_t kibibytes = 0;
+    if (!(file >> kibibytes))
         return std::nullopt;
-    return resident * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+    return kibibytes * 1024;
 }
 
 double countProcessorMilliseconds() {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/progress.h"
 
+#include "engine/core/platform.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unistd.h>
 #include <utility>
 
 namespace shutter::core {
@@ -46,7 +47,7 @@ Progress::Progress(std::string label, uint64_t total)
 
 Progress::Progress(std::string label, uint64_t total, std::FILE* output, Clock clock)
     : mLabel(std::move(label)), mTotal(std::max<uint64_t>(total, 1)), mOutput(output),
-      mClock(clock), mEnabled(isatty(fileno(output)) != 0), mStart(clock()), mLastDraw(mStart) {}
+      mClock(clock), mEnabled(isTerminal(output)), mStart(clock()), mLastDraw(mStart) {}
 
 Progress::~Progress() {
     if (!mDrawn)

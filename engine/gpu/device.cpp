@@ -3,6 +3,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/core/platform.h"
 #include "engine/gpu/device_features.h"
 #include "engine/gpu/pipeline_cache.h"
 
@@ -12,7 +13,6 @@
 #include <span>
 #include <system_error>
 #include <type_traits>
-#include <unistd.h>
 
 namespace shutter::gpu {
 
@@ -281,7 +281,8 @@ void Device::savePipelineCache() const {
     // A cache that cannot be written costs time, nothing else: no error.
     std::error_code ignored;
     std::filesystem::create_directories(mCacheFile.parent_path(), ignored);
-    const std::filesystem::path temporary = mCacheFile.string() + fmt::format(".{}", getpid());
+    const std::filesystem::path temporary =
+        mCacheFile.string() + fmt::format(".{}", core::getProcessId());
     std::ofstream file(temporary, std::ios::binary);
     file.write(
         reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size())

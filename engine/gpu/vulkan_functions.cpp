@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/vulkan_functions.h"
 
-#include <dlfcn.h>
+#include "engine/core/platform.h"
 
 #ifndef SHUTTER_LOADS_VULKAN
 #error "what defines the pointers must declare them"
@@ -17,16 +17,22 @@ namespace gpu {
 
 namespace {
 
-/// The name of the loader on Linux, by its interface's version.
+/// The name of the loader, by its interface's version.
+#ifdef _WIN32
+constexpr const char* kLoader = "vulkan-1.dll";
+#else
 constexpr const char* kLoader = "libvulkan.so.1";
+#endif
 
 core::Status findAll() {
     // Never closed: drivers and layers leave threads and handlers of their own.
-    void* const loader = dlopen(kLoader, RTLD_NOW | RTLD_LOCAL);
+    const core::Result<void*> loader = core::openLibrary(kLoader);
     if (!loader)
-        return core::makeError("there is no Vulkan: {} (package libvulkan1)", dlerror());
+        return core::makeError(
+            "there is no Vulkan: {} (package libvulkan1)", loader.error().message
+        );
 #define SHUTTER_FIND(name)                                                                         \
-    vk##name = reinterpret_cast<PFN_vk##name>(dlsym(loader, "vk" #name));                          \
+    vk##name = reinterpret_cast<PFN_vk##name>(core::findFunction(loader.value(), "vk" #name));     \
     if (!vk##name)                                                                                 \
         return core::makeError("{} is too old: it lacks vk" #name, kLoader);
     SHUTTER_VULKAN_FUNCTIONS(SHUTTER_FIND)
