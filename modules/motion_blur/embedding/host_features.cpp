@@ -156,6 +156,12 @@ core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays
 }
 
 HostFeatures::HostFeatures(gpu::RayTier rays) : mRays(rays) {
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+    mStructure.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
+    mQuery.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
+    mPipeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR;
     features.pNext = &v12;
     v12.pNext = &v13;
     features.features.shaderStorageImageExtendedFormats = VK_TRUE; // images of two channels

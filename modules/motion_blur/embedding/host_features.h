@@ -23,9 +23,10 @@ class HostFeatures {
     HostFeatures(const HostFeatures&) = delete;
     HostFeatures& operator=(const HostFeatures&) = delete;
 
-    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    // Empty, so that hosts that include this are not warned of missing initialisers.
+    VkPhysicalDeviceFeatures2 features{};
+    VkPhysicalDeviceVulkan12Features v12{};
+    VkPhysicalDeviceVulkan13Features v13{};
 
     /// Valid as long as this is.
     [[nodiscard]] const void* chain() const { return &features; }
@@ -35,12 +36,9 @@ class HostFeatures {
 
   private:
     gpu::RayTier mRays;
-    VkPhysicalDeviceAccelerationStructureFeaturesKHR mStructure{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
-    VkPhysicalDeviceRayQueryFeaturesKHR mQuery{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
-    VkPhysicalDeviceRayTracingPipelineFeaturesKHR mPipeline{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR mStructure{};
+    VkPhysicalDeviceRayQueryFeaturesKHR mQuery{};
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR mPipeline{};
 };
 
 /// Switches the features on in a chain of the host's own, in whichever structures it holds for
