@@ -63,7 +63,7 @@ endfunction()
 
 # shutter_install_shared(<name> <header>)
 # Installs the shared library shutter_<name> as Shutter::<name>, with the one header that it needs
-# besides Vulkan's and a file for pkg-config, which has the name of the library's file.
+# besides Vulkan's.
 function(shutter_install_shared name header)
     set_target_properties(shutter_${name} PROPERTIES EXPORT_NAME ${name})
     target_include_directories(
@@ -71,21 +71,42 @@ function(shutter_install_shared name header)
     set_property(GLOBAL PROPERTY SHUTTER_PACKAGES_${name} Vulkan)
     set_property(GLOBAL APPEND PROPERTY SHUTTER_COMPONENTS ${name})
     install(TARGETS shutter_${name} EXPORT ShutterLibraries
-            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development # Windows: of imports
+            RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Development) # Windows: the DLL
     install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT Development)
-    get_target_property(file shutter_${name} OUTPUT_NAME)
+endfunction()
+
+# shutter_install_pkg_config(<package> <template in cmake/> <static library without shutter_>...)
+# Static libraries are linked by their files: one has the name of the shared library.
+function(shutter_install_pkg_config package template)
+    set(archives "")
+    foreach(name IN LISTS ARGN)
+        string(APPEND archives " \${libdir}/libshutter_${name}.a")
+    endforeach()
+    set(runtime -lstdc++)
+    if(CMAKE_CXX_IMPLICIT_LINK_LIBRARIES MATCHES "(^|;)c\\+\\+(;|$)")
+        set(runtime -lc++)
+    endif()
+    foreach(library m ${CMAKE_DL_LIBS})
+        string(APPEND runtime " -l${library}")
+    endforeach()
     file(RELATIVE_PATH up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-    configure_file(${SHUTTER_ROOT}/cmake/shared_library.pc.in ${CMAKE_BINARY_DIR}/package/${file}.pc
-                   @ONLY)
-    install(FILES ${CMAKE_BINARY_DIR}/package/${file}.pc
+    configure_file(${SHUTTER_ROOT}/cmake/${template} ${CMAKE_BINARY_DIR}/package/${package}.pc @ONLY)
+    install(FILES ${CMAKE_BINARY_DIR}/package/${package}.pc
             DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT Development)
 endfunction()
 
 # Once all libraries are declared.
 function(shutter_install_package)
-    install(DIRECTORY ${SHUTTER_ROOT}/engine ${SHUTTER_ROOT}/modules
-            DESTINATION ${SHUTTER_INSTALL_HEADERS} COMPONENT Development
-            FILES_MATCHING PATTERN "*.h")
+    set(folders engine modules)
+    if(SHUTTER_EMBEDDING_ONLY)
+        set(folders engine/core engine/math engine/gpu engine/graph modules/motion_blur)
+    endif()
+    foreach(folder IN LISTS folders)
+        install(DIRECTORY ${SHUTTER_ROOT}/${folder}/ DESTINATION ${SHUTTER_INSTALL_HEADERS}/${folder}
+                COMPONENT Development FILES_MATCHING PATTERN "*.h")
+    endforeach()
     install(DIRECTORY ${SHUTTER_ROOT}/shaders DESTINATION ${SHUTTER_INSTALL_HEADERS}
             COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
     install(EXPORT ShutterLibraries NAMESPACE Shutter:: DESTINATION ${SHUTTER_INSTALL_PACKAGE}
@@ -108,7 +129,9 @@ function(shutter_install_package)
                   ${SHUTTER_ROOT}/cmake/EmbedWords.cmake
             DESTINATION ${SHUTTER_INSTALL_PACKAGE} COMPONENT Development)
 
-    install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)
+    if(TARGET shutter)
+        install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)
+    endif()
     foreach(component Development Runtime)
         install(FILES ${SHUTTER_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
                 COMPONENT ${component})
