@@ -19,6 +19,8 @@ struct ShutterBlur {
     motion_blur::InputArrays arrays;
 };
 
+static_assert(SHUTTER_BLUR_VERSION == motion_blur::kHeaderVersion, "C and C++ have one version");
+
 namespace {
 
 thread_local std::string tMessage;
@@ -71,10 +73,7 @@ uint32_t shutterBlurGetVersion(void) {
 }
 
 VkBool32 shutterBlurIsCompatible(uint32_t headerVersion) {
-    return headerVersion >> 12 == SHUTTER_BLUR_VERSION >> 12 &&
-                   (headerVersion & 0xFFF) <= SHUTTER_BLUR_VERSION_PATCH
-               ? VK_TRUE
-               : VK_FALSE;
+    return motion_blur::checkVersion(headerVersion) ? VK_TRUE : VK_FALSE;
 }
 
 const char* shutterBlurGetMessage(void) {

@@ -88,6 +88,7 @@ typedef struct ShutterBlur ShutterBlur;
 /* Handles stay the host's and must outlive the object. */
 typedef struct ShutterBlurDevice {
     uint32_t structBytes;
+    uint32_t headerVersion; /* SHUTTER_BLUR_VERSION, to be checked; 0: not said */
     VkPhysicalDevice physical;
     VkDevice device;         /* made with Vulkan 1.3 and the features above */
     uint32_t queueFamily;    /* of the command buffers */
@@ -103,6 +104,7 @@ static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
     ShutterBlurDevice made;
     memset(&made, 0, sizeof(made));
     made.structBytes = (uint32_t)sizeof(made);
+    made.headerVersion = SHUTTER_BLUR_VERSION;
     made.framesInFlight = 2;
     return made;
 }

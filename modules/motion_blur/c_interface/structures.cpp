@@ -177,6 +177,8 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     const auto taken = takeStructure("device", given, shutterBlurDefaultDevice());
     if (!taken)
         return taken.error();
+    if (taken.value().headerVersion != 0)
+        SHUTTER_TRY(checkVersion(taken.value().headerVersion));
     HostDevice device;
     device.physical = taken.value().physical;
     device.device = taken.value().device;

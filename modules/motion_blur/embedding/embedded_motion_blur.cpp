@@ -173,8 +173,9 @@ struct EmbeddedMotionBlur::Frame {
     graph::ImageHandle output; ///< the same; in place: invalid
 };
 
-core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(const HostDevice& host
-) {
+core::Result<std::unique_ptr<EmbeddedMotionBlur>>
+EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
+    SHUTTER_TRY(checkVersion(headerVersion)); // first: another version's HostDevice is another
     if (!host.physical || !host.device)
         return makeError(
             "motion blur: HostDevice::{} is null", host.physical ? "device" : "physical"

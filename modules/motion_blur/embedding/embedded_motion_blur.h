@@ -13,6 +13,7 @@
 #include "modules/motion_blur/embedding/host_image.h"
 #include "modules/motion_blur/embedding/host_motion.h"
 #include "modules/motion_blur/embedding/host_preparation.h"
+#include "modules/motion_blur/embedding/version.h"
 #include "modules/motion_blur/motion_blur.h"
 #include "modules/motion_blur/own_reveal.h"
 
@@ -84,9 +85,9 @@ struct HostInputs {
 class EmbeddedMotionBlur {
   public:
     /// Errors: a null handle, something of HostFeatures that the device cannot do, a device that
-    /// is out of memory.
+    /// is out of memory, a library of another version than the host's headers.
     [[nodiscard]] static core::Result<std::unique_ptr<EmbeddedMotionBlur>>
-    create(const HostDevice& host);
+    create(const HostDevice& host, uint32_t headerVersion = kHeaderVersion);
 
     /// The GPU must be done with all that was recorded.
     ~EmbeddedMotionBlur();
