@@ -13,8 +13,9 @@ build_packages=(
     libimgui-dev fonts-dejavu-core vulkan-validationlayers libjs-chart.js
 )
 # Only the tests compare with ffmpeg and scikit-image, look at the report page in a browser and at
-# windows on a display without a screen.
-test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox)
+# windows on a display without a screen, and have hosts with volk.
+test_packages=(ffmpeg python3-skimage python3-jsonschema python3-selenium xvfb xauth openbox
+    libvulkan-volk-dev)
 # Ubuntu has these as snaps alone, which cannot open files of the tests; they skip there.
 debian_test_packages=(chromium chromium-driver)
 # What scripts/check_*.sh judge the tree by; Debian 13 no longer has that version.

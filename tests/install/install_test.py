@@ -4,33 +4,18 @@
 their own, and runs them under validation; their pictures must show what they promise."""
 
 import os
-import pathlib
-import re
 import shutil
 import struct
 import subprocess
 import sys
 import zlib
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from package import (BUILD, CC, CMAKE, CXX, ROOT, fail, list_symbols, list_words, run,
+                     run_validated)
+
 EXAMPLES = ROOT / "game/examples"
-BUILD = pathlib.Path(os.environ["SHUTTER_BUILD"])
-CMAKE = os.environ["SHUTTER_CMAKE"]
 MOST_LINES = {"bare_renderer": 150, "c_host": 150, "new_effect": 99}
 SOURCES = {".c", ".cpp", ".h", ".comp", ".txt"}
-
-
-def fail(what):
-    sys.exit(f"FAILED: {what}")
-
-
-def run(command, folder, env=None):
-    """What it printed, both streams; ends the test where it fails."""
-    done = subprocess.run([str(word) for word in command], cwd=folder, env=env, text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    if done.returncode != 0:
-        fail(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout}")
-    return done.stdout
 
 
 def check_lengths():
@@ -81,15 +66,10 @@ def check_components(prefix, folder):
 def build_example(name, prefix, folder):
     folder.mkdir()
     run([CMAKE, "-S", EXAMPLES / name, "-B", folder, f"-DCMAKE_PREFIX_PATH={prefix}",
-         f"-DCMAKE_CXX_COMPILER={os.environ['SHUTTER_CXX']}",
+         f"-DCMAKE_CXX_COMPILER={CXX}",
          f"-DCMAKE_CXX_COMPILER_LAUNCHER={os.environ['SHUTTER_LAUNCHER']}",
          f"-DCMAKE_BUILD_TYPE={os.environ['SHUTTER_CONFIG']}"], folder)
     run([CMAKE, "--build", folder, "--parallel", "2"], folder)
-
-
-def list_symbols(library, *options):
-    return [line.split()[-1] for line in
-            run(["nm", "-D", *options, library], library.parent).splitlines() if line]
 
 
 def check_shared_library(prefix):
@@ -109,26 +89,11 @@ def check_shared_library(prefix):
 def build_by_pkg_config(prefix, folder):
     """The C host by the compiler alone."""
     folder.mkdir()
-    packages = [file.parent for file in prefix.rglob("shutter_motion_blur.pc")]
-    env = dict(os.environ, PKG_CONFIG_PATH=str(packages[0]))
-    words = run(["pkg-config", "--cflags", "--libs", "shutter_motion_blur"], folder, env).split()
+    words = list_words(prefix, "shutter_motion_blur", folder)
     libraries = next(prefix.rglob("libshutter_motion_blur.so")).parent
-    run([os.environ["SHUTTER_CC"], "-std=c11", "-pedantic-errors", "-Wall", "-Wextra", "-Werror",
+    run([CC, "-std=c11", "-pedantic-errors", "-Wall", "-Wextra", "-Werror",
          EXAMPLES / "c_host/main.c", "-o", "c_host", *words, f"-Wl,-rpath,{libraries}", "-lvulkan"],
         folder)
-
-
-def run_validated(command, folder):
-    """Runs with core and synchronization validation, which must be there and have nothing to say."""
-    env = dict(os.environ, VK_INSTANCE_LAYERS="VK_LAYER_KHRONOS_validation",
-               VK_LAYER_ENABLES="VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT",
-               VK_KHRONOS_VALIDATION_VALIDATE_SYNC="true", VK_LOADER_DEBUG="layer")
-    printed = run(command, folder, env)
-    if not re.search(r'Insert\w* (instance|device) layer "VK_LAYER_KHRONOS_validation"', printed):
-        fail(f"{command[0]} ran without validation:\n{printed}")
-    for word in ("VUID-", "SYNC-HAZARD", "UNASSIGNED-", "Validation Error"):
-        if word in printed:
-            fail(f"validation spoke up:\n{printed}")
 
 
 def read_ppm(file):
