@@ -82,8 +82,16 @@ function(shutter_shaders target)
             COMMENT "SPIR-V ${shader}"
             VERBATIM)
         list(APPEND outputs ${output})
+        list(APPEND modules ${module})
     endforeach()
     _shutter_add_generated(${target} ${outputs})
+    # Shaders alone, for who reloads them while the program runs.
+    add_custom_target(${target}_spirv DEPENDS ${modules})
+    add_dependencies(${target} ${target}_spirv)
+    if(NOT TARGET shutter_spirv)
+        add_custom_target(shutter_spirv)
+    endif()
+    add_dependencies(shutter_spirv ${target}_spirv)
 endfunction()
 
 # shutter_embed(<target> <header> <symbol> <file>)

@@ -2,6 +2,7 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/replaced_shader.h"
 #include "engine/gpu/shader_reflection.h"
 
 #include <algorithm>
@@ -16,8 +17,9 @@ namespace {
 /// A shader module that lives while a pipeline is made.
 class Module {
   public:
-    Module(Device& device, std::span<const uint32_t> spirv, const std::string& name)
+    Module(Device& device, std::span<const uint32_t> own, const std::string& name)
         : mDevice(device) {
+        const std::span<const uint32_t> spirv = findShader(own);
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = spirv.size_bytes();
         info.pCode = spirv.data();
@@ -116,7 +118,8 @@ void Pipeline::createLayout(const PipelineInterface& interface) {
 }
 
 void Pipeline::
-    addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
+    addShader(std::span<const uint32_t> own, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
+    const std::span<const uint32_t> spirv = findShader(own);
     const core::Status fits = checkInterface(spirv, stage, interface);
     SHUTTER_CHECK(fits.ok(), "pipeline '{}': {}", mName, fits.error().message);
     const std::vector<VkFormat> formats = reflectStorageFormats(spirv);
