@@ -62,6 +62,8 @@ struct RallyLand {
 
 /// Meadow, road, hills, trees, fences and gates: one node `land`.
 void addRallyLand(GltfWriter& writer, const RallyLand& land);
+/// `ground`: the square of the fairground and what stands on it.
+void addSquare(GltfWriter& writer);
 /// `car` with body, wheels and a camera.
 void addRallyCar(GltfWriter& writer);
 

@@ -183,14 +183,6 @@ Index addBodyMesh(GltfWriter& writer) {
 
 void addRallyCar(GltfWriter& writer) {
     const Index car = writer.addNode({.name = "car"});
-    // What would be its shadow.
-    const Index shade = writer.addMaterial({.name = "shade", .color = vec3(0.015f)});
-    addObject(
-        writer,
-        {.name = "car_shade", .parent = car, .translation = {0.0f, 0.06f, 0.0f}},
-        box({0.80f, 0.01f, 1.80f}, 1.0f),
-        shade
-    );
     const Index body = writer.addNode(
         {.name = "car_body",
          .parent = car,

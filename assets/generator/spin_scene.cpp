@@ -5,7 +5,6 @@
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/props.h"
 #include "assets/generator/scenes.h"
-#include "assets/generator/textures.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -254,58 +253,6 @@ void addRing(GltfWriter& writer) {
     );
 }
 
-void addGround(GltfWriter& writer) {
-    Shape ground = box({30.0f, 0.1f, 30.0f}, 4.0f);
-    const Index slabs = addTextured(writer, "slabs", paving(), 0.95f);
-    Shape hedge;
-    for (const float x : {-1.0f, 1.0f})
-        append(hedge, box({0.6f, 1.0f, 22.0f}, 1.0f), moved({x * 15.0f, 1.0f, -6.0f}));
-    append(hedge, box({15.0f, 1.0f, 0.6f}, 1.0f), moved({0.0f, 1.0f, -16.0f}));
-    Shape crowns;
-    Shape trunks;
-    for (int i = 0; i < 16; ++i) {
-        const float size = 1.5f + hash(i, 0, 391);
-        const vec3 foot(
-            -22.0f + 2.9f * static_cast<float>(i), 0.0f, -19.0f - 3.0f * hash(i, 1, 391)
-        );
-        append(
-            crowns,
-            withUvScale(sphere(1.0f, 10, 7), {4.0f, 3.0f}),
-            glm::scale(moved(foot + kY * (2.1f * size)), size * vec3(1.0f, 1.15f, 1.0f))
-        );
-        append(trunks, cylinder(0.16f * size, 2.4f, 7), moved(foot + kY * 1.2f));
-    }
-    Shape posts;
-    Shape globes;
-    for (const vec2 place : {vec2(-6.2f, 2.2f), {-6.2f, -6.0f}, {1.8f, -6.5f}, {6.4f, 1.6f}}) {
-        const vec3 foot(place.x, 0.1f, place.y);
-        append(posts, cylinder(0.05f, 3.0f, 8), moved(foot + kY * 1.5f));
-        append(posts, cylinder(0.16f, 0.2f, 10), moved(foot + kY * 0.1f));
-        append(globes, sphere(0.18f, 12, 8), moved(foot + kY * 3.12f));
-    }
-    const std::array parts = {
-        MeshPart{.shape = ground, .material = slabs},
-        MeshPart{
-            .shape = hedge,
-            .material = addTextured(writer, "hedge", leaves({0.30f, 0.46f, 0.22f}), 0.95f)},
-        MeshPart{
-            .shape = crowns,
-            .material = addTextured(writer, "crowns", leaves({0.34f, 0.52f, 0.22f}), 0.95f)},
-        MeshPart{
-            .shape = trunks,
-            .material = addPlainMaterial(writer, "trunks", {0.16f, 0.10f, 0.06f}, 0.95f)},
-        MeshPart{
-            .shape = posts, .material = addPlainMaterial(writer, "lamp_posts", vec3(0.05f), 0.5f)},
-        MeshPart{
-            .shape = globes,
-            .material = writer.addMaterial({.name = "globes", .emissive = {1.0f, 0.9f, 0.7f}})}};
-    writer.addNode(
-        {.name = "ground",
-         .translation = {0.0f, -0.1f, 0.0f},
-         .mesh = writer.addMesh("ground", parts)}
-    );
-}
-
 } // namespace
 
 GltfWriter buildSpinScene() {
@@ -317,7 +264,7 @@ GltfWriter buildSpinScene() {
          .camera = writer.addCamera("front", 0.72f, 0.1f)}
     );
     addDemoSun(writer, {0.40f, -0.80f, -0.55f});
-    addGround(writer);
+    addSquare(writer);
     addCarousel(writer);
     addFan(writer);
     writer.addNode(

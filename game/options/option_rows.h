@@ -148,6 +148,18 @@ makeRow(const char* name, const char* help, Matters matters = Matters::ToPicture
         matters};
 }
 
+/// \param words name the enum's values from 0 on
+template <class Value>
+[[nodiscard]] core::Status
+parseWord(const std::string& text, std::span<const std::string_view> words, Value& value) {
+    for (size_t i = 0; i < words.size(); ++i)
+        if (words[i] == text) {
+            value = static_cast<Value>(i);
+            return {};
+        }
+    return core::makeError("'{}' is not one of {}", text, fmt::join(words, ", "));
+}
+
 /// The row of an enum's member; `words` name its values from 0 on.
 template <auto member, const auto& words>
 [[nodiscard]] constexpr auto makeWordRow(const char* name, const char* help) {
@@ -158,22 +170,40 @@ template <auto member, const auto& words>
         help,
         [](CLI::App& command, const OptionRow<Owner>& row, Owner& arguments) {
             Value& target = arguments.*member;
+            return addParsedOption(command, row.name, row.help, [&target](const std::string& text) {
+                return parseWord(text, words, target);
+            });
+        },
+        [](const Owner& arguments) {
+            return std::string(words[static_cast<size_t>(arguments.*member)]);
+        }};
+}
+
+/// The same for an optional enum, which stays empty unless it is typed.
+template <auto member, const auto& words>
+[[nodiscard]] constexpr auto makeOptionalWordRow(const char* name, const char* help) {
+    using Owner = typename MemberOf<decltype(member)>::Owner;
+    using Value = typename MemberOf<decltype(member)>::Value::value_type;
+    return OptionRow<Owner>{
+        name,
+        help,
+        [](CLI::App& command, const OptionRow<Owner>& row, Owner& arguments) {
+            auto& target = arguments.*member;
             return addParsedOption(
                 command,
                 row.name,
                 row.help,
                 [&target](const std::string& text) -> core::Status {
-                    for (size_t i = 0; i < std::size(words); ++i)
-                        if (words[i] == text) {
-                            target = static_cast<Value>(i);
-                            return {};
-                        }
-                    return core::makeError("'{}' is not one of {}", text, fmt::join(words, ", "));
+                    Value value{};
+                    SHUTTER_TRY(parseWord(text, words, value));
+                    target = value;
+                    return {};
                 }
             );
         },
         [](const Owner& arguments) {
-            return std::string(words[static_cast<size_t>(arguments.*member)]);
+            const auto& value = arguments.*member;
+            return value ? std::string(words[static_cast<size_t>(*value)]) : std::string("none");
         }};
 }
 

@@ -17,9 +17,6 @@ using core::makeError;
 using core::Status;
 
 constexpr std::string_view kPixelWords[] = {"centre", "box"};
-/// In the order of AntiAliasing.
-constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
-constexpr std::string_view kShadowWords[] = {"none", "sharp", "blurred"};
 
 using A = ShotArguments;
 using Row = OptionRow<A>;

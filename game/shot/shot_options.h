@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shutter::game {
@@ -33,6 +34,11 @@ enum class AntiAliasing : uint8_t {
     Taa,  ///< by the frames before (modules/taa)
     Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
 };
+
+/// In the order of AntiAliasing.
+inline constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
+/// In the order of extract::ShadowMode.
+inline constexpr std::string_view kShadowWords[] = {"none", "sharp", "blurred"};
 
 /// A scene, its camera, frames, light and look.
 struct ShotOptions {

@@ -3,6 +3,8 @@
 
 import json
 import os
+import pathlib
+import shutil
 import sys
 import unittest
 
@@ -168,6 +170,78 @@ class Session(PlayCase):
         passes, bloomed = shoot(0.2)
         self.assertEqual(passes, {"bloom down": 4, "bloom up": 4})
         self.assertGreater(abs(bloomed - sharp).mean(), 0.5)
+
+    def test_each_effect_is_switched_by_its_option_and_its_key(self):
+        def shoot(keys, *options, rays="query"):
+            script = Script().add(key="w", action="press").wait(3)
+            for key in keys:
+                script.tap(key)
+            script.wait(2 - len(keys)).add(screenshot="a.png").wait(2).add(window="quit")
+            stats = self.play("rally", script, "--method", "resolved", "--rays", rays, *options,
+                              display=False)
+            self.assertEqual(stats["validationMessages"], 0)
+            return set(stats["passes"]), skimage.io.imread(self.folder / "a.png").astype(int)
+
+        bare, _ = shoot("", "--sky", "0")
+        shadow_passes = {"shadow maps", "keep shadow maps"}
+        for keys, option, passes in (
+            ("6", ("--aa", "taa"), {"taa"}),
+            ("7", ("--shadows", "sharp"), shadow_passes),
+            ("77", ("--shadows", "blurred"), shadow_passes),
+            ("9", ("--bloom", "0.04"), {"bloom down", "bloom up"}),
+        ):
+            with self.subTest(option=option):
+                alone, _ = shoot("", "--sky", "0", *option)
+                self.assertNotEqual(alone & passes, set())
+                self.assertLessEqual(alone - bare, passes)
+                self.assertEqual(shoot(keys, "--sky", "0")[0], alone)
+        # A sky has no pass of its own.
+        _, with_sky = shoot("")
+        _, without = shoot("8")
+        self.assertGreater(abs(with_sky - without).mean(), 2)
+        self.assertTrue((without == shoot("", "--sky", "0")[1]).all())
+        for rays in ("pipeline", "none"):
+            with self.subTest(rays=rays):
+                passes, _ = shoot("", "--aa", "taa", "--shadows", "blurred", "--bloom", "0.04",
+                                  rays=rays)
+                self.assertLessEqual({"taa", "shadow maps", "bloom down", "bloom up"}, passes)
+
+    def test_f7_reloads_shaders_and_keeps_the_old_ones_where_the_compiler_refuses(self):
+        root = pathlib.Path(__file__).parents[2]
+        folder = self.folder / "build" / "spirv"
+        module = folder / "tonemap" / "tonemap.comp.spv"
+        module.parent.mkdir(parents=True)
+        shutil.copy(pathlib.Path(os.environ["SHUTTER_SPIRV"]) / "tonemap/tonemap.comp.spv", module)
+        (self.folder / "build" / "CMakeCache.txt").touch()
+        # In place of a build: the first call compiles an edited shader, the second one a wrong one.
+        source = (root / "shaders/tonemap/tonemap.comp").read_text(encoding="utf-8")
+        edited = source.replace("encodeSrgb3(color)", "1.0f - encodeSrgb3(color)")
+        self.assertNotEqual(edited, source)
+        (self.folder / "1.comp").write_text(edited, encoding="utf-8")
+        (self.folder / "2.comp").write_text(source.replace("color", "colour", 1), encoding="utf-8")
+        cmake = self.folder / "bin" / "cmake"
+        cmake.parent.mkdir()
+        cmake.write_text(
+            "#!/bin/sh\n"
+            f"cd {self.folder}; echo x >> calls; n=$(wc -l < calls)\n"
+            f"exec {os.environ['SHUTTER_GLSLANG']} -V --target-env vulkan1.3 --quiet"
+            f" -I{root / 'shaders'} -o {module} $n.comp\n", encoding="utf-8")
+        cmake.chmod(0o755)
+        path = os.environ["PATH"]
+        os.environ["PATH"] = f"{cmake.parent}:{path}"
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        script = Script().wait(2).tap("p").wait().add(screenshot="before.png").wait()
+        script.tap("f7").wait().add(screenshot="after.png").wait()
+        script.tap("f7").wait().add(screenshot="kept.png").wait(2).add(window="quit")
+        self.play("spin", script, "--method", "sharp", "--shader-folder", str(folder),
+                  size="320x180", display=False)
+        # Between the head-up display's lines and the foot.
+        before, after, kept = (
+            skimage.io.imread(self.folder / f"{name}.png")[70:100].astype(int)
+            for name in ("before", "after", "kept")
+        )
+        self.assertTrue((abs(before + after - 255) <= 1).all())
+        self.assertTrue((kept == after).all())
 
     def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
         # Pausing and going on change what a frame consists of; drivers may take tens of

@@ -37,10 +37,7 @@ DemoControls readControls(const InputState& input) {
 
 class DemoStage : public Stage {
   public:
-    explicit DemoStage(std::unique_ptr<Demo> demo) : mDemo(std::move(demo)) {
-        if (const DemoLook look = mDemo->look(); look.turbidity > 0.0)
-            addSky(mDemo->world(), look.turbidity, look.skyIntensity, mDemo->seconds());
-    }
+    explicit DemoStage(std::unique_ptr<Demo> demo) : mDemo(std::move(demo)) {}
 
     [[nodiscard]] std::string title() const override { return mDemo->name(); }
 
@@ -105,8 +102,13 @@ class DemoStage : public Stage {
 
 } // namespace
 
-std::unique_ptr<Stage> makeDemoStage(std::unique_ptr<Demo> demo) {
-    return std::make_unique<DemoStage>(std::move(demo));
+core::Result<std::unique_ptr<Stage>>
+makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options) {
+    SHUTTER_TRY(addSurroundings(demo->world(), options));
+    const DemoLook look = demo->look();
+    if (!demo->world().assets.environment && look.turbidity > 0.0)
+        addSky(demo->world(), look.turbidity, look.skyIntensity, demo->seconds());
+    return std::unique_ptr<Stage>(std::make_unique<DemoStage>(std::move(demo)));
 }
 
 } // namespace shutter::game

@@ -27,6 +27,22 @@ void cycleView(std::span<const std::string> views, int step, std::string& view) 
     view = next == 0 ? std::string() : views[static_cast<size_t>(next - 1)];
 }
 
+template <class Word> Word nextWord(Word word, std::span<const std::string_view> words) {
+    return static_cast<Word>((static_cast<size_t>(word) + 1) % words.size());
+}
+
+void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
+    if (input.wasPressed(Key::Digit6))
+        settings.antiAliasing =
+            settings.antiAliasing == AntiAliasing::None ? AntiAliasing::Taa : AntiAliasing::None;
+    if (input.wasPressed(Key::Digit7))
+        settings.shadows = nextWord(settings.shadows, kShadowWords);
+    if (input.wasPressed(Key::Digit8))
+        settings.environment = !settings.environment;
+    if (input.wasPressed(Key::Digit9))
+        settings.bloomShare = settings.bloomShare > 0.0f ? 0.0f : PlaySettings().bloomShare;
+}
+
 } // namespace
 
 const std::string&
@@ -69,11 +85,13 @@ PanelWishes applyHotkeys(
     for (size_t i = 0; i < kPresetKeys.size() && i < listPresets().size(); ++i)
         if (input.wasPressed(kPresetKeys[i]))
             applyPreset(listPresets()[i], settings);
+    applyEffectKeys(input, settings);
     PanelWishes wishes;
     wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
     wishes.togglePhoto = input.wasPressed(Key::T);
     wishes.savePicture = input.wasPressed(Key::F2);
     wishes.captureFrame = input.wasPressed(Key::F8);
+    wishes.reloadShaders = input.wasPressed(Key::F7);
     wishes.singleStep = input.wasPressed(Key::Period);
     wishes.toggleRecording = input.wasPressed(Key::R);
     wishes.toggleFullScreen = input.wasPressed(Key::F11);

@@ -28,7 +28,8 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
     const scene::ExposureInterval& second = b.view.exposure;
     return a.view.camera == b.view.camera && a.view.width == b.view.width &&
            a.view.height == b.view.height && a.view.background == b.view.background &&
-           a.view.ambient == b.view.ambient && first.open == second.open &&
+           a.view.ambient == b.view.ambient && a.view.environment == b.view.environment &&
+           a.view.shadows.mode == b.view.shadows.mode && first.open == second.open &&
            first.raster == second.raster && first.close == second.close &&
            core::areEqual(scene::listShutterRows(), first.shutter, second.shutter) &&
            core::areEqual(

@@ -7,6 +7,8 @@
 #include "game/play/loop/photo_file.h"
 #include "modules/debug_view/debug_view.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -50,6 +52,7 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.togglePause = panel.togglePause || keys.togglePause;
     both.savePicture = panel.savePicture || keys.savePicture;
     both.captureFrame = panel.captureFrame || keys.captureFrame;
+    both.reloadShaders = panel.reloadShaders || keys.reloadShaders;
     both.singleStep = panel.singleStep || keys.singleStep;
     both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
@@ -99,7 +102,11 @@ core::Status PlayLoop::openScript() {
 }
 
 core::Status PlayLoop::openScreen() {
+    if (!mOptions.shaderFolder.empty())
+        SHUTTER_TRY(mShaders.open(mOptions.shaderFolder));
     SHUTTER_TRY(mScreen.open(mOptions, mSettings.vsync));
+    if (mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
+        mMessage = SettingsKeeper::slowDown(mOptions, mSettings);
     for (const MethodInfo& method : listMethods())
         if (canRun(method, mScreen.device()))
             mMethods.emplace_back(method.name);
@@ -119,7 +126,10 @@ core::Status PlayLoop::openStage() {
         auto demo = makeDemo(mOptions.demo, mOptions.assets);
         if (!demo)
             return demo.error();
-        mStage = makeDemoStage(std::move(demo).value());
+        auto stage = makeDemoStage(std::move(demo).value(), mOptions.shot);
+        if (!stage)
+            return stage.error();
+        mStage = std::move(stage).value();
     }
     if (mWatch)
         mStage = mWatch->wrap(std::move(mStage));
@@ -323,6 +333,8 @@ void PlayLoop::apply(const PanelWishes& wishes) {
         savePicture();
     if (wishes.captureFrame)
         mMessage = mCapture.request();
+    if (wishes.reloadShaders)
+        mMessage = reloadShaders();
     if (wishes.singleStep) {
         turnPhotoMode(false);
         mClock.setPaused(true);
@@ -357,6 +369,26 @@ void PlayLoop::turnPhotoMode(bool on) {
             mScreen.device().info().name,
             mSettings.method
         );
+}
+
+std::string PlayLoop::reloadShaders() {
+    if (!mShaders.isOpen())
+        return "no shaders to reload: --shader-folder names the folder of their .spv files";
+    const auto changed = mShaders.reload();
+    if (!changed) {
+        core::logWarning("{}", changed.error().message);
+        return changed.error().message;
+    }
+    if (changed.value().empty())
+        return "no shader has changed";
+    turnPhotoMode(false); // its rays went into a picture that goes
+    mRenderer->finishAll();
+    if (const core::Status taken = mFiles.takePictures(*mRenderer); !taken)
+        return taken.error().message;
+    mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
+    const std::string message = fmt::format("reloaded {}", fmt::join(changed.value(), ", "));
+    core::logInfo("{}", message);
+    return message;
 }
 
 ecs::Entity PlayLoop::camera() const {
@@ -479,6 +511,8 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.view.height = drawn.y;
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
+    picture.view.environment = mSettings.environment;
+    picture.view.shadows.mode = mSettings.shadows;
     picture.window.size = sizePx;
     picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();
     picture.wantReasons = mSettings.showPanel;

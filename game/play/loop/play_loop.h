@@ -13,6 +13,7 @@
 #include "game/play/loop/play_screen.h"
 #include "game/play/loop/session_watch.h"
 #include "game/play/loop/settings_keeper.h"
+#include "game/play/loop/shader_reload.h"
 #include "game/play/loop/stage.h"
 #include "game/play/panel/panel.h"
 
@@ -74,6 +75,8 @@ class PlayLoop {
     void turnPhotoMode(bool on);
     /// The camera that is looked through: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;
+    /// Remakes all that draws of shaders that changed. \return what to tell
+    [[nodiscard]] std::string reloadShaders();
     /// Asks for the next picture as a file.
     void savePicture();
     /// With which the next picture is drawn.
@@ -103,6 +106,7 @@ class PlayLoop {
     PhotoMode mPhoto;
     PhotoCamera mPhotoCamera;
     FrameCapture mCapture;
+    ShaderReload mShaders;
     double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
     double mHintSeconds = 0.0; ///< for which the keys are shown yet
     bool mDraggingDivider = false;

@@ -34,8 +34,22 @@ constexpr std::array kShotRows = {
     makeRow<&ShotArguments::environmentRotation>(
         "--environment-rotation", "turns it to the left, degrees; default 0"
     ),
-    makeRow<&ShotArguments::sky>("--sky", "clear sky of a scene: its turbidity, 1.7 to 10"),
     makeRow<&ShotArguments::size>("--size", "window size WxH; default 960x540"),
+};
+
+constexpr std::array kEffectRows = {
+    makeRow<&PlayArguments::sky>(
+        "--sky", "clear sky: its turbidity, 1.7 to 10; 0: none, not even a demo's own"
+    ),
+    makeOptionalWordRow<&PlayArguments::shadows, kShadowWords>(
+        "--shadows", "none, sharp or blurred; default: as in the settings"
+    ),
+    makeOptionalWordRow<&PlayArguments::antiAliasing, kAntiAliasingWords>(
+        "--aa", "smooth edges: none, taa or box; default: as in the settings"
+    ),
+    makeRow<&PlayArguments::bloom>(
+        "--bloom", "share of the light that the lens scatters, 0 to 1; default: as in the settings"
+    ),
 };
 
 constexpr auto kVsyncRow = makeRow<&PlayArguments::vsync>(
@@ -72,6 +86,19 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
     return {};
 }
 
+core::Status interpretEffects(const PlayArguments& arguments, PlayOptions& options) {
+    options.antiAliasing = arguments.antiAliasing;
+    options.shadows = arguments.shadows;
+    options.bloom = arguments.bloom;
+    if (options.bloom && !bloom::validate({*options.bloom}).ok())
+        return makeError("--bloom {} must lie in [0, 1]", *options.bloom);
+    if (arguments.sky)
+        options.environment = *arguments.sky != 0.0;
+    else if (!arguments.shot.environment.empty())
+        options.environment = true;
+    return {};
+}
+
 } // namespace
 
 void definePlayOptions(CLI::App& command, PlayArguments& a) {
@@ -90,6 +117,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     );
     defineOutsideOption(command, a.shot);
     defineRows(command, OptionRows<ShotArguments>(kShotRows), a.shot);
+    defineRows(command, OptionRows<PlayArguments>(kEffectRows), a);
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
@@ -110,6 +138,11 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
         "--stats", a.stats, "write frame times, score and more to a JSON file at the end"
     );
     command.add_option("--assets", a.assets, "folder of the demos' scenes");
+    command.add_option(
+        "--shader-folder",
+        a.shaderFolder,
+        "reload shaders by F7 from the .spv files of the program's build, <build>/generated/spirv"
+    );
     command.add_flag(
         "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
     );
@@ -118,7 +151,8 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
 
 core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     PlayOptions options;
-    const ShotArguments& shot = arguments.shot;
+    ShotArguments shot = arguments.shot;
+    shot.sky = arguments.sky.value_or(0.0);
     if (shot.scene.empty() || isDemo(shot.scene))
         options.demo = shot.scene.empty() ? kFirstDemo : shot.scene;
     auto interpreted = interpret(shot);
@@ -146,12 +180,14 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
             return makeError("--ui-scale {}: must be {}", *scale, core::describeRange(range, ""));
     }
     options.uiScale = arguments.uiScale;
+    SHUTTER_TRY(interpretEffects(arguments, options));
     SHUTTER_TRY(interpretFilm(arguments, options));
     options.script = arguments.script;
     options.settings = arguments.settings;
     options.assets =
         arguments.assets.empty() ? findAssetFolder() : std::filesystem::path(arguments.assets);
     options.stats = arguments.stats;
+    options.shaderFolder = arguments.shaderFolder;
     options.hasWindow = !arguments.noWindow;
     options.frames = arguments.frames;
     if (!options.hasWindow && options.script.empty() && options.frames == 0)

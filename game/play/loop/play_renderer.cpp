@@ -62,6 +62,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     request.slot = static_cast<uint32_t>(side);
     request.method.method = method.value();
     request.method.budget = settings.budget;
+    request.antiAliasing = settings.antiAliasing;
     if (method.value()->family == MethodFamily::MotionBlur)
         request.method.motionBlur = makeBlurSettings(settings, *method.value());
     else

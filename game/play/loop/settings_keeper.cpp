@@ -21,6 +21,14 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.vsync = *options.vsync;
     if (options.uiScale)
         settings.uiScale = *options.uiScale;
+    if (options.antiAliasing)
+        settings.antiAliasing = *options.antiAliasing;
+    if (options.shadows)
+        settings.shadows = *options.shadows;
+    if (options.bloom)
+        settings.bloomShare = *options.bloom;
+    if (options.environment)
+        settings.environment = *options.environment;
 }
 
 } // namespace
@@ -49,6 +57,13 @@ SettingsKeeper::open(const PlayOptions& options, bool isScripted, std::string& m
         settings.budget.milliseconds = kFirstBudgetMilliseconds;
     applyOptions(options, settings);
     return settings;
+}
+
+std::string SettingsKeeper::slowDown(const PlayOptions& options, PlaySettings& settings) {
+    const Preset& preset = *findPreset("performance").value();
+    applyPreset(preset, settings);
+    applyOptions(options, settings);
+    return fmt::format("no GPU: started with the preset {}; keys 1 to 9 change it", preset.name);
 }
 
 std::string SettingsKeeper::save(const PlaySettings& settings) const {

@@ -30,6 +30,11 @@ class SettingsKeeper {
     /// The player has kept no settings yet.
     [[nodiscard]] bool isFirstSession() const { return mIsFirstSession; }
 
+    /// What a new player begins with on a software device, whose pictures take the processor: the
+    /// preset `performance`, and over it what `options` names.
+    /// \return one line for the player
+    static std::string slowDown(const PlayOptions& options, PlaySettings& settings);
+
   private:
     std::string refuse(const std::string& why);
 

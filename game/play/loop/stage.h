@@ -60,7 +60,10 @@ class Stage {
     [[nodiscard]] virtual std::optional<int> score() const { return std::nullopt; }
 };
 
-[[nodiscard]] std::unique_ptr<Stage> makeDemoStage(std::unique_ptr<Demo> demo);
+/// \param options environment and sky count, before the demo's own sky
+/// Error: an environment that cannot be read.
+[[nodiscard]] core::Result<std::unique_ptr<Stage>>
+makeDemoStage(std::unique_ptr<Demo> demo, const ShotOptions& options);
 
 /// A scene file to look at: its cameras, one that goes round it, and one that flies.
 /// \param options scene, camera, flythrough, clips, loop, background, ambient and size count

@@ -221,6 +221,22 @@ std::string describeMethod(
     return fmt::format("{}, reduced: {:g} ms budget", method, budget.milliseconds);
 }
 
+std::string describeEffects(const PlaySettings& settings) {
+    std::string text;
+    const auto add = [&](std::string_view effect) {
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", effect);
+    };
+    if (settings.antiAliasing != AntiAliasing::None)
+        add(kAntiAliasingWords[static_cast<size_t>(settings.antiAliasing)]);
+    if (settings.shadows != extract::ShadowMode::None)
+        add(fmt::format("{} shadows", kShadowWords[static_cast<size_t>(settings.shadows)]));
+    if (settings.environment)
+        add("sky");
+    if (settings.bloomShare > 0.0f)
+        add("bloom");
+    return text;
+}
+
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
     const float line = ImGui::GetFontSize() + 2.0f * padding();
     const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -235,6 +251,8 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
     }
     if (!facts.message.empty())
         y = drawAbove(y, facts.message, kEmphasis);
+    if (const std::string effects = describeEffects(settings); !effects.empty())
+        y = drawAbove(y, effects, kLabel) + margin() - 2.0f * padding();
     y -= line;
     drawSides(facts, settings, y);
     space.bottom = window.y - y + margin();

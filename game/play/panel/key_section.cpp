@@ -8,20 +8,22 @@ namespace shutter::game {
 
 namespace {
 
-const std::array<KeyHelp, 6> kCommonKeys = {{
+const std::array<KeyHelp, 7> kCommonKeys = {{
     {"M", "method"},
     {"X", "compare"},
     {"1-5", "presets"},
+    {"6-9", "edges, shadows, sky, bloom"},
     {"P", "pause"},
     {"F1", "settings and all keys"},
     {"Esc", "quit"},
 }};
 
-const std::array<KeyHelp, 17> kAllKeys = {{
+const std::array<KeyHelp, 19> kAllKeys = {{
     {"M, Shift+M", "next, previous method"},
     {"X", "split screen; drag the divider"},
     {"N", "method left of the split"},
     {"1 to 5", "presets: off, performance, balanced, quality, paper"},
+    {"6 7 8 9", "smooth edges, shadows, sky, bloom, on and off"},
     {"B", "blur of the camera's own motion, on and off"},
     {"V, Shift+V", "next, previous intermediate image"},
     {"P", "pause"},
@@ -32,6 +34,7 @@ const std::array<KeyHelp, 17> kAllKeys = {{
     {"R", "record the camera's flight"},
     {"F1", "this panel"},
     {"F5, F9", "save, load the settings"},
+    {"F7", "reload shaders (--shader-folder)"},
     {"F8", "capture the next frame with RenderDoc"},
     {"F11", "full screen"},
     {"Esc", "quit"},

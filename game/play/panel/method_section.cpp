@@ -176,10 +176,30 @@ void drawPictureSection(const PanelFacts& facts, PlaySettings& settings) {
         settings.view
     );
     drawPlayRows(
-        "display",
-        settings,
-        std::vector<std::string_view>{"bloomShare", "resolutionScale", "vsync", "uiScale"}
+        "display", settings, std::vector<std::string_view>{"resolutionScale", "vsync", "uiScale"}
     );
+}
+
+void drawEffectSection(PlaySettings& settings) {
+    drawPlayRows(
+        "effects",
+        settings,
+        std::vector<std::string_view>{"antiAliasing", "shadows", "environment", "bloomShare"}
+    );
+    ButtonRow buttons;
+    const PlaySettings fresh;
+    if (buttons.add("All", "All effects beside the blur, as a new player has them.")) {
+        settings.antiAliasing = fresh.antiAliasing;
+        settings.shadows = fresh.shadows;
+        settings.environment = fresh.environment;
+        settings.bloomShare = fresh.bloomShare;
+    }
+    if (buttons.add("None", "No effect beside the blur.")) {
+        settings.antiAliasing = AntiAliasing::None;
+        settings.shadows = extract::ShadowMode::None;
+        settings.environment = false;
+        settings.bloomShare = 0.0f;
+    }
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

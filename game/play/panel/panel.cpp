@@ -48,6 +48,8 @@ PanelWishes Panel::draw(const PanelFacts& facts, PlaySettings& settings) {
             drawPlaySection(facts, wishes);
         if (unfold("Method", true))
             drawMethodSection(facts, settings);
+        if (unfold("Effects", true))
+            drawEffectSection(settings);
         if (unfold("Picture", false))
             drawPictureSection(facts, settings);
         if (unfold("Reduced motion", false))

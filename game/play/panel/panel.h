@@ -52,6 +52,7 @@ struct PanelWishes {
     bool togglePhoto = false;
     bool savePicture = false;
     bool captureFrame = false;
+    bool reloadShaders = false;
     bool singleStep = false;
     bool toggleRecording = false;
     bool toggleFullScreen = false;

@@ -18,6 +18,8 @@ namespace shutter::game {
 void drawPlaySection(const PanelFacts& facts, PanelWishes& wishes);
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings);
 /// What is drawn besides the blur, and how large.
+/// The effects beside the motion blur, each with its switch.
+void drawEffectSection(PlaySettings& settings);
 void drawPictureSection(const PanelFacts& facts, PlaySettings& settings);
 /// All settings of the blur: those that no shown method reads are greyed, below the others.
 void drawSettingSection(const PanelFacts& facts, PlaySettings& settings);
@@ -50,6 +52,9 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
     const render::FrameStatistics* statistics,
     const motion_blur::BlurBudget& budget
 );
+
+/// The effects beside the blur that are on, "taa, blurred shadows, sky, bloom".
+[[nodiscard]] std::string describeEffects(const PlaySettings& settings);
 
 /// "motion blur 12.3 ms (19 % of the frame)".
 [[nodiscard]] std::string describeBlurCost(

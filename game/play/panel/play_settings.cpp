@@ -7,6 +7,7 @@
 #include "modules/motion_blur/settings.h"
 
 #include <algorithm>
+#include <array>
 
 namespace shutter::game {
 
@@ -46,16 +47,51 @@ bool isSharp(const Preset& preset) {
     return std::string_view(preset.method) == "sharp";
 }
 
+/// What a preset makes of the effects beside the blur.
+struct PresetLook {
+    std::string_view preset;
+    AntiAliasing antiAliasing;
+    extract::ShadowMode shadows;
+    float bloomShare;
+};
+
+constexpr std::array kLooks = {
+    PresetLook{"performance", AntiAliasing::None, extract::ShadowMode::None, 0.0f},
+    PresetLook{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
+    PresetLook{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
+};
+
+/// Null: the preset is about the blur alone.
+const PresetLook* findLook(const Preset& preset) {
+    const auto found = std::find_if(kLooks.begin(), kLooks.end(), [&](const PresetLook& look) {
+        return look.preset == preset.name;
+    });
+    return found == kLooks.end() ? nullptr : &*found;
+}
+
+bool isSeen(const PresetLook* look, const PlaySettings& settings) {
+    return !look ||
+           (settings.antiAliasing == look->antiAliasing && settings.shadows == look->shadows &&
+            settings.environment && settings.bloomShare == look->bloomShare);
+}
+
 } // namespace
 
 void applyPreset(const Preset& preset, PlaySettings& settings) {
     settings.method = preset.method;
     if (!isSharp(preset))
         settings.blur = preset.blur;
+    const PresetLook* look = findLook(preset);
+    if (!look)
+        return;
+    settings.antiAliasing = look->antiAliasing;
+    settings.shadows = look->shadows;
+    settings.environment = true;
+    settings.bloomShare = look->bloomShare;
 }
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
-    return settings.method == preset.method &&
+    return settings.method == preset.method && isSeen(findLook(preset), settings) &&
            (isSharp(preset) ||
             core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
 }
@@ -128,6 +164,26 @@ core::SettingRows<PlaySettings> listPlayRows() {
          {.lowest = 1, .highest = 256, .step = 1, .isLogarithmic = true},
          "Rays per pixel and picture of denoised. Time is proportional to it.",
          "Rays, denoised"},
+        {"antiAliasing",
+         core::makeWordField<&S::antiAliasing>(kAntiAliasingWords),
+         "",
+         {},
+         "Smooth edges: taa by the frames before, box by the mean of 16 frames, which takes 16 "
+         "times as long.",
+         "Smooth edges"},
+        {"shadows",
+         core::makeWordField<&S::shadows>(kShadowWords),
+         "",
+         {},
+         "Shadows of lights: sharp, or blurred like what casts them.",
+         "Shadows"},
+        {"environment",
+         &S::environment,
+         "",
+         {},
+         "The sky or picture around the scene, where it has one: it is seen, and it lights. Off: "
+         "one colour.",
+         "Sky"},
         {"bloomShare",
          &S::bloomShare,
          "",

@@ -6,6 +6,7 @@
 #include "engine/core/setting_row.h"
 #include "engine/scene/components.h"
 #include "game/shot/methods.h"
+#include "game/shot/shot_options.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
@@ -34,11 +35,14 @@ struct PlaySettings {
     /// Scale of the blur that the camera's own motion causes, [0, 1], for players whom it makes
     /// sick. At 0 only what moves in the world blurs.
     double cameraBlurScale = 1.0;
-    uint32_t instants = 16;       ///< instants per frame of `accumulate`, [1, 256]
-    uint32_t rays = 4;            ///< rays per pixel and frame of `truth`, [1, 256]
-    uint32_t denoisedRays = 1;    ///< rays per pixel and frame of `denoised`, in place of
-                                  ///< blur.sampleCount, [1, 256]
-    float bloomShare = 0.0f;      ///< bloom::BloomSettings::share, [0, 1]
+    uint32_t instants = 16;    ///< instants per frame of `accumulate`, [1, 256]
+    uint32_t rays = 4;         ///< rays per pixel and frame of `truth`, [1, 256]
+    uint32_t denoisedRays = 1; ///< rays per pixel and frame of `denoised`, in place of
+                               ///< blur.sampleCount, [1, 256]
+    AntiAliasing antiAliasing = AntiAliasing::Taa;
+    extract::ShadowMode shadows = extract::ShadowMode::Blurred;
+    bool environment = true;      ///< extract::ViewRequest::environment
+    float bloomShare = 0.04f;     ///< bloom::BloomSettings::share, [0, 1]
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     double uiScale = 1.0; ///< of text and panel, on top of the display's own scale, [0.5, 4]
@@ -50,7 +54,8 @@ struct PlaySettings {
 [[nodiscard]] motion_blur::MotionBlurSettings
 makeBlurSettings(const PlaySettings& settings, const MethodInfo& method);
 
-/// Changes the method and the blur; turning the blur off leaves its settings.
+/// Changes the method, the blur and, where the preset is one for players, the effects beside it.
+/// Turning the blur off leaves the rest as it is, so that the two pictures differ in nothing else.
 void applyPreset(const Preset& preset, PlaySettings& settings);
 /// The settings are as the preset makes them.
 [[nodiscard]] bool isApplied(const Preset& preset, const PlaySettings& settings);

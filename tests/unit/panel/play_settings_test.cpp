@@ -244,6 +244,27 @@ TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
     );
 }
 
+TEST(Presets, SetTheEffectsBesideTheBlurExceptWhereTheyCompareIt) {
+    PlaySettings settings;
+    const auto apply = [&](const char* name) {
+        game::applyPreset(*game::findPreset(name).value(), settings);
+    };
+    apply("performance");
+    EXPECT_EQ(settings.antiAliasing, game::AntiAliasing::None);
+    EXPECT_EQ(settings.shadows, extract::ShadowMode::None);
+    EXPECT_EQ(settings.bloomShare, 0.0f);
+    settings.environment = false;
+    settings.shadows = extract::ShadowMode::Sharp;
+    for (const char* name : {"off", "paper"}) {
+        apply(name);
+        EXPECT_EQ(settings.shadows, extract::ShadowMode::Sharp) << name;
+        EXPECT_FALSE(settings.environment) << name;
+    }
+    apply("balanced");
+    // What a new player has.
+    EXPECT_EQ(game::formatPlaySettings(settings), game::formatPlaySettings(PlaySettings()));
+}
+
 TEST(Presets, AreValidDistinctAndApplied) {
     for (const game::Preset& preset : game::listPresets()) {
         PlaySettings settings = test::RandomSettings(1).make();

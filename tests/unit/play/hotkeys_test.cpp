@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/hotkeys.h"
+#include "game/play/panel/panel_sections.h"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +47,30 @@ TEST_F(Hotkeys, TheLeftSideHasAMethodOfItsOwn) {
     EXPECT_EQ(settings.leftMethod, "gather");
     EXPECT_TRUE(settings.split);
     EXPECT_EQ(settings.method, PlaySettings().method);
+}
+
+TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
+    settings.antiAliasing = AntiAliasing::None;
+    settings.shadows = extract::ShadowMode::None;
+    settings.environment = false;
+    settings.bloomShare = 0.0f;
+    press({Key::Digit6});
+    EXPECT_EQ(settings.antiAliasing, AntiAliasing::Taa);
+    EXPECT_EQ(describeEffects(settings), "taa");
+    press({Key::Digit6});
+    EXPECT_EQ(describeEffects(settings), "");
+    std::vector<std::string> seen;
+    for (int i = 0; i < 3; ++i) {
+        press({Key::Digit7});
+        seen.push_back(describeEffects(settings));
+    }
+    EXPECT_EQ(seen, (std::vector<std::string>{"sharp shadows", "blurred shadows", ""}));
+    press({Key::Digit8});
+    EXPECT_EQ(describeEffects(settings), "sky");
+    press({Key::Digit8, Key::Digit9});
+    EXPECT_EQ(describeEffects(settings), "bloom");
+    press({Key::Digit9});
+    EXPECT_EQ(describeEffects(settings), "");
 }
 
 TEST_F(Hotkeys, ViewsComeBackToThePicture) {

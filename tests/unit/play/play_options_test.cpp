@@ -33,6 +33,29 @@ TEST(PlayOptions, ANameOfADemoWinsOverAFile) {
     EXPECT_EQ(interpret(arguments).value().demo, "");
 }
 
+TEST(PlayOptions, EffectsAreTheSettingsUnlessTheyAreTyped) {
+    PlayArguments arguments;
+    PlayOptions options = interpret(arguments).value();
+    EXPECT_FALSE(options.antiAliasing || options.shadows || options.bloom || options.environment);
+    CLI::App app;
+    definePlayOptions(app, arguments);
+    app.parse(std::vector<std::string>{"0", "--sky", "0.1", "--bloom", "sharp", "--shadows"});
+    options = interpret(arguments).value();
+    EXPECT_EQ(options.shadows, extract::ShadowMode::Sharp);
+    EXPECT_EQ(options.bloom, 0.1f);
+    EXPECT_EQ(options.environment, false);
+    EXPECT_FALSE(options.antiAliasing);
+    arguments.sky = 3.0;
+    options = interpret(arguments).value();
+    EXPECT_EQ(options.environment, true);
+    EXPECT_EQ(options.shot.turbidity, 3.0);
+    arguments.sky = 11.0;
+    expectRefused(arguments, "--sky");
+    arguments = {};
+    arguments.bloom = 1.5f;
+    expectRefused(arguments, "--bloom");
+}
+
 TEST(PlayOptions, WrongUseIsToldByOption) {
     PlayArguments arguments;
     arguments.method = "nothing";
