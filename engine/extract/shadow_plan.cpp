@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/extract/frame_view.h"
 #include "engine/extract/row_bounds.h"
+#include "engine/extract/shadow_casters.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
 
@@ -30,36 +31,24 @@ bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
     return false;
 }
 
-Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
-    const math::Bounds box = math::transformBounds(worldFromObject, bounds);
-    Sphere sphere{dvec3(worldFromObject * dvec4(bounds.centre(), 1.0)), 0.0};
-    for (int corner = 0; corner < 8; ++corner) {
-        const dvec3 point(
-            corner & 1 ? bounds.max.x : bounds.min.x,
-            corner & 2 ? bounds.max.y : bounds.min.y,
-            corner & 4 ? bounds.max.z : bounds.min.z
-        );
-        const dvec3 placed(worldFromObject * dvec4(point, 1.0));
-        sphere.radius = std::max(sphere.radius, glm::length(placed - sphere.centre));
-    }
-    // A plane seen from its edge has a sphere too.
-    sphere.radius = std::max(sphere.radius, 1.0e-6 * (1.0 + glm::length(box.size())));
-    return sphere;
-}
-
 /// A light that casts shadows, in the world.
 struct PlacedLight {
     uint32_t index = 0; ///< of the table of lights
     scene::Light light;
     dvec3 position{0.0};
     dvec3 direction{0.0, 0.0, -1.0}; ///< unit
+
+    [[nodiscard]] LightPlace place() const {
+        return light.kind == scene::LightKind::Directional ? LightPlace(-direction, 0.0)
+                                                           : LightPlace(position, 1.0);
+    }
 };
 
-/// Something that moves, and where in the exposure.
+/// A caster with layers of its own.
 struct Mover {
-    uint32_t row = 0;
-    Sphere sphere;
-    double seenSize = 0.0; ///< radius over distance from the camera
+    ShadowCaster caster;
+    CasterPath path;
+    std::vector<CasterInstant> parts;
 };
 
 /// Plans one frame.
@@ -85,6 +74,7 @@ class Planner {
         if (!mPlan.shadows.run)
             return std::move(mPlan);
         collectMovers();
+        followMovers();
         mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
         mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, 0});
         for (const PlacedLight& light : mLights)
@@ -92,7 +82,7 @@ class Planner {
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
         for (const PlacedLight& light : mLights)
             addLayers(light);
-        addInstants();
+        addMoverRows();
         explainBlur();
         return std::move(mPlan);
     }
@@ -147,7 +137,7 @@ class Planner {
     }
 
     void collectMovers() {
-        std::vector<Mover> movers;
+        std::vector<ShadowCaster> movers;
         const auto cap = std::min<size_t>(kMaxShadowMovers, kMaxShadowLayers / mLights.size());
         size_t next = 0; // of movingRows
         for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
@@ -159,19 +149,17 @@ class Planner {
                 mPlan.mapCasters.push_back(row);
                 continue;
             }
-            Mover mover{
-                row, boundSphere(mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row))};
-            const double distance = glm::length(mover.sphere.centre - eye());
-            mover.seenSize = mover.sphere.radius / std::max(distance, mover.sphere.radius);
-            movers.push_back(mover);
+            movers.push_back(makeShadowCaster(mFrame, mLayout, row, eye()));
         }
-        std::stable_sort(movers.begin(), movers.end(), [](const Mover& a, const Mover& b) {
-            return a.seenSize > b.seenSize;
-        });
+        std::stable_sort(
+            movers.begin(),
+            movers.end(),
+            [](const ShadowCaster& a, const ShadowCaster& b) { return a.seenSize > b.seenSize; }
+        );
         mPlan.casterRevision = mFrame.stillSet;
-        for (const Mover& mover : movers) {
-            if (mMovers.size() < cap && fitsLayers(mover)) {
-                mMovers.push_back(mover);
+        for (const ShadowCaster& mover : movers) {
+            if (mMovers.size() < cap && fitsLayers(mover.sphere)) {
+                mMovers.push_back({mover, {}, {}});
                 continue;
             }
             mPlan.mapCasters.push_back(mover.row);
@@ -180,18 +168,51 @@ class Planner {
         }
     }
 
-    [[nodiscard]] bool fitsLayers(const Mover& mover) const {
+    [[nodiscard]] bool fitsLayers(const Sphere& mover) const {
         return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
             return light.light.kind == scene::LightKind::Directional ||
-                   fitsPointLayer(light.position, mover.sphere);
+                   fitsPointLayer(light.position, mover);
+        });
+    }
+
+    /// Where movers are over the exposure; the largest in the picture have parts of it first.
+    void followMovers() {
+        if (!mBlurs)
+            return;
+        std::vector<LightPlace> lights;
+        for (const PlacedLight& light : mLights)
+            lights.push_back(light.place());
+        size_t left = kMaxPartLayers / lights.size();
+        const scene::ShutterResponse& response = mView.exposure.shutter.response;
+        for (Mover& mover : mMovers) {
+            mover.path =
+                followCaster(mover.caster, mFrameView, mFrame, response, mView.shadows.instants);
+            const uint32_t parts = countParts(mover.caster, mover.path, lights);
+            if (parts == 0 || parts > left)
+                continue;
+            mover.parts = followCaster(mover.caster, mFrameView, mFrame, response, parts).instants;
+            if (!std::all_of(
+                    mover.parts.begin(),
+                    mover.parts.end(),
+                    [&](const CasterInstant& part) { return fitsPart(mover, part); }
+                ))
+                mover.parts.clear();
+            left -= mover.parts.size();
+        }
+    }
+
+    [[nodiscard]] bool fitsPart(const Mover& mover, const CasterInstant& part) const {
+        return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
+            const LightPlace seen = seeLight(part.rasterFromInstant, light.place());
+            return seen.w == 0.0 || fitsPointLayer(dvec3(seen), mover.caster.sphere);
         });
     }
 
     [[nodiscard]] dvec3 eye() const { return mFrameView.matrices().eye; }
 
-    void addMap(const LightView& view, uint32_t sizePx, uint32_t mover) {
+    void addMap(const LightView& view, uint32_t sizePx, uint32_t mover, float shapeShift = 0.0f) {
         const auto first = static_cast<uint32_t>(mPlan.texelCount);
-        mPlan.maps.push_back({view, sizePx, first, mover});
+        mPlan.maps.push_back({view, sizePx, first, mover, shapeShift});
         mPlan.texelCount += uint64_t{sizePx} * sizePx;
     }
 
@@ -220,14 +241,26 @@ class Planner {
     void addLayers(const PlacedLight& light) {
         const uint32_t size = mView.shadows.mapSize / 4;
         mPlan.lights[light.index].firstLayer = static_cast<uint32_t>(mPlan.maps.size());
-        for (const Mover& mover : mMovers)
-            addMap(
-                light.light.kind == scene::LightKind::Directional
-                    ? fitLayer(-light.direction, mover.sphere, size)
-                    : fitPointLayer(light.position, mover.sphere, size),
-                size,
-                mover.row
-            );
+        for (const Mover& mover : mMovers) {
+            addLayer(light.place(), mover, {}, size);
+            for (const CasterInstant& part : mover.parts)
+                addLayer(light.place(), mover, part, size);
+        }
+    }
+
+    /// As the mover sees the light: what turns then is the light.
+    void addLayer(
+        const LightPlace& light, const Mover& mover, const CasterInstant& instant, uint32_t sizePx
+    ) {
+        const LightPlace seen = seeLight(instant.rasterFromInstant, light);
+        const Sphere& sphere = mover.caster.sphere;
+        addMap(
+            seen.w == 0.0 ? fitLayer(dvec3(seen), sphere, sizePx)
+                          : fitPointLayer(dvec3(seen), sphere, sizePx),
+            sizePx,
+            mover.caster.row,
+            instant.shapeShift
+        );
     }
 
     [[nodiscard]] CameraSlice sliceOfCamera() const {
@@ -262,46 +295,32 @@ class Planner {
         return std::max(farthest, least);
     }
 
-    /// Where the picture has the mover at shutter time s.
-    [[nodiscard]] dmat4 worldAt(const Mover& mover, double s) const {
-        return mFrameView.motion().worldFromObject(mFrame.entityHandles[mover.row], s);
-    }
-
     [[nodiscard]] math::vec4 toEye(const Sphere& sphere) const {
         return {math::vec3(sphere.centre - eye()), float(sphere.radius)};
     }
 
-    void addInstants() {
-        const scene::ShutterResponse& response = mView.exposure.shutter.response;
+    void addMoverRows() {
+        uint32_t layers = 0;
         for (const Mover& mover : mMovers) {
             shader::ShadowMover row{};
-            row.entity = mover.row;
-            row.sphere = row.sweptSphere = toEye(mover.sphere);
-            row.instantCount = 1;
+            row.entity = mover.caster.row;
+            row.sphere = row.sweptSphere = toEye(mover.caster.sphere);
+            for (int i = 0; i < 3; ++i)
+                row.shape[i] = math::vec4(math::vec3(mover.caster.shape[i]), 0.0f); // symmetric
             row.firstInstant = static_cast<uint32_t>(mPlan.instants.size());
-            const dmat4& raster = mFrame.worldFromObject[mover.row];
-            const dmat4 fromRaster = glm::inverse(raster);
-            math::Bounds centres;
-            bool moves = false;
-            for (uint32_t i = 0; mBlurs && i < mPlan.instantCount; ++i) {
-                const double s = scene::invertResponse(response, (i + 0.5) / mPlan.instantCount);
-                const dmat4 instant = worldAt(mover, s);
-                const bool regular = isDrawable(instant);
-                const dmat4 motion = regular ? instant * fromRaster : dmat4(1.0);
-                moves = moves || motion != dmat4(1.0);
-                centres.add(dvec3(motion * dvec4(mover.sphere.centre, 1.0)));
-                mPlan.instants.push_back(makeInstant(glm::inverse(motion)));
-            }
-            if (!moves) {
-                mPlan.instants.resize(row.firstInstant);
-            } else {
+            row.instantCount = 1;
+            row.firstLayer = layers;
+            row.partCount = static_cast<uint32_t>(mover.parts.size());
+            layers += 1 + row.partCount;
+            if (!mover.path.instants.empty()) {
                 row.instantCount = mPlan.instantCount;
-                const Sphere swept{
-                    centres.centre(),
-                    1.01 * mover.sphere.radius + 0.5 * glm::length(centres.size())};
-                row.sweptSphere = toEye(swept);
+                row.sweptSphere = toEye(mover.path.swept);
                 ++mMoving;
             }
+            for (const CasterInstant& instant : mover.path.instants)
+                mPlan.instants.push_back(makeInstant(instant.rasterFromInstant));
+            for (const CasterInstant& part : mover.parts)
+                mPlan.instants.push_back(makeInstant(part.rasterFromInstant));
             mPlan.movers.push_back(row);
         }
         if (mMoving == 0)

@@ -17,8 +17,11 @@ namespace shutter::extract {
 /// Most movers with layers of their own, by how large the camera sees them. Further ones are drawn
 /// into the lights' maps, which are then drawn anew in each frame, and their shadows stay sharp.
 inline constexpr uint32_t kMaxShadowMovers = 32;
-/// Most layers, of all lights together.
+/// Most layers of the raster instant, of all lights together.
 inline constexpr uint32_t kMaxShadowLayers = 64;
+/// Most layers of parts of the exposure (ShadowMover::partCount), of all movers and lights
+/// together.
+inline constexpr uint32_t kMaxPartLayers = 64;
 
 /// A map and what is in it.
 struct PlannedMap {
@@ -27,6 +30,7 @@ struct PlannedMap {
     uint32_t firstTexel = 0; ///< in the frame's texels
     /// Row of the mover whose layer this is; shader::kNoEntity: casters of ShadowPlan::mapCasters.
     uint32_t mover = shader::kNoEntity;
+    float shapeShift = 0.0f; ///< shader::ShadowDraw's
 };
 
 struct ShadowPlan {

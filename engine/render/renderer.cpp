@@ -7,6 +7,7 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/compile.h"
 #include "engine/graph/execute.h"
+#include "engine/render/shadow_maps.h"
 
 #include <array>
 #include <chrono>
@@ -61,7 +62,9 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
 
 Renderer::Slot::Slot(gpu::Device& device)
     : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
-      timedScene(device), secondRaster(device), shadows(device) {}
+      timedScene(device), secondRaster(device), shadows(std::make_unique<ShadowMaps>(device)) {}
+
+Renderer::Slot::~Slot() = default;
 
 Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight)
     : mDevice(device), mScene(device, assets), mGBufferPass(device, mScene), mPool(device) {
@@ -73,6 +76,8 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t fr
     for (uint32_t i = 0; i < framesInFlight; ++i)
         mSlots.push_back(std::make_unique<Slot>(device));
 }
+
+Renderer::~Renderer() = default;
 
 Renderer::RunningEffects Renderer::askEffects(
     std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
@@ -272,7 +277,7 @@ void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEf
     }
     if (mShadowsIdle.advance((frame.constants.flags & shader::kFrameShadows) != 0))
         for (const auto& slot : mSlots)
-            slot->shadows.emplace(mDevice);
+            slot->shadows = std::make_unique<ShadowMaps>(mDevice);
     if (mBlasIdle.advance(anyRays))
         mScene.releaseBlas();
 }
@@ -313,7 +318,7 @@ Renderer::Tickets Renderer::declareFrame(
     );
     const extract::ShadowPlan& shadows = slot.shadows->plan();
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
-        mShadowPipelines.emplace(mDevice, mScene);
+        mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
     if (request.wantReasons) {
         explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
         explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
@@ -381,9 +386,8 @@ Renderer::Tickets Renderer::declareFrame(
         one.firstPass = graph.passes().size();
         if (one.readsSecondRaster && !second) {
             explainer.beginPasses(graph, one.effect->owner(), running.secondRaster.reason);
-            second = slot.secondRaster->declare(
-                graph, mScene, mGBufferPass, mShadowPipelines ? &*mShadowPipelines : nullptr
-            );
+            second =
+                slot.secondRaster->declare(graph, mScene, mGBufferPass, mShadowPipelines.get());
             context.secondRaster = &*second;
         }
         explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");

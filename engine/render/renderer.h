@@ -19,7 +19,6 @@
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
 #include "engine/render/second_raster.h"
-#include "engine/render/shadow_maps.h"
 
 #include <cstdint>
 #include <deque>
@@ -32,6 +31,9 @@
 #include <vector>
 
 namespace shutter::render {
+
+class ShadowMaps;
+struct ShadowPipelines;
 
 struct FrameRequest {
     extract::ViewRequest view;
@@ -99,6 +101,7 @@ class Renderer {
     /// structures of its own, and tables are then written whole in each frame in which a row
     /// changes
     Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t framesInFlight = 1);
+    ~Renderer();
 
     /// Records and submits a frame. As many as are in flight may be unfinished (CHECKed).
     [[nodiscard]] core::Status submitFrame(
@@ -159,6 +162,7 @@ class Renderer {
     /// What one frame in flight has of its own.
     struct Slot {
         explicit Slot(gpu::Device& device);
+        ~Slot();
 
         gpu::Frame frame;
         Readback readback;
@@ -168,7 +172,7 @@ class Renderer {
         std::optional<rays::FrameTlas> frameTlas;
         std::optional<rays::TimedScene> timedScene;
         std::optional<SecondRaster> secondRaster;
-        std::optional<ShadowMaps> shadows;
+        std::unique_ptr<ShadowMaps> shadows;
     };
 
     /// An effect of an unfinished frame, and which of the frame's times are its own.
@@ -228,9 +232,9 @@ class Renderer {
     extract::FrameExtractor mExtractor;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     uint32_t mNextSlot = 0;
-    std::deque<PendingFrame> mPending;               ///< oldest first
-    std::optional<LongestMotion> mLongestMotion;     ///< made by the first cap
-    std::optional<ShadowPipelines> mShadowPipelines; ///< made by the first that asks for shadows
+    std::deque<PendingFrame> mPending;                 ///< oldest first
+    std::optional<LongestMotion> mLongestMotion;       ///< made by the first cap
+    std::unique_ptr<ShadowPipelines> mShadowPipelines; ///< made by the first that asks for shadows
     IdleCounter mDeformationIdle;
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;

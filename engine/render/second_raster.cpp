@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "engine/render/second_raster.h"
 
+#include "engine/render/shadow_maps.h"
+
 #include <array>
 
 namespace shutter::render {
+
+SecondRaster::SecondRaster(gpu::Device& device)
+    : mTables(device), mDeformation(device), mShadows(std::make_unique<ShadowMaps>(device)) {}
+
+SecondRaster::~SecondRaster() = default;
 
 double findOtherEnd(double rasterTime) {
     return rasterTime < 0.5 ? 1.0 : 0.0;
@@ -19,7 +26,7 @@ core::Status SecondRaster::extract(
     mFrame = extracted.value();
     mView = view;
     // Lit as the frame's own raster: what moves casts the shadow of the whole exposure in both.
-    mShadows.prepare(
+    mShadows->prepare(
         extract::planShadows(world, layout, view, *mFrame, /*keepsExposure=*/true), *mFrame
     );
     return {};
@@ -37,7 +44,7 @@ SecondRasterView SecondRaster::declare(
     graph::BufferHandle shadowMaps;
     if (shadows != nullptr)
         shadowMaps =
-            mShadows.declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
+            mShadows->declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
     const GBuffer gbuffer = pass.declare(
         graph,
         "second G-buffer",

@@ -10,9 +10,13 @@
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/post_effect.h"
-#include "engine/render/shadow_maps.h"
+
+#include <memory>
 
 namespace shutter::render {
+
+class ShadowMaps;
+struct ShadowPipelines;
 
 /// Shutter time of the end of the exposure that is farther from the raster instant: 0 or 1.
 [[nodiscard]] double findOtherEnd(double rasterTime);
@@ -20,8 +24,8 @@ namespace shutter::render {
 /// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
 class SecondRaster {
   public:
-    explicit SecondRaster(gpu::Device& device)
-        : mTables(device), mDeformation(device), mShadows(device) {}
+    explicit SecondRaster(gpu::Device& device);
+    ~SecondRaster();
 
     /// \param view the frame's own, which gets the other instant
     /// Error: as FrameExtractor::update.
@@ -42,7 +46,7 @@ class SecondRaster {
     extract::FrameExtractor mExtractor;
     FrameTables mTables;
     gpu_scene::DeformationPass mDeformation;
-    ShadowMaps mShadows;
+    std::unique_ptr<ShadowMaps> mShadows;
     extract::ViewRequest mView;
     extract::ExtractedFrame* mFrame = nullptr;
 };

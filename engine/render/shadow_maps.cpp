@@ -65,8 +65,7 @@ shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye
     row.firstTexel = map.firstTexel;
     row.sizePx = map.sizePx;
     row.texelMetres = float(map.view.texelMetres);
-    // Rounding of depths in [0, 1]; those of perspective views are rounded in proportion.
-    row.depthBias = map.view.isPerspective ? 0.0f : 5.0e-7f;
+    row.isPerspective = map.view.isPerspective ? 1 : 0;
     return row;
 }
 
@@ -85,7 +84,8 @@ class Recorder {
         vkCmdBindIndexBuffer(mContext.commands, scene.indexBuffer(), 0, VK_INDEX_TYPE_UINT32);
     }
 
-    void begin(const extract::LightView& view, const VkRect2D& place) {
+    /// \param shapeShift ShadowDraw's, of all that is drawn
+    void begin(const extract::LightView& view, const VkRect2D& place, float shapeShift) {
         VkViewport viewport{};
         viewport.x = float(place.offset.x);
         viewport.y = float(place.offset.y);
@@ -95,6 +95,7 @@ class Recorder {
         vkCmdSetViewport(mContext.commands, 0, 1, &viewport);
         vkCmdSetScissor(mContext.commands, 0, 1, &place);
         mView = &view;
+        mShapeShift = shapeShift;
     }
 
     void draw(uint32_t row) {
@@ -102,7 +103,7 @@ class Recorder {
         const extract::SceneLayout& layout = mScene.layout();
         if (extract::isOutsideView(clipFromObject, extract::findRowBounds(mFrame, layout, row)))
             return;
-        shader::ShadowDraw push{math::mat4(clipFromObject), mConstants, 0, 0};
+        shader::ShadowDraw push{math::mat4(clipFromObject), mConstants, 0, mShapeShift};
         const uint32_t mesh = mFrame.entityMeshes[row];
         const uint32_t first = layout.firstGeometry[mesh];
         for (uint32_t i = first; i < layout.firstGeometry[mesh + 1]; ++i) {
@@ -136,6 +137,7 @@ class Recorder {
     const gpu_scene::GpuScene& mScene;
     math::uvec2 mConstants;
     const extract::LightView* mView = nullptr;
+    float mShapeShift = 0.0f;
     const gpu::Pipeline* mBound = nullptr;
 };
 
@@ -261,7 +263,7 @@ graph::BufferHandle ShadowMaps::declare(
             Recorder recorder(context, pipelines, frame, scene, frameConstants);
             for (const Drawn& drawn : mDrawn) {
                 const extract::PlannedMap& map = mPlan.maps[drawn.map];
-                recorder.begin(map.view, drawn.place);
+                recorder.begin(map.view, drawn.place, map.shapeShift);
                 if (map.mover != shader::kNoEntity)
                     recorder.draw(map.mover);
                 else

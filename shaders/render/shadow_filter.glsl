@@ -8,6 +8,9 @@
 
 SHUTTER_SHADER_BEGIN
 
+/// Steepest that the filter's edges are made: thin casters and corners suffer from more.
+SHUTTER_CONST float kMostEdgeContrast = 3.0f;
+
 /// How far a point goes off its surface before it is looked up, for what its plane does not say:
 /// curvature, and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
 /// \return metres
@@ -20,18 +23,23 @@ SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
 /// How a plane's depth changes from texel to texel of a map, towards x and y (Isidoro 2006, "Shadow
 /// Mapping: GPU-based Tips and Techniques", receiver plane depth bias). Exact in perspective too:
 /// near / distance is linear in the map. 0 for a plane that the light sees from its edge.
-/// \param clip of the point; along, across: of two directions in the plane
-SHUTTER_INLINE vec2 planeSlope(vec4 clip, vec4 along, vec4 across, uint sizePx) {
-    float w = max(clip.w, 1.0e-30f);
-    vec3 at = vec3(clip) / w;
-    vec3 a = (vec3(along) - at * along.w) / w;
-    vec3 b = (vec3(across) - at * across.w) / w;
-    float determinant = a.x * b.y - a.y * b.x;
-    float size2 = (a.x * a.x + a.y * a.y) + (b.x * b.x + b.y * b.y);
-    // Beyond 84 degrees the slope is worth less than its rounding.
-    if (!(abs(determinant) > 0.05f * size2)) return vec2(0.0f);
-    vec2 slope = vec2(a.z * b.y - b.z * a.y, b.z * a.x - a.z * b.x) / determinant;
-    return slope * (2.0f / float(sizePx));
+/// \param clip of a point of the plane; clipNormal: of its unit normal, w 0
+/// \param cosine of the angle between the normal and the way to the light
+/// \param texelMetres ShadowMap's
+SHUTTER_INLINE vec2 planeSlope(
+    vec4 clip, vec4 clipNormal, float cosine, float texelMetres, uint sizePx, bool isPerspective
+) {
+    // Beyond 87 degrees the slope is worth less than its rounding.
+    if (!(cosine > 0.05f)) return vec2(0.0f);
+    float half_ = 0.5f * texelMetres * float(sizePx); // of the map's width, at w = 1
+    float scale = half_ * texelMetres;
+    vec2 across = vec2(clipNormal.x, clipNormal.y);
+    if (!isPerspective) return across * (-scale * clipNormal.z / (cosine * cosine));
+    // Distance of the plane from the light.
+    float away = half_ * half_ * (clipNormal.x * clip.x + clipNormal.y * clip.y) +
+                 clipNormal.w * clip.w;
+    if (!(abs(away) > 1.0e-30f)) return vec2(0.0f);
+    return across * (scale * clip.z / away);
 }
 
 /// Quadratic B-spline over three texels: shadows' edges have no steps.
@@ -47,6 +55,7 @@ struct ShadowPlace {
     vec2 texel;      // from the map's corner
     float depth;     // of the receiver, biased
     vec2 slope;      // of its depth, a texel
+    float scale;     // of ShadowMap::texelMetres there
     bool isCovered;  // the map has all texels that the filter reads
 };
 
@@ -55,6 +64,7 @@ struct ShadowPlace {
 SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float depthBias) {
     ShadowPlace place;
     place.slope = slope;
+    place.scale = clip.w;
     float size = float(sizePx);
     place.isCovered = clip.w > 0.0f;
     float scale = 1.0f / max(clip.w, 1.0e-30f);
@@ -94,25 +104,44 @@ SHUTTER_INLINE bool meetsSphere(vec3 point, vec3 toLight, float distance_, vec4 
     return dot(across, across) <= sphere.w * sphere.w;
 }
 
-/// Where a receiver is looked up in the layer of a mover that turned since, for a light that is far
-/// away. The layer was drawn along `toLight`; as the mover sees it the light now comes along
-/// `turned`. The ray keeps the place where it passes the mover's middle, so a turn moves the shadow
-/// by no more than the mover's own points move; only the outline is still the layer's.
-/// \param point, turned the ray as the mover sees it; both directions unit
-SHUTTER_INLINE vec3 alignRay(vec3 point, vec3 turned, vec3 toLight, vec3 centre) {
-    float along = dot(centre - point, turned);
+/// Share of light, sharpened: the filter is as soft as 4/3 texels are wide, which is seen where
+/// texels are larger than pixels. The middle of a soft edge is where the edge is.
+/// \param texelsPerPixel below 1 where a texel is larger than a pixel
+SHUTTER_INLINE float sharpenEdge(float light, float texelsPerPixel) {
+    float contrast = clamp(1.3333f / max(texelsPerPixel, 1.0e-6f), 1.0f, kMostEdgeContrast);
+    return clamp((light - 0.5f) * contrast + 0.5f, 0.0f, 1.0f);
+}
+
+/// The form whose unit ellipsoid is a mover's box, applied to a vector.
+SHUTTER_INLINE vec3 applyShape(vec4 shape[3], vec3 v) {
+    return vec3(dot(vec3(shape[0]), v), dot(vec3(shape[1]), v), dot(vec3(shape[2]), v));
+}
+
+/// Where a receiver is looked up in a mover's layer, for a light that is far away. The layer was
+/// drawn along `toLight`, all as the mover sees it; at the instant in question the light comes along
+/// `turned`. The ray keeps the place where it is deepest in the mover's ellipsoid: of what is flat,
+/// where it passes the plane, which is exact; of what is round, where it passes the middle. Only an
+/// outline that comes from elsewhere in the mover is the layer's.
+/// \param point, turned the ray; both directions unit
+/// \param shape ShadowMover's
+SHUTTER_INLINE vec3
+alignRay(vec3 point, vec3 turned, vec3 toLight, vec3 centre, vec4 shape[3]) {
+    vec3 weighed = applyShape(shape, turned);
+    float along = dot(centre - point, weighed) / max(dot(turned, weighed), 1.0e-30f);
     return point + turned * along - toLight * along;
 }
 
 /// The same for a light at a place.
 /// \param seen where the mover sees the light, `light` where the layer saw it
 /// \return w 0: the receiver does not lie before the light as the mover sees it; else 1
-SHUTTER_INLINE vec4 alignPointRay(vec3 point, vec3 seen, vec3 light, vec3 centre) {
-    vec3 axis = centre - seen;
-    float share = dot(point - seen, axis) / max(dot(axis, axis), 1.0e-30f); // 1: beside the middle
-    if (!(share > 0.0f)) return vec4(0.0f);
-    vec3 beside = seen + (point - seen) / share;
-    return vec4(light + (beside - light) * share, 1.0f);
+SHUTTER_INLINE vec4
+alignPointRay(vec3 point, vec3 seen, vec3 light, vec3 centre, vec4 shape[3]) {
+    vec3 way = seen - point;
+    vec3 weighed = applyShape(shape, way);
+    float along = dot(centre - point, weighed) / max(dot(way, weighed), 1.0e-30f); // 1: the light
+    if (!(along < 0.999f)) return vec4(0.0f);
+    vec3 deepest = point + way * along;
+    return vec4(light + (deepest - light) / (1.0f - along), 1.0f);
 }
 
 SHUTTER_SHADER_END

@@ -6,6 +6,7 @@
 
 #include "render/scene_bindings.glsl"
 #include "render/shadow_filter.glsl"
+#include "render/surface.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowRef {
     ShadowConstants value;
@@ -39,6 +40,7 @@ struct Receiver {
     vec3 normal;    // unit, of the triangle, on the light's side
     vec3 toLight;   // unit
     float distance_; // to the light, metres
+    float pixel;    // width of a pixel there, metres
     uint entity;    // row of the entity table
 };
 
@@ -69,20 +71,18 @@ float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
 }
 
 /// Where the receiver is in a map, lifted off its surface.
+/// \param cosine of the angle between its normal and the way to the light
 ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosine) {
     vec4 clip = map.clipFromEye * vec4(position, 1.0f);
     // A map that does not have the place is left for the next before anything else is worked out.
-    ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx, map.depthBias);
+    ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx, 0.0f);
     if (!place.isCovered) return place;
-    vec3 lift = normal * normalOffset(map.texelMetres * clip.w, cosine);
-    vec3 helper = abs(normal.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
-    vec3 along = normalize(cross(normal, helper));
+    vec4 clipNormal = map.clipFromEye * vec4(normal, 0.0f);
     vec2 slope = planeSlope(
-        clip, map.clipFromEye * vec4(along, 0.0f),
-        map.clipFromEye * vec4(cross(normal, along), 0.0f), map.sizePx
+        clip, clipNormal, cosine, map.texelMetres, map.sizePx, map.isPerspective != 0u
     );
-    clip += map.clipFromEye * vec4(lift, 0.0f);
-    return placeInMap(clip, slope, map.sizePx, map.depthBias);
+    clip += clipNormal * normalOffset(map.texelMetres * clip.w, cosine);
+    return placeInMap(clip, slope, map.sizePx, map.isPerspective != 0u ? 0.0f : kDepthRounding);
 }
 
 /// Light that passes what is in the light's own maps.
@@ -98,45 +98,56 @@ float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver rec
     for (uint i = 0u; i < count; ++i) {
         ShadowMap map = maps.rows[first + i];
         ShadowPlace place = placeReceiver(map, receiver.position, receiver.normal, cosine);
-        if (place.isCovered) return filterMap(shadows, map, place);
+        if (!place.isCovered) continue;
+        return sharpenEdge(
+            filterMap(shadows, map, place), receiver.pixel / (map.texelMetres * place.scale)
+        );
     }
     return 1.0f;
 }
 
+vec3 transformPoint(vec4 rows[3], vec3 point) {
+    vec4 p = vec4(point, 1.0f);
+    return vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+}
+
+vec3 transformDirection(vec4 rows[3], vec3 d) {
+    return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d));
+}
+
+/// A layer of a mover.
+struct MoverLayer {
+    uint map;     // from the light's first layer
+    vec3 toLight; // unit, as the mover sees it: the layer was drawn along it ...
+    vec3 light;   // ... or from there
+};
+
 /// Light that passes one mover at one instant.
 float passMover(
-    ShadowRef shadows, ShadowMap layer, ShadowMover mover, vec4 rasterFromInstant[3], LightRow light,
-    Receiver receiver
+    ShadowMap map, ShadowRef shadows, ShadowMover mover, MoverLayer layer,
+    vec4 rasterFromInstant[3], LightRow light, Receiver receiver
 ) {
-    vec4 p = vec4(receiver.position, 1.0f);
-    vec3 d = receiver.toLight;
-    vec3 n = receiver.normal;
-    vec3 point = vec3(
-        dot(rasterFromInstant[0], p), dot(rasterFromInstant[1], p), dot(rasterFromInstant[2], p)
-    );
-    vec3 toLight = normalize(vec3(
-        dot(rasterFromInstant[0].xyz, d), dot(rasterFromInstant[1].xyz, d),
-        dot(rasterFromInstant[2].xyz, d)
-    ));
+    vec3 point = transformPoint(rasterFromInstant, receiver.position);
+    vec3 toLight = normalize(transformDirection(rasterFromInstant, receiver.toLight));
     if (!meetsSphere(point, toLight, receiver.distance_, mover.sphere)) return 1.0f;
-    vec3 normal = normalize(vec3(
-        dot(rasterFromInstant[0].xyz, n), dot(rasterFromInstant[1].xyz, n),
-        dot(rasterFromInstant[2].xyz, n)
-    ));
-    float cosine = dot(normal, toLight);
+    vec3 normal = normalize(transformDirection(rasterFromInstant, receiver.normal));
     if (light.kind == kLightDirectional) {
-        point = alignRay(point, toLight, d, mover.sphere.xyz);
+        point = alignRay(point, toLight, layer.toLight, mover.sphere.xyz, mover.shape);
+        toLight = layer.toLight;
     } else {
-        vec4 l = vec4(light.positionRange.xyz, 1.0f);
-        vec3 seen = vec3(
-            dot(rasterFromInstant[0], l), dot(rasterFromInstant[1], l), dot(rasterFromInstant[2], l)
-        );
-        vec4 aligned = alignPointRay(point, seen, l.xyz, mover.sphere.xyz);
+        vec3 seen = transformPoint(rasterFromInstant, light.positionRange.xyz);
+        vec4 aligned = alignPointRay(point, seen, layer.light, mover.sphere.xyz, mover.shape);
         if (aligned.w == 0.0f) return 1.0f;
         point = aligned.xyz;
+        toLight = normalize(layer.light - point);
     }
-    ShadowPlace place = placeReceiver(layer, point, normal, cosine);
-    return place.isCovered ? filterMap(shadows, layer, place) : 1.0f;
+    ShadowPlace place = placeReceiver(map, point, normal, dot(normal, toLight));
+    if (!place.isCovered) return 1.0f;
+    float passed = filterMap(shadows, map, place);
+    // Over the exposure soft edges are what hides the steps from instant to instant.
+    return mover.instantCount > 1u
+               ? passed
+               : sharpenEdge(passed, receiver.pixel / (map.texelMetres * place.scale));
 }
 
 /// The movers whose shadows may touch the receiver in the exposure, a bit each of the first 32, and
@@ -173,17 +184,26 @@ float passMovers(ShadowRef shadows, ShadowLight own, LightRow light, Receiver re
     for (uint instant = 0u; instant < count; ++instant) {
         float passed = 1.0f;
         for (uint left = found; left != 0u && passed > 0.0f; left &= left - 1u) {
-            uint index = uint(findLSB(left));
-            ShadowMover mover = movers.rows[index];
+            ShadowMover mover = movers.rows[findLSB(left)];
             vec4 rows[3] = vec4[3](
                 vec4(1.0f, 0.0f, 0.0f, 0.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f),
                 vec4(0.0f, 0.0f, 1.0f, 0.0f)
             );
-            if (moves && mover.instantCount > 1u)
+            MoverLayer layer =
+                MoverLayer(mover.firstLayer, receiver.toLight, light.positionRange.xyz);
+            if (moves && mover.instantCount > 1u) {
                 rows = instants.rows[mover.firstInstant + instant].rasterFromInstant;
-            passed *= passMover(
-                shadows, maps.rows[own.firstLayer + index], mover, rows, light, receiver
-            );
+                if (mover.partCount > 0u) {
+                    uint part = instant * mover.partCount / mover.instantCount;
+                    uint at = mover.firstInstant + mover.instantCount + part;
+                    vec4 drawn[3] = instants.rows[at].rasterFromInstant;
+                    layer.map += 1u + part;
+                    layer.toLight = normalize(transformDirection(drawn, layer.toLight));
+                    layer.light = transformPoint(drawn, layer.light);
+                }
+            }
+            ShadowMap map = maps.rows[own.firstLayer + layer.map];
+            passed *= passMover(map, shadows, mover, layer, rows, light, receiver);
         }
         sum += passed;
     }
@@ -214,6 +234,7 @@ float lightReaching(
     receiver.distance_ = light.kind == kLightDirectional
                              ? 1.0e15f
                              : distance(light.positionRange.xyz, position);
+    receiver.pixel = pixelFootprint(frame, position);
     receiver.entity = source.receiver;
     float passed = passStill(shadows, own, light, receiver);
     return passed > 0.0f ? passed * passMovers(shadows, own, light, receiver) : 0.0f;

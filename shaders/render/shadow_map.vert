@@ -14,7 +14,12 @@ void main() {
     FrameRef frame = FrameRef(draw.frame);
     Geometry geometry = GeometryTable(frame.value.geometries).rows[draw.geometry];
     Vertex vertex = VertexArray(geometry.vertices).values[gl_VertexIndex];
-    gl_Position = draw.clipFromObject * vec4(vertex.positionU0.xyz, 1.0f);
+    vec3 position = vertex.positionU0.xyz;
+    uvec2 shape = draw.shapeShift < 0.0f ? geometry.openPositions : geometry.closePositions;
+    if (draw.shapeShift != 0.0f && (shape.x | shape.y) != 0u)
+        position =
+            mix(position, PositionArray(shape).values[gl_VertexIndex].xyz, abs(draw.shapeShift));
+    gl_Position = draw.clipFromObject * vec4(position, 1.0f);
     outUv = vec4(vertex.positionU0.w, vertex.normalV0.w, vertex.uv1);
     outAlpha = unpackColor(vertex.color).a;
 }

@@ -19,29 +19,39 @@ SHUTTER_CONST float kShadowFilterTexels = 1.5f;
 
 /// One view of a light. Depth is reversed: 1 nearest the light, 0 where there is no caster.
 struct ShadowMap {
-    mat4 clipFromEye;  // x, y in [-1, 1] over the map
-    uint firstTexel;   // in ShadowConstants::texels; rows of sizePx, top row first
-    uint sizePx;       // width and height
-    float texelMetres; // width of a texel, metres: at clip w = 1
-    float depthBias;   // added to a receiver's depth, towards the light
+    mat4 clipFromEye;   // x, y in [-1, 1] over the map
+    uint firstTexel;    // in ShadowConstants::texels; rows of sizePx, top row first
+    uint sizePx;        // width and height
+    float texelMetres;  // width of a texel, metres: at clip w = 1
+    uint isPerspective; // 1: depth is near / distance; 0: it is linear
 };
+
+/// Rounding of linear depths; those in perspective are rounded in proportion.
+SHUTTER_CONST float kDepthRounding = 5.0e-7f;
 
 /// Beside each row of the table of lights.
 struct ShadowLight {
     uint firstMap;   // of the light's maps, or kNoShadowMap: the light casts no shadows
     uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
-    uint firstLayer; // map of the first mover's layer; the others follow
+    uint firstLayer; // map of the first mover's first layer; the others follow
     uint padding0;
 };
 
-/// A caster that moves, and has a layer of its own for each light.
+/// A caster that moves, and has layers of its own for each light: maps of it alone.
 struct ShadowMover {
     vec4 sphere;       // xyz eye space, w radius, metres: at the raster instant
     vec4 sweptSphere;  // the same over the whole exposure
+    vec4 shape[3];     // rows of the form whose unit ellipsoid is the mover's box, see alignRay()
     uint entity;       // row of the entity table
-    uint firstInstant; // in the table of instants
+    uint firstInstant; // in the table of instants: instantCount rows, then partCount
     uint instantCount; // 1: it stands still in the exposure; else ShadowConstants::instantCount
+    uint firstLayer;   // counted from ShadowLight::firstLayer: the raster instant's
+    /// Equal parts of the exposure that have a layer each, as in the middle of the part; they
+    /// follow the raster instant's. 0: that one is for all.
+    uint partCount;
     uint padding0;
+    uint padding1;
+    uint padding2;
 };
 
 /// Where a mover is at one instant: takes points of eye space to where they are as seen from the
@@ -67,7 +77,10 @@ struct ShadowDraw {
     mat4 clipFromObject;
     uvec2 frame;   // address of FrameConstants
     uint geometry; // row of the geometry table
-    uint padding0;
+    /// What deforms is drawn between its shape at the raster instant (0) and the one at shutter
+    /// open
+    /// (-1) or close (1).
+    float shapeShift;
 };
 
 SHUTTER_SHADER_END
@@ -75,7 +88,7 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::ShadowMap) == 80);
 static_assert(sizeof(shutter::shader::ShadowLight) == 16);
-static_assert(sizeof(shutter::shader::ShadowMover) == 48);
+static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
 static_assert(sizeof(shutter::shader::ShadowConstants) == 56);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);

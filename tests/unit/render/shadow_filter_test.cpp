@@ -20,23 +20,38 @@ ShadowPlace placeAt(const dmat4& clipFromWorld, const dvec3& point) {
 }
 
 /// Depths of a plane at two places of a map, and what its slope at one says of the other.
+/// \param light from where it comes: w 0 for a direction
 void expectSlope(
-    const dmat4& clipFromWorld, const dvec3& from, const dvec3& along, const dvec3& across
+    const extract::LightView& view,
+    const dvec4& light,
+    const dvec3& from,
+    const dvec3& along,
+    const dvec3& across
 ) {
+    const dvec3 toLight = glm::normalize(dvec3(light) - light.w * from);
+    dvec3 normal = glm::normalize(glm::cross(along, across));
+    if (glm::dot(normal, toLight) < 0.0)
+        normal = -normal;
     const vec2 slope = planeSlope(
-        vec4(clipFromWorld * dvec4(from, 1.0)),
-        vec4(clipFromWorld * dvec4(along, 0.0)),
-        vec4(clipFromWorld * dvec4(across, 0.0)),
-        kSize
+        vec4(view.clipFromWorld * dvec4(from, 1.0)),
+        vec4(view.clipFromWorld * dvec4(normal, 0.0)),
+        float(glm::dot(normal, toLight)),
+        float(view.texelMetres),
+        kSize,
+        view.isPerspective
     );
-    const ShadowPlace here = placeAt(clipFromWorld, from);
+    const ShadowPlace here = placeAt(view.clipFromWorld, from);
     for (const dvec3& way : {along, across, along + across}) {
-        const ShadowPlace there = placeAt(clipFromWorld, from + 0.3 * way);
+        const ShadowPlace there = placeAt(view.clipFromWorld, from + 0.3 * way);
         ASSERT_TRUE(there.isCovered);
         EXPECT_NEAR(here.depth + dot(slope, there.texel - here.texel), there.depth, 1e-5f);
     }
     EXPECT_GT(length(slope), 1e-6f);
 }
+
+/// A ball's, and that of a disc that lies level.
+const vec4 kBall[3] = {vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0)};
+const vec4 kDisc[3] = {vec4(1, 0, 0, 0), vec4(0, 2500, 0, 0), vec4(0, 0, 1, 0)};
 
 } // namespace
 
@@ -51,24 +66,39 @@ TEST(ShadowFilter, WeightsSumToOneAndAreEvenAtTheCentre) {
 }
 
 TEST(ShadowFilter, ASlopeIsExactOnAPlaneWhateverTheView) {
-    const extract::LightView layer =
-        extract::fitLayer(glm::normalize(dvec3(0.3, 1.0, 0.2)), {{0, 0, 0}, 2.0}, kSize);
-    expectSlope(layer.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0, 0}, {0, 0, 1});
-    expectSlope(layer.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0.5, 0}, {0, 0.2, 1});
+    const dvec3 toLight = glm::normalize(dvec3(0.3, 1.0, 0.2));
+    const extract::LightView layer = extract::fitLayer(toLight, {{0, 0, 0}, 2.0}, kSize);
+    const dvec3 from(0.1, 0.0, 0.2);
+    expectSlope(layer, dvec4(toLight, 0.0), from, {1, 0, 0}, {0, 0, 1});
+    expectSlope(layer, dvec4(toLight, 0.0), from, {1, 0.5, 0}, {0, 0.2, 1});
     const extract::LightView spot =
         extract::fitSpot({0, 5, 1}, glm::normalize(dvec3(0.1, -1, 0)), 0.7, 0.01, kSize);
-    expectSlope(spot.clipFromWorld, {0.1, 0.0, 0.2}, {1, 0.3, 0}, {0, 0.2, 1});
+    expectSlope(spot, {0, 5, 1, 1}, from, {1, 0.3, 0}, {0, 0.2, 1});
 }
 
 TEST(ShadowFilter, APlaneSeenFromItsEdgeHasNoSlope) {
     const extract::LightView layer = extract::fitLayer({0, 1, 0}, {{0, 0, 0}, 2.0}, kSize);
-    const vec2 slope = planeSlope(
-        vec4(layer.clipFromWorld * dvec4(0, 0, 0, 1)),
-        vec4(layer.clipFromWorld * dvec4(1, 0, 0, 0)),
-        vec4(layer.clipFromWorld * dvec4(0, 1, 0, 0)),
-        kSize
-    );
-    EXPECT_EQ(slope, vec2(0.0f));
+    for (const float cosine : {0.0f, -0.5f, std::numeric_limits<float>::quiet_NaN()}) {
+        const vec2 slope = planeSlope(
+            vec4(layer.clipFromWorld * dvec4(0, 0, 0, 1)),
+            vec4(layer.clipFromWorld * dvec4(0, 0, 1, 0)),
+            cosine,
+            float(layer.texelMetres),
+            kSize,
+            false
+        );
+        EXPECT_EQ(slope, vec2(0.0f));
+    }
+}
+
+TEST(ShadowFilter, EdgesAreMadeSharperWhereTexelsAreLargerThanPixelsAndStayWhereTheyAre) {
+    EXPECT_EQ(sharpenEdge(0.5f, 0.1f), 0.5f);
+    EXPECT_EQ(sharpenEdge(0.3f, 4.0f), 0.3f) << "texels are smaller than pixels";
+    EXPECT_NEAR(sharpenEdge(0.4f, 0.1f), 0.5f - 0.1f * kMostEdgeContrast, 1e-6f);
+    for (const float texels : {0.0f, 0.1f, 1.0f, 10.0f}) {
+        EXPECT_EQ(sharpenEdge(0.0f, texels), 0.0f);
+        EXPECT_EQ(sharpenEdge(1.0f, texels), 1.0f);
+    }
 }
 
 TEST(ShadowFilter, PlacesOutsideOfAMapAreNotCovered) {
@@ -90,9 +120,10 @@ TEST(ShadowFilter, EmptyTexelsHoldNoLightBackEvenBehindTheMapsReach) {
 TEST(ShadowFilter, AMoverThatOnlyWentElsewhereKeepsItsRay) {
     const vec3 light = normalize(vec3(0.2f, 1.0f, 0.1f));
     const vec3 point(1.0f, -2.0f, 0.5f);
-    const vec3 aligned = alignRay(point, light, light, vec3(0.3f, 1.0f, 0.0f));
+    const vec3 aligned = alignRay(point, light, light, vec3(0.3f, 1.0f, 0.0f), kBall);
     EXPECT_NEAR(length(aligned - point), 0.0f, 1e-5f);
-    const vec4 byPoint = alignPointRay(point, vec3(0, 5, 0), vec3(0, 5, 0), vec3(0.3f, 1.0f, 0.0f));
+    const vec4 byPoint =
+        alignPointRay(point, vec3(0, 5, 0), vec3(0, 5, 0), vec3(0.3f, 1.0f, 0.0f), kDisc);
     EXPECT_EQ(byPoint.w, 1.0f);
     EXPECT_NEAR(length(vec3(byPoint) - point), 0.0f, 1e-5f);
 }
@@ -102,13 +133,34 @@ TEST(ShadowFilter, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
     const vec3 turned = normalize(vec3(0.1f, 1.0f, 0.0f));
     const vec3 centre(0.0f);
     // Through the middle, from far below.
-    const vec3 aligned = alignRay(-8.0f * turned, turned, light, centre);
+    const vec3 aligned = alignRay(-8.0f * turned, turned, light, centre, kBall);
     EXPECT_NEAR(aligned.x, 0.0f, 1e-5f);
     EXPECT_NEAR(aligned.y, -8.0f, 1e-4f);
 }
 
+TEST(ShadowFilter, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
+    // The disc has turned under the light; the ray passes it off its middle.
+    const vec3 light(0.0f, 1.0f, 0.0f);
+    const vec3 turned = normalize(vec3(0.8f, 1.0f, 0.3f));
+    const vec3 passed(0.7f, 0.0f, -0.4f);
+    const vec3 aligned = alignRay(passed - 5.0f * turned, turned, light, vec3(0.0f), kDisc);
+    EXPECT_NEAR(aligned.x, passed.x, 2e-3f);
+    EXPECT_NEAR(aligned.z, passed.z, 2e-3f);
+    const vec3 lamp(0.2f, 4.0f, 0.1f);
+    const vec3 seen(-1.0f, 3.5f, 0.4f);
+    const vec3 receiver = seen + 1.6f * (passed - seen);
+    const vec4 byPoint = alignPointRay(receiver, seen, lamp, vec3(0.0f), kDisc);
+    ASSERT_EQ(byPoint.w, 1.0f);
+    // Where the ray from the lamp through the aligned point is level with the disc.
+    const vec3 aligned2(byPoint);
+    const float share = lamp.y / (lamp.y - aligned2.y);
+    const vec3 met = lamp + (aligned2 - lamp) * share;
+    EXPECT_NEAR(met.x, passed.x, 5e-3f);
+    EXPECT_NEAR(met.z, passed.z, 5e-3f);
+}
+
 TEST(ShadowFilter, WhatIsBehindAPointLightIsNotLookedUp) {
-    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0)).w, 0.0f);
+    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0), kBall).w, 0.0f);
 }
 
 TEST(ShadowFilter, ARayMeetsSpheresBetweenItsEndsAlone) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Casters that move: where they and what lights see of them are over the exposure. Pure, in world
+// space.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_view.h"
+#include "engine/extract/shadow_views.h"
+#include "engine/math/math.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Most parts of the exposure that have layers of their own.
+inline constexpr uint32_t kMaxExposureParts = 8;
+
+/// Something that moves and casts shadows.
+struct ShadowCaster {
+    uint32_t row = 0;      ///< of the entity table
+    Sphere sphere;         ///< at the raster instant; of what deforms, around its other shapes too
+    double seenSize = 0.0; ///< radius over distance from the camera
+    /// The form whose unit ellipsoid is the caster's box, but for a factor (ShadowMover::shape).
+    math::dmat3 shape{1.0};
+    bool deforms = false; ///< during the exposure
+};
+
+/// \param bounds object space, raster instant
+/// \param eye of the camera
+[[nodiscard]] ShadowCaster makeShadowCaster(
+    const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row, const math::dvec3& eye
+);
+
+/// A caster at one instant of the exposure.
+struct CasterInstant {
+    /// Takes points to where they are as seen from the caster at the raster instant.
+    math::dmat4 rasterFromInstant{1.0};
+    float shapeShift = 0.0f; ///< shader::ShadowDraw's
+};
+
+/// A caster over the exposure; no instants where it stands still.
+struct CasterPath {
+    std::vector<CasterInstant> instants; ///< of equal shares of the light
+    Sphere swept;                        ///< around the caster at all of them
+};
+
+/// \param count of instants, above 0
+[[nodiscard]] CasterPath followCaster(
+    const ShadowCaster& caster,
+    const FrameView& view,
+    const ExtractedFrame& frame,
+    const scene::ShutterResponse& response,
+    uint32_t count
+);
+
+/// A light as casters see it: the way to it (w 0, unit) or its place (w 1).
+using LightPlace = math::dvec4;
+
+/// The same as a caster sees it that moved.
+[[nodiscard]] LightPlace seeLight(const math::dmat4& rasterFromInstant, const LightPlace& light);
+
+/// Parts of the exposure by which the caster's outline has to be drawn anew, as it turns before one
+/// of the lights or deforms: 0, or 2 to kMaxExposureParts and at most as many as there are
+/// instants.
+[[nodiscard]] uint32_t
+countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const LightPlace> lights);
+
+} // namespace shutter::extract
