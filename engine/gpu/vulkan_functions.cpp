@@ -17,20 +17,20 @@ namespace gpu {
 
 namespace {
 
-/// The name of the loader, by its interface's version.
+/// The name of the loader, by its interface's version, and what brings it.
 #ifdef _WIN32
 constexpr const char* kLoader = "vulkan-1.dll";
+constexpr const char* kSource = "a driver of the graphics card";
 #else
 constexpr const char* kLoader = "libvulkan.so.1";
+constexpr const char* kSource = "package libvulkan1";
 #endif
 
 core::Status findAll() {
     // Never closed: drivers and layers leave threads and handlers of their own.
     const core::Result<void*> loader = core::openLibrary(kLoader);
     if (!loader)
-        return core::makeError(
-            "there is no Vulkan: {} (package libvulkan1)", loader.error().message
-        );
+        return core::makeError("there is no Vulkan: {} ({})", loader.error().message, kSource);
 #define SHUTTER_FIND(name)                                                                         \
     vk##name = reinterpret_cast<PFN_vk##name>(core::findFunction(loader.value(), "vk" #name));     \
     if (!vk##name)                                                                                 \
