@@ -65,7 +65,8 @@ main() {
     [[ -n ${2:-} ]] || return 0
     # Its one lamp is inside of a closed mesh and the sky outside: neither would light it.
     light=(--bloom 0.04)
-    draw_pair lit_pink_room "$2" --time 0.2 --exposure 0.04
+    draw_pair lit_pink_room "$2" --time 0.2 --exposure 0.04 --clip vase_slide_linear \
+        --clip cushion_spin_linear --clip twigs_sway_linear --clip ball_bounce_and_grow
 }
 
 main "$@"

@@ -121,20 +121,26 @@ void addSquare(GltfWriter& writer) {
     Shape hedge;
     for (const float x : {-1.0f, 1.0f})
         append(hedge, box({0.6f, 1.0f, 22.0f}, 1.0f), moved({x * 15.0f, 1.0f, -6.0f}));
-    append(hedge, box({15.0f, 1.0f, 0.6f}, 1.0f), moved({0.0f, 1.0f, -16.0f}));
+    // All round, so that no flight sees the end of the world.
+    for (const float z : {-16.0f, 16.0f})
+        append(hedge, box({15.0f, 1.0f, 0.6f}, 1.0f), moved({0.0f, 1.0f, z}));
     Shape crowns;
     Shape trunks;
-    for (int i = 0; i < 16; ++i) {
-        const float size = 1.5f + hash(i, 0, 391);
-        const vec3 foot(
-            -22.0f + 2.9f * static_cast<float>(i), 0.0f, -19.0f - 3.0f * hash(i, 1, 391)
-        );
+    const auto plantTree = [&](vec3 foot, float size) {
         append(
             crowns,
             withUvScale(sphere(1.0f, 10, 7), {4.0f, 3.0f}),
             glm::scale(moved(foot + kY * (2.1f * size)), size * vec3(1.0f, 1.15f, 1.0f))
         );
         append(trunks, cylinder(0.16f * size, 2.4f, 7), moved(foot + kY * 1.2f));
+    };
+    for (int i = 0; i < 16; ++i) {
+        const float x = -22.0f + 2.9f * static_cast<float>(i);
+        plantTree({x, 0.0f, -19.0f - 3.0f * hash(i, 1, 391)}, 1.5f + hash(i, 0, 391));
+    }
+    for (int i = 0; i < 12; ++i) {
+        const float x = -22.0f + 4.0f * static_cast<float>(i);
+        plantTree({x, 0.0f, 19.0f + 3.0f * hash(i, 3, 391)}, 1.3f + hash(i, 2, 391));
     }
     Shape posts;
     Shape globes;
