@@ -6,6 +6,7 @@
 #include "engine/io/process.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <sstream>
 #include <system_error>
