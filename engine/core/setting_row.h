@@ -198,7 +198,7 @@ template <class Owner>
 template <class Owner>
 [[nodiscard]] Status
 validateRows(SettingRows<Owner> rows, const Owner& owner, std::string_view prefix) {
-    for (const SettingRow<Owner>& row : rows)
+    for (const SettingRow<Owner>& row : rows) {
         if (isNumber(row) && !contains(row.range, getNumber(row, owner)))
             return makeError(
                 "{}{} is {}, it must be {}",
@@ -207,6 +207,16 @@ validateRows(SettingRows<Owner> rows, const Owner& owner, std::string_view prefi
                 getNumber(row, owner),
                 describeRange(row.range, row.unit)
             );
+        const auto* words = std::get_if<WordField<Owner>>(&row.field);
+        if (words && words->get(owner) >= words->words.size())
+            return makeError(
+                "{}{} is the value {}, it must be {}",
+                prefix,
+                row.name,
+                words->get(owner),
+                describeValues(row)
+            );
+    }
     return {};
 }
 

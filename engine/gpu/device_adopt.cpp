@@ -20,6 +20,10 @@ core::Status Device::adoptHost(const HostDevice& host) {
     if (!host.physical || !host.device)
         return core::makeError("host device: {} is null", host.physical ? "device" : "physical");
     SHUTTER_TRY(loadVulkan());
+    // A driver hides the functions of versions that the instance was not made for.
+    if (!vkGetDeviceProcAddr(host.device, "vkCmdPipelineBarrier2"))
+        return core::makeError("host device: the instance is not made for Vulkan 1.3 "
+                               "(VkApplicationInfo::apiVersion)");
     mInfo = describeDevice(host.physical);
     const bool hasTier = host.rayTier == RayTier::None ||
                          (host.rayTier == RayTier::RayQuery && mInfo.hasRayQuery) ||
@@ -34,6 +38,18 @@ core::Status Device::adoptHost(const HostDevice& host) {
     mDevice = host.device;
     mHasDebugUtils = host.hasDebugUtils;
     loadFunctions();
+    if (host.rayTier != RayTier::None && !mFunctions.createAccelerationStructure)
+        return core::makeError(
+            "host device: rayTier is {}, but the device is made without "
+            "VK_KHR_acceleration_structure",
+            describe(host.rayTier)
+        );
+    if (host.rayTier == RayTier::Pipeline && !mFunctions.createRayTracingPipelines)
+        return core::makeError(
+            "host device: rayTier is {}, but the device is made without "
+            "VK_KHR_ray_tracing_pipeline",
+            describe(host.rayTier)
+        );
     loadLimits();
     createSamplers();
     mOwnsPipelineCache = host.pipelineCache == VK_NULL_HANDLE;

@@ -37,14 +37,23 @@ Frame::Frame(Device& device) : Frame(device, ForHost{}) {
     require(
         vkAllocateCommandBuffers(device.handle(), &commands, mBuffers.data()), "creating a frame"
     );
+    mTimestampBits = device.timestampBits();
+    createQueries();
+}
+
+void Frame::createQueries() {
     VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = 2 * kMaxSpans;
-    require(vkCreateQueryPool(device.handle(), &queries, nullptr, &mQueries), "creating a frame");
+    require(vkCreateQueryPool(mDevice.handle(), &queries, nullptr, &mQueries), "creating a frame");
 }
 
-std::unique_ptr<Frame> Frame::createForHost(Device& device) {
-    return std::unique_ptr<Frame>(new Frame(device, ForHost{}));
+std::unique_ptr<Frame> Frame::createForHost(Device& device, uint32_t timestampBits) {
+    std::unique_ptr<Frame> frame(new Frame(device, ForHost{}));
+    frame->mTimestampBits = timestampBits;
+    if (timestampBits > 0)
+        frame->createQueries();
+    return frame;
 }
 
 Frame::~Frame() {
@@ -59,6 +68,9 @@ void Frame::beginIn(VkCommandBuffer commands) {
     mDescriptors.reset();
     mSpans.clear();
     mCommands = commands;
+    // By command: hosts need not enable hostQueryReset.
+    if (mQueries)
+        vkCmdResetQueryPool(mCommands, mQueries, 0, 2 * kMaxSpans);
 }
 
 void Frame::begin() {
@@ -158,31 +170,39 @@ void Frame::endSpan() {
 }
 
 std::vector<PassTime> Frame::waitForTimes() {
-    SHUTTER_CHECK(mQueries != VK_NULL_HANDLE, "a host's frame takes no times");
+    SHUTTER_CHECK(mPool != VK_NULL_HANDLE, "a host waits for its frames itself");
     wait();
+    return readTimes(VK_QUERY_RESULT_WAIT_BIT);
+}
+
+std::vector<PassTime> Frame::findTimes() const {
+    return mQueries ? readTimes(0) : std::vector<PassTime>();
+}
+
+std::vector<PassTime> Frame::readTimes(VkQueryResultFlags flags) const {
     if (mSpans.empty())
         return {};
     std::vector<uint64_t> ticks(2 * mSpans.size());
-    require(
-        vkGetQueryPoolResults(
-            mDevice.handle(),
-            mQueries,
-            0,
-            static_cast<uint32_t>(ticks.size()),
-            ticks.size() * 8,
-            ticks.data(),
-            8,
-            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT
-        ),
-        "reading timestamps"
+    const VkResult read = vkGetQueryPoolResults(
+        mDevice.handle(),
+        mQueries,
+        0,
+        static_cast<uint32_t>(ticks.size()),
+        ticks.size() * 8,
+        ticks.data(),
+        8,
+        VK_QUERY_RESULT_64_BIT | flags
     );
+    if (read == VK_NOT_READY)
+        return {};
+    require(read, "reading timestamps");
     const double millisecondsPerTick = static_cast<double>(mDevice.limits().timestampPeriod) * 1e-6;
-    for (size_t i = 0; i < mSpans.size(); ++i)
-        mSpans[i].gpuMilliseconds =
-            static_cast<double>(countTicks(ticks[2 * i], ticks[2 * i + 1], mDevice.timestampBits())
-            ) *
+    std::vector<PassTime> times = mSpans;
+    for (size_t i = 0; i < times.size(); ++i)
+        times[i].gpuMilliseconds =
+            static_cast<double>(countTicks(ticks[2 * i], ticks[2 * i + 1], mTimestampBits)) *
             millisecondsPerTick;
-    return mSpans;
+    return times;
 }
 
 } // namespace shutter::gpu

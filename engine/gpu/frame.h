@@ -34,9 +34,11 @@ struct PassTime {
 class Frame {
   public:
     explicit Frame(Device& device);
-    /// One for command buffers of somebody else (beginIn), who submits them as well. Its spans are
-    /// labels alone: they take no times of the GPU.
-    [[nodiscard]] static std::unique_ptr<Frame> createForHost(Device& device);
+    /// One for command buffers of somebody else (beginIn), who submits them as well.
+    /// \param timestampBits that count of the queue's timestamps; 0: spans are labels alone, and
+    /// take no times of the GPU
+    [[nodiscard]] static std::unique_ptr<Frame>
+    createForHost(Device& device, uint32_t timestampBits = 0);
     ~Frame();
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
@@ -75,6 +77,9 @@ class Frame {
     void submit(const SubmitSemaphores& semaphores = {});
     /// Waits for the GPU, then returns the times of the spans in the order they were recorded.
     [[nodiscard]] std::vector<PassTime> waitForTimes();
+    /// One for a host: the same without waiting. The GPU must have run what was recorded; empty: it
+    /// has not, or no times are taken.
+    [[nodiscard]] std::vector<PassTime> findTimes() const;
     /// Waits for this frame's submission.
     void wait();
 
@@ -83,13 +88,18 @@ class Frame {
 
     Frame(Device& device, ForHost) : mDevice(device), mDescriptors(device) {}
 
+    void createQueries();
+    /// Empty: they are not there, and `flags` do not wait for them.
+    [[nodiscard]] std::vector<PassTime> readTimes(VkQueryResultFlags flags) const;
+
     Device& mDevice;
     // Null for a host.
     VkCommandPool mPool = VK_NULL_HANDLE;
     VkCommandBuffer mCommands = VK_NULL_HANDLE; ///< that is being recorded
     std::array<VkCommandBuffer, 2> mBuffers{};  ///< one a batch
     size_t mBatches = 1;
-    VkQueryPool mQueries = VK_NULL_HANDLE;
+    VkQueryPool mQueries = VK_NULL_HANDLE; ///< null: no times are taken
+    uint32_t mTimestampBits = 0;
     DescriptorArena mDescriptors;
     std::vector<PassTime> mSpans;
     double mSpanStartCpuMs = 0.0;

@@ -326,7 +326,7 @@ void Image::createView() {
     info.format = mDesc.format;
     // Shaders sample one aspect, and nothing here reads a stencil.
     const VkImageAspectFlags aspect = aspectOf(mDesc.format) & ~VK_IMAGE_ASPECT_STENCIL_BIT;
-    info.subresourceRange = {aspect, 0, mDesc.mipLevels, 0, 1};
+    info.subresourceRange = {aspect, 0, mDesc.mipLevels, mDesc.layer, 1};
     require(vkCreateImageView(mDevice->handle(), &info, nullptr, &mView), "creating a view");
 }
 

@@ -38,6 +38,7 @@
     X(CmdFillBuffer)                                                                               \
     X(CmdPipelineBarrier2)                                                                         \
     X(CmdPushConstants)                                                                            \
+    X(CmdResetQueryPool)                                                                           \
     X(CmdSetCullMode)                                                                              \
     X(CmdSetFrontFace)                                                                             \
     X(CmdSetScissor)                                                                               \

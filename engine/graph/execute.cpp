@@ -57,11 +57,7 @@ VkImageMemoryBarrier2 fill(const ImageBarrier& barrier, const gpu::Image& image)
     out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     out.image = image.handle();
     out.subresourceRange = {
-        gpu::aspectOf(image.desc().format),
-        0,
-        VK_REMAINING_MIP_LEVELS,
-        0,
-        VK_REMAINING_ARRAY_LAYERS};
+        gpu::aspectOf(image.desc().format), 0, VK_REMAINING_MIP_LEVELS, image.desc().layer, 1};
     return out;
 }
 
