@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/methods.h"
 
+#include "modules/motion_blur/presets.h"
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace shutter::game {
 
@@ -64,12 +65,6 @@ bool canRun(const MethodInfo& method, const gpu::DeviceInfo& device) {
     return false;
 }
 
-motion_blur::MotionBlurSettings makePerformance() {
-    motion_blur::MotionBlurSettings blur;
-    blur.sampleCount = 9;
-    return blur;
-}
-
 } // namespace
 
 std::span<const MethodInfo> listMethods() {
@@ -100,24 +95,25 @@ core::Result<const MethodInfo*> findMethod(std::string_view name) {
 }
 
 std::span<const Preset> listPresets() {
-    static const std::vector<Preset> kPresets = {
-        {"off", "no motion blur: the raster image", "sharp", {}},
-        {"performance", "fewer instants", "resolved", makePerformance()},
-        {"balanced", "no rays", "resolved", {}},
-        {"quality", "rays where the raster images do not suffice", "adaptive", {}},
-        {"paper", "with the numbers of the publication", "hybrid", motion_blur::paperSettings()},
-    };
+    static const std::vector<Preset> kPresets = [] {
+        std::vector<Preset> presets;
+        for (const motion_blur::Preset& preset : motion_blur::listPresets())
+            presets.push_back(
+                {preset.name,
+                 preset.description,
+                 preset.isOff ? "sharp" : preset.settings.method->name,
+                 preset.settings}
+            );
+        return presets;
+    }();
     return kPresets;
 }
 
 core::Result<const Preset*> findPreset(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (const Preset& preset : listPresets()) {
-        if (name == preset.name)
-            return &preset;
-        names.emplace_back(preset.name);
-    }
-    return core::makeError("--preset '{}' is unknown; there are {}", name, fmt::join(names, ", "));
+    const auto known = motion_blur::findPreset(name);
+    if (!known)
+        return core::makeError("--preset {}", known.error().message);
+    return &listPresets()[known.value() - motion_blur::listPresets().data()];
 }
 
 PassGroup groupOf(const MethodInfo& method, render::PassOwner owner) {

@@ -22,6 +22,14 @@ namespace shutter::motion_blur {
 
 class RasterHistory;
 struct OwnReveal;
+struct OwnSamples;
+
+/// The raster of the frame before, as that frame's inputs were.
+struct LentRaster {
+    graph::ImageHandle color;       ///< RGBA16F, sharp
+    graph::ImageHandle motionDepth; ///< RGBA32F
+    graph::ImageHandle entityId;    ///< R32_UINT
+};
 
 /// A raster of the world at the other end of the exposure, with entity ids of its own.
 struct SecondRaster {
@@ -35,9 +43,10 @@ struct SecondRaster {
 struct InstantMotions {
     VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
     uint32_t instantCount = 0; ///< countInstants() (settings.h)
-    bool hasLast = false;      ///< of the raster that `history` keeps, too
+    bool hasLast = false;      ///< of the raster that `history` keeps or `lent` is, too
     /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
     RasterHistory* history = nullptr;
+    std::optional<LentRaster> lent;     ///< in place of `history`, which is null then
     std::optional<SecondRaster> second; ///< `table` says where its surfaces are seen, too
 };
 
@@ -51,8 +60,10 @@ struct MotionBlurInputs {
     /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS nothing but
     /// sky lies behind what moves and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;
-    const OwnReveal* reveal = nullptr;            ///< in place of `rays`; it must outlive the graph
-    std::optional<graph::TimedRays> timedRays;    ///< for methods of RayNeed::Query (CHECKed)
+    const OwnReveal* reveal = nullptr; ///< in place of `rays`; it must outlive the graph
+    /// For methods of RayNeed::Query (CHECKed), unless `samples` is there.
+    std::optional<graph::TimedRays> timedRays;
+    const OwnSamples* samples = nullptr; ///< in place of `timedRays`; it must outlive the graph
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
     int64_t frameNumber = 0;
@@ -64,7 +75,7 @@ struct MotionBlurInputs {
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.
     bool colorIsWritable = false;
-    /// Index of the frame in flight, below gpu::kMaxFramesInFlight: the GPU must be done with the
+    /// Index of the frame in flight, below kMostSlots (params.h): the GPU must be done with the
     /// slot's last frame.
     uint32_t slot = 0;
     /// Image that gets the blurred picture: one with storage and transfer usage that is no other

@@ -110,6 +110,20 @@ const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     return raster;
 }
 
+void RasterHistory::imagine(glm::uvec2 sizePx) {
+    // A handle of nothing: transfers alone need no view of it.
+    const auto image = reinterpret_cast<VkImage>(uintptr_t{1});
+    gpu::ImageDesc desc{sizePx.x, sizePx.y, VK_FORMAT_R16G16B16A16_SFLOAT};
+    desc.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    for (Raster& raster : mRasters) {
+        desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+        raster.color = gpu::Image::adopt(mDevice, "kept colour", image, desc);
+        desc.format = VK_FORMAT_R32G32_UINT;
+        raster.surface = gpu::Image::adopt(mDevice, "kept surface", image, desc);
+    }
+    mHasContents = true;
+}
+
 void RasterHistory::forget() {
     mRasters = {};
     mHasContents = false;

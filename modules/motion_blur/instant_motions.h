@@ -40,6 +40,9 @@ class RasterHistory {
     /// next call.
     [[nodiscard]] const Raster& turn(glm::uvec2 sizePx);
 
+    /// Two rasters that have no memory, for graphs that are compiled and never run.
+    void imagine(glm::uvec2 sizePx);
+
     /// Nothing is kept any more, nor memory for it once the GPU is done with it.
     void forget();
 

@@ -17,7 +17,7 @@ struct MotionBlur::Parts {
     VkDescriptorSetLayout sceneLayout;
     SharedPasses shared;
     std::map<const Method*, std::unique_ptr<MethodPasses>> passes;
-    std::array<const Method*, gpu::kMaxFramesInFlight> declared{}; ///< by slot
+    std::array<const Method*, kMostSlots> declared{}; ///< by slot
 };
 
 MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
@@ -38,7 +38,7 @@ MotionBlurOutputs MotionBlur::add(
         method.name
     );
     SHUTTER_CHECK(
-        method.rays != RayNeed::Query || !inputs.wantsPicture ||
+        method.rays != RayNeed::Query || !inputs.wantsPicture || inputs.samples ||
             (hasRays && mParts->device.hasRayQuery() && inputs.timedRays),
         "the method {} needs timed rays, by ray queries",
         method.name

@@ -13,6 +13,10 @@
 
 namespace shutter::motion_blur {
 
+/// How many frames may be under way, each with counters of its own: a host's frames in flight times
+/// its views.
+inline constexpr uint32_t kMostSlots = 64;
+
 /// Push constants of every pass: what all read and, behind it, the method's own block.
 struct PassParams : shader::MotionBlurParams {
     static constexpr size_t kMethodBytes = 64;

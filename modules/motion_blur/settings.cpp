@@ -284,6 +284,9 @@ uint32_t countInstants(const MotionBlurSettings& settings) {
 core::Status validate(const MotionBlurSettings& settings) {
     if (!settings.method)
         return core::makeError("motion blur: method is null");
+    const auto methods = listMethods();
+    if (std::find(methods.begin(), methods.end(), settings.method) == methods.end())
+        return core::makeError("motion blur: method is none of listMethods()");
     return core::validateRows(listSettingRows(), settings, "motion blur: ");
 }
 

@@ -17,58 +17,10 @@ layout(push_constant, scalar) uniform Push {
     ResolvedParams method;
 };
 
-#include "motion_blur/resolved_search.glsl"
+#include "motion_blur/resolved_rays.glsl"
 
 layout(binding = 16, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
 layout(binding = 17) uniform accelerationStructureEXT uScene;
-
-/// Share of the samples of each class that the frame's rays are enough for, the most harmful first.
-void shareRays(out float shares[kSampleClasses]) {
-    float left = method.rayLimit == kNoRayLimit ? kFarthest : float(method.rayLimit);
-    for (uint i = 0u; i < kSampleClasses; ++i) {
-        float wanted = float(uCounters.classes[i]);
-        shares[i] = wanted > 0.0f ? saturate(left / wanted) : 0.0f;
-        left = max(left - wanted, 0.0f);
-    }
-}
-
-/// The same samples in every frame of the same numbers, spread over the picture.
-bool isTraced(ivec2 pixel, uint index, float share) {
-    return share >= 1.0f || unitFloat(hashPixel(uvec2(pixel), index, 0u)) < share;
-}
-
-/// In the tables.
-uint instantOf(PixelSearch search, uint index) { return index * method.setCount + search.set; }
-
-/// What is known of a pixel's samples.
-struct Mean {
-    vec3 sum;
-    uint known;
-};
-
-/// Adds those of 32 samples that are not traced. \return those that are, a bit each
-uint addGuesses(
-    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
-    inout Mean mean
-) {
-    uint traced = 0u;
-    for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
-        Doubt doubt = kNoDoubt;
-        Seen seen = searchInstant(search, instantOf(search, first + i), guesses, doubt);
-        vec3 color = vec3(0.0f);
-        if (seen.isFound)
-            color = colorOf(seen);
-        else if (doubt.hasBeside)
-            color = fetchColor(kRasterLayer, doubt.beside);
-        if (isTraced(pixel, first + i, shares[classify(seen, color, doubt)])) {
-            traced |= 1u << i;
-        } else if (seen.isFound || doubt.hasBeside) {
-            mean.sum += color;
-            ++mean.known;
-        }
-    }
-    return traced;
-}
 
 void main() {
     uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +
@@ -77,10 +29,7 @@ void main() {
     float shares[kSampleClasses];
     shareRays(shares);
     uvec2 entry = uListed[index];
-    bool hasRays = false;
-    for (uint i = 0u; i < kSampleClasses; ++i)
-        hasRays = hasRays || ((entry.y >> i & 1u) != 0u && shares[i] > 0.0f);
-    if (!hasRays) return;
+    if (!mayTrace(entry.y, shares)) return;
     ivec2 pixel = ivec2(entry.x & 0xFFFFu, entry.x >> 16);
     PixelSearch search = beginSearch(pixel);
     Guesses guesses = beginGuesses(search);

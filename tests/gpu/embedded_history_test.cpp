@@ -4,12 +4,14 @@
 #include "engine/gpu/frame.h"
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/support/picture.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -111,6 +113,11 @@ class EmbeddedHistory : public test::EmbeddedTest {
         in.motion.rowCount = 1;
         in.motion.view = frame.view;
         in.motion.followsLast = frame.followsLast;
+        if (mLent)
+            in.last = {
+                {mLent->color.handle(), kSampled, kSampled},
+                {mLent->motionDepth.handle(), kSampled, kSampled},
+                {mLent->entityId.handle(), kSampled, kSampled}};
         MotionBlurSettings settings;
         settings.method = &getMethod(frame.method);
         settings.history = frame.history;
@@ -177,6 +184,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
     std::unique_ptr<EmbeddedMotionBlur> mBlur;
     std::vector<std::unique_ptr<InFlight>> mFrames;
     std::vector<motion_blur::HostMover> mMovers; ///< of all frames
+    const PannedFrame* mLent = nullptr;          ///< the frame before, whose images are lent
 };
 
 TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereTheHostSaysSo) {
@@ -186,6 +194,27 @@ TEST_F(EmbeddedHistory, TheFrameBeforeIsLookedUpWhereTheHostSaysSo) {
     EXPECT_FALSE(looksBack({.brightness = 4.0f, .followsLast = false})) << "a cut";
     drawFirst();
     EXPECT_FALSE(looksBack({.brightness = 4.0f, .history = false}));
+}
+
+TEST_F(EmbeddedHistory, AFrameThatIsLentGivesTheBitsOfOneThatIsKept) {
+    const auto drawSecond = [&](bool lends) {
+        SetUp(); // an effect that holds nothing yet
+        submit({.brightness = 1.0f, .followsLast = false, .index = 0}, 0);
+        mFrames.back()->frame.wait();
+        mLent = lends ? &mFrames.back()->host : nullptr;
+        submit({.brightness = 4.0f}, 1);
+        mFrames.back()->frame.wait();
+        image::Image picture = mFrames.back()->host.picture.read();
+        mLent = nullptr;
+        mFrames.clear();
+        EXPECT_TRUE(mBlur->markDone(0).ok() && mBlur->markDone(1).ok());
+        return std::pair(std::move(picture), mBlur->living());
+    };
+    const auto [kept, living] = drawSecond(false);
+    const auto [lent, livingWithout] = drawSecond(true);
+    EXPECT_TRUE(test::sameBits(lent, kept));
+    EXPECT_NE(*std::min_element(kept.pixels.begin(), kept.pixels.end()), 4.0f) << "it is looked up";
+    EXPECT_LT(livingWithout.images, living.images) << "what the first frame kept is gone";
 }
 
 TEST_F(EmbeddedHistory, TheFirstFrameHasNoneWhateverTheHostSays) {
@@ -227,7 +256,7 @@ TEST_F(EmbeddedHistory, ARecordingThatIsNeverSubmittedMayBeLeftBehind) {
     dropped.frame.begin();
     dropped.host.recordClears(dropped.frame.commands(), 1.0f, 0);
     EXPECT_TRUE(record(dropped.frame.commands(), 1, {}, dropped.host.inputs()).ok());
-    mBlur->markDone(1);
+    EXPECT_TRUE(mBlur->markDone(1).ok());
     EXPECT_FALSE(looksBack({.brightness = 4.0f, .followsLast = false}));
     drawFirst();
     EXPECT_TRUE(looksBack({.brightness = 4.0f}));
@@ -289,7 +318,7 @@ TEST_F(EmbeddedHistory, AClosedViewLeavesNothingBehind) {
     const gpu::LivingObjects before = mBlur->living();
     (void)draw({.brightness = 1.0f, .view = 2});
     EXPECT_EQ(mBlur->living().images, before.images + 2);
-    mBlur->closeView(2);
+    EXPECT_TRUE(mBlur->closeView(2).ok());
     drawFirst();
     drawFirst(); // once the frames before are done
     EXPECT_LE(mBlur->living().images, before.images + 2) << "view 0 has two rasters by now";

@@ -8,6 +8,7 @@
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/gpu/gbuffer_host.h"
+#include "tests/gpu/motion_teller.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/picture.h"
 
@@ -19,12 +20,12 @@
 namespace shutter {
 namespace {
 
-using math::dmat4;
 using math::dvec3;
 using motion_blur::HostMotion;
 using motion_blur::InstantNoise;
 using motion_blur::MotionBlurSettings;
 using test::HostOfTheGBuffer;
+using test::Teller;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
@@ -38,87 +39,6 @@ MotionBlurSettings resolved(InstantNoise noise = InstantNoise::Off) {
     settings.instantNoise = noise;
     return settings;
 }
-
-/// The engine's own scene, as a host would tell of it.
-class Teller {
-  public:
-    /// \param times of the keys besides the raster instant; empty: the instants
-    explicit Teller(std::vector<double> times = {}) : mTimes(std::move(times)) {}
-
-    void tell(const render::PostContext& context, HostMotion& motion) {
-        const scene::ExposureInterval& exposure = context.view.exposure;
-        const scene::ExposureMotion moves(context.world, context.view.camera, exposure);
-        const std::vector<double> times = listTimes(exposure);
-        const auto& camera = context.world.registry.get<scene::Camera>(context.view.camera);
-        const double aspect = double(context.view.width) / context.view.height;
-        mKeys.clear();
-        for (const double s : times)
-            mKeys.push_back(
-                {s,
-                 glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s))),
-                 extract::makeProjection(camera, moves.cameraYFov(s), aspect)}
-            );
-        tellMovers(context.frame, moves, times, exposure.rasterTime);
-        mResponse = scene::computeResponseTable(exposure.shutter.response);
-        motion.keys = mKeys;
-        motion.rowCount = uint32_t(context.frame.worldFromObject.size());
-        motion.movers = mMovers;
-        motion.rowIds = mIds;
-        motion.response = mResponse ? &*mResponse : nullptr;
-        motion.followsLast = followsLast;
-    }
-
-    bool followsLast = false;
-    uint32_t instantCount = kInstants;
-    bool knowsMovers = true; ///< false: only which rows move, not how
-
-  private:
-    [[nodiscard]] std::vector<double> listTimes(const scene::ExposureInterval& exposure) const {
-        std::vector<double> times = mTimes;
-        if (times.empty())
-            for (uint32_t i = 0; i < instantCount; ++i)
-                times.push_back(
-                    scene::invertResponse(exposure.shutter.response, (i + 0.5) / instantCount)
-                );
-        if (std::find(times.begin(), times.end(), exposure.rasterTime) == times.end())
-            times.push_back(exposure.rasterTime);
-        std::sort(times.begin(), times.end());
-        return times;
-    }
-
-    /// All rows, whether they move or not.
-    void tellMovers(
-        const extract::ExtractedFrame& frame,
-        const scene::ExposureMotion& moves,
-        const std::vector<double>& times,
-        double rasterTime
-    ) {
-        const size_t rows = frame.worldFromObject.size();
-        mMovers.clear();
-        mIds.clear();
-        mMatrices.assign(rows, {});
-        for (uint32_t row = 0; row < rows; ++row) {
-            const ecs::Entity entity = frame.entityHandles[row];
-            mIds.push_back(uint64_t(entity.generation) << 32u | entity.index);
-            if (!knowsMovers && moves.mayObjectMove(entity))
-                mMovers.push_back({row, {}});
-            if (!knowsMovers)
-                continue;
-            for (const double s : times)
-                mMatrices[row].push_back(
-                    s == rasterTime ? frame.worldFromObject[row] : moves.worldFromObject(entity, s)
-                );
-            mMovers.push_back({row, mMatrices[row]});
-        }
-    }
-
-    std::vector<double> mTimes;
-    std::vector<motion_blur::HostCameraKey> mKeys;
-    std::vector<motion_blur::HostMover> mMovers;
-    std::vector<std::vector<dmat4>> mMatrices;
-    std::vector<uint64_t> mIds;
-    std::optional<shader::ResponseTable> mResponse;
-};
 
 /// Movers that cross before a wall, one of which spins, under a camera that goes and turns.
 class Scene : public test::SceneBuilder {
@@ -142,6 +62,7 @@ struct Drawn {
     image::Image plugin;
     image::Image output;
     image::Image inPlace;
+    image::Image byC;      ///< with the response of a box, whatever the frame has
     uint64_t fromLast = 0; ///< samples that the plugin found in the last frame's raster
 };
 
@@ -158,7 +79,8 @@ class Sequence {
     )
         : mScene(scene), mRenderer(device, scene.world.assets),
           mHost(device, blur, settings, {kWidth, kHeight}),
-          mPlugin(device, mRenderer.scene(), settings) {
+          mPlugin(device, mRenderer.scene(), settings), mC(device) {
+        mHost.blurOfC = mC.blur;
         mShutter.exposureSeconds = kFrameSeconds;
         mShutter.phase = phase;
         mHost.describeMotion = [&teller](const render::PostContext& context, HostMotion& motion) {
@@ -181,6 +103,7 @@ class Sequence {
             drawn.value().color,
             mHost.output.read(),
             mHost.inPlace.read(),
+            mHost.byC.read(),
             drawn.value().statistics.counters.at("samples from the last frame")};
     }
 
@@ -192,6 +115,7 @@ class Sequence {
     render::Renderer mRenderer;
     HostOfTheGBuffer mHost;
     motion_blur::MotionBlurPlugin mPlugin;
+    test::BlurOfC mC;
 };
 
 class EmbeddedInstants : public test::EmbeddedTest {
@@ -208,18 +132,21 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
             Scene scene;
             const auto blur = create(describeHost());
             ASSERT_TRUE(blur);
-            Teller teller;
+            Teller teller(kInstants);
             Sequence sequence(device(), scene, *blur, teller, phase);
             sequence.setResponse(shape);
+            const bool isBox = shape == scene::ResponseShape::Box;
             const Drawn first = sequence.draw(0);
             EXPECT_EQ(first.fromLast, 0u);
             expectSame(first);
+            EXPECT_EQ(test::sameBits(first.byC, first.plugin), isBox);
             teller.followsLast = true;
             scene::despawn(scene.world, scene.guest); // and all rows move up
             for (const int frame : {1, 2}) {
                 const Drawn next = sequence.draw(frame);
                 EXPECT_GT(next.fromLast, 0u);
                 expectSame(next);
+                EXPECT_EQ(test::sameBits(next.byC, next.plugin), isBox);
             }
         }
 }
@@ -230,8 +157,7 @@ TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
         const auto blur = create(describeHost());
         ASSERT_TRUE(blur);
         const MotionBlurSettings settings = resolved(noise);
-        Teller teller;
-        teller.instantCount = motion_blur::countInstants(settings);
+        Teller teller(motion_blur::countInstants(settings));
         Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End, settings);
         for (const int frame : {0, 1, 2}) {
             expectSame(sequence.draw(frame));
@@ -244,7 +170,7 @@ TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
     Scene scene;
     const auto blur = create(describeHost());
     ASSERT_TRUE(blur);
-    Teller teller({0.0, 0.5, 1.0});
+    Teller teller(0, {0.0, 0.5, 1.0});
     Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
     EXPECT_GT(image::computePsnr(sequence.draw(0).output, sequence.draw(0).plugin), 60.0);
     teller.followsLast = true;
@@ -258,7 +184,7 @@ TEST_F(EmbeddedInstants, MoversWithoutTransformsFollowTheirMotionVectors) {
     Scene scene;
     const auto blur = create(describeHost());
     ASSERT_TRUE(blur);
-    Teller teller({0.0, 0.5, 1.0});
+    Teller teller(0, {0.0, 0.5, 1.0});
     teller.knowsMovers = false;
     Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
     const Drawn drawn = sequence.draw(0);
@@ -272,7 +198,7 @@ TEST_F(EmbeddedInstants, AnOrthographicCameraIsTheSame) {
     scene.cameraSettings().yMag = 2.0;
     const auto blur = create(describeHost());
     ASSERT_TRUE(blur);
-    Teller teller;
+    Teller teller(kInstants);
     Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
     expectSame(sequence.draw(0));
     teller.followsLast = true;

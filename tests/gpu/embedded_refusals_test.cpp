@@ -105,7 +105,7 @@ TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
     expectRefusal(record(), "the method hybrid needs rays");
     settings.method = &getMethod("adaptive");
     settings.raysPerPixel = 0.0f;
-    expectRefusal(record(), "the method adaptive needs timed rays, which hosts cannot give");
+    expectRefusal(record(), "adaptive needs rays with times of their own");
 }
 
 TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {

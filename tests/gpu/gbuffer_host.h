@@ -6,6 +6,7 @@
 #include "engine/graph/graph.h"
 #include "engine/render/post_effect.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "tests/gpu/c_inputs.h"
 #include "tests/gpu/embedding_host.h"
 
 #include <cstdint>
@@ -22,6 +23,26 @@ inline VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
     return region;
 }
 
+/// An effect of the C interface on the device of the tests.
+class BlurOfC {
+  public:
+    explicit BlurOfC(const gpu::Device& device) {
+        ShutterBlurDevice described = shutterBlurDefaultDevice();
+        described.physical = device.physical();
+        described.device = device.handle();
+        described.queueFamily = device.queueFamily();
+        EXPECT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS)
+            << shutterBlurGetMessage();
+    }
+
+    ~BlurOfC() { shutterBlurDestroy(blur); }
+
+    BlurOfC(const BlurOfC&) = delete;
+    BlurOfC& operator=(const BlurOfC&) = delete;
+
+    ShutterBlur* blur = nullptr;
+};
+
 /// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
 /// they happen to have. Blurs it into another picture (view 0) and, a copy of it, in place (view
 /// 1); the frame goes on with what it was.
@@ -33,17 +54,22 @@ class HostOfTheGBuffer : public render::PostEffect {
         const motion_blur::MotionBlurSettings& settings,
         math::uvec2 sizePx
     )
-        : output(device, "output", sizePx), inPlace(device, "in place", sizePx), mBlur(blur),
-          mSettings(settings) {}
+        : output(device, "output", sizePx), inPlace(device, "in place", sizePx),
+          byC(device, "by C", sizePx), mBlur(blur), mSettings(settings) {}
 
     Picture output;
     Picture inPlace;
+    /// With it the C interface draws the same picture once more, under its number 0.
+    ShutterBlur* blurOfC = nullptr;
+    Picture byC;
     int64_t frameNumber = 0;
     /// Says how things move in the frame. What it points to must last until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
 
     /// Turns the rays that are handed in into a reveal of the host's own.
     std::function<void(motion_blur::HostInputs&)> takeRays;
+    /// Says whatever else the host hands in. What it points to must last until the frame has ended.
+    std::function<void(const render::PostContext&, motion_blur::HostInputs&)> changeInputs;
     /// Changes what rays meet. What it points to must last until the frame has ended.
     std::function<void(const render::PostContext&, motion_blur::HostRays&)> changeRays;
 
@@ -75,7 +101,10 @@ class HostOfTheGBuffer : public render::PostEffect {
             changeRays(context, inputs.rays);
         if (describeMotion)
             describeMotion(context, inputs.motion);
+        if (changeInputs)
+            changeInputs(context, inputs);
         using graph::Access;
+        const auto timed = context.timedRays;
         const graph::BufferHandle level =
             context.rays ? context.rays->tlasBuffer : graph::BufferHandle{};
         context.graph.addPass<Data>(
@@ -89,6 +118,10 @@ class HostOfTheGBuffer : public render::PostEffect {
                 data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
                 if (level.isValid())
                     builder.read(level, Access::AccelerationRead);
+                if (timed)
+                    for (const graph::BufferHandle buffer : {timed->tlasBuffer, timed->boxesBuffer})
+                        if (buffer.isValid())
+                            builder.read(buffer, Access::AccelerationRead);
                 builder.sideEffect();
             },
             [this, inputs, level](const Data& data, graph::PassContext& pass) {
@@ -116,6 +149,8 @@ class HostOfTheGBuffer : public render::PostEffect {
         const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
         ASSERT_TRUE(other.ok()) << other.error().message;
         output.recordReadback(commands);
+        if (blurOfC)
+            recordByC(commands, inputs);
 
         const VkImage color = inputs.color.image;
         moveOn(commands, color, kSampled, kCopied);
@@ -131,6 +166,23 @@ class HostOfTheGBuffer : public render::PostEffect {
         const core::Status same = mBlur.record(commands, 1, inputs, mSettings);
         ASSERT_TRUE(same.ok()) << same.error().message;
         inPlace.recordReadback(commands);
+    }
+
+    void recordByC(VkCommandBuffer commands, const motion_blur::HostInputs& inputs) {
+        motion_blur::HostInputs given = inputs;
+        given.output = {byC.handle(), kNothing, kCopied};
+        const InputsForC told(given);
+        ShutterBlurSettings settings = shutterBlurDefaultSettings();
+        settings.method = mSettings.method->name;
+        settings.sampleCount = mSettings.sampleCount;
+        const std::string rays = std::to_string(mSettings.raysPerPixel);
+        const ShutterBlurValue value{"raysPerPixel", rays.c_str()};
+        settings.values = &value;
+        settings.valueCount = 1;
+        ASSERT_EQ(
+            shutterBlurRecord(blurOfC, commands, 0, &told.inputs, &settings), SHUTTER_BLUR_SUCCESS
+        ) << shutterBlurGetMessage();
+        byC.recordReadback(commands);
     }
 
     motion_blur::EmbeddedMotionBlur& mBlur;

@@ -145,15 +145,18 @@ TEST_F(OwnReveal, RaysOfTheHostGiveTheBitsOfOurs) {
     request.view.height = kHeight;
     request.intermediates = {"mask"};
     HostOfTheGBuffer host(device(), *blur, hybrid(), {kWidth, kHeight});
+    const test::BlurOfC c(device());
+    host.blurOfC = c.blur;
     host.takeRays = [&](motion_blur::HostInputs& inputs) { rays.take(inputs); };
     motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), hybrid());
     const std::array<render::PostEffect*, 2> effects{&host, &plugin};
     const auto drawn = renderer.renderFrame(scene.world, request, effects);
     ASSERT_TRUE(drawn.ok()) << drawn.error().message;
-    EXPECT_EQ(rays.calls, 2u) << "once a recording";
+    EXPECT_EQ(rays.calls, 3u) << "once a recording";
     EXPECT_GT(test::countSet(drawn.value().intermediates.at("mask")), 50u);
     EXPECT_TRUE(test::sameBits(host.output.read(), drawn.value().color));
     EXPECT_TRUE(test::sameBits(host.inPlace.read(), drawn.value().color));
+    EXPECT_TRUE(test::sameBits(host.byC.read(), drawn.value().color));
 }
 
 } // namespace

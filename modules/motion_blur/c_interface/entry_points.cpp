@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace motion_blur = shutter::motion_blur;
 namespace core = shutter::core;
@@ -17,6 +18,10 @@ struct ShutterBlur {
     std::unique_ptr<motion_blur::EmbeddedMotionBlur> effect;
     uint32_t framesInFlight = 0;
     motion_blur::InputArrays arrays;
+    // What a report points to.
+    motion_blur::HostReport report;
+    std::vector<ShutterBlurPassTime> passes;
+    std::vector<ShutterBlurCounter> counters;
 };
 
 static_assert(SHUTTER_BLUR_VERSION == motion_blur::kHeaderVersion, "C and C++ have one version");
@@ -53,16 +58,10 @@ template <class Call> ShutterBlurResult guard(const Call& call) noexcept {
     }
 }
 
-core::Status checkNumber(const char* name, uint32_t number, uint32_t count) {
-    if (number < count)
-        return {};
-    return core::makeError("motion blur: {} is {}, framesInFlight {}", name, number, count);
-}
-
 /// The frame was not recorded: the next one has none before it.
 ShutterBlurResult refuseFrame(ShutterBlur& blur, const core::Error& error) {
     for (uint32_t view = 0; view < blur.framesInFlight; ++view)
-        blur.effect->closeView(view);
+        (void)blur.effect->closeView(view);
     return refuse(error);
 }
 
@@ -141,11 +140,12 @@ ShutterBlurResult shutterBlurRecord(
         const auto wanted = motion_blur::convert(settings);
         if (!wanted)
             return refuseFrame(*blur, wanted.error());
-        const auto given = motion_blur::convert(inputs, blur->arrays);
+        auto given = motion_blur::convert(inputs, blur->arrays);
         if (!given)
             return refuseFrame(*blur, given.error());
+        given.value().isOff = wanted.value().isOff;
         const core::Status done =
-            blur->effect->record(commands, frame, given.value(), wanted.value());
+            blur->effect->record(commands, frame, given.value(), wanted.value().settings);
         if (!done && blur->effect->hasLeftAPart())
             return fail(SHUTTER_BLUR_ERROR_FAILED, done.error().message.c_str());
         return finish(done);
@@ -156,10 +156,7 @@ ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame) {
     return guard([&] {
         if (!blur)
             return refuse({"motion blur: blur is null"});
-        if (const core::Status valid = checkNumber("frame", frame, blur->framesInFlight); !valid)
-            return refuse(valid.error());
-        blur->effect->markDone(frame);
-        return SHUTTER_BLUR_SUCCESS;
+        return finish(blur->effect->markDone(frame));
     });
 }
 
@@ -167,10 +164,7 @@ ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view) {
     return guard([&] {
         if (!blur)
             return refuse({"motion blur: blur is null"});
-        if (const core::Status valid = checkNumber("view", view, blur->framesInFlight); !valid)
-            return refuse(valid.error());
-        blur->effect->closeView(view);
-        return SHUTTER_BLUR_SUCCESS;
+        return finish(blur->effect->closeView(view));
     });
 }
 
@@ -185,6 +179,89 @@ ShutterBlurResult shutterBlurGetMemory(const ShutterBlur* blur, ShutterBlurMemor
         taken.value().blockCount = blur->effect->living().memoryBlocks;
         taken.value().bytes = blur->effect->living().memoryBytes;
         std::memcpy(memory, &taken.value(), memory->structBytes);
+        return SHUTTER_BLUR_SUCCESS;
+    });
+}
+
+ShutterBlurResult
+shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* report) {
+    return guard([&] {
+        if (!blur)
+            return refuse({"motion blur: blur is null"});
+        auto taken = motion_blur::takeStructure<ShutterBlurReport>(
+            "report", report, shutterBlurDefaultReport()
+        );
+        if (!taken)
+            return refuse(taken.error());
+        auto found = blur->effect->report(frame);
+        if (!found)
+            return refuse(found.error());
+        blur->report = std::move(found).value();
+        blur->passes.clear();
+        for (const auto& pass : blur->report.passes)
+            blur->passes.push_back({pass.name.c_str(), pass.gpuMilliseconds, pass.cpuMilliseconds});
+        blur->counters.clear();
+        for (const auto& [name, value] : blur->report.counters)
+            blur->counters.push_back({name.c_str(), value});
+        ShutterBlurReport& told = taken.value();
+        told.passCount = static_cast<uint32_t>(blur->passes.size());
+        told.passes = blur->passes.data();
+        told.counterCount = static_cast<uint32_t>(blur->counters.size());
+        told.counters = blur->counters.data();
+        told.gpuMilliseconds = blur->report.milliseconds;
+        told.gaveUp = blur->report.gaveUp.c_str();
+        std::memcpy(report, &told, report->structBytes);
+        return SHUTTER_BLUR_SUCCESS;
+    });
+}
+
+ShutterBlurResult shutterBlurEstimateMemory(
+    const ShutterBlurDevice* device, const ShutterBlurPlan* plan, uint64_t* bytes
+) {
+    return guard([&] {
+        if (!bytes)
+            return refuse({"motion blur: bytes is null"});
+        const auto host = motion_blur::convert(device);
+        if (!host)
+            return refuse(host.error());
+        const auto wanted = motion_blur::convert(plan);
+        if (!wanted)
+            return refuse(wanted.error());
+        const auto needed =
+            motion_blur::EmbeddedMotionBlur::estimateMemory(host.value(), wanted.value());
+        if (!needed)
+            return refuse(needed.error());
+        *bytes = needed.value();
+        return SHUTTER_BLUR_SUCCESS;
+    });
+}
+
+ShutterBlurResult shutterBlurWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan) {
+    return guard([&] {
+        if (!blur)
+            return refuse({"motion blur: blur is null"});
+        const auto wanted = motion_blur::convert(plan);
+        return wanted ? finish(blur->effect->warmUp(wanted.value())) : refuse(wanted.error());
+    });
+}
+
+ShutterBlurResult shutterBlurStartWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan) {
+    return guard([&] {
+        if (!blur)
+            return refuse({"motion blur: blur is null"});
+        const auto wanted = motion_blur::convert(plan);
+        return wanted ? finish(blur->effect->startWarmUp(wanted.value())) : refuse(wanted.error());
+    });
+}
+
+ShutterBlurResult shutterBlurIsWarm(ShutterBlur* blur, VkBool32* isWarm) {
+    return guard([&] {
+        if (!blur || !isWarm)
+            return refuse({blur ? "motion blur: isWarm is null" : "motion blur: blur is null"});
+        const auto known = blur->effect->isWarm();
+        if (!known)
+            return refuse(known.error());
+        *isWarm = known.value() ? VK_TRUE : VK_FALSE;
         return SHUTTER_BLUR_SUCCESS;
     });
 }

@@ -98,6 +98,14 @@ typedef struct ShutterBlurDevice {
     VkPipelineCache pipelineCache;
     /* The feature rayTracingPipelineTraceRaysIndirect is enabled. */
     VkBool32 tracesIndirect;
+    uint32_t
+        apiVersion; /* VkApplicationInfo::apiVersion of the instance, to be checked; 0: unsaid */
+    /* The chain that the device was made with, to be checked; null: unsaid. Read by
+     * shutterBlurCreate() only. */
+    const VkPhysicalDeviceFeatures2* enabledFeatures;
+    /* shutterBlurRecord() takes the GPU's times and counts, for shutterBlurGetReport() and
+     * ShutterBlurInputs::budgetMilliseconds. */
+    VkBool32 measures;
 } ShutterBlurDevice;
 
 static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
@@ -130,6 +138,10 @@ typedef struct ShutterBlurSettings {
     uint32_t sampleCount; /* taps or instants; 0: the method's own number */
     uint32_t valueCount;
     const ShutterBlurValue* values; /* all others are as the method's page has them */
+    /* "off" (output gets a copy of color), "performance", "balanced" (neither needs rays),
+     * "quality" (needs recordSamples) or "paper" (needs recordReveal): `values` change it, `method`
+     * and a sampleCount of 0 do not count. Null: there is none. */
+    const char* preset;
 } ShutterBlurSettings;
 
 static inline ShutterBlurSettings shutterBlurDefaultSettings(void) {
@@ -155,7 +167,7 @@ typedef struct ShutterBlurUse {
     VkAccessFlags2 access;
 } ShutterBlurUse;
 
-/* 2D, one level, one layer, one sample, owned by the queue family of the commands. It may be
+/* 2D, one level, one sample, owned by the queue family of the commands. It may be
  * destroyed once the frame is done. */
 typedef struct ShutterBlurImage {
     VkImage image;
@@ -163,6 +175,8 @@ typedef struct ShutterBlurImage {
     VkExtent2D extent;       /* of the whole image; 0 x 0: it ends where `area` does */
     VkRect2D area;           /* the part that is used; an extent of 0 x 0: the picture's size */
     VkImageUsageFlags usage; /* that it was made with, to be checked; 0: not said */
+    VkSampleCountFlagBits samples; /* that it was made with, must be 1; 0: not said */
+    uint32_t layer; /* of an image of several, such as one for both eyes: the one that is used */
     ShutterBlurUse before;
     ShutterBlurUse after;
 } ShutterBlurImage;
@@ -230,6 +244,37 @@ typedef struct ShutterBlurRevealTask {
     ShutterBlurRevealTarget entityId;    /* R32_UINT; 0xFFFFFFFF: the sky */
 } ShutterBlurRevealTask;
 
+/* For "adaptive": what the host's commands, which recordSamples() records, read and write. All of
+ * it is ready for compute shaders, and for ray-tracing shaders with samplesByRayPipeline; what is
+ * written needs no barrier of the host's. */
+typedef struct ShutterBlurSampleTask {
+    uint32_t structBytes;
+    VkCommandBuffer commands; /* those of the recording */
+    uint32_t width;           /* of the picture */
+    uint32_t height;
+    /* How many samples ask (uint32_t), 12 bytes of other counts, then 8 bytes a sample: its pixel,
+     * x | y << 16 (uint32_t), and its shutter time, 0 open to 1 close (float). */
+    VkBuffer list;
+    VkDeviceAddress listAddress;
+    VkDeviceSize listBytes;
+    /* VkDispatchIndirectCommand: groups of 64 threads. Thread t of group (x, y) serves sample
+     * (y * 256 + x) * 64 + t, if so many ask. */
+    VkBuffer groups;
+    /* VkTraceRaysIndirectCommandKHR, one launch a sample; null unless
+     * ShutterBlurDevice::tracesIndirect and samplesByRayPipeline. */
+    VkBuffer launch;
+    VkDeviceAddress launchAddress;
+    /* 16 bytes a sample, to be written: red, green, blue (linear floats) of what is seen through
+     * the pixel's centre at that time, and a fourth float of 1. Samples that are not written stay
+     * as they were looked up. */
+    VkBuffer answers;
+    VkDeviceAddress answersAddress;
+    VkDeviceSize answersBytes;
+} ShutterBlurSampleTask;
+
+/* As ShutterBlurRecordReveal. */
+typedef void (*ShutterBlurRecordSamples)(void* user, const ShutterBlurSampleTask* task);
+
 /* Records the host's commands, outside of rendering; they may bind anything. */
 typedef void (*ShutterBlurRecordReveal)(void* user, const ShutterBlurRevealTask* task);
 
@@ -291,6 +336,21 @@ typedef struct ShutterBlurInputs {
     ShutterBlurRecordReveal recordReveal; /* called once, before shutterBlurRecord() returns */
     void* revealUser;                     /* its first argument */
     VkBool32 revealByRayPipeline;         /* its commands launch a ray-tracing pipeline */
+
+    /* For "adaptive", with all that is for "resolved": */
+    ShutterBlurRecordSamples recordSamples; /* called once, before shutterBlurRecord() returns */
+    void* samplesUser;                      /* its first argument */
+    VkBool32 samplesByRayPipeline;          /* its commands launch a ray-tracing pipeline */
+
+    /* For "resolved" and "adaptive" with followsLast, from a host that has the frame before still;
+     * null images: the object keeps what it needs of it. None of them is written. */
+    ShutterBlurImage lastColor;       /* sharp: that frame's `color` before the blur */
+    ShutterBlurImage lastMotionDepth; /* RGBA32F, of the picture's size, as `motionDepth` */
+    ShutterBlurImage lastEntityId;
+
+    /* GPU time that the effect may take of the frame: it gives up quality to stay within. 0:
+     * unlimited. With ShutterBlurDevice::measures. */
+    double budgetMilliseconds;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
@@ -311,7 +371,9 @@ static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
 
 /* Records the effect into `commands`, which are being recorded, outside of rendering, and are
  * submitted once at most. It binds pipelines, sets 0 and push constants of the compute bind point.
- * `frame` is below framesInFlight: the GPU must be done with what was recorded last under it.
+ * `frame` is below framesInFlight: the GPU must be done with what was recorded last under it, and
+ * the host has waited for it. While the GPU has not run that, the call is refused;
+ * shutterBlurMarkDone() tells of one that is never submitted.
  * Settings may be null. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     ShutterBlur* blur,
@@ -321,11 +383,95 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     const ShutterBlurSettings* settings
 );
 
-/* The GPU is done with `frame`, and it will not be recorded soon. */
+/* The GPU is done with `frame`, or will never see it; for one that is not recorded again soon. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame);
 
 /* The view was closed: what "resolved" keeps of its last raster goes once its frames are done. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view);
+
+/* ---- Times and counters --------------------------------------------------------------------- */
+
+typedef struct ShutterBlurPassTime {
+    const char* name;
+    double gpuMilliseconds;
+    double cpuMilliseconds; /* to record it */
+} ShutterBlurPassTime;
+
+typedef struct ShutterBlurCounter {
+    const char* name; /* "pixels masked", "rays traced", "unresolved samples" and the like */
+    uint64_t value;
+} ShutterBlurCounter;
+
+/* Pointers are valid until the object's next call. */
+typedef struct ShutterBlurReport {
+    uint32_t structBytes;
+    uint32_t passCount;
+    const ShutterBlurPassTime* passes; /* in the order in which they ran */
+    uint32_t counterCount;
+    const ShutterBlurCounter* counters;
+    double gpuMilliseconds; /* of all passes together */
+    const char* gaveUp;     /* to stay within budgetMilliseconds; empty: nothing */
+} ShutterBlurReport;
+
+static inline ShutterBlurReport shutterBlurDefaultReport(void) {
+    ShutterBlurReport made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    return made;
+}
+
+/* Of what was recorded last under `frame`, with ShutterBlurDevice::measures. Refused while the GPU
+ * has not run it. */
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* report);
+
+/* ---- Memory and pipelines ------------------------------------------------------------------- */
+
+/* What a host is going to record, before it has images. */
+typedef struct ShutterBlurPlan {
+    uint32_t structBytes;
+    uint32_t width; /* of the picture, pixels */
+    uint32_t height;
+    uint32_t viewCount;                  /* that "resolved" keeps a frame of */
+    const ShutterBlurSettings* settings; /* null: those of shutterBlurDefaultSettings() */
+    VkFormat colorFormat;
+    VkFormat outputFormat; /* UNDEFINED: in place */
+    VkFormat entityIdFormat;
+    VkBool32 areParts;   /* color and output are parts or layers of larger images */
+    VkBool32 hasVectors; /* vectors and depth of the host's own in place of motionDepth */
+    VkBool32 lendsLast;  /* lastColor and those with it */
+    uint32_t rowCount;
+    uint32_t moverCount; /* with matrices, at most */
+} ShutterBlurPlan;
+
+static inline ShutterBlurPlan shutterBlurDefaultPlan(void) {
+    ShutterBlurPlan made;
+    memset(&made, 0, sizeof(made));
+    made.structBytes = (uint32_t)sizeof(made);
+    made.viewCount = 1;
+    made.colorFormat = made.outputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+    made.entityIdFormat = VK_FORMAT_R32_UINT;
+    made.rowCount = 1;
+    return made;
+}
+
+/* Device memory that an object made for `device` will hold once it has recorded the plan under each
+ * of its numbers: within a tenth. Makes no object. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurEstimateMemory(
+    const ShutterBlurDevice* device, const ShutterBlurPlan* plan, uint64_t* bytes
+);
+
+/* Makes the pipelines that recording the plan needs, so that shutterBlurRecord() makes none. */
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
+
+/* The same on a thread of its own: shutterBlurIsWarm() tells when it is done.
+ * shutterBlurDestroy() waits for it. */
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurStartWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
+
+/* The call that finds the thread done takes a few milliseconds. */
+SHUTTER_BLUR_API ShutterBlurResult shutterBlurIsWarm(ShutterBlur* blur, VkBool32* isWarm);
 
 /* Device memory that the object holds now. */
 typedef struct ShutterBlurMemory {

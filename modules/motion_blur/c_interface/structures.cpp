@@ -2,6 +2,7 @@
 #include "modules/motion_blur/c_interface/structures.h"
 
 #include "engine/core/setting_row.h"
+#include "modules/motion_blur/presets.h"
 
 #include <string>
 
@@ -30,6 +31,9 @@ HostImage convert(const ShutterBlurImage& given) {
     image.extent = given.extent;
     image.area = given.area;
     image.usage = given.usage;
+    image.layer = given.layer;
+    if (given.samples != 0)
+        image.samples = given.samples;
     return image;
 }
 
@@ -143,6 +147,32 @@ OwnReveal convertReveal(const ShutterBlurInputs& given) {
     return reveal;
 }
 
+OwnSamples convertSamples(const ShutterBlurInputs& given) {
+    OwnSamples samples;
+    samples.byRayPipeline = given.samplesByRayPipeline != VK_FALSE;
+    if (!given.recordSamples)
+        return samples;
+    samples.record = [record = given.recordSamples,
+                      user = given.samplesUser](const SampleTask& task) {
+        ShutterBlurSampleTask told{};
+        told.structBytes = sizeof(told);
+        told.commands = task.commands;
+        told.width = task.sizePx.x;
+        told.height = task.sizePx.y;
+        told.list = task.list;
+        told.listAddress = task.listAddress;
+        told.listBytes = task.listBytes;
+        told.groups = task.groups;
+        told.launch = task.launch;
+        told.launchAddress = task.launchAddress;
+        told.answers = task.answers;
+        told.answersAddress = task.answersAddress;
+        told.answersBytes = task.answersBytes;
+        record(user, &told);
+    };
+    return samples;
+}
+
 core::Result<const Method*> findHostMethod(const char* name) {
     if (!name)
         return makeError("motion blur: settings.method is null");
@@ -170,7 +200,7 @@ core::Status apply(const ShutterBlurValue& given, MotionBlurSettings& settings) 
 } // namespace
 
 bool isForHosts(const Method& method) {
-    return method.readsRaster && method.rays != RayNeed::Query && !method.readsCamera;
+    return method.readsRaster && !method.readsCamera;
 }
 
 core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
@@ -187,26 +217,63 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     device.hasDebugUtils = taken.value().hasDebugUtils != VK_FALSE;
     device.pipelineCache = taken.value().pipelineCache;
     device.tracesIndirect = taken.value().tracesIndirect != VK_FALSE;
+    device.apiVersion = taken.value().apiVersion;
+    device.enabledFeatures = taken.value().enabledFeatures;
+    device.measures = taken.value().measures != VK_FALSE;
     return device;
 }
 
-core::Result<MotionBlurSettings> convert(const ShutterBlurSettings* given) {
+core::Result<HostSettings> convert(const ShutterBlurSettings* given) {
     const ShutterBlurSettings defaults = shutterBlurDefaultSettings();
     const auto taken = takeStructure("settings", given ? given : &defaults, defaults);
     if (!taken)
         return taken.error();
     const ShutterBlurSettings& wanted = taken.value();
-    const auto method = findHostMethod(wanted.method);
-    if (!method)
-        return method.error();
+    HostSettings made;
+    MotionBlurSettings& settings = made.settings;
+    if (wanted.preset) {
+        const auto preset = findPreset(wanted.preset);
+        if (!preset)
+            return makeError("motion blur: settings.preset {}", preset.error().message);
+        settings = preset.value()->settings;
+        made.isOff = preset.value()->isOff;
+    } else {
+        const auto method = findHostMethod(wanted.method);
+        if (!method)
+            return method.error();
+        settings.method = method.value();
+        settings.sampleCount = settings.method->defaultSamples;
+    }
+    if (wanted.sampleCount != 0)
+        settings.sampleCount = wanted.sampleCount;
     SHUTTER_TRY(checkArray("settings.values", wanted.values, "valueCount", wanted.valueCount));
-    MotionBlurSettings settings;
-    settings.method = method.value();
-    settings.sampleCount =
-        wanted.sampleCount == 0 ? settings.method->defaultSamples : wanted.sampleCount;
     for (uint32_t i = 0; i < wanted.valueCount; ++i)
         SHUTTER_TRY(apply(wanted.values[i], settings));
-    return settings;
+    return made;
+}
+
+core::Result<HostPlan> convert(const ShutterBlurPlan* given) {
+    const auto taken = takeStructure("plan", given, shutterBlurDefaultPlan());
+    if (!taken)
+        return taken.error();
+    const ShutterBlurPlan& wanted = taken.value();
+    const auto settings = convert(wanted.settings);
+    if (!settings)
+        return settings.error();
+    HostPlan plan;
+    plan.settings = settings.value().settings;
+    plan.width = wanted.width;
+    plan.height = wanted.height;
+    plan.viewCount = wanted.viewCount;
+    plan.colorFormat = wanted.colorFormat;
+    plan.outputFormat = wanted.outputFormat;
+    plan.entityIdFormat = wanted.entityIdFormat;
+    plan.areParts = wanted.areParts != VK_FALSE;
+    plan.hasVectors = wanted.hasVectors != VK_FALSE;
+    plan.lendsLast = wanted.lendsLast != VK_FALSE;
+    plan.rowCount = wanted.rowCount;
+    plan.moverCount = wanted.moverCount;
+    return plan;
 }
 
 core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& arrays) {
@@ -229,6 +296,11 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
     inputs.motion = convertMotion(wanted, arrays);
     inputs.normal = convert(wanted.normal);
     inputs.reveal = convertReveal(wanted);
+    inputs.samples = convertSamples(wanted);
+    inputs.last = {
+        convert(wanted.lastColor), convert(wanted.lastMotionDepth), convert(wanted.lastEntityId)};
+    if (wanted.budgetMilliseconds != 0.0)
+        inputs.budget.milliseconds = wanted.budgetMilliseconds;
     return inputs;
 }
 

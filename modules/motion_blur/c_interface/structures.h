@@ -31,8 +31,15 @@ template <class T>
 
 [[nodiscard]] core::Result<HostDevice> convert(const ShutterBlurDevice* given);
 
+struct HostSettings {
+    MotionBlurSettings settings;
+    bool isOff = false; ///< the preset is "off"
+};
+
 /// Null: those of gather.
-[[nodiscard]] core::Result<MotionBlurSettings> convert(const ShutterBlurSettings* given);
+[[nodiscard]] core::Result<HostSettings> convert(const ShutterBlurSettings* given);
+
+[[nodiscard]] core::Result<HostPlan> convert(const ShutterBlurPlan* given);
 
 /// What HostInputs point to; it is kept from frame to frame, so that none allocates.
 struct InputArrays {
@@ -44,7 +51,8 @@ struct InputArrays {
 /// \param arrays must outlive the result
 [[nodiscard]] core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& arrays);
 
-/// Whether a host can run the method through the C interface; `hybrid`, by its own reveal.
+/// Whether a host can run the method through the C interface; `hybrid` and `adaptive`, by its own
+/// rays.
 [[nodiscard]] bool isForHosts(const Method& method);
 
 } // namespace shutter::motion_blur

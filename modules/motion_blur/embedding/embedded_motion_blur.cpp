@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 
-#include "engine/core/check.h"
-#include "engine/gpu/frame.h"
-#include "engine/gpu/memory.h"
+#include "engine/core/log.h"
 #include "engine/gpu/vulkan.h"
-#include "engine/graph/execute.h"
-#include "engine/graph/transient_pool.h"
-#include "modules/motion_blur/embedding/host_instants.h"
-#include "modules/motion_blur/instant_motions.h"
-#include "shaders/render/scene_shared.h"
+#include "modules/motion_blur/embedding/embedded_parts.h"
 
-#include <array>
-#include <deque>
 #include <new>
-#include <optional>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -24,158 +15,17 @@ namespace {
 
 using core::makeError;
 
-constexpr uint32_t kMostFrames = 64;
-constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
+constexpr uint32_t kMostFrames = kMostSlots;
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat kMotionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kIdFormat = VK_FORMAT_R32_UINT;
-constexpr std::array kColorFormats{
-    kColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32};
-constexpr std::array kMotionFormats{kMotionFormat};
-constexpr std::array kNormalFormats{kColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT};
-constexpr std::array kIdFormats{kIdFormat, VK_FORMAT_R16_UINT, VK_FORMAT_R8_UINT};
-
-/// The part of the image that is used is one that the effect may read, or write, itself.
-bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture) {
-    return (image.format == VK_FORMAT_UNDEFINED || image.format == format) &&
-           isWhole(image, picture);
+uint32_t findTimestampBits(VkPhysicalDevice device, uint32_t queueFamily) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families[queueFamily].timestampValidBits;
 }
 
-VkExtent2D pictureOf(const HostInputs& inputs) {
-    return {inputs.width, inputs.height};
-}
-
-HostImageRule colorRule(const HostInputs& inputs) {
-    HostImageRule rule{.name = "color", .formats = kColorFormats};
-    if (isOwn(inputs.color, kColorFormat, pictureOf(inputs)))
-        rule.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    if (!inputs.output.image)
-        rule.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
-    return rule;
-}
-
-HostImageRule outputRule(const HostInputs& inputs) {
-    HostImageRule rule{
-        .name = "output",
-        .formats = kColorFormats,
-        .usage = VK_IMAGE_USAGE_STORAGE_BIT,
-        .isWritten = true};
-    if (isOwn(inputs.output, kColorFormat, pictureOf(inputs)))
-        rule.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return rule;
-}
-
-const HostImageRule kMotionRule{.name = "motionDepth", .formats = kMotionFormats};
-const HostImageRule kNormalRule{.name = "normal", .formats = kNormalFormats};
-const HostImageRule kIdRule{.name = "entityId", .formats = kIdFormats, .hasPictureSize = false};
-
-/// motionDepth is read as it is.
-core::Status checkMotionDepth(const HostInputs& inputs) {
-    const VkExtent2D picture = pictureOf(inputs);
-    SHUTTER_TRY(checkImage(inputs.motionDepth, kMotionRule, picture));
-    if (!isWhole(inputs.motionDepth, picture))
-        return makeError("motion blur: motionDepth is part of a larger image; give it as "
-                         "convention.vectors and convention.depth, which may be");
-    return {};
-}
-
-/// Each given image is another one.
-core::Status checkDistinct(const HostInputs& inputs) {
-    struct Named {
-        const char* name;
-        VkImage image;
-    };
-
-    const HostConvention& convention = inputs.convention;
-    const bool isMade = !inputs.motionDepth.image;
-    const std::array<Named, 5> images{
-        {{"color", inputs.color.image},
-         {isMade ? "convention.vectors.image" : "motionDepth",
-          isMade ? convention.vectors.image.image : inputs.motionDepth.image},
-         {"normal", inputs.normal.image},
-         {"entityId", inputs.entityId.image},
-         {"output", inputs.output.image}}};
-    for (size_t i = 0; i < images.size(); ++i)
-        for (size_t j = i + 1; j < images.size(); ++j)
-            if (images[i].image && images[i].image == images[j].image)
-                return makeError(
-                    "motion blur: {}.image is {}.image{}",
-                    images[j].name,
-                    images[i].name,
-                    images[j].image == inputs.output.image
-                        ? "; to blur in place, leave output.image null"
-                        : ""
-                );
-    return {};
-}
-
-HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings) {
-    return {
-        {inputs.width, inputs.height},
-        inputs.rasterTime,
-        inputs.response != 0,
-        countInstants(settings)};
-}
-
-} // namespace
-
-/// What one frame in flight holds.
-struct EmbeddedMotionBlur::Slot {
-    explicit Slot(gpu::Device& device) : frame(gpu::Frame::createForHost(device)), pool(device) {}
-
-    std::unique_ptr<gpu::Frame> frame;
-    graph::TransientPool pool;
-    /// Views of the host's images, made anew in each frame: a handle that is the last one's need
-    /// not be the same image. A deque, since the graph points to them.
-    std::deque<gpu::Image> images;
-    gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
-    gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
-    uint64_t handedOver = 0; ///< timeline value of what was recorded last
-};
-
-/// What is kept from frame to frame.
-struct EmbeddedMotionBlur::View {
-    explicit View(gpu::Device& device) : history(device) {}
-
-    std::optional<HostRaster> last; ///< of what `history` keeps; nothing: there is no frame before
-    RasterHistory history;
-
-    void forget() {
-        last.reset();
-        history.forget();
-    }
-};
-
-/// A recording under way.
-struct EmbeddedMotionBlur::Frame {
-    Slot& slot;
-    graph::Graph& graph;
-    const HostInputs& inputs;
-
-    /// Invalid where there is no image.
-    [[nodiscard]] graph::ImageHandle import(
-        gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule
-    ) {
-        if (!given.image)
-            return {};
-        const VkExtent2D extent = extentOf(given, pictureOf(inputs));
-        // Only what shaders do counts here: it is what views are for.
-        const VkImageUsageFlags usage =
-            rule.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
-        const gpu::Image& image = slot.images.emplace_back(gpu::Image::adopt(
-            device, name, given.image, {extent.width, extent.height, formatOf(given, rule), usage}
-        ));
-        return graph.importImage(name, image, given.before, given.after);
-    }
-
-    graph::ImageHandle color;  ///< the host's own
-    graph::ImageHandle output; ///< the same; in place: invalid
-};
-
-core::Result<std::unique_ptr<EmbeddedMotionBlur>>
-EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
-    SHUTTER_TRY(checkVersion(headerVersion)); // first: another version's HostDevice is another
+core::Status checkHost(const HostDevice& host) {
     if (!host.physical || !host.device)
         return makeError(
             "motion blur: HostDevice::{} is null", host.physical ? "device" : "physical"
@@ -186,9 +36,31 @@ EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
             host.framesInFlight,
             kMostFrames
         );
+    if (host.apiVersion != 0 && host.apiVersion < VK_API_VERSION_1_3)
+        return makeError(
+            "motion blur: apiVersion is {}.{}, the instance must be made for Vulkan 1.3",
+            VK_API_VERSION_MAJOR(host.apiVersion),
+            VK_API_VERSION_MINOR(host.apiVersion)
+        );
     if (host.rayTier != gpu::RayTier::None && !host.sceneLayout)
         return makeError("motion blur: sceneLayout is null, although rayTier asks for rays");
-    const core::Status able = checkHostDevice(host.physical, host.queueFamily, host.rayTier);
+    if (host.enabledFeatures)
+        SHUTTER_TRY(checkEnabledFeatures(*host.enabledFeatures, host.rayTier));
+    SHUTTER_TRY(checkHostDevice(host.physical, host.queueFamily, host.rayTier));
+    if (host.measures && findTimestampBits(host.physical, host.queueFamily) == 0)
+        return makeError(
+            "motion blur: measures is true, but queueFamily {} takes no timestamps",
+            host.queueFamily
+        );
+    return {};
+}
+
+} // namespace
+
+core::Result<std::unique_ptr<EmbeddedMotionBlur>>
+EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
+    SHUTTER_TRY(checkVersion(headerVersion)); // first: another version's HostDevice is another
+    const core::Status able = checkHost(host);
     if (!able)
         return able.error();
     try {
@@ -213,120 +85,29 @@ EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
 }
 
 EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host)
-    : mDevice(std::move(device)), mHasRays(host.rayTier != gpu::RayTier::None),
-      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE), mPreparation(*mDevice) {
+    : mHost(host), mDevice(std::move(device)),
+      mTimestampBits(host.measures ? findTimestampBits(host.physical, host.queueFamily) : 0),
+      mHasRays(host.rayTier != gpu::RayTier::None),
+      mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE), mPreparation(*mDevice),
+      mMarks(
+          *mDevice, "marks", host.framesInFlight * sizeof(uint32_t), 0, gpu::MemoryUse::Readback
+      ) {
+    mHost.enabledFeatures = nullptr; // the host may take it back now
+    mMarks.writeZeros();
     for (uint32_t i = 0; i < host.framesInFlight; ++i) {
-        mSlots.push_back(std::make_unique<Slot>(*mDevice));
+        mSlots.push_back(std::make_unique<Slot>(*mDevice, mTimestampBits));
         mViews.push_back(std::make_unique<View>(*mDevice));
     }
 }
 
-EmbeddedMotionBlur::~EmbeddedMotionBlur() = default;
-
-core::Status EmbeddedMotionBlur::checkMethod(
-    const HostInputs& inputs, const MotionBlurSettings& settings
-) const {
-    const Method& method = *settings.method;
-    if (!method.readsRaster)
-        return makeError(
-            "motion blur: the method {} reads no raster image; it is not for hosts that have one",
-            method.name
-        );
-    if (method.rays == RayNeed::Query)
-        return makeError(
-            "motion blur: the method {} needs timed rays, which hosts cannot give", method.name
-        );
-    const bool hasOwnReveal = method.rays == RayNeed::Any && inputs.reveal.record;
-    if (method.rays != RayNeed::None && !mHasRays && !hasOwnReveal)
-        return makeError(
-            "motion blur: the method {} needs rays: reveal.record is empty, and "
-            "HostDevice::rayTier "
-            "was none",
-            method.name
-        );
-    if (hasOwnReveal && settings.rayShare < 1.0f)
-        return makeError(
-            "motion blur: rayShare is {}, but reveal.record answers each pixel; it must be 1",
-            settings.rayShare
-        );
-    if (method.readsNormal)
-        SHUTTER_TRY(check(inputs.normal, kNormalRule, pictureOf(inputs)));
-    if (method.readsEntityId)
-        SHUTTER_TRY(check(inputs.entityId, kIdRule, pictureOf(inputs)));
-    if (method.readsInstantMotions && settings.secondRaster)
-        return makeError(
-            "motion blur: secondRaster is true, but hosts have one raster; it must be false"
-        );
-    if (method.readsInstantMotions)
-        SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
-    if (hasOwnReveal || (method.rays == RayNeed::None && !method.readsCamera))
-        return {};
-    if (inputs.rays.frameConstants == 0)
-        return makeError(
-            "motion blur: rays.frameConstants is 0, which the method {} needs", method.name
-        );
-    if (inputs.rays.tlas && (!inputs.rays.tlasBuffer || !inputs.rays.scene))
-        return makeError(
-            "motion blur: rays.{} is null", inputs.rays.tlasBuffer ? "scene" : "tlasBuffer"
-        );
-    return {};
-}
-
-core::Status EmbeddedMotionBlur::check(
-    const HostImage& image, const HostImageRule& rule, VkExtent2D picture
-) const {
-    SHUTTER_TRY(checkImage(image, rule, picture));
-    return checkSupport(mDevice->physical(), image, rule);
-}
-
-core::Status EmbeddedMotionBlur::checkMadeMotion(const HostInputs& inputs) const {
-    const HostConvention& convention = inputs.convention;
-    if (!convention.vectors.image.image)
-        return makeError(
-            "motion blur: motionDepth.image is null, and so is convention.vectors.image.image"
-        );
-    SHUTTER_TRY(checkConvention(convention, pictureOf(inputs)));
-    SHUTTER_TRY(checkSupport(mDevice->physical(), convention.vectors.image, kVectorsRule));
-    SHUTTER_TRY(checkSupport(mDevice->physical(), convention.depth.image, kDepthRule));
-    if (!convention.scales.perPixel.image)
-        return {};
-    return checkSupport(mDevice->physical(), convention.scales.perPixel, kBlurScaleRule);
-}
-
-core::Status EmbeddedMotionBlur::check(
-    VkCommandBuffer commands,
-    uint32_t frame,
-    const HostInputs& inputs,
-    const MotionBlurSettings& settings
-) const {
-    if (!commands)
-        return makeError("motion blur: the command buffer is null");
-    if (frame >= mSlots.size())
-        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
-    if (inputs.width < 1 || inputs.width > kMostPixels || inputs.height < 1 ||
-        inputs.height > kMostPixels)
-        return makeError(
-            "motion blur: the size is {} x {}, both must be 1 to {}",
-            inputs.width,
-            inputs.height,
-            kMostPixels
-        );
-    if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
-        return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
-    SHUTTER_TRY(check(inputs.color, colorRule(inputs), pictureOf(inputs)));
-    if (inputs.output.image)
-        SHUTTER_TRY(check(inputs.output, outputRule(inputs), pictureOf(inputs)));
-    if (inputs.motionDepth.image)
-        SHUTTER_TRY(checkMotionDepth(inputs));
-    else
-        SHUTTER_TRY(checkMadeMotion(inputs));
-    SHUTTER_TRY(checkDistinct(inputs));
-    if (inputs.motion.view >= mViews.size())
-        return makeError(
-            "motion blur: motion.view is {}, framesInFlight {}", inputs.motion.view, mViews.size()
-        );
-    SHUTTER_TRY(validate(settings));
-    return checkMethod(inputs, settings);
+EmbeddedMotionBlur::~EmbeddedMotionBlur() {
+    for (uint32_t frame = 0; frame < mSlots.size(); ++frame)
+        if (isPending(frame))
+            core::logWarning(
+                "motion blur: destroyed while the GPU has frame {} before it, unless that was "
+                "never submitted (markDone tells)",
+                frame
+            );
 }
 
 core::Status EmbeddedMotionBlur::record(
@@ -351,11 +132,22 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     mHasLeftAPart = false;
     try {
         SHUTTER_TRY(check(commands, frame, inputs, settings));
-        markDone(frame);
+        SHUTTER_TRY(markDone(frame));
         mHasLeftAPart = true;
-        core::Status done = recordInto(*mSlots[frame], commands, inputs, settings);
-        mHasLeftAPart = !done;
-        return done;
+        Slot& slot = *mSlots[frame];
+        const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
+        graph::Graph graph;
+        Frame recording{frame, slot, graph, inputs, chosen, mTimestampBits > 0};
+        const core::Status done = record(recording, *mViews[inputs.motion.view], commands);
+        if (!done) {
+            slot.level.reset();
+            return done;
+        }
+        slot.counts = recording.wantsCounters && !inputs.isOff;
+        recordMark(frame, commands);
+        slot.handedOver = mDevice->handOver();
+        mHasLeftAPart = false;
+        return {};
     } catch (const gpu::DeviceError& error) {
         return core::Error{error.what()};
     } catch (const std::bad_alloc&) {
@@ -363,140 +155,130 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     }
 }
 
-void EmbeddedMotionBlur::markDone(uint32_t frame) {
-    SHUTTER_CHECK(frame < mSlots.size(), "frame {} of {}", frame, mSlots.size());
+core::Status EmbeddedMotionBlur::markDone(uint32_t frame) {
+    if (frame >= mSlots.size())
+        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
     mDevice->markDone(mSlots[frame]->handedOver);
+    mSlots[frame]->isToldDone = true;
+    return {};
 }
 
-void EmbeddedMotionBlur::closeView(uint32_t view) {
-    SHUTTER_CHECK(view < mViews.size(), "view {} of {}", view, mViews.size());
+core::Status EmbeddedMotionBlur::closeView(uint32_t view) {
+    if (view >= mViews.size())
+        return makeError("motion blur: view is {}, framesInFlight {}", view, mViews.size());
     mViews[view]->forget();
+    return {};
 }
 
-InstantMotions EmbeddedMotionBlur::describeInstants(
-    Slot& slot, View& view, const HostInputs& inputs, const MotionBlurSettings& settings
-) {
-    if (!settings.history)
-        view.forget();
-    const HostRaster* last = inputs.motion.followsLast && view.last ? &*view.last : nullptr;
-    HostInstants made = computeHostInstants(inputs.motion, describeFrame(inputs, settings), last);
-    InstantMotions motions;
-    motions.table = writeInstantLayers(*mDevice, made.layers, slot.instants);
-    motions.instantCount = countInstants(settings);
-    motions.hasLast = made.layers.last.has_value();
-    if (settings.history) {
-        motions.history = &view.history;
-        view.last = std::move(made.raster);
-    }
-    return motions;
+bool EmbeddedMotionBlur::hasRun(uint32_t frame) const {
+    const Slot& slot = *mSlots[frame];
+    return slot.recordings > 0 &&
+           static_cast<const uint32_t*>(mMarks.mapped())[frame] == slot.recordings;
 }
 
-MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
-    const HostInputs& inputs = frame.inputs;
-    const VkExtent2D picture = pictureOf(inputs);
-    graph::Graph& graph = frame.graph;
-    gpu::Device& device = *mDevice;
-    MotionBlurInputs own; // slot 0 in each frame: it is for counters
-    own.wantsCounters = false;
-    frame.color = frame.import(device, "color", inputs.color, colorRule(inputs));
-    frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
-    const bool isOwnColor = isOwn(inputs.color, kColorFormat, picture);
-    own.color =
-        isOwnColor ? frame.color : mPreparation.addColor(graph, frame.color, inputs.color, picture);
-    own.colorIsWritable = !isOwnColor || !inputs.output.image;
-    if (inputs.output.image && isOwn(inputs.output, kColorFormat, picture))
-        own.target = frame.output;
-    else if (!inputs.output.image && isOwnColor)
-        own.target = frame.color;
-    // Those the method does not read are imported as well: they go over to their next use.
-    if (inputs.motionDepth.image) {
-        own.motionDepth = frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
-    } else {
-        const HostConvention& convention = inputs.convention;
-        const auto vectors =
-            frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
-        const auto depth = frame.import(device, "depth", convention.depth.image, kDepthRule);
-        const auto scales =
-            frame.import(device, "blur scale", convention.scales.perPixel, kBlurScaleRule);
-        const shader::PrepareTable table = makePrepareTable(convention, picture);
-        if (!frame.slot.convention)
-            frame.slot.convention = gpu::Buffer(
-                device,
-                "convention",
-                sizeof(table),
-                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                gpu::MemoryUse::Stream
-            );
-        frame.slot.convention.writeBytes(&table, sizeof(table), 0);
-        own.motionDepth = mPreparation.addMotionDepth(
-            graph, vectors, depth, scales, frame.slot.convention.address(), picture
-        );
-    }
-    own.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
-    if (own.normal.isValid() && !isOwn(inputs.normal, kColorFormat, picture))
-        own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
-    own.entityId = frame.import(device, "entity id", inputs.entityId, kIdRule);
-    if (own.entityId.isValid() &&
-        (!isOwn(inputs.entityId, kIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
-        own.entityId =
-            mPreparation.addIds(graph, own.entityId, inputs.entityId, inputs.noEntity, picture);
-    return own;
+bool EmbeddedMotionBlur::isPending(uint32_t frame) const {
+    return !mSlots[frame]->isToldDone && !hasRun(frame);
 }
 
-void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const {
-    const bool inPlace = !frame.inputs.output.image;
-    const HostImage& given = inPlace ? frame.inputs.color : frame.inputs.output;
-    if (!isOwn(given, kColorFormat, pictureOf(frame.inputs)))
-        picture = mPreparation.addDelivery(
-            frame.graph,
-            picture,
-            inPlace ? frame.color : frame.output,
-            given.format == VK_FORMAT_UNDEFINED ? kColorFormat : given.format,
-            given.area.offset
-        );
-    frame.graph.markOutput(picture);
+void EmbeddedMotionBlur::recordMark(uint32_t frame, VkCommandBuffer commands) {
+    Slot& slot = *mSlots[frame];
+    slot.isToldDone = false;
+    constexpr VkDeviceSize kBytes = sizeof(uint32_t);
+    vkCmdFillBuffer(commands, mMarks.handle(), frame * kBytes, kBytes, ++slot.recordings);
+    VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
 }
 
-core::Status EmbeddedMotionBlur::recordInto(
-    Slot& slot,
+HostAbilities EmbeddedMotionBlur::abilities() const {
+    return {
+        mHost.physical,
+        mHasRays,
+        mTimestampBits > 0,
+        mHost.framesInFlight,
+        mDevice->limits().maxStorageBufferRange};
+}
+
+core::Status EmbeddedMotionBlur::check(
     VkCommandBuffer commands,
+    uint32_t frame,
     const HostInputs& inputs,
     const MotionBlurSettings& settings
-) {
-    slot.images.clear();
-    graph::Graph graph;
-    Frame frame{slot, graph, inputs};
-    MotionBlurInputs own = prepare(frame);
-    own.rasterTime = inputs.rasterTime;
-    own.response = gpu::splitAddress(inputs.response);
-    own.frameNumber = inputs.frameNumber;
-    const Method& method = *settings.method;
-    if (method.rays == RayNeed::Any && inputs.reveal.record) {
-        own.reveal = &inputs.reveal;
-    } else if (method.rays == RayNeed::Any || method.readsCamera) {
-        graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
-        if (method.rays == RayNeed::Any && inputs.rays.tlas) {
-            rays.tlasBuffer = graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
-            rays.tlas = inputs.rays.tlas;
-            rays.textures = inputs.rays.scene;
-            rays.hasBlended = inputs.rays.hasBlended;
-        }
-        own.rays = rays;
-    }
-    View& view = *mViews[inputs.motion.view];
-    if (method.readsInstantMotions)
-        own.instantMotions = describeInstants(slot, view, inputs, settings);
-    else
-        view.forget();
-    deliver(frame, mEffect.add(graph, own, settings).color);
+) const {
+    if (!commands)
+        return makeError("motion blur: the command buffer is null");
+    if (frame >= mSlots.size())
+        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
+    if (isPending(frame))
+        return makeError(
+            "motion blur: frame {} was recorded before, and the GPU has not run that: wait for it, "
+            "give each view of a frame a number of its own, or call markDone if it is never "
+            "submitted",
+            frame
+        );
+    return checkInputs(inputs, settings, abilities());
+}
 
-    slot.frame->beginIn(commands);
-    slot.pool.keepFor(inputs.width, inputs.height);
-    const auto plan = graph::execute(graph, *slot.frame, slot.pool);
-    if (!plan)
-        return plan.error();
-    slot.handedOver = mDevice->handOver();
-    return {};
+const MotionBlurSettings& EmbeddedMotionBlur::chooseSettings(
+    uint32_t frame, const HostInputs& inputs, const MotionBlurSettings& settings
+) {
+    const uint32_t number = inputs.motion.view;
+    View& view = *mViews[number];
+    Slot& slot = *mSlots[frame];
+    slot.gaveUp.clear();
+    const bool isNew = !view.budget || view.wanted != settings ||
+                       view.budget->budget().milliseconds != inputs.budget.milliseconds;
+    // Before the slot is recorded anew: its times are the last one's still.
+    for (uint32_t i = 0; i < mSlots.size(); ++i) {
+        Slot& done = *mSlots[i];
+        if (!done.level || done.view != number || !hasRun(i))
+            continue;
+        double milliseconds = 0.0;
+        for (const gpu::PassTime& pass : done.frame->findTimes())
+            milliseconds += pass.gpuMilliseconds;
+        if (!isNew && milliseconds > 0.0)
+            view.budget->observe(*done.level, milliseconds);
+        done.level.reset();
+    }
+    if (inputs.isOff || inputs.budget.isUnlimited()) {
+        view.budget.reset();
+        return settings;
+    }
+    if (isNew) {
+        view.budget.emplace(inputs.budget, settings);
+        view.wanted = settings;
+        for (const auto& other : mSlots)
+            if (other->view == number)
+                other->level.reset(); // of the ladder before
+    }
+    slot.view = number;
+    slot.level = view.budget->level();
+    slot.gaveUp = view.budget->current().gaveUp;
+    return view.budget->current().settings;
+}
+
+core::Result<HostReport> EmbeddedMotionBlur::report(uint32_t frame) const {
+    if (frame >= mSlots.size())
+        return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
+    if (mTimestampBits == 0)
+        return makeError("motion blur: HostDevice::measures is false, so there is no report");
+    if (!hasRun(frame))
+        return makeError("motion blur: the GPU has not run frame {}", frame);
+    const Slot& slot = *mSlots[frame];
+    HostReport report;
+    report.passes = slot.frame->findTimes();
+    for (const gpu::PassTime& pass : report.passes)
+        report.milliseconds += pass.gpuMilliseconds;
+    if (slot.counts)
+        report.counters = mEffect.counters(frame);
+    report.gaveUp = slot.gaveUp;
+    return report;
 }
 
 } // namespace shutter::motion_blur

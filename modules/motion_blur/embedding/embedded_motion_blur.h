@@ -8,79 +8,22 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "modules/motion_blur/embedding/host_convention.h"
+#include "engine/gpu/memory.h"
 #include "modules/motion_blur/embedding/host_features.h"
-#include "modules/motion_blur/embedding/host_image.h"
-#include "modules/motion_blur/embedding/host_motion.h"
+#include "modules/motion_blur/embedding/host_input_check.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
+#include "modules/motion_blur/embedding/host_plan.h"
 #include "modules/motion_blur/embedding/host_preparation.h"
 #include "modules/motion_blur/embedding/version.h"
 #include "modules/motion_blur/motion_blur.h"
-#include "modules/motion_blur/own_reveal.h"
 
 #include <cstdint>
+#include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace shutter::motion_blur {
-
-/// All handles stay the host's and must outlive the EmbeddedMotionBlur.
-struct HostDevice {
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE; ///< made with Vulkan 1.3 and HostFeatures enabled
-    uint32_t queueFamily = 0;         ///< of the command buffers; it must run compute shaders
-    /// How many recordings the GPU may have before it at once: frames in flight times views, [1,
-    /// 64].
-    uint32_t framesInFlight = 2;
-    bool hasDebugUtils = false; ///< VK_EXT_debug_utils is enabled: objects and passes get names
-    /// For methods of RayNeed::Any: which rays of HostFeatures are enabled, and the layout of
-    /// HostRays::scene.
-    gpu::RayTier rayTier = gpu::RayTier::None;
-    VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
-    /// With RayTier::Pipeline: the feature rayTracingPipelineTraceRaysIndirect is enabled. Rays are
-    /// then launched for masked pixels only, without it for every pixel of the picture.
-    bool tracesIndirect = false;
-    /// Where pipelines are looked up and kept, so that a host that saves it starts faster the next
-    /// time; null: in one that goes with the effect. Not made to be synchronized by its users.
-    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
-};
-
-/// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
-/// RayNeed::Any fills those tables.
-struct HostRays {
-    /// Custom index of an instance: its mesh id. Null: nothing but sky lies behind what moves.
-    VkAccelerationStructureKHR tlas = VK_NULL_HANDLE;
-    VkBuffer tlasBuffer = VK_NULL_HANDLE;   ///< that it lies in; null only where tlas is
-    VkDescriptorSet scene = VK_NULL_HANDLE; ///< bindless textures, of HostDevice::sceneLayout
-    /// shader::FrameConstants, whose entityCount bounds the ids that are looked up.
-    VkDeviceAddress frameConstants = 0;
-    bool hasBlended = false; ///< blended surfaces may be in the picture
-};
-
-/// The first format of each image is its own: what has another one, or is part of a larger image,
-/// is copied first.
-struct HostInputs {
-    uint32_t width = 0; ///< of the picture, pixels, [1, 32768]
-    uint32_t height = 0;
-    /// RGBA16F, RGBA32F or B10G11R11; sampled. Of the own format and size: transfer source, too; in
-    /// place: storage, too.
-    HostImage color;
-    /// RGBA32F: motion.xy, depth; every value finite; sampled. Null: made of `convention`.
-    HostImage motionDepth;
-    HostConvention convention; ///< where motionDepth.image is null
-    HostImage normal;          ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
-    /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId
-    HostImage entityId;
-    uint32_t noEntity = 0xFFFFFFFF; ///< value of entityId where nothing is
-    /// RGBA16F, RGBA32F or B10G11R11; storage; of the own format and size: transfer target, too.
-    /// Null: in place, the blurred picture replaces `color`.
-    HostImage output;
-    double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
-    VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
-    HostRays rays;                ///< for methods of RayNeed::Any, unless `reveal.record` is there
-    OwnReveal reveal;        ///< in place of `rays`: needs no tables and no HostDevice::rayTier
-    int64_t frameNumber = 0; ///< for InstantNoise::Turning; the next frame has the next number
-    HostMotion motion;       ///< for Method::readsInstantMotions; its `view` for all
-};
 
 class EmbeddedMotionBlur {
   public:
@@ -88,6 +31,13 @@ class EmbeddedMotionBlur {
     /// is out of memory, a library of another version than the host's headers.
     [[nodiscard]] static core::Result<std::unique_ptr<EmbeddedMotionBlur>>
     create(const HostDevice& host, uint32_t headerVersion = kHeaderVersion);
+
+    /// Device memory, bytes, that an effect made for `host` will hold once it has recorded the plan
+    /// under each of its numbers: within a tenth of what living() tells then. Allocates a few
+    /// kilobytes for the time of the call. Errors: those of create(), a plan that cannot be
+    /// recorded.
+    [[nodiscard]] static core::Result<uint64_t>
+    estimateMemory(const HostDevice& host, const HostPlan& plan);
 
     /// The GPU must be done with all that was recorded.
     ~EmbeddedMotionBlur();
@@ -98,11 +48,12 @@ class EmbeddedMotionBlur {
     /// rendering, submitted once at most. It binds pipelines, set 0 (and 1) and push constants of
     /// the compute and ray-tracing bind points.
     /// \param frame of [0, framesInFlight). The GPU must be done with what was recorded last under
-    /// this number: then the host has waited for it, or never submits it.
-    /// Errors name what is wrong, and nothing was recorded; an error that tells of memory or the
-    /// device may leave a part, and the command buffer must be reset then.
-    /// Methods that read no raster image, or need timed rays, are refused. After an error, the next
-    /// frame of the view has none before it, whatever HostMotion::followsLast says.
+    /// this number, and the host has waited for it; markDone() tells of one that is never
+    /// submitted. Refused while the GPU has not run it. Errors name what is wrong, and nothing was
+    /// recorded; an error that tells of memory or the device may leave a part, and the command
+    /// buffer must be reset then. Methods that read no raster image, or need timed rays, are
+    /// refused. After an error, the next frame of the view has none before it, whatever
+    /// HostMotion::followsLast says.
     [[nodiscard]] core::Status record(
         VkCommandBuffer commands,
         uint32_t frame,
@@ -110,18 +61,33 @@ class EmbeddedMotionBlur {
         const MotionBlurSettings& settings
     );
 
+    /// Makes the pipelines that recording the plan needs, so that record() makes none: tens to
+    /// hundreds of milliseconds without a pipeline cache. Not those of rays through HostRays.
+    core::Status warmUp(const HostPlan& plan);
+    /// The same on a thread of its own, the only one that the effect ever starts. The device must
+    /// be there until isWarm() says so, or the effect is destroyed, which waits for the thread.
+    core::Status startWarmUp(const HostPlan& plan);
+    /// Whether what startWarmUp() began is done. The call that finds it done takes a few
+    /// milliseconds: it takes the pipelines over from the cache. True: nothing was begun.
+    [[nodiscard]] core::Result<bool> isWarm();
+
+    /// Times and counters of what was recorded last under the number. With HostDevice::measures.
+    /// Error: the GPU has not run it.
+    [[nodiscard]] core::Result<HostReport> report(uint32_t frame) const;
+
     /// Whether the last record() that returned an error left a part of its commands behind.
     [[nodiscard]] bool hasLeftAPart() const { return mHasLeftAPart; }
 
-    /// Tells the same of `frame` as recording it anew. To be called for a number that will not be
-    /// recorded again (a view was closed, fewer frames are in flight): what was retired after it,
-    /// by any frame, is kept until then. Also for a host that wants memory back early: what
-    /// resizing left over is destroyed once every frame recorded until then is done. CHECKed.
-    void markDone(uint32_t frame);
+    /// The GPU is done with `frame`, or will never see it. To be called for a recording that was
+    /// dropped, and for a number that will not be recorded again (a view was closed, fewer frames
+    /// are in flight): what was retired after it, by any frame, is kept until then. Also for a host
+    /// that wants memory back early: what resizing left over is destroyed once every frame recorded
+    /// until then is done. Error: there is no such number.
+    core::Status markDone(uint32_t frame);
 
     /// The view was closed: what is kept of its last raster is destroyed once the frames that may
-    /// use it are done. Its number may be used anew. CHECKed: below framesInFlight.
-    void closeView(uint32_t view);
+    /// use it are done. Its number may be used anew. Error: it is not below framesInFlight.
+    core::Status closeView(uint32_t view);
 
     /// Device memory, images and the like that are held now.
     [[nodiscard]] const gpu::LivingObjects& living() const { return mDevice->living(); }
@@ -132,43 +98,51 @@ class EmbeddedMotionBlur {
     struct Frame;
 
     EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, const HostDevice& host);
-    [[nodiscard]] core::Status
-    check(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) const;
-    [[nodiscard]] core::Status checkMadeMotion(const HostInputs& inputs) const;
     [[nodiscard]] core::Status check(
         VkCommandBuffer commands,
         uint32_t frame,
         const HostInputs& inputs,
         const MotionBlurSettings& settings
     ) const;
-    [[nodiscard]] core::Status
-    checkMethod(const HostInputs& inputs, const MotionBlurSettings& settings) const;
+    [[nodiscard]] HostAbilities abilities() const;
     core::Status checkAndRecord(
         VkCommandBuffer commands,
         uint32_t frame,
         const HostInputs& inputs,
         const MotionBlurSettings& settings
     );
-    core::Status recordInto(
-        Slot& slot,
-        VkCommandBuffer commands,
-        const HostInputs& inputs,
-        const MotionBlurSettings& settings
-    );
+    /// What the budget leaves of the settings.
+    [[nodiscard]] const MotionBlurSettings&
+    chooseSettings(uint32_t frame, const HostInputs& inputs, const MotionBlurSettings& settings);
+    core::Status record(Frame& frame, View& view, VkCommandBuffer commands);
+    /// Declares the whole of a frame.
+    void declare(Frame& frame, View& view);
     /// Imports the images, and declares what makes the effect's inputs of them.
     [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
+    [[nodiscard]] graph::ImageHandle prepareMotion(Frame& frame) const;
+    [[nodiscard]] std::optional<LentRaster> prepareLast(Frame& frame) const;
     void deliver(Frame& frame, graph::ImageHandle picture) const;
-    [[nodiscard]] InstantMotions describeInstants(
-        Slot& slot, View& view, const HostInputs& inputs, const MotionBlurSettings& settings
-    );
+    [[nodiscard]] InstantMotions describeInstants(Frame& frame, View& view);
+    /// Whether the GPU has not run what was recorded last under the number.
+    [[nodiscard]] bool isPending(uint32_t frame) const;
+    [[nodiscard]] bool hasRun(uint32_t frame) const;
+    void recordMark(uint32_t frame, VkCommandBuffer commands);
+    core::Status recordOnce(const HostPlan& plan);
+    [[nodiscard]] core::Result<uint64_t> estimate(const HostPlan& plan);
 
+    HostDevice mHost;
     std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
+    uint32_t mTimestampBits = 0;          ///< 0: nothing is measured
     bool mHasRays;
     bool mHasLeftAPart = false;
     MotionBlur mEffect;
     HostPreparation mPreparation;
+    /// By frame in flight, the number of the last recording of it that the GPU ran.
+    gpu::Buffer mMarks;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
     std::vector<std::unique_ptr<View>> mViews; ///< as many: frames in flight include views
+    HostPlan mWarming;
+    std::future<core::Status> mWarmUp; ///< last: it is waited for before all else goes
 };
 
 } // namespace shutter::motion_blur

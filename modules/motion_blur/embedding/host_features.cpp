@@ -155,6 +155,23 @@ core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays
     return {};
 }
 
+core::Status checkEnabledFeatures(const VkPhysicalDeviceFeatures2& enabled, gpu::RayTier rays) {
+    const auto lacks = [](const char* name) {
+        return core::makeError("motion blur: enabledFeatures lacks {}", name);
+    };
+    if (!enabled.features.shaderStorageImageExtendedFormats)
+        return lacks("shaderStorageImageExtendedFormats");
+    if (rays != gpu::RayTier::None && !enabled.features.shaderSampledImageArrayDynamicIndexing)
+        return lacks("shaderSampledImageArrayDynamicIndexing");
+    auto& chain = const_cast<VkPhysicalDeviceFeatures2&>(enabled); // nothing is written to it
+    for (const Feature& feature : listFeatures(rays)) {
+        const VkBool32* const found = findIn(chain, feature);
+        if (!found || !*found)
+            return lacks(feature.name);
+    }
+    return {};
+}
+
 HostFeatures::HostFeatures(gpu::RayTier rays) : mRays(rays) {
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -208,6 +225,11 @@ core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu:
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     vkGetPhysicalDeviceFeatures2(device, &features);
+    // Each device of Vulkan 1.3 has them; an instance that is made for less does not ask the
+    // driver.
+    if (!v12.bufferDeviceAddress && !v13.synchronization2 && !v13.maintenance4)
+        return core::makeError("motion blur: the instance is not made for Vulkan 1.3 "
+                               "(VkApplicationInfo::apiVersion)");
     if (!features.features.shaderStorageImageExtendedFormats)
         return lacks("shaderStorageImageExtendedFormats");
     if (!v12.bufferDeviceAddress)

@@ -47,9 +47,15 @@ class HostFeatures {
 [[nodiscard]] core::Status
 addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays = gpu::RayTier::None);
 
+/// Whether the features are enabled in a chain that a device was made with. Error: names the first
+/// that is not.
+[[nodiscard]] core::Status checkEnabledFeatures(
+    const VkPhysicalDeviceFeatures2& enabled, gpu::RayTier rays = gpu::RayTier::None
+);
+
 /// Whether the device could have the features enabled, and the queue family runs compute shaders;
 /// one sentence that names what is missing where it cannot. What a host did enable Vulkan does not
-/// tell anybody; the validation layer does.
+/// tell anybody; the validation layer and checkEnabledFeatures() do.
 [[nodiscard]] core::Status
 checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu::RayTier rays);
 

@@ -129,6 +129,12 @@ core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExt
             "motion blur: {}.before.layout is undefined, its contents are lost", rule.name
         );
     SHUTTER_TRY(checkFormat(image, rule));
+    if (image.samples != VK_SAMPLE_COUNT_1_BIT)
+        return makeError(
+            "motion blur: {}.samples is {}, it must be 1: resolve the image first",
+            rule.name,
+            uint32_t(image.samples)
+        );
     SHUTTER_TRY(checkUsage(image, rule));
     return checkArea(image, rule, picture);
 }

@@ -10,12 +10,12 @@
 
 namespace shutter::motion_blur {
 
-/// An image of the host: 2D, one level, one layer, one sample, owned by the queue family of the
-/// command buffer. It may be destroyed once the frame is done.
+/// An image of the host: 2D, one level, one sample, owned by the queue family of the command
+/// buffer. It may be destroyed once the frame is done.
 ///
-/// `format`, `offset`, `extent` and `usage` may be left as they are by a host whose image has the
-/// input's own format and the picture's size. What is said of `usage` is checked; Vulkan does not
-/// tell it.
+/// `format`, `area`, `extent` and `usage` may be left as they are by a host whose image has the
+/// input's own format and the picture's size. What is said of `usage` and `samples` is checked;
+/// Vulkan does not tell them.
 struct HostImage {
     VkImage image = VK_NULL_HANDLE;
     graph::OutsideUse before; ///< the host's last use, which is waited for
@@ -27,6 +27,10 @@ struct HostImage {
     /// the picture's size. Inputs of another size than the picture's are read at the nearest pixel.
     VkRect2D area{{0, 0}, {0, 0}};
     VkImageUsageFlags usage = 0; ///< that it was made with; 0: not said
+    /// Of an image of several layers, such as one for both eyes: the one that is used, and the only
+    /// one whose layout is changed.
+    uint32_t layer = 0;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT; ///< that it was made with; must be 1
 };
 
 /// What one input takes, by the order of preference.

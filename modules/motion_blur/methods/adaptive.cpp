@@ -8,6 +8,7 @@
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"
 #include "modules/motion_blur/passes/look_up.h"
+#include "modules/motion_blur/passes/own_samples_pass.h"
 #include "modules/motion_blur/shared_passes.h"
 
 #include <cmath>
@@ -34,7 +35,8 @@ gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout, bool h
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mLookUp(device, true), mTrace(device, describeTrace(sceneLayout, false)),
+        : mDevice(device), mLookUp(device, true), mOwnSamples(device),
+          mTrace(device, describeTrace(sceneLayout, false)),
           mTraceSecond(device, describeTrace(sceneLayout, true)) {}
 
     MotionBlurOutputs
@@ -56,6 +58,7 @@ class AdaptivePasses : public MethodPasses {
 
     gpu::Device& mDevice;
     LookUp mLookUp;
+    OwnSamplesPass mOwnSamples;
     gpu::LazyPipeline mTrace;
     gpu::LazyPipeline mTraceSecond; ///< with a second raster
 };
@@ -82,7 +85,9 @@ MotionBlurOutputs AdaptivePasses::add(
     }
     params.setMethod(own);
     LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
-    if (inputs.timedRays)
+    if (inputs.samples)
+        mOwnSamples.add(graph, *inputs.samples, found, params);
+    else if (inputs.timedRays)
         addTrace(graph, *inputs.timedRays, found, params);
     return mLookUp.end(graph, inputs, found, params, shared);
 }

@@ -76,6 +76,8 @@ MotionBlurOutputs HybridPasses::add(
         inputs.rays.value_or(graph::RayScene{}),
         inputs.slot,
         inputs.wantsCounters};
+    if (inputs.reveal && inputs.wantsCounters)
+        mReveal.countOwn(graph, mask.list, inputs.slot);
     const RayRevealOutputs reveal = inputs.reveal
                                         ? addOwnReveal(graph, mDevice, revealInputs, *inputs.reveal)
                                         : mReveal.add(graph, revealInputs, params);

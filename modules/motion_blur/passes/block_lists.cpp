@@ -84,13 +84,8 @@ constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
 
 BlockSorter::BlockSorter(gpu::Device& device)
     : mSampler(device.nearestSampler()), mSort(device, describeSort(false)),
-      mSortForMask(device, describeSort(true)), mHeaders(
-                                                    device,
-                                                    "block counters",
-                                                    gpu::kMaxFramesInFlight * kHeaderBytes,
-                                                    0,
-                                                    gpu::MemoryUse::Readback
-                                                ) {
+      mSortForMask(device, describeSort(true)),
+      mHeaders(device, "block counters", kMostSlots * kHeaderBytes, 0, gpu::MemoryUse::Readback) {
     mHeaders.writeZeros();
 }
 

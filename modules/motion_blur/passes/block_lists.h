@@ -50,7 +50,7 @@ class BlockSorter {
     ) const;
 
     /// Reads the lists' lengths back, once all passes that append are declared.
-    /// \param slot of the frames in flight, below gpu::kMaxFramesInFlight
+    /// \param slot of the frames in flight, below kMostSlots
     void addCounters(
         graph::Graph& graph, const SortedBlocks& sorted, const PassParams& params, uint32_t slot = 0
     );
@@ -63,8 +63,8 @@ class BlockSorter {
     VkSampler mSampler;
     gpu::LazyPipeline mSort;
     gpu::LazyPipeline mSortForMask;
-    gpu::Buffer mHeaders; ///< by slot: of the lists, of the candidates
-    std::array<uint32_t, gpu::kMaxFramesInFlight> mBlockCounts{}; ///< by slot: of the picture
+    gpu::Buffer mHeaders;                            ///< by slot: of the lists, of the candidates
+    std::array<uint32_t, kMostSlots> mBlockCounts{}; ///< by slot: of the picture
 };
 
 } // namespace shutter::motion_blur

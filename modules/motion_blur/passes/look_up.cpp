@@ -166,7 +166,7 @@ LookUp::LookUp(gpu::Device& device, bool listsPixels)
       mRead(
           device,
           "resolved counters",
-          gpu::kMaxFramesInFlight * sizeof(shader::ResolvedCounters),
+          kMostSlots * sizeof(shader::ResolvedCounters),
           0,
           gpu::MemoryUse::Readback
       ) {
@@ -183,7 +183,8 @@ LookUpOutputs LookUp::add(
     const InstantMotions& motions = *inputs.instantMotions;
     SHUTTER_CHECK_EQ(motions.instantCount, countInstants(settings));
     const RasterHistory* const history = motions.history;
-    const bool hasLast = motions.hasLast && history && history->holds(params.sizePx);
+    const bool isKept = history && history->holds(params.sizePx);
+    const bool hasLast = motions.hasLast && (isKept || motions.lent);
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
     own.hasSecond = motions.second ? 1 : 0;

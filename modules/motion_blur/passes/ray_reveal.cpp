@@ -66,7 +66,7 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
       mHeaders(
           device,
           "ray mask counters",
-          gpu::kMaxFramesInFlight * sizeof(shader::MaskHeader),
+          kMostSlots * sizeof(shader::MaskHeader),
           0,
           gpu::MemoryUse::Readback
       ) {
@@ -223,11 +223,16 @@ RayReveal::add(graph::Graph& graph, const RayRevealInputs& inputs, const PassPar
         }
     );
 
-    SHUTTER_CHECK(inputs.slot < gpu::kMaxFramesInFlight, "slot {}", inputs.slot);
+    SHUTTER_CHECK(inputs.slot < kMostSlots, "slot {}", inputs.slot);
     mTraces.at(inputs.slot) = !skyOnly;
     if (inputs.wantsCounters)
         addCounters(graph, revealed.list, inputs.slot);
     return revealed.out;
+}
+
+void RayReveal::countOwn(graph::Graph& graph, graph::BufferHandle list, uint32_t slot) {
+    mTraces.at(slot) = true;
+    addCounters(graph, list, slot);
 }
 
 void RayReveal::addCounters(graph::Graph& graph, graph::BufferHandle list, uint32_t slot) const {

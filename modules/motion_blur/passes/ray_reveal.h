@@ -24,7 +24,7 @@ struct RayRevealInputs {
     graph::BufferHandle list;      ///< of RayMask
     graph::BufferHandle arguments; ///< of RayMask
     graph::RayScene rays;          ///< no TLAS: nothing but sky is found
-    uint32_t slot = 0;             ///< of the frames in flight, below gpu::kMaxFramesInFlight
+    uint32_t slot = 0;             ///< of the frames in flight, below kMostSlots
     bool wantsCounters = true;     ///< count() is called for the frame
 };
 
@@ -48,6 +48,10 @@ class RayReveal {
     RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout);
     RayRevealOutputs
     add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params);
+
+    /// Lets count() tell of a frame whose masked pixels somebody else reveals.
+    /// \param list of RayMask
+    void countOwn(graph::Graph& graph, graph::BufferHandle list, uint32_t slot);
 
     struct Counts {
         uint32_t maskedPixels = 0;
@@ -77,7 +81,7 @@ class RayReveal {
     std::vector<gpu::LazyPipeline> mPipelines;
     std::array<std::optional<gpu::RayPipeline>, 2> mTracers; ///< the same where rays need them
     gpu::Buffer mHeaders;                                    ///< by slot
-    std::array<bool, gpu::kMaxFramesInFlight> mTraces{};     ///< by slot: not by mSky
+    std::array<bool, kMostSlots> mTraces{};                  ///< by slot: not by mSky
 };
 
 } // namespace shutter::motion_blur

@@ -69,7 +69,19 @@ SurfaceLayersOutputs SurfaceLayers::add(
     RasterHistory* const history = inputs.instantMotions->history;
     SurfaceLayersOutputs outputs;
     outputs.raster.color = inputs.color;
-    if (wantLast)
+    const auto& lent = inputs.instantMotions->lent;
+    if (wantLast && lent)
+        outputs.last = {
+            lent->color,
+            addPack(
+                graph,
+                mPack,
+                lent->motionDepth,
+                lent->entityId,
+                createSurface(graph, params),
+                params
+            )};
+    else if (wantLast)
         outputs.last = importRaster(graph, history->newest(), kKeptLayout);
     if (history) {
         const SurfaceLayer target =

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// What an EmbeddedMotionBlur does before there are frames: memory told, pipelines made.
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/compile.h"
+#include "modules/motion_blur/embedding/embedded_parts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <initializer_list>
+#include <new>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+/// Pipelines do not depend on the size of the picture; this one has all kinds of blocks.
+constexpr uint32_t kWarmUpPixels = 64;
+
+core::Status checkPlan(const HostPlan& plan, uint32_t framesInFlight) {
+    if (plan.viewCount < 1 || plan.viewCount > framesInFlight)
+        return makeError(
+            "motion blur: plan.viewCount is {}, it must be 1 to framesInFlight {}",
+            plan.viewCount,
+            framesInFlight
+        );
+    return {};
+}
+
+/// Images of a small picture, in place of imagined ones.
+class SmallImages {
+  public:
+    SmallImages(gpu::Device& device, HostInputs& inputs) : mDevice(device) {
+        const VkExtent2D picture = pictureOf(inputs);
+        for (auto [image, rule] : std::initializer_list<std::pair<HostImage*, HostImageRule>>{
+                 {&inputs.color, colorRule(inputs)},
+                 {&inputs.output, outputRule(inputs)},
+                 {&inputs.motionDepth, kMotionRule},
+                 {&inputs.convention.vectors.image, kVectorsRule},
+                 {&inputs.convention.depth.image, kDepthRule},
+                 {&inputs.normal, kNormalRule},
+                 {&inputs.entityId, kIdRule},
+                 {&inputs.last.color, kLastColorRule},
+                 {&inputs.last.motionDepth, kLastMotionRule},
+                 {&inputs.last.entityId, kLastIdRule}})
+            if (image->image)
+                make(*image, rule, picture);
+    }
+
+  private:
+    void make(HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
+        // A part of a larger image stands for a layer of one.
+        if (image.layer != 0)
+            image.extent = {picture.width + 1, picture.height};
+        image.layer = 0;
+        const VkExtent2D extent = extentOf(image, picture);
+        image.image = mImages
+                          .emplace_back(gpu::Image(
+                              mDevice,
+                              "warm-up",
+                              {extent.width, extent.height, formatOf(image, rule), rule.usage}
+                          ))
+                          .handle();
+    }
+
+    gpu::Device& mDevice;
+    std::deque<gpu::Image> mImages;
+};
+
+/// A command buffer that nobody submits.
+class DroppedCommands {
+  public:
+    DroppedCommands(VkDevice device, uint32_t queueFamily) : mDevice(device) {
+        VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        pool.queueFamilyIndex = queueFamily;
+        gpu::require(vkCreateCommandPool(device, &pool, nullptr, &mPool), "warming up");
+        VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        info.commandPool = mPool;
+        info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        info.commandBufferCount = 1;
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        const VkResult made = vkAllocateCommandBuffers(device, &info, &commands);
+        const VkResult begun = made == VK_SUCCESS ? vkBeginCommandBuffer(commands, &begin) : made;
+        if (begun != VK_SUCCESS)
+            vkDestroyCommandPool(device, mPool, nullptr);
+        gpu::require(begun, "warming up");
+    }
+
+    ~DroppedCommands() { vkDestroyCommandPool(mDevice, mPool, nullptr); }
+
+    DroppedCommands(const DroppedCommands&) = delete;
+    DroppedCommands& operator=(const DroppedCommands&) = delete;
+
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+
+  private:
+    VkDevice mDevice;
+    VkCommandPool mPool = VK_NULL_HANDLE;
+};
+
+/// Runs what may run out of memory, as an error.
+template <class Call> auto guard(const Call& call) -> decltype(call()) {
+    try {
+        return call();
+    } catch (const gpu::DeviceError& error) {
+        return core::Error{error.what()};
+    } catch (const std::bad_alloc&) {
+        return makeError("motion blur: out of main memory");
+    }
+}
+
+} // namespace
+
+core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
+    HostPlan small = plan;
+    small.width = small.height = kWarmUpPixels;
+    small.moverCount = std::min(plan.moverCount, 1u);
+    ImaginedInputs imagined;
+    imagine(small, imagined);
+    const SmallImages images(*mDevice, imagined.inputs);
+    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, abilities()));
+    Slot slot(*mDevice, 0);
+    View view(*mDevice);
+    // Once without a frame before, and once with one.
+    for (uint32_t i = 0; i < 2; ++i) {
+        const DroppedCommands dropped(mHost.device, mHost.queueFamily);
+        graph::Graph graph;
+        Frame frame{0, slot, graph, imagined.inputs, plan.settings};
+        SHUTTER_TRY(record(frame, view, dropped.commands));
+    }
+    return {};
+}
+
+core::Status EmbeddedMotionBlur::warmUp(const HostPlan& plan) {
+    return guard([&]() -> core::Status {
+        core::Status done = recordOnce(plan);
+        mSlots[0]->counts = false; // the effect was told of a frame of that number
+        // Nobody submits it: what it retired goes when the frames before are done.
+        mDevice->markDone(mDevice->handOver());
+        return done;
+    });
+}
+
+core::Status EmbeddedMotionBlur::startWarmUp(const HostPlan& plan) {
+    if (mWarmUp.valid())
+        return makeError("motion blur: startWarmUp: another is under way; isWarm() tells when it "
+                         "is done");
+    return guard([&]() -> core::Status {
+        // Another effect on the same device makes them, and leaves them in the cache.
+        HostDevice host = mHost;
+        host.pipelineCache = mDevice->pipelineCache();
+        host.framesInFlight = 1;
+        host.measures = false;
+        HostPlan one = plan;
+        one.viewCount = 1;
+        mWarming = plan;
+        mWarmUp = std::async(std::launch::async, [host, one]() -> core::Status {
+            auto other = create(host);
+            if (!other)
+                return other.error();
+            return other.value()->warmUp(one);
+        });
+        return {};
+    });
+}
+
+core::Result<bool> EmbeddedMotionBlur::isWarm() {
+    if (!mWarmUp.valid())
+        return true;
+    if (mWarmUp.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return false;
+    SHUTTER_TRY(mWarmUp.get());
+    SHUTTER_TRY(warmUp(mWarming));
+    return true;
+}
+
+core::Result<uint64_t>
+EmbeddedMotionBlur::estimateMemory(const HostDevice& host, const HostPlan& plan) {
+    auto made = create(host);
+    if (!made)
+        return made.error();
+    return guard([&] { return made.value()->estimate(plan); });
+}
+
+core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
+    SHUTTER_TRY(checkPlan(plan, mHost.framesInFlight));
+    ImaginedInputs imagined;
+    imagine(plan, imagined);
+    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, abilities()));
+    Slot slot(*mDevice, 0);
+    View view(*mDevice);
+    uint64_t transients = 0;
+    uint64_t slotBytes = 0;
+    const bool keeps =
+        plan.settings.method->readsInstantMotions && plan.settings.history && !plan.lendsLast;
+    // The second frame has one before it.
+    for (uint32_t i = 0; i < 2; ++i) {
+        if (keeps)
+            view.history.imagine({plan.width, plan.height});
+        graph::Graph graph;
+        Frame frame{0, slot, graph, imagined.inputs, plan.settings, false, true};
+        declare(frame, view);
+        const auto compiled = graph::compile(graph, slot.pool.requirementFunction());
+        if (!compiled)
+            return compiled.error();
+        transients = compiled.value().blockBytes;
+        for (const graph::Placement& buffer : compiled.value().buffers)
+            transients += buffer.bytes;
+    }
+    for (const gpu::Buffer* buffer : {&slot.instants, &slot.convention})
+        slotBytes += buffer->bytes();
+    const uint64_t constant = mDevice->living().memoryBytes - slotBytes;
+    const uint64_t pixels = uint64_t(plan.width) * plan.height;
+    constexpr uint64_t kHistoryBytesPerPixel = 32; // two rasters of half floats and surfaces
+    return constant + mHost.framesInFlight * (transients + slotBytes) +
+           (keeps ? plan.viewCount * pixels * kHistoryBytesPerPixel : 0);
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What an EmbeddedMotionBlur consists of; its own files alone include this.
+#pragma once
+
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
+#include "engine/graph/graph.h"
+#include "engine/graph/transient_pool.h"
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "modules/motion_blur/instant_motions.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace shutter::motion_blur {
+
+/// What one frame in flight holds.
+struct EmbeddedMotionBlur::Slot {
+    Slot(gpu::Device& device, uint32_t timestampBits)
+        : frame(gpu::Frame::createForHost(device, timestampBits)), pool(device) {}
+
+    std::unique_ptr<gpu::Frame> frame;
+    graph::TransientPool pool;
+    /// Views of the host's images, made anew in each frame: a handle that is the last one's need
+    /// not be the same image. A deque, since the graph points to them.
+    std::deque<gpu::Image> images;
+    gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
+    gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
+    uint64_t handedOver = 0; ///< timeline value of what was recorded last
+    uint32_t recordings = 0; ///< what the GPU marks once it has run the last of them
+    bool isToldDone = true;  ///< by markDone(), or there is none
+    bool counts = false;     ///< what was recorded last has counters
+    uint32_t view = 0;       ///< of what was recorded last
+    /// Of the budget of that view, with which it was recorded; nothing: the budget knows its time.
+    std::optional<size_t> level;
+    std::string gaveUp;
+};
+
+/// What is kept from frame to frame.
+struct EmbeddedMotionBlur::View {
+    explicit View(gpu::Device& device) : history(device) {}
+
+    /// Of what `history` keeps, or the host lends; nothing: there is no frame before.
+    std::optional<HostRaster> last;
+    RasterHistory history;
+    std::optional<BudgetController> budget;
+    MotionBlurSettings wanted; ///< that `budget` begins with
+
+    void forget() {
+        last.reset();
+        history.forget();
+    }
+};
+
+/// A recording under way.
+struct EmbeddedMotionBlur::Frame {
+    uint32_t number; ///< of the frame in flight
+    Slot& slot;
+    graph::Graph& graph;
+    const HostInputs& inputs;
+    const MotionBlurSettings& settings;
+    bool wantsCounters = false;
+    /// Handles are of nothing: the graph is compiled and never run.
+    bool isImagined = false;
+
+    graph::ImageHandle color{};  ///< the host's own
+    graph::ImageHandle output{}; ///< the same; in place: invalid
+
+    /// Invalid where there is no image.
+    [[nodiscard]] graph::ImageHandle import(
+        gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule
+    );
+};
+
+} // namespace shutter::motion_blur

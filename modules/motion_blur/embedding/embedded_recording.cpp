@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// A frame of an EmbeddedMotionBlur as a graph: the host's images, what prepares them, the effect,
+// and what delivers its picture.
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/execute.h"
+#include "modules/motion_blur/embedding/embedded_parts.h"
+#include "shaders/render/scene_shared.h"
+
+#include <utility>
+
+namespace shutter::motion_blur {
+
+graph::ImageHandle EmbeddedMotionBlur::Frame::import(
+    gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule
+) {
+    if (!given.image)
+        return {};
+    const VkExtent2D extent = extentOf(given, pictureOf(inputs));
+    gpu::ImageDesc desc{extent.width, extent.height, formatOf(given, rule)};
+    // Only what shaders do counts here: it is what views are for. An image of nothing has none.
+    desc.usage = rule.usage & (VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
+    if (isImagined)
+        desc.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    desc.layer = given.layer;
+    const gpu::Image& image =
+        slot.images.emplace_back(gpu::Image::adopt(device, name, given.image, desc));
+    return graph.importImage(name, image, given.before, given.after);
+}
+
+InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
+    const HostInputs& inputs = frame.inputs;
+    const bool keeps = frame.settings.history;
+    std::optional<LentRaster> lent = prepareLast(frame);
+    if (!keeps)
+        view.forget();
+    else if (lent)
+        view.history.forget();
+    const HostRaster* last = inputs.motion.followsLast && view.last ? &*view.last : nullptr;
+    HostInstants made =
+        computeHostInstants(inputs.motion, describeFrame(inputs, frame.settings), last);
+    InstantMotions motions;
+    motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
+    motions.instantCount = countInstants(frame.settings);
+    motions.hasLast = made.layers.last.has_value();
+    if (!keeps)
+        return motions;
+    if (lent)
+        motions.lent = lent;
+    else
+        motions.history = &view.history;
+    view.last = std::move(made.raster);
+    return motions;
+}
+
+graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
+    const HostInputs& inputs = frame.inputs;
+    gpu::Device& device = *mDevice;
+    if (inputs.motionDepth.image)
+        return frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
+    const HostConvention& convention = inputs.convention;
+    const auto vectors =
+        frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
+    const auto depth = frame.import(device, "depth", convention.depth.image, kDepthRule);
+    const auto scales =
+        frame.import(device, "blur scale", convention.scales.perPixel, kBlurScaleRule);
+    if (inputs.isOff) // the convention was not checked
+        return {};
+    const VkExtent2D picture = pictureOf(inputs);
+    const shader::PrepareTable table = makePrepareTable(convention, picture);
+    gpu::Buffer& buffer = frame.slot.convention;
+    if (!buffer)
+        buffer = gpu::Buffer(
+            device,
+            "convention",
+            sizeof(table),
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Stream
+        );
+    buffer.writeBytes(&table, sizeof(table), 0);
+    return mPreparation.addMotionDepth(
+        frame.graph, vectors, depth, scales, buffer.address(), picture
+    );
+}
+
+std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
+    const HostInputs& inputs = frame.inputs;
+    const HostLastFrame& last = inputs.last;
+    if (!last.color.image)
+        return std::nullopt;
+    const VkExtent2D picture = pictureOf(inputs);
+    LentRaster lent;
+    lent.color = frame.import(*mDevice, "last colour", last.color, kLastColorRule);
+    if (!isOwn(last.color, kHostColorFormat, picture))
+        lent.color = mPreparation.addColor(frame.graph, lent.color, last.color, picture);
+    lent.motionDepth =
+        frame.import(*mDevice, "last motion and depth", last.motionDepth, kLastMotionRule);
+    lent.entityId = frame.import(*mDevice, "last entity id", last.entityId, kLastIdRule);
+    if (!isOwn(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
+        lent.entityId = mPreparation.addIds(
+            frame.graph, lent.entityId, last.entityId, inputs.noEntity, picture
+        );
+    return lent;
+}
+
+MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
+    const HostInputs& inputs = frame.inputs;
+    const VkExtent2D picture = pictureOf(inputs);
+    graph::Graph& graph = frame.graph;
+    gpu::Device& device = *mDevice;
+    MotionBlurInputs own;
+    own.slot = frame.number;
+    own.wantsCounters = frame.wantsCounters;
+    own.rasterTime = inputs.rasterTime;
+    own.response = gpu::splitAddress(inputs.response);
+    own.frameNumber = inputs.frameNumber;
+    frame.color = frame.import(device, "color", inputs.color, colorRule(inputs));
+    frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
+    const bool isOwnColor = isOwn(inputs.color, kHostColorFormat, picture);
+    own.color =
+        isOwnColor ? frame.color : mPreparation.addColor(graph, frame.color, inputs.color, picture);
+    own.colorIsWritable = !isOwnColor || !inputs.output.image;
+    if (inputs.output.image && isOwn(inputs.output, kHostColorFormat, picture))
+        own.target = frame.output;
+    else if (!inputs.output.image && isOwnColor)
+        own.target = frame.color;
+    // Those the method does not read are imported as well: they go over to their next use.
+    own.motionDepth = prepareMotion(frame);
+    own.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
+    if (own.normal.isValid() && !isOwn(inputs.normal, kHostColorFormat, picture))
+        own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
+    own.entityId = frame.import(device, "entity id", inputs.entityId, kIdRule);
+    if (own.entityId.isValid() &&
+        (!isOwn(inputs.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
+        own.entityId =
+            mPreparation.addIds(graph, own.entityId, inputs.entityId, inputs.noEntity, picture);
+    return own;
+}
+
+void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const {
+    const HostInputs& inputs = frame.inputs;
+    const bool inPlace = !inputs.output.image;
+    const HostImage& given = inPlace ? inputs.color : inputs.output;
+    if (inputs.isOff && inPlace)
+        picture = frame.color; // nothing is written
+    else if (inputs.isOff || !isOwn(given, kHostColorFormat, pictureOf(inputs)))
+        picture = mPreparation.addDelivery(
+            frame.graph,
+            picture,
+            inPlace ? frame.color : frame.output,
+            given.format == VK_FORMAT_UNDEFINED ? kHostColorFormat : given.format,
+            given.area.offset
+        );
+    frame.graph.markOutput(picture);
+}
+
+void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
+    const HostInputs& inputs = frame.inputs;
+    const Method& method = *frame.settings.method;
+    MotionBlurInputs own = prepare(frame);
+    if (inputs.isOff) {
+        view.forget();
+        (void)prepareLast(frame);
+        deliver(frame, own.color);
+        return;
+    }
+    if (method.rays == RayNeed::Query)
+        own.samples = &inputs.samples;
+    if (method.rays == RayNeed::Any && inputs.reveal.record) {
+        own.reveal = &inputs.reveal;
+    } else if (method.rays == RayNeed::Any || method.readsCamera) {
+        graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
+        if (method.rays == RayNeed::Any && inputs.rays.tlas) {
+            rays.tlasBuffer = frame.graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);
+            rays.tlas = inputs.rays.tlas;
+            rays.textures = inputs.rays.scene;
+            rays.hasBlended = inputs.rays.hasBlended;
+        }
+        own.rays = rays;
+    }
+    if (method.readsInstantMotions) {
+        own.instantMotions = describeInstants(frame, view);
+    } else {
+        view.forget();
+        (void)prepareLast(frame);
+    }
+    deliver(frame, mEffect.add(frame.graph, own, frame.settings).color);
+}
+
+core::Status EmbeddedMotionBlur::record(Frame& frame, View& view, VkCommandBuffer commands) {
+    frame.slot.images.clear();
+    declare(frame, view);
+    frame.slot.frame->beginIn(commands);
+    frame.slot.pool.keepFor(frame.inputs.width, frame.inputs.height);
+    const auto plan = graph::execute(frame.graph, *frame.slot.frame, frame.slot.pool);
+    if (!plan)
+        return plan.error();
+    return {};
+}
+
+} // namespace shutter::motion_blur

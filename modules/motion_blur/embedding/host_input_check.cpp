@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_input_check.h"
+
+#include "engine/gpu/vulkan.h"
+#include "shaders/motion_blur/own_samples_shared.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using core::makeError;
+
+constexpr uint32_t kMostPixels = 32768; ///< a side: lists hold x | y << 16 and a flag
+
+constexpr std::array kColorFormats{
+    kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_B10G11R11_UFLOAT_PACK32};
+constexpr std::array kMotionFormats{kHostMotionFormat};
+constexpr std::array kNormalFormats{kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT};
+constexpr std::array kIdFormats{kHostIdFormat, VK_FORMAT_R16_UINT, VK_FORMAT_R8_UINT};
+
+/// An image of motion and depth is read as it is.
+core::Status
+checkMotionDepth(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
+    SHUTTER_TRY(checkImage(image, rule, picture));
+    if (!isWhole(image, picture))
+        return makeError(
+            "motion blur: {} is part of a larger image; give it as convention.vectors and "
+            "convention.depth, which may be",
+            rule.name
+        );
+    return {};
+}
+
+/// Each given image is another one, or another layer.
+core::Status checkDistinct(const HostInputs& inputs) {
+    struct Named {
+        const char* name;
+        const HostImage& image;
+    };
+
+    const bool isMade = !inputs.motionDepth.image;
+    const std::array<Named, 8> images{
+        {{"color", inputs.color},
+         {isMade ? "convention.vectors.image" : "motionDepth",
+          isMade ? inputs.convention.vectors.image : inputs.motionDepth},
+         {"normal", inputs.normal},
+         {"entityId", inputs.entityId},
+         {"last.color", inputs.last.color},
+         {"last.motionDepth", inputs.last.motionDepth},
+         {"last.entityId", inputs.last.entityId},
+         {"output", inputs.output}}};
+    for (size_t i = 0; i < images.size(); ++i)
+        for (size_t j = i + 1; j < images.size(); ++j) {
+            const HostImage& one = images[i].image;
+            const HostImage& other = images[j].image;
+            if (!one.image || one.image != other.image || one.layer != other.layer)
+                continue;
+            return makeError(
+                "motion blur: {}.image is {}.image{}",
+                images[j].name,
+                images[i].name,
+                other.image == inputs.output.image ? "; to blur in place, leave output.image null"
+                                                   : ""
+            );
+        }
+    return {};
+}
+
+core::Status check(
+    const HostImage& image, const HostImageRule& rule, VkExtent2D picture, const HostAbilities& host
+) {
+    SHUTTER_TRY(checkImage(image, rule, picture));
+    return checkSupport(host.physical, image, rule);
+}
+
+core::Status checkMadeMotion(const HostInputs& inputs, const HostAbilities& host) {
+    const HostConvention& convention = inputs.convention;
+    if (!convention.vectors.image.image)
+        return makeError(
+            "motion blur: motionDepth.image is null, and so is convention.vectors.image.image"
+        );
+    SHUTTER_TRY(checkConvention(convention, pictureOf(inputs)));
+    SHUTTER_TRY(checkSupport(host.physical, convention.vectors.image, kVectorsRule));
+    SHUTTER_TRY(checkSupport(host.physical, convention.depth.image, kDepthRule));
+    if (!convention.scales.perPixel.image)
+        return {};
+    return checkSupport(host.physical, convention.scales.perPixel, kBlurScaleRule);
+}
+
+core::Status checkReveal(
+    const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
+) {
+    const Method& method = *settings.method;
+    if (!host.hasRays && !inputs.reveal.record)
+        return makeError(
+            "motion blur: the method {} needs rays: reveal.record is empty, and "
+            "HostDevice::rayTier was none",
+            method.name
+        );
+    if (inputs.reveal.record && settings.rayShare < 1.0f)
+        return makeError(
+            "motion blur: rayShare is {}, but reveal.record answers each pixel; it must be 1",
+            settings.rayShare
+        );
+    return {};
+}
+
+core::Status checkSamples(
+    const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
+) {
+    if (!inputs.samples.record)
+        return makeError(
+            "motion blur: the method {} needs rays with times of their own: samples.record is "
+            "empty",
+            settings.method->name
+        );
+    if (!(settings.raysPerPixel <= kMostOwnSamplesPerPixel))
+        return makeError(
+            "motion blur: raysPerPixel is {}, but samples.record answers from a list; it must be 0 "
+            "to {}",
+            settings.raysPerPixel,
+            kMostOwnSamplesPerPixel
+        );
+    const double bytes = double(settings.raysPerPixel) * inputs.width * inputs.height * 16.0;
+    if (bytes > double(host.mostBufferBytes))
+        return makeError(
+            "motion blur: raysPerPixel is {}, whose answers take {} bytes at {} x {}; the device "
+            "has buffers of {}",
+            settings.raysPerPixel,
+            bytes,
+            inputs.width,
+            inputs.height,
+            host.mostBufferBytes
+        );
+    return {};
+}
+
+core::Status checkLast(const HostInputs& inputs, const HostAbilities& host) {
+    const HostLastFrame& last = inputs.last;
+    if (!last.color.image && !last.motionDepth.image && !last.entityId.image)
+        return {};
+    const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(check(last.color, kLastColorRule, picture, host));
+    SHUTTER_TRY(checkMotionDepth(last.motionDepth, kLastMotionRule, picture));
+    return check(last.entityId, kLastIdRule, picture, host);
+}
+
+core::Status checkTables(const HostInputs& inputs, const Method& method) {
+    if (inputs.rays.frameConstants == 0)
+        return makeError(
+            "motion blur: rays.frameConstants is 0, which the method {} needs", method.name
+        );
+    if (inputs.rays.tlas && (!inputs.rays.tlasBuffer || !inputs.rays.scene))
+        return makeError(
+            "motion blur: rays.{} is null", inputs.rays.tlasBuffer ? "scene" : "tlasBuffer"
+        );
+    return {};
+}
+
+core::Status checkMethod(
+    const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
+) {
+    const Method& method = *settings.method;
+    const VkExtent2D picture = pictureOf(inputs);
+    if (!method.readsRaster)
+        return makeError(
+            "motion blur: the method {} reads no raster image; it is not for hosts that have one",
+            method.name
+        );
+    if (method.rays == RayNeed::Query)
+        SHUTTER_TRY(checkSamples(inputs, settings, host));
+    if (method.rays == RayNeed::Any)
+        SHUTTER_TRY(checkReveal(inputs, settings, host));
+    if (method.readsNormal)
+        SHUTTER_TRY(check(inputs.normal, kNormalRule, picture, host));
+    if (method.readsEntityId)
+        SHUTTER_TRY(check(inputs.entityId, kIdRule, picture, host));
+    if (method.readsInstantMotions && settings.secondRaster)
+        return makeError(
+            "motion blur: secondRaster is true, but hosts have one raster; it must be false"
+        );
+    if (method.readsInstantMotions) {
+        SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
+        SHUTTER_TRY(checkLast(inputs, host));
+    }
+    const bool readsTables = method.rays == RayNeed::Any && !inputs.reveal.record;
+    return readsTables || method.readsCamera ? checkTables(inputs, method) : core::Status();
+}
+
+core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
+    const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
+    if (inputs.output.image)
+        SHUTTER_TRY(check(inputs.output, outputRule(inputs), picture, host));
+    if (inputs.motionDepth.image)
+        SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture));
+    else if (!inputs.isOff)
+        SHUTTER_TRY(checkMadeMotion(inputs, host));
+    return checkDistinct(inputs);
+}
+
+} // namespace
+
+const HostImageRule kMotionRule{.name = "motionDepth", .formats = kMotionFormats};
+const HostImageRule kNormalRule{.name = "normal", .formats = kNormalFormats};
+const HostImageRule kIdRule{.name = "entityId", .formats = kIdFormats, .hasPictureSize = false};
+const HostImageRule kLastColorRule{.name = "last.color", .formats = kColorFormats};
+const HostImageRule kLastMotionRule{.name = "last.motionDepth", .formats = kMotionFormats};
+const HostImageRule kLastIdRule{
+    .name = "last.entityId", .formats = kIdFormats, .hasPictureSize = false};
+
+VkExtent2D pictureOf(const HostInputs& inputs) {
+    return {inputs.width, inputs.height};
+}
+
+bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture) {
+    return (image.format == VK_FORMAT_UNDEFINED || image.format == format) && image.layer == 0 &&
+           isWhole(image, picture);
+}
+
+HostImageRule colorRule(const HostInputs& inputs) {
+    HostImageRule rule{.name = "color", .formats = kColorFormats};
+    if (isOwn(inputs.color, kHostColorFormat, pictureOf(inputs)))
+        rule.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (!inputs.output.image)
+        rule.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
+    return rule;
+}
+
+HostImageRule outputRule(const HostInputs& inputs) {
+    HostImageRule rule{
+        .name = "output",
+        .formats = kColorFormats,
+        .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+        .isWritten = true};
+    if (isOwn(inputs.output, kHostColorFormat, pictureOf(inputs)))
+        rule.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return rule;
+}
+
+HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings) {
+    return {
+        {inputs.width, inputs.height},
+        inputs.rasterTime,
+        inputs.response != 0,
+        countInstants(settings)};
+}
+
+core::Status checkInputs(
+    const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
+) {
+    if (inputs.width < 1 || inputs.width > kMostPixels || inputs.height < 1 ||
+        inputs.height > kMostPixels)
+        return makeError(
+            "motion blur: the size is {} x {}, both must be 1 to {}",
+            inputs.width,
+            inputs.height,
+            kMostPixels
+        );
+    if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
+        return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
+    SHUTTER_TRY(checkImages(inputs, host));
+    if (inputs.motion.view >= host.framesInFlight)
+        return makeError(
+            "motion blur: motion.view is {}, framesInFlight {}",
+            inputs.motion.view,
+            host.framesInFlight
+        );
+    SHUTTER_TRY(validate(inputs.budget));
+    if (!inputs.budget.isUnlimited() && !host.measures)
+        return makeError(
+            "motion blur: budget.milliseconds is {}, which needs HostDevice::measures",
+            inputs.budget.milliseconds
+        );
+    SHUTTER_TRY(validate(settings));
+    return inputs.isOff ? core::Status() : checkMethod(inputs, settings, host);
+}
+
+} // namespace shutter::motion_blur

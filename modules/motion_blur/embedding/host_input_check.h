@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Whether a recording can be made of what a host hands in; one sentence where it cannot.
+#pragma once
+
+#include "engine/core/result.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "modules/motion_blur/settings.h"
+
+namespace shutter::motion_blur {
+
+inline constexpr VkFormat kHostColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kHostMotionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat kHostIdFormat = VK_FORMAT_R32_UINT;
+
+extern const HostImageRule kMotionRule; ///< HostInputs::motionDepth
+extern const HostImageRule kNormalRule;
+extern const HostImageRule kIdRule;
+extern const HostImageRule kLastColorRule; ///< HostLastFrame
+extern const HostImageRule kLastMotionRule;
+extern const HostImageRule kLastIdRule;
+
+[[nodiscard]] HostImageRule colorRule(const HostInputs& inputs);
+[[nodiscard]] HostImageRule outputRule(const HostInputs& inputs);
+
+[[nodiscard]] VkExtent2D pictureOf(const HostInputs& inputs);
+
+/// The part of the image that is used is one that the effect may read, write and copy itself.
+[[nodiscard]] bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture);
+
+[[nodiscard]] HostMotionFrame
+describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings);
+
+/// What a host said when the effect was made.
+struct HostAbilities {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    bool hasRays = false; ///< HostDevice::rayTier is not None
+    bool measures = false;
+    uint32_t framesInFlight = 1;
+    VkDeviceSize mostBufferBytes = 0; ///< VkPhysicalDeviceLimits::maxStorageBufferRange
+};
+
+[[nodiscard]] core::Status checkInputs(
+    const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
+);
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_plan.h"
+
+#include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/embedding/host_input_check.h"
+
+#include <algorithm>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+/// A handle that no function of Vulkan may get; each call has another one.
+VkImage imagineImage(uintptr_t& next) {
+    return reinterpret_cast<VkImage>(++next);
+}
+
+void imagineMotion(const HostPlan& plan, ImaginedInputs& imagined) {
+    glm::dmat4 clipFromView(0.0); // perspective, reversed, infinitely far
+    clipFromView[0][0] = clipFromView[1][1] = 1.0;
+    clipFromView[2][3] = -1.0;
+    clipFromView[3][2] = 0.1;
+    const glm::dmat4 unit(1.0);
+    glm::dmat4 moved(1.0);
+    moved[3] = glm::dvec4(1.0, 0.0, 0.0, 1.0);
+    imagined.keys = {{0.0, unit, clipFromView}, {1.0, unit, clipFromView}};
+    imagined.matrices = {unit, moved};
+    imagined.movers.clear();
+    for (uint32_t row = 0; row < std::min(plan.moverCount, plan.rowCount); ++row)
+        imagined.movers.push_back({row, imagined.matrices});
+    HostMotion& motion = imagined.inputs.motion;
+    motion.keys = imagined.keys;
+    motion.movers = imagined.movers;
+    motion.rowCount = plan.rowCount;
+    motion.followsLast = true;
+}
+
+} // namespace
+
+void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
+    uintptr_t next = 0;
+    const auto make = [&](VkFormat format) {
+        HostImage image;
+        image.image = imagineImage(next);
+        image.before.layout = VK_IMAGE_LAYOUT_GENERAL;
+        image.format = format;
+        return image;
+    };
+    HostInputs& inputs = imagined.inputs;
+    inputs = {};
+    inputs.width = plan.width;
+    inputs.height = plan.height;
+    inputs.color = make(plan.colorFormat);
+    if (plan.outputFormat != VK_FORMAT_UNDEFINED)
+        inputs.output = make(plan.outputFormat);
+    if (plan.areParts)
+        inputs.color.layer = inputs.output.layer = 1;
+    inputs.entityId = make(plan.entityIdFormat);
+    inputs.normal = make(kHostColorFormat);
+    if (plan.hasVectors) {
+        inputs.convention.vectors.image = make(VK_FORMAT_R16G16_SFLOAT);
+        inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT);
+        inputs.convention.depth.isRaw = false;
+    } else {
+        inputs.motionDepth = make(kHostMotionFormat);
+    }
+    if (plan.lendsLast)
+        inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), make(plan.entityIdFormat)};
+    inputs.reveal.record = [](const RevealTask&) {};
+    inputs.samples.record = [](const SampleTask&) {};
+    inputs.rays.frameConstants = 1;
+    imagineMotion(plan, imagined);
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/own_samples_pass.h"
+
+#include "spirv/motion_blur/collect_samples.comp.h"
+#include "spirv/motion_blur/list_samples.comp.h"
+
+#include "engine/gpu/vulkan.h"
+#include "engine/graph/execute.h"
+#include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/passes/ray_reveal.h"
+#include "shaders/motion_blur/own_samples_shared.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+gpu::ComputePipelineDesc
+describe(const char* name, std::span<const uint32_t> spirv, size_t bufferCount) {
+    std::vector<VkDescriptorType> bindings = listSearchBindings();
+    bindings.insert(bindings.end(), bufferCount, kBuffer);
+    gpu::ComputePipelineDesc desc = describePass(name, spirv, std::move(bindings));
+    desc.specialization = {0, 0, 0}; // no second raster
+    return desc;
+}
+
+uint32_t capacityOf(const PassParams& params) {
+    return std::max(params.getMethod<shader::ResolvedParams>().rayLimit, 1u);
+}
+
+} // namespace
+
+struct OwnSamplesPass::Lists {
+    graph::BufferHandle samples; ///< shader::SampleHeader, shader::AskedSample
+    graph::BufferHandle answers; ///< vec4 by sample
+    graph::BufferHandle first;   ///< by listed pixel
+    graph::BufferHandle groups;  ///< shader::DispatchArguments
+};
+
+OwnSamplesPass::OwnSamplesPass(gpu::Device& device)
+    : mDevice(device), mList(device, describe("list samples", motion_blur_list_samples_comp, 5)),
+      mCollect(device, describe("collect samples", motion_blur_collect_samples_comp, 4)) {}
+
+void OwnSamplesPass::add(
+    graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params
+) const {
+    Lists lists = createLists(graph, params);
+    addList(graph, found, lists, params);
+    addAnswer(graph, own, lists, params);
+    addCollect(graph, found, lists, params);
+}
+
+OwnSamplesPass::Lists
+OwnSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const {
+    const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
+    const VkDeviceSize capacity = capacityOf(params);
+    Lists lists;
+    lists.samples = graph.createBuffer(
+        "asked samples",
+        {sizeof(shader::SampleHeader) + capacity * sizeof(shader::AskedSample), kListUsage}
+    );
+    lists.answers = graph.createBuffer("answers", {capacity * sizeof(glm::vec4), kListUsage});
+    lists.first = graph.createBuffer("first samples", {pixels * sizeof(uint32_t), kListUsage});
+    lists.groups = graph.createBuffer(
+        "asked sample groups", {sizeof(shader::DispatchArguments), kArgumentsUsage}
+    );
+    const Lists& cleared = graph.addPass<Lists>(
+        "clear asked samples",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, Lists& data) {
+            data.samples = builder.write(lists.samples, Access::TransferWrite);
+            data.groups = builder.write(lists.groups, Access::TransferWrite);
+        },
+        [capacity](const Lists& data, graph::PassContext& context) {
+            const shader::SampleHeader none{0, 0, static_cast<uint32_t>(capacity), 0};
+            clearList(context, data.samples, &none, sizeof(none));
+            clearArguments(context, data.groups, 1);
+        }
+    );
+    lists.samples = cleared.samples;
+    lists.groups = cleared.groups;
+    return lists;
+}
+
+void OwnSamplesPass::addList(
+    graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params
+) const {
+    struct Data {
+        SearchResources search;
+        ListedPixels listed;
+        Lists lists;
+        graph::ImageHandle picture;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "list samples",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.search = found.search;
+            data.search.use(builder);
+            data.listed = {
+                builder.read(found.listed.pixels, Access::StorageRead),
+                builder.read(found.listed.arguments, Access::IndirectRead)};
+            data.lists = {
+                builder.write(lists.samples, Access::StorageWrite),
+                builder.write(lists.answers, Access::StorageWrite),
+                builder.write(lists.first, Access::StorageWrite),
+                builder.write(lists.groups, Access::StorageWrite)};
+            // Bound, though nothing writes it.
+            data.picture = builder.write(found.picture, Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
+            bindings.buffer(resources.buffer(data.listed.pixels));
+            for (const graph::BufferHandle buffer :
+                 {data.lists.samples, data.lists.answers, data.lists.first, data.lists.groups})
+                bindings.buffer(resources.buffer(buffer));
+            dispatchList(context, mList.get(), bindings, params, data.listed.arguments, 0);
+        }
+    );
+    found.search.counters = pass.search.counters;
+    found.picture = pass.picture;
+    lists = pass.lists;
+}
+
+void OwnSamplesPass::addAnswer(
+    graph::Graph& graph, const OwnSamples& own, Lists& lists, const PassParams& params
+) const {
+    struct Data {
+        Lists lists;
+        graph::BufferHandle launch;
+    };
+
+    static_assert(
+        offsetof(shader::SampleHeader, listed) == offsetof(shader::MaskHeader, listedPixels),
+        "addLaunchSize() reads the count of either list"
+    );
+    const graph::BufferHandle launch = own.byRayPipeline && mDevice.info().tracesIndirect
+                                           ? addLaunchSize(graph, lists.samples)
+                                           : graph::BufferHandle{};
+    const VkDeviceSize capacity = capacityOf(params);
+    const Data& pass = graph.addPass<Data>(
+        "own samples",
+        own.byRayPipeline ? graph::PassKind::RayTracing : graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.lists.samples = builder.read(lists.samples, Access::StorageRead);
+            data.lists.groups = builder.read(lists.groups, Access::IndirectRead);
+            data.lists.answers = builder.write(lists.answers, Access::StorageWrite);
+            if (launch.isValid())
+                data.launch = builder.read(launch, Access::IndirectRead);
+        },
+        [&own, capacity, sizePx = params.sizePx](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            SampleTask task;
+            task.commands = context.commands;
+            task.sizePx = sizePx;
+            task.list = resources.buffer(data.lists.samples);
+            task.listAddress = resources.address(data.lists.samples);
+            task.listBytes = sizeof(shader::SampleHeader) + capacity * sizeof(shader::AskedSample);
+            task.groups = resources.buffer(data.lists.groups);
+            if (data.launch.isValid()) {
+                task.launch = resources.buffer(data.launch);
+                task.launchAddress = resources.address(data.launch);
+            }
+            task.answers = resources.buffer(data.lists.answers);
+            task.answersAddress = resources.address(data.lists.answers);
+            task.answersBytes = capacity * sizeof(glm::vec4);
+            own.record(task);
+        }
+    );
+    lists.answers = pass.lists.answers;
+}
+
+void OwnSamplesPass::addCollect(
+    graph::Graph& graph, LookUpOutputs& found, const Lists& lists, const PassParams& params
+) const {
+    struct Data {
+        SearchResources search;
+        ListedPixels listed;
+        Lists lists;
+        graph::ImageHandle picture;
+    };
+
+    const Data& pass = graph.addPass<Data>(
+        "collect samples",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.search = found.search;
+            data.search.use(builder);
+            data.listed = {
+                builder.read(found.listed.pixels, Access::StorageRead),
+                builder.read(found.listed.arguments, Access::IndirectRead)};
+            data.lists.samples = builder.read(lists.samples, Access::StorageRead);
+            data.lists.answers = builder.read(lists.answers, Access::StorageRead);
+            data.lists.first = builder.read(lists.first, Access::StorageRead);
+            data.picture = builder.write(found.picture, Access::StorageWrite);
+        },
+        [this, params](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
+            for (const graph::BufferHandle buffer :
+                 {data.listed.pixels, data.lists.samples, data.lists.answers, data.lists.first})
+                bindings.buffer(resources.buffer(buffer));
+            dispatchList(context, mCollect.get(), bindings, params, data.listed.arguments, 0);
+        }
+    );
+    found.search.counters = pass.search.counters;
+    found.picture = pass.picture;
+}
+
+} // namespace shutter::motion_blur

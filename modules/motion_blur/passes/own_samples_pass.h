@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/own_samples.h"
+#include "modules/motion_blur/passes/look_up.h"
+
+namespace shutter::motion_blur {
+
+/// The passes that list samples for a host, let it answer, and take the answers into the picture.
+class OwnSamplesPass {
+  public:
+    explicit OwnSamplesPass(gpu::Device& device);
+
+    /// \param found of a LookUp that lists pixels; gets the picture with the answers
+    /// \param params with shader::ResolvedParams whose rayLimit is how many samples may ask
+    /// \param own must outlive the graph
+    void
+    add(graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params
+    ) const;
+
+  private:
+    struct Lists;
+
+    [[nodiscard]] Lists createLists(graph::Graph& graph, const PassParams& params) const;
+    void addList(graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params)
+        const;
+    void addAnswer(
+        graph::Graph& graph, const OwnSamples& own, Lists& lists, const PassParams& params
+    ) const;
+    void addCollect(
+        graph::Graph& graph, LookUpOutputs& found, const Lists& lists, const PassParams& params
+    ) const;
+
+    gpu::Device& mDevice;
+    gpu::LazyPipeline mList;
+    gpu::LazyPipeline mCollect;
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Which of a listed pixel's samples rays replace, and what is known of the others. Whoever includes
+// this has the push constants `params` and `method`, and the constant `kFindsEdges`.
+#ifndef SHUTTER_RESOLVED_RAYS_GLSL
+#define SHUTTER_RESOLVED_RAYS_GLSL
+
+#include "common/sampling.glsl"
+#include "motion_blur/resolved_search.glsl"
+
+/// Share of the samples of each class that the frame's rays are enough for, the most harmful first.
+void shareRays(out float shares[kSampleClasses]) {
+    float left = method.rayLimit == kNoRayLimit ? kFarthest : float(method.rayLimit);
+    for (uint i = 0u; i < kSampleClasses; ++i) {
+        float wanted = float(uCounters.classes[i]);
+        shares[i] = wanted > 0.0f ? saturate(left / wanted) : 0.0f;
+        left = max(left - wanted, 0.0f);
+    }
+}
+
+/// The same samples in every frame of the same numbers, spread over the picture.
+bool isTraced(ivec2 pixel, uint index, float share) {
+    return share >= 1.0f || unitFloat(hashPixel(uvec2(pixel), index, 0u)) < share;
+}
+
+/// In the tables.
+uint instantOf(PixelSearch search, uint index) { return index * method.setCount + search.set; }
+
+/// What is known of a pixel's samples.
+struct Mean {
+    vec3 sum;
+    uint known;
+};
+
+/// A sample as it was looked up.
+struct LookedUp {
+    bool isKnown;
+    bool isTraced; // a ray shall replace it
+    vec3 color;
+};
+
+LookedUp lookUpAgain(
+    PixelSearch search, ivec2 pixel, uint index, float shares[kSampleClasses], inout Guesses guesses
+) {
+    Doubt doubt = kNoDoubt;
+    Seen seen = searchInstant(search, instantOf(search, index), guesses, doubt);
+    vec3 color = vec3(0.0f);
+    if (seen.isFound)
+        color = colorOf(seen);
+    else if (doubt.hasBeside)
+        color = fetchColor(kRasterLayer, doubt.beside);
+    bool isKnown = seen.isFound || doubt.hasBeside;
+    return LookedUp(isKnown, isTraced(pixel, index, shares[classify(seen, color, doubt)]), color);
+}
+
+void addKnown(LookedUp looked, inout Mean mean) {
+    if (!looked.isKnown) return;
+    mean.sum += looked.color;
+    ++mean.known;
+}
+
+/// Adds those of 32 samples that are not traced. \return those that are, a bit each
+uint addGuesses(
+    PixelSearch search, ivec2 pixel, uint first, float shares[kSampleClasses], inout Guesses guesses,
+    inout Mean mean
+) {
+    uint traced = 0u;
+    for (uint i = 0u; i < min(params.sampleCount - first, 32u); ++i) {
+        LookedUp looked = lookUpAgain(search, pixel, first + i, shares, guesses);
+        if (looked.isTraced)
+            traced |= 1u << i;
+        else
+            addKnown(looked, mean);
+    }
+    return traced;
+}
+
+/// Whether any sample of a listed pixel may be traced.
+/// \param classes of its samples, a bit each
+bool mayTrace(uint classes, float shares[kSampleClasses]) {
+    for (uint i = 0u; i < kSampleClasses; ++i)
+        if ((classes >> i & 1u) != 0u && shares[i] > 0.0f) return true;
+    return false;
+}
+
+#endif

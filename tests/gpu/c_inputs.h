@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The inputs of the C++ interface in the words of the C one.
+#pragma once
+
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
+
+#include <cstring>
+#include <vector>
+
+namespace shutter::test {
+
+inline ShutterBlurImage convertForC(const motion_blur::HostImage& image) {
+    const auto use = [](const graph::OutsideUse& given) {
+        return ShutterBlurUse{given.layout, given.stages, given.access};
+    };
+    ShutterBlurImage made{};
+    made.image = image.image;
+    made.format = image.format;
+    made.extent = image.extent;
+    made.area = image.area;
+    made.usage = image.usage;
+    made.layer = image.layer;
+    made.before = use(image.before);
+    made.after = use(image.after);
+    return made;
+}
+
+/// What `inputs` points to; both must last until it is recorded.
+struct InputsForC {
+    explicit InputsForC(const motion_blur::HostInputs& given) : mGiven(given) {
+        inputs.width = given.width;
+        inputs.height = given.height;
+        inputs.color = convertForC(given.color);
+        inputs.output = convertForC(given.output);
+        inputs.motionDepth = convertForC(given.motionDepth);
+        inputs.normal = convertForC(given.normal);
+        inputs.entityId = convertForC(given.entityId);
+        inputs.rasterTime = given.rasterTime;
+        inputs.frameNumber = given.frameNumber;
+        takeMotion(given.motion);
+        if (given.reveal.record) {
+            inputs.revealUser = this;
+            inputs.recordReveal = [](void* self, const ShutterBlurRevealTask* task) {
+                static_cast<InputsForC*>(self)->record(*task);
+            };
+        }
+        if (given.samples.record) {
+            inputs.samplesUser = this;
+            inputs.recordSamples = [](void* self, const ShutterBlurSampleTask* task) {
+                static_cast<InputsForC*>(self)->record(*task);
+            };
+        }
+    }
+
+    ShutterBlurInputs inputs = shutterBlurDefaultInputs();
+
+  private:
+    void takeMotion(const motion_blur::HostMotion& motion) {
+        for (const motion_blur::HostCameraKey& key : motion.keys) {
+            ShutterBlurCameraKey& made = mKeys.emplace_back();
+            made.time = key.time;
+            std::memcpy(made.viewFromWorld, &key.viewFromWorld, sizeof(made.viewFromWorld));
+            std::memcpy(made.clipFromView, &key.clipFromView, sizeof(made.clipFromView));
+        }
+        for (const motion_blur::HostMover& mover : motion.movers)
+            mMovers.push_back(
+                {mover.row,
+                 mover.worldFromObject.empty() ? nullptr : &mover.worldFromObject[0][0].x}
+            );
+        inputs.keyCount = static_cast<uint32_t>(mKeys.size());
+        inputs.keys = mKeys.data();
+        inputs.moverCount = static_cast<uint32_t>(mMovers.size());
+        inputs.movers = mMovers.data();
+        inputs.rowCount = motion.rowCount;
+        inputs.rowIds = motion.rowIds.empty() ? nullptr : motion.rowIds.data();
+        inputs.followsLast = motion.followsLast ? VK_TRUE : VK_FALSE;
+        inputs.cameras.aheadIsPlusZ = motion.aheadIsPlusZ ? VK_TRUE : VK_FALSE;
+    }
+
+    void record(const ShutterBlurRevealTask& task) const {
+        motion_blur::RevealTask told;
+        told.commands = task.commands;
+        told.sizePx = {task.width, task.height};
+        told.list = task.list;
+        told.groups = task.groups;
+        told.color = {task.color.image, task.color.view};
+        told.motionDepth = {task.motionDepth.image, task.motionDepth.view};
+        told.entityId = {task.entityId.image, task.entityId.view};
+        mGiven.reveal.record(told);
+    }
+
+    void record(const ShutterBlurSampleTask& task) const {
+        motion_blur::SampleTask told;
+        told.commands = task.commands;
+        told.sizePx = {task.width, task.height};
+        told.list = task.list;
+        told.groups = task.groups;
+        told.answers = task.answers;
+        mGiven.samples.record(told);
+    }
+
+    const motion_blur::HostInputs& mGiven;
+    std::vector<ShutterBlurCameraKey> mKeys;
+    std::vector<ShutterBlurMover> mMovers;
+};
+
+} // namespace shutter::test
