@@ -2,6 +2,7 @@
 #include "engine/extract/motion_parts.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace shutter::extract {
@@ -54,11 +55,11 @@ TEST_F(MotionPartsTest, AnExposureWithoutLengthMovesNothing) {
 }
 
 TEST_F(MotionPartsTest, ACasterBesideThePictureCountsWithShadowsOnly) {
-    // Behind the camera, by 5 m; a pixel is pixelFootprint.x * 5 there.
+    // Behind the camera, by 5 m; at the raster instant it has moved by 1 m.
     world.registry.add(addBox({0.0, 0.0, 5.0}), scene::LinearVelocity{{1.0, 0.0, 0.0}});
     EXPECT_EQ(plan().casterPx, 0.0);
     request.shadows.mode = ShadowMode::Sharp;
-    const double pixel = double{extract().constants.pixelFootprint.x} * 5.0;
+    const double pixel = double{extract().constants.pixelFootprint.x} * std::hypot(5.0, 1.0);
     EXPECT_NEAR(plan().casterPx, 1.0 / pixel, 1.0e-6 / pixel);
     request.unlit = true;
     EXPECT_EQ(plan().casterPx, 0.0);
