@@ -47,8 +47,9 @@ image::Image clean(const image::Image& picture, float intensity) {
         for (uint32_t c = 0; c < 3; ++c) {
             const float value =
                 picture.pixels[i * picture.channels + (picture.channels < 3 ? 0 : c)];
-            // Written so that NaN gives 0.
-            result.pixels[i * 3 + c] = value > 0.0f ? std::min(value * intensity, kMostHalf) : 0.0f;
+            // Written so that NaN gives 0. Bounded first: infinity times 0 is NaN.
+            const float bounded = value > 0.0f ? std::min(value, kMostHalf) : 0.0f;
+            result.pixels[i * 3 + c] = std::min(bounded * intensity, kMostHalf);
         }
     return result;
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace shutter::environment {
 namespace {
@@ -61,6 +62,16 @@ TEST(Environment, HoldsNothingButNumbersThatHalfFloatsHold) {
         for (int c = 0; c < 3; ++c)
             EXPECT_TRUE(std::isfinite(factor[c]));
     EXPECT_EQ(glm::unpackHalf1x16(made.value().background.front().rgba[0]), 2.0f);
+}
+
+TEST(Environment, IsBlackAtNoIntensityWhateverItsPictureHolds) {
+    image::Image picture = makeGrey(64, 32, 3, 1.0f);
+    picture.at(9, 3, 1) = std::numeric_limits<float>::infinity();
+    const auto made = makeEnvironment(picture, {.intensity = 0.0});
+    ASSERT_TRUE(made);
+    const std::vector<uint16_t>& halves = made.value().background.front().rgba;
+    for (size_t i = 0; i < halves.size(); ++i)
+        ASSERT_EQ(glm::unpackHalf1x16(halves[i]), i % 4 == 3 ? 1.0f : 0.0f);
 }
 
 TEST(Environment, OfOneChannelIsGrey) {
