@@ -38,6 +38,13 @@ class Traces(unittest.TestCase):
             self.assertGreater(len(found), 8)
             self.assertIsNone(traces.find_difference(self.draw(method), found))
 
+    def test_two_runs_with_every_effect_write_the_same(self):
+        found = self.draw("hybrid", *EFFECTS)
+        names = " ".join(row["pass"] for row in found)
+        for part in ("taa", "bloom", "shadow"):
+            self.assertIn(part, names)
+        self.assertIsNone(traces.find_difference(self.draw("hybrid", *EFFECTS), found))
+
     def test_tracing_does_not_change_the_picture(self):
         for method in ("hybrid", "resolved", "accumulate"):
             with tempfile.TemporaryDirectory(prefix="shutter_trace_") as folder:
@@ -57,6 +64,9 @@ class Traces(unittest.TestCase):
                 self.assertIn(f"'{name}'", difference)
 
 
+# What may be drawn besides the blur.
+EFFECTS = ("--aa", "taa", "--bloom", "0.3", "--shadows", "blurred", "--shadow-map-size", "64",
+           "--sky", "3")
 # What each setting acts on first.
 CHANGES = (
     ("gather", "foregroundMagnification=30", "gather"),
