@@ -81,6 +81,11 @@ class Advice(unittest.TestCase):
         for mark in ("BestPractices-vk", "NVIDIA", "AMD"):
             self.assertTrue(any(mark in message for message in heard.values()), mark)
 
+    def test_pictures_with_every_effect(self):
+        self.expect_explained(self.hear(
+            "render", f"{ASSETS}/vase.glb", "--out", "a.png", "--size", "64x36", "--aa", "taa",
+            "--bloom", "0.3", "--shadows", "blurred", "--shadow-map-size", "64", "--sky", "3"))
+
     def test_the_demos(self):
         for demo in ("rally", "gallery", "spin"):
             self.expect_explained(self.hear(
