@@ -49,9 +49,9 @@ void expectSlope(
     EXPECT_GT(length(slope), 1e-6f);
 }
 
-/// A ball's, and that of a disc that lies level.
-const vec4 kBall[3] = {vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0)};
-const vec4 kDisc[3] = {vec4(1, 0, 0, 0), vec4(0, 2500, 0, 0), vec4(0, 0, 1, 0)};
+/// A ball's, and that of a disc that lies level. Not constant: GLSL copies arrays, C++ does not.
+vec4 ball[3] = {vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0)};
+vec4 disc[3] = {vec4(1, 0, 0, 0), vec4(0, 2500, 0, 0), vec4(0, 0, 1, 0)};
 
 } // namespace
 
@@ -120,10 +120,10 @@ TEST(ShadowFilter, EmptyTexelsHoldNoLightBackEvenBehindTheMapsReach) {
 TEST(ShadowFilter, AMoverThatOnlyWentElsewhereKeepsItsRay) {
     const vec3 light = normalize(vec3(0.2f, 1.0f, 0.1f));
     const vec3 point(1.0f, -2.0f, 0.5f);
-    const vec3 aligned = alignRay(point, light, light, vec3(0.3f, 1.0f, 0.0f), kBall);
+    const vec3 aligned = alignRay(point, light, light, vec3(0.3f, 1.0f, 0.0f), ball);
     EXPECT_NEAR(length(aligned - point), 0.0f, 1e-5f);
     const vec4 byPoint =
-        alignPointRay(point, vec3(0, 5, 0), vec3(0, 5, 0), vec3(0.3f, 1.0f, 0.0f), kDisc);
+        alignPointRay(point, vec3(0, 5, 0), vec3(0, 5, 0), vec3(0.3f, 1.0f, 0.0f), disc);
     EXPECT_EQ(byPoint.w, 1.0f);
     EXPECT_NEAR(length(vec3(byPoint) - point), 0.0f, 1e-5f);
 }
@@ -133,7 +133,7 @@ TEST(ShadowFilter, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
     const vec3 turned = normalize(vec3(0.1f, 1.0f, 0.0f));
     const vec3 centre(0.0f);
     // Through the middle, from far below.
-    const vec3 aligned = alignRay(-8.0f * turned, turned, light, centre, kBall);
+    const vec3 aligned = alignRay(-8.0f * turned, turned, light, centre, ball);
     EXPECT_NEAR(aligned.x, 0.0f, 1e-5f);
     EXPECT_NEAR(aligned.y, -8.0f, 1e-4f);
 }
@@ -143,13 +143,13 @@ TEST(ShadowFilter, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
     const vec3 light(0.0f, 1.0f, 0.0f);
     const vec3 turned = normalize(vec3(0.8f, 1.0f, 0.3f));
     const vec3 passed(0.7f, 0.0f, -0.4f);
-    const vec3 aligned = alignRay(passed - 5.0f * turned, turned, light, vec3(0.0f), kDisc);
+    const vec3 aligned = alignRay(passed - 5.0f * turned, turned, light, vec3(0.0f), disc);
     EXPECT_NEAR(aligned.x, passed.x, 2e-3f);
     EXPECT_NEAR(aligned.z, passed.z, 2e-3f);
     const vec3 lamp(0.2f, 4.0f, 0.1f);
     const vec3 seen(-1.0f, 3.5f, 0.4f);
     const vec3 receiver = seen + 1.6f * (passed - seen);
-    const vec4 byPoint = alignPointRay(receiver, seen, lamp, vec3(0.0f), kDisc);
+    const vec4 byPoint = alignPointRay(receiver, seen, lamp, vec3(0.0f), disc);
     ASSERT_EQ(byPoint.w, 1.0f);
     // Where the ray from the lamp through the aligned point is level with the disc.
     const vec3 aligned2(byPoint);
@@ -160,7 +160,7 @@ TEST(ShadowFilter, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
 }
 
 TEST(ShadowFilter, WhatIsBehindAPointLightIsNotLookedUp) {
-    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0), kBall).w, 0.0f);
+    EXPECT_EQ(alignPointRay(vec3(0, 7, 0), vec3(0, 5, 0), vec3(0, 5, 0), vec3(0), ball).w, 0.0f);
 }
 
 TEST(ShadowFilter, ARayMeetsSpheresBetweenItsEndsAlone) {
