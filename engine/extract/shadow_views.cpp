@@ -19,10 +19,10 @@ using math::dvec4;
 /// Between splits by equal ratios (1) and by equal distances (0): Zhang et al. 2006,
 /// "Parallel-Split Shadow Maps", with more of the ratios, since the finest cascades are cheap to
 /// keep.
-constexpr double kRatioShare = 0.9;
+constexpr double kRatioShare = 0.7;
 
 /// Least share of the farthest distance that the first cascade begins at.
-constexpr double kLeastNearShare = 1.0 / 256.0;
+constexpr double kLeastNearShare = 1.0 / 64.0;
 
 /// Steps of a cascade's place, in its width.
 constexpr double kStep = 1.0 / 8.0;
@@ -138,7 +138,7 @@ std::vector<LightView> fitCascades(
     const double sceneHalf = std::max({sceneSize.x, sceneSize.y, 1.0e-6}) / 2.0;
     const double whole = roundUp(sceneHalf / usableShare(sizePx), 8.0);
     const double last = roundUp(farthest, 2.0);
-    const double first = std::clamp(camera.near, last * kLeastNearShare, last / 4.0);
+    const double first = std::min(std::max(camera.near, last * kLeastNearShare), last / 2.0);
     std::vector<LightView> views;
     double from = first;
     for (uint32_t i = 1; i <= kMaxCascades; ++i) {
