@@ -62,8 +62,8 @@ class CheckTidy(unittest.TestCase):
         the files whose names begin with b."""
         programs = self.folder / "bin"
         programs.mkdir()
-        for name in ("bash", "cat", "comm", "dirname", "git", "grep", "nproc", "sed", "sort",
-                     "wc", "xargs"):
+        for name in ("bash", "cat", "comm", "dirname", "git", "grep", "mktemp", "nproc", "rm", "sed",
+                     "sort", "wc", "xargs"):
             (programs / name).symlink_to(shutil.which(name))
         if version:
             fake = programs / "clang-tidy"
@@ -92,6 +92,20 @@ class CheckTidy(unittest.TestCase):
         if done.returncode == NOT_CHECKED:
             self.skipTest(done.stderr)
         self.assertEqual(done.returncode, 1)
+
+    def test_a_header_that_gcc_precompiled_is_not_read(self):
+        header = self.root / "build/release/CMakeFiles/a.dir/cmake_pch.hxx"
+        self.write(header, "#include <memory>\n#include <utility>\n")
+        self.write(f"{header}.gch", "gpch")
+        self.write("build/release/compile_commands.json", json.dumps([
+            {"directory": str(self.root), "file": "engine/a.cpp", "command":
+             f"c++ -std=c++20 -I. -fpch-preprocess -Winvalid-pch -include {header} -c engine/a.cpp"}]))
+        done = self.check("engine/a.cpp")
+        if done.returncode == NOT_CHECKED:
+            self.skipTest(done.stderr)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.write("engine/a.cpp", SOUND.replace("#include <memory>", ""))
+        self.assertEqual(self.check("engine/a.cpp").returncode, 1, "its own includes must do")
 
     def test_every_file_is_checked_and_each_faulty_one_named(self):
         done = self.check(path=self.make_path(version=14))
