@@ -9,11 +9,8 @@
 #include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
