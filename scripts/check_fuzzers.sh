@@ -20,6 +20,7 @@ failed_folder=$build/failed
 readers=(
     'uri 20 150' 'gltf 4 100' 'texture 3 50' 'image 2 40' 'environment 2 50' 'flythrough 8 150' 'input_script 5 120'
     'settings 5 120' 'pipeline_cache 10 60' 'sequence_journal 2 60' 'bench_journal 5 100'
+    'dump 5 60'
 )
 
 usage() {
@@ -67,7 +68,7 @@ gather_seeds() {
 # Runs reader $1 for $2 inputs from seed $3.
 fuzz() {
     local reader=$1 runs=$2 seed=$3 log=$work/log status=0 largest=4096
-    [[ $reader != gltf ]] || largest=32768
+    [[ $reader != gltf && $reader != dump ]] || largest=32768
     rm -rf "$work/run"
     mkdir -p "$work/run/corpus"
     gather_seeds "$reader" "$work/run/corpus"

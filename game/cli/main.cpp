@@ -5,6 +5,7 @@
 #include "game/cli/commands.h"
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
+#include "game/replay/replay_command.h"
 #include "game/soak/soak_command.h"
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
     bench::addBenchCommand(app, exitStatus);
     game::addPlayCommand(app, exitStatus);
     soak::addSoakCommand(app, exitStatus);
+    replay::addReplayCommand(app, exitStatus);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help

@@ -99,6 +99,10 @@ std::filesystem::path intermediateFile(const std::filesystem::path& out, const s
     return file.replace_extension(aov + ".exr");
 }
 
+bool canWriteIntermediate(const std::string& aov) {
+    return channelTable().contains(aov);
+}
+
 core::Status writeIntermediate(
     const std::filesystem::path& path, const std::string& aov, const image::Image& image
 ) {

@@ -28,7 +28,11 @@ struct Channel {
 [[nodiscard]] image::Image
 selectChannels(const image::Image& image, const std::vector<Channel>& channels);
 
+/// Whether writeIntermediate() knows the intermediate's channels.
+[[nodiscard]] bool canWriteIntermediate(const std::string& aov);
+
 /// Writes an intermediate with the channels that mean something, named.
+/// \param aov one that canWriteIntermediate()
 [[nodiscard]] core::Status writeIntermediate(
     const std::filesystem::path& path, const std::string& aov, const image::Image& image
 );

@@ -6,6 +6,7 @@
 #include "engine/image/metrics.h"
 #include "engine/math/transform.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/gpu/host_texels.h"
 #include "tests/support/picture.h"
 
 #include <glm/gtc/packing.hpp>
@@ -27,10 +28,13 @@ using motion_blur::HostConvention;
 using motion_blur::HostImage;
 using motion_blur::HostInputs;
 using motion_blur::MotionBlurSettings;
+using test::bytesOf;
+using test::HostTexels;
 using test::kCopied;
 using test::kSampled;
 using test::kWritten;
 using test::moveOn;
+using test::packHalf;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
@@ -76,75 +80,6 @@ Drawn draw() {
     return drawn;
 }
 
-/// An image of the host with texels of main memory, as the shader reads it afterwards.
-class HostTexels {
-  public:
-    HostTexels(
-        gpu::Device& device,
-        VkFormat format,
-        VkExtent2D extent,
-        std::span<const std::byte> texels,
-        VkImageUsageFlags more = 0
-    )
-        : mExtent(extent), mFormat(format),
-          mImage(
-              device,
-              "host's",
-              {extent.width,
-               extent.height,
-               format,
-               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT | more}
-          ),
-          mStaging(device, "staging", texels.size(), 0, gpu::MemoryUse::Staging) {
-        mStaging.writeBytes(texels.data(), texels.size(), 0);
-    }
-
-    void record(VkCommandBuffer commands) const {
-        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-        barrier.image = mImage.handle();
-        barrier.subresourceRange = {gpu::aspectOf(mFormat), 0, 1, 0, 1};
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.imageMemoryBarrierCount = 1;
-        dependency.pImageMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-        VkBufferImageCopy region{};
-        // Depth alone is copied of an image that has a stencil, too.
-        region.imageSubresource = {
-            gpu::aspectOf(mFormat) & ~VkImageAspectFlags(VK_IMAGE_ASPECT_STENCIL_BIT), 0, 0, 1};
-        region.imageExtent = {mExtent.width, mExtent.height, 1};
-        vkCmdCopyBufferToImage(
-            commands, mStaging.handle(), mImage.handle(), kWritten.layout, 1, &region
-        );
-    }
-
-    [[nodiscard]] HostImage describe(VkRect2D area = {}) const {
-        HostImage image{mImage.handle(), kWritten, kCopied};
-        image.format = mFormat;
-        image.extent = mExtent;
-        image.area = area;
-        image.usage = mImage.desc().usage;
-        return image;
-    }
-
-    [[nodiscard]] const gpu::Image& image() const { return mImage; }
-
-    [[nodiscard]] VkExtent2D extent() const { return mExtent; }
-
-  private:
-    VkExtent2D mExtent;
-    VkFormat mFormat;
-    gpu::Image mImage;
-    gpu::Buffer mStaging;
-};
-
-template <class T> std::span<const std::byte> bytesOf(const std::vector<T>& values) {
-    return std::as_bytes(std::span<const T>(values));
-}
-
 template <class T, class Values, class Change>
 std::vector<T> convert(const Values& values, const Change& change) {
     std::vector<T> result;
@@ -164,10 +99,6 @@ std::vector<T> surround(
             texels[size_t{y + uint32_t(at.y)} * whole.width + x + uint32_t(at.x)] =
                 inner[size_t{y} * kWidth + x];
     return texels;
-}
-
-uint64_t packHalf(const glm::vec4& value) {
-    return glm::packHalf4x16(value);
 }
 
 class EmbeddedConventions : public test::EmbeddedTest {

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/frame.h"
 #include "engine/render/renderer.h"
+#include "game/replay/replay_run.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "shaders/motion_blur/hybrid_shared.h"
@@ -12,10 +13,16 @@
 #include "tests/kit/scene_builder.h"
 #include "tests/support/picture.h"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cstdio>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace shutter {
@@ -144,6 +151,9 @@ TEST_F(OwnReveal, RaysOfTheHostGiveTheBitsOfOurs) {
     request.view.width = kWidth;
     request.view.height = kHeight;
     request.intermediates = {"mask"};
+    const auto folder =
+        std::filesystem::temp_directory_path() / fmt::format("own_reveal_{}", ::getpid());
+    ASSERT_TRUE(blur->dump(folder, 2).ok());
     HostOfTheGBuffer host(device(), *blur, hybrid(), {kWidth, kHeight});
     const test::BlurOfC c(device());
     host.blurOfC = c.blur;
@@ -157,6 +167,23 @@ TEST_F(OwnReveal, RaysOfTheHostGiveTheBitsOfOurs) {
     EXPECT_TRUE(test::sameBits(host.output.read(), drawn.value().color));
     EXPECT_TRUE(test::sameBits(host.inPlace.read(), drawn.value().color));
     EXPECT_TRUE(test::sameBits(host.byC.read(), drawn.value().color));
+
+    // What the rays found is in the dump, too.
+    ASSERT_TRUE(blur->markDone(0).ok());
+    ASSERT_TRUE(blur->markDone(1).ok());
+    replay::ReplayOptions options;
+    options.folder = folder;
+    testing::internal::CaptureStdout();
+    const core::Status replayed = replay::replay(options, device());
+    std::fflush(stdout);
+    const std::string said = testing::internal::GetCapturedStdout();
+    std::filesystem::remove_all(folder);
+    ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+    EXPECT_EQ(
+        said,
+        "frame_0000: hybrid: the host's picture, bit for bit\n"
+        "frame_0001: hybrid: the host's picture, bit for bit\n"
+    );
 }
 
 } // namespace

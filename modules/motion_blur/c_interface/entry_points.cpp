@@ -168,6 +168,16 @@ ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view) {
     });
 }
 
+ShutterBlurResult shutterBlurDump(ShutterBlur* blur, const char* folder, uint32_t frames) {
+    return guard([&] {
+        if (!blur)
+            return refuse({"motion blur: blur is null"});
+        if (!folder)
+            return refuse({"motion blur: folder is null"});
+        return finish(blur->effect->dump(folder, frames));
+    });
+}
+
 ShutterBlurResult shutterBlurGetMemory(const ShutterBlur* blur, ShutterBlurMemory* memory) {
     return guard([&] {
         if (!blur)

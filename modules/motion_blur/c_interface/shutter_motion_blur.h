@@ -85,6 +85,11 @@ shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t queueFamily);
 
 typedef struct ShutterBlur ShutterBlur;
 
+/* One sentence for the person who writes the host, valid during the call. Called within
+ * shutterBlurRecord(), shutterBlurMarkDone() and shutterBlurDestroy(); it must call none of them.
+ */
+typedef void (*ShutterBlurMessage)(void* user, const char* sentence);
+
 /* Handles stay the host's and must outlive the object. */
 typedef struct ShutterBlurDevice {
     uint32_t structBytes;
@@ -106,6 +111,11 @@ typedef struct ShutterBlurDevice {
     /* shutterBlurRecord() takes the GPU's times and counts, for shutterBlurGetReport() and
      * ShutterBlurInputs::budgetMilliseconds. */
     VkBool32 measures;
+    /* Compares the inputs of each recording with one another and with what they must be, and tells
+     * `message` what looks wrong. 0 costs nothing. */
+    VkBool32 checksInputs;
+    ShutterBlurMessage message; /* gets what the checker finds, and why a dump failed; or null */
+    void* messageUser;          /* its first argument */
 } ShutterBlurDevice;
 
 static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
@@ -472,6 +482,14 @@ shutterBlurStartWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
 
 /* The call that finds the thread done takes a few milliseconds. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurIsWarm(ShutterBlur* blur, VkBool32* isWarm);
+
+/* ---- Debugging ------------------------------------------------------------------------------ */
+
+/* Writes inputs, settings and pictures of the next `frames` recordings, [1, 9999], to a folder that
+ * is made if need be, for `shutter replay`: each once its frame is done. The first recording of a
+ * view uses no history. What goes wrong afterwards, ShutterBlurDevice::message tells. */
+SHUTTER_BLUR_API ShutterBlurResult
+shutterBlurDump(ShutterBlur* blur, const char* folder, uint32_t frames);
 
 /* Device memory that the object holds now. */
 typedef struct ShutterBlurMemory {

@@ -5,6 +5,7 @@
 #include "modules/motion_blur/presets.h"
 
 #include <string>
+#include <string_view>
 
 namespace shutter::motion_blur {
 
@@ -220,6 +221,12 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     device.apiVersion = taken.value().apiVersion;
     device.enabledFeatures = taken.value().enabledFeatures;
     device.measures = taken.value().measures != VK_FALSE;
+    device.checksInputs = taken.value().checksInputs != VK_FALSE;
+    if (taken.value().message)
+        device.message = [tell = taken.value().message,
+                          user = taken.value().messageUser](std::string_view sentence) {
+            tell(user, std::string(sentence).c_str());
+        };
     return device;
 }
 

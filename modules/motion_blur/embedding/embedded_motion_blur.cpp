@@ -4,6 +4,8 @@
 #include "engine/core/log.h"
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
+#include "modules/motion_blur/embedding/host_checker.h"
+#include "modules/motion_blur/embedding/host_dump.h"
 
 #include <new>
 #include <utility>
@@ -98,6 +100,8 @@ EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, cons
         mSlots.push_back(std::make_unique<Slot>(*mDevice, mTimestampBits));
         mViews.push_back(std::make_unique<View>(*mDevice));
     }
+    if (host.checksInputs)
+        mChecker = std::make_unique<HostChecker>(*mDevice, host.framesInFlight, host.message);
 }
 
 EmbeddedMotionBlur::~EmbeddedMotionBlur() {
@@ -108,6 +112,16 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() {
                 "never submitted (markDone tells)",
                 frame
             );
+    if (mChecker)
+        mChecker->finishAll();
+    if (mDump)
+        mDump->finishAll();
+}
+
+core::Status EmbeddedMotionBlur::dump(const std::filesystem::path& folder, uint32_t frames) {
+    if (!mDump)
+        mDump = std::make_unique<HostDump>(*mDevice, uint32_t(mSlots.size()), mHost.message);
+    return mDump->start(folder, frames);
 }
 
 core::Status EmbeddedMotionBlur::record(
@@ -138,9 +152,14 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
         graph::Graph graph;
         Frame recording{frame, slot, graph, inputs, chosen, mTimestampBits > 0};
+        recording.isHosts = true;
         const core::Status done = record(recording, *mViews[inputs.motion.view], commands);
         if (!done) {
             slot.level.reset();
+            if (mChecker)
+                mChecker->drop(frame);
+            if (mDump)
+                mDump->drop(frame);
             return done;
         }
         slot.counts = recording.wantsCounters && !inputs.isOff;
@@ -158,6 +177,10 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
 core::Status EmbeddedMotionBlur::markDone(uint32_t frame) {
     if (frame >= mSlots.size())
         return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
+    if (mChecker)
+        mChecker->finish(frame);
+    if (mDump)
+        mDump->finish(frame);
     mDevice->markDone(mSlots[frame]->handedOver);
     mSlots[frame]->isToldDone = true;
     return {};
@@ -167,6 +190,8 @@ core::Status EmbeddedMotionBlur::closeView(uint32_t view) {
     if (view >= mViews.size())
         return makeError("motion blur: view is {}, framesInFlight {}", view, mViews.size());
     mViews[view]->forget();
+    if (mChecker)
+        mChecker->forget(view);
     return {};
 }
 

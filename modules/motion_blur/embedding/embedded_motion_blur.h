@@ -18,12 +18,16 @@
 #include "modules/motion_blur/motion_blur.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace shutter::motion_blur {
+
+class HostChecker;
+class HostDump;
 
 class EmbeddedMotionBlur {
   public:
@@ -89,6 +93,15 @@ class EmbeddedMotionBlur {
     /// use it are done. Its number may be used anew. Error: it is not below framesInFlight.
     core::Status closeView(uint32_t view);
 
+    /// Writes the inputs, settings and pictures of the next `frames` recordings to a folder, for
+    /// `shutter replay`: each once its frame is done (markDone, recording its number anew,
+    /// destruction), which then waits for the disk. The first recording of a view uses no history,
+    /// so that the dump holds all that its picture depends on. What goes wrong afterwards,
+    /// HostDevice::message tells, and the dump ends.
+    /// \param frames [1, 9999]
+    /// Error: the folder cannot be made or holds a dump, or the last one is not complete.
+    [[nodiscard]] core::Status dump(const std::filesystem::path& folder, uint32_t frames);
+
     /// Device memory, images and the like that are held now.
     [[nodiscard]] const gpu::LivingObjects& living() const { return mDevice->living(); }
 
@@ -137,6 +150,8 @@ class EmbeddedMotionBlur {
     bool mHasLeftAPart = false;
     MotionBlur mEffect;
     HostPreparation mPreparation;
+    std::unique_ptr<HostChecker> mChecker; ///< null: off
+    std::unique_ptr<HostDump> mDump;       ///< null: none was wanted yet
     /// By frame in flight, the number of the last recording of it that the GPU ran.
     gpu::Buffer mMarks;
     std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight

@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 #include "engine/graph/transient_pool.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/instant_motions.h"
 
@@ -67,7 +68,9 @@ struct EmbeddedMotionBlur::Frame {
     /// Handles are of nothing: the graph is compiled and never run.
     bool isImagined = false;
 
-    graph::ImageHandle color{};  ///< the host's own
+    bool isHosts = false;        ///< the host will submit it: it may be checked and dumped
+    OwnReveal dumpedReveal{};    ///< the host's, whose answer is dumped
+    ImportedInputs images{};     ///< the host's own
     graph::ImageHandle output{}; ///< the same; in place: invalid
 
     /// Invalid where there is no image.

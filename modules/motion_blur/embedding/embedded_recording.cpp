@@ -4,6 +4,7 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
+#include "modules/motion_blur/embedding/host_dump.h"
 #include "shaders/render/scene_shared.h"
 
 #include <utility>
@@ -56,12 +57,13 @@ graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
     const HostInputs& inputs = frame.inputs;
     gpu::Device& device = *mDevice;
     if (inputs.motionDepth.image)
-        return frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
+        return frame.images.motionDepth =
+                   frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
     const HostConvention& convention = inputs.convention;
-    const auto vectors =
-        frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
-    const auto depth = frame.import(device, "depth", convention.depth.image, kDepthRule);
-    const auto scales =
+    ImportedInputs& images = frame.images;
+    images.vectors = frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
+    images.depth = frame.import(device, "depth", convention.depth.image, kDepthRule);
+    images.blurScale =
         frame.import(device, "blur scale", convention.scales.perPixel, kBlurScaleRule);
     if (inputs.isOff) // the convention was not checked
         return {};
@@ -78,7 +80,7 @@ graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
         );
     buffer.writeBytes(&table, sizeof(table), 0);
     return mPreparation.addMotionDepth(
-        frame.graph, vectors, depth, scales, buffer.address(), picture
+        frame.graph, images.vectors, images.depth, images.blurScale, buffer.address(), picture
     );
 }
 
@@ -113,22 +115,24 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     own.rasterTime = inputs.rasterTime;
     own.response = gpu::splitAddress(inputs.response);
     own.frameNumber = inputs.frameNumber;
-    frame.color = frame.import(device, "color", inputs.color, colorRule(inputs));
+    frame.images.color = frame.import(device, "color", inputs.color, colorRule(inputs));
     frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
     const bool isOwnColor = isOwn(inputs.color, kHostColorFormat, picture);
-    own.color =
-        isOwnColor ? frame.color : mPreparation.addColor(graph, frame.color, inputs.color, picture);
+    own.color = isOwnColor
+                    ? frame.images.color
+                    : mPreparation.addColor(graph, frame.images.color, inputs.color, picture);
     own.colorIsWritable = !isOwnColor || !inputs.output.image;
     if (inputs.output.image && isOwn(inputs.output, kHostColorFormat, picture))
         own.target = frame.output;
     else if (!inputs.output.image && isOwnColor)
-        own.target = frame.color;
+        own.target = frame.images.color;
     // Those the method does not read are imported as well: they go over to their next use.
     own.motionDepth = prepareMotion(frame);
-    own.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
+    own.normal = frame.images.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
     if (own.normal.isValid() && !isOwn(inputs.normal, kHostColorFormat, picture))
         own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
-    own.entityId = frame.import(device, "entity id", inputs.entityId, kIdRule);
+    own.entityId = frame.images.entityId =
+        frame.import(device, "entity id", inputs.entityId, kIdRule);
     if (own.entityId.isValid() &&
         (!isOwn(inputs.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
         own.entityId =
@@ -141,12 +145,12 @@ void EmbeddedMotionBlur::deliver(Frame& frame, graph::ImageHandle picture) const
     const bool inPlace = !inputs.output.image;
     const HostImage& given = inPlace ? inputs.color : inputs.output;
     if (inputs.isOff && inPlace)
-        picture = frame.color; // nothing is written
+        picture = frame.images.color; // nothing is written
     else if (inputs.isOff || !isOwn(given, kHostColorFormat, pictureOf(inputs)))
         picture = mPreparation.addDelivery(
             frame.graph,
             picture,
-            inPlace ? frame.color : frame.output,
+            inPlace ? frame.images.color : frame.output,
             given.format == VK_FORMAT_UNDEFINED ? kHostColorFormat : given.format,
             given.area.offset
         );
@@ -163,10 +167,19 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         deliver(frame, own.color);
         return;
     }
+    if (frame.isHosts && mChecker)
+        mChecker->add(frame.graph, frame.number, inputs, frame.images, method.readsInstantMotions);
+    const bool isDumped = frame.isHosts && mDump && mDump->wantsFrame();
+    if (isDumped && mDump->startsView(inputs.motion.view))
+        view.forget();
+    if (isDumped) {
+        mDump->add(frame.graph, frame.number, inputs, frame.images, frame.settings);
+        frame.dumpedReveal = mDump->wrapReveal(inputs, frame.number, *frame.slot.frame);
+    }
     if (method.rays == RayNeed::Query)
         own.samples = &inputs.samples;
     if (method.rays == RayNeed::Any && inputs.reveal.record) {
-        own.reveal = &inputs.reveal;
+        own.reveal = isDumped ? &frame.dumpedReveal : &inputs.reveal;
     } else if (method.rays == RayNeed::Any || method.readsCamera) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (method.rays == RayNeed::Any && inputs.rays.tlas) {
@@ -183,7 +196,12 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         view.forget();
         (void)prepareLast(frame);
     }
-    deliver(frame, mEffect.add(frame.graph, own, frame.settings).color);
+    const MotionBlurOutputs made = mEffect.add(frame.graph, own, frame.settings);
+    if (inputs.observe)
+        inputs.observe(frame.graph, own, made);
+    if (isDumped)
+        mDump->addPicture(frame.graph, frame.number, made.color);
+    deliver(frame, made.color);
 }
 
 core::Status EmbeddedMotionBlur::record(Frame& frame, View& view, VkCommandBuffer commands) {

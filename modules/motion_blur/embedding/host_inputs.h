@@ -5,15 +5,19 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
 #include "engine/gpu/frame.h"
+#include "engine/graph/graph.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_image.h"
+#include "modules/motion_blur/embedding/host_message.h"
 #include "modules/motion_blur/embedding/host_motion.h"
+#include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/own_reveal.h"
 #include "modules/motion_blur/own_samples.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,6 +50,10 @@ struct HostDevice {
     /// record() takes the GPU's times and counts, for EmbeddedMotionBlur::report() and
     /// HostInputs::budget: two timestamps a pass and a few small copies.
     bool measures = false;
+    /// Compares the inputs of each recording with one another and with what they must be, and tells
+    /// `message` what looks wrong (docs/debugging_integration.md). False costs nothing.
+    bool checksInputs = false;
+    HostMessage message; ///< gets what the checker finds, and why a dump failed
 };
 
 /// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
@@ -101,6 +109,9 @@ struct HostInputs {
     /// HostDevice::measures.
     BlurBudget budget;
     bool isOff = false; ///< no blur: `output`, if there is one, gets a copy of `color`
+    /// For tools: called within record() once the effect's passes are declared, unless `isOff`. It
+    /// may declare passes that read what the effect reads and makes, and must not throw.
+    std::function<void(graph::Graph&, const MotionBlurInputs&, const MotionBlurOutputs&)> observe;
 };
 
 /// What the GPU took for a recording, and what it counted.

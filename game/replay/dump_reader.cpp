@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+#include "game/replay/dump_reader.h"
+
+#include "engine/io/file_bytes.h"
+#include "engine/json/json_file.h"
+#include "modules/motion_blur/methods.h"
+#include "shaders/common/shutter_response_shared.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace shutter::replay {
+
+namespace {
+
+using json::JsonNode;
+using json::JsonObject;
+using json::JsonRange;
+
+constexpr int64_t kMostPixels = 32768;
+constexpr double kMostFloat = std::numeric_limits<float>::max();
+constexpr JsonRange kFloats{-kMostFloat, kMostFloat};
+
+constexpr std::array<std::pair<std::string_view, Texels>, 5> kTexels{
+    {{"half4", Texels::Half4},
+     {"float1", Texels::Float1},
+     {"float2", Texels::Float2},
+     {"float4", Texels::Float4},
+     {"uint1", Texels::Uint1}}};
+constexpr std::array<std::pair<std::string_view, DumpedReveal>, 3> kReveals{
+    {{"none", DumpedReveal::None}, {"own", DumpedReveal::Own}, {"tables", DumpedReveal::Tables}}};
+constexpr std::array<std::pair<std::string_view, DumpedResponse>, 3> kResponses{
+    {{"box", DumpedResponse::Box},
+     {"file", DumpedResponse::File},
+     {"address", DumpedResponse::Address}}};
+
+/// What each image's texels may be.
+struct ImageRow {
+    std::string_view name;
+    std::array<Texels, 2> texels;
+    bool hasPictureSize; ///< of its area
+};
+
+constexpr std::array<ImageRow, 11> kImages{
+    {{"color", {Texels::Half4, Texels::Float4}, true},
+     {"motionDepth", {Texels::Float4, Texels::Float4}, true},
+     {"vectors", {Texels::Float2, Texels::Float2}, false},
+     {"depth", {Texels::Float1, Texels::Float1}, false},
+     {"blurScale", {Texels::Float1, Texels::Float1}, false},
+     {"normal", {Texels::Half4, Texels::Float4}, true},
+     {"entityId", {Texels::Uint1, Texels::Uint1}, false},
+     {"revealColor", {Texels::Half4, Texels::Half4}, true},
+     {"revealMotionDepth", {Texels::Float4, Texels::Float4}, true},
+     {"revealEntityId", {Texels::Uint1, Texels::Uint1}, true},
+     {"picture", {Texels::Half4, Texels::Half4}, true}}};
+
+glm::dmat4 readMatrix(const JsonNode& node) {
+    const std::array<double, 16> numbers = node.readNumbers<16>();
+    glm::dmat4 matrix;
+    for (int i = 0; i < 16; ++i)
+        matrix[i / 4][i % 4] = numbers[size_t(i)];
+    return matrix;
+}
+
+glm::dvec2 readPair(const JsonNode& node, const JsonRange& range = {}) {
+    const std::array<double, 2> numbers = node.readNumbers<2>(range);
+    return {numbers[0], numbers[1]};
+}
+
+motion_blur::HostCameras readCameras(const JsonNode& node) {
+    motion_blur::HostCameras cameras;
+    if (node.isNull())
+        return cameras;
+    const JsonObject object = node.readObject(
+        {"aheadIsPlusZ",
+         "viewFromWorld",
+         "clipFromView",
+         "viewFromWorldBefore",
+         "clipFromViewBefore",
+         "jitterPx",
+         "jitterPxBefore"}
+    );
+    cameras.areGiven = true;
+    cameras.aheadIsPlusZ = object.require("aheadIsPlusZ").readBoolean();
+    cameras.viewFromWorld = readMatrix(object.require("viewFromWorld"));
+    cameras.clipFromView = readMatrix(object.require("clipFromView"));
+    cameras.viewFromWorldBefore = readMatrix(object.require("viewFromWorldBefore"));
+    cameras.clipFromViewBefore = readMatrix(object.require("clipFromViewBefore"));
+    cameras.jitterPx = readPair(object.require("jitterPx"));
+    cameras.jitterPxBefore = readPair(object.require("jitterPxBefore"));
+    return cameras;
+}
+
+motion_blur::HostConvention readConvention(const JsonNode& node) {
+    const JsonObject object = node.readObject(
+        {"pixelsPerUnit",
+         "haveCamera",
+         "haveJitter",
+         "depthIsRaw",
+         "metresPerUnit",
+         "skyValue",
+         "cameras",
+         "exposureShare",
+         "cameraScale",
+         "objectScale",
+         "displayedPerRendered",
+         "isCut"}
+    );
+    const auto readFloat = [&](const char* field) {
+        return float(object.require(field).readNumber(kFloats));
+    };
+    motion_blur::HostConvention convention;
+    convention.vectors.pixelsPerUnit = readPair(object.require("pixelsPerUnit"), kFloats);
+    convention.vectors.haveCamera = object.require("haveCamera").readBoolean();
+    convention.vectors.haveJitter = object.require("haveJitter").readBoolean();
+    convention.depth.isRaw = object.require("depthIsRaw").readBoolean();
+    convention.depth.metresPerUnit = readFloat("metresPerUnit");
+    const JsonNode sky = object.require("skyValue");
+    convention.depth.skyValue =
+        sky.isNull() ? std::numeric_limits<float>::quiet_NaN() : float(sky.readNumber(kFloats));
+    convention.cameras = readCameras(object.require("cameras"));
+    convention.scales.exposureShare = readFloat("exposureShare");
+    convention.scales.camera = readFloat("cameraScale");
+    convention.scales.object = readFloat("objectScale");
+    convention.scales.displayedPerRendered = readFloat("displayedPerRendered");
+    convention.scales.isCut = object.require("isCut").readBoolean();
+    return convention;
+}
+
+uint64_t readId(const JsonNode& node) {
+    const std::string text = node.readString(20);
+    uint64_t id = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
+    if (error != std::errc() || end != text.data() + text.size())
+        node.fail("must be a whole number of 64 bits in quotes");
+    return id;
+}
+
+void readMotion(const JsonNode& node, DumpFrame& frame) {
+    const JsonObject object =
+        node.readObject({"aheadIsPlusZ", "rowCount", "followsLast", "keys", "movers", "rowIds"});
+    frame.hasMotion = true;
+    frame.motion.aheadIsPlusZ = object.require("aheadIsPlusZ").readBoolean();
+    frame.motion.rowCount = uint32_t(object.require("rowCount").readInteger(1, (1 << 24) - 1));
+    frame.motion.followsLast = object.require("followsLast").readBoolean();
+    for (const JsonNode& one : object.require("keys").readArray(1, 64)) {
+        const JsonObject key = one.readObject({"time", "viewFromWorld", "clipFromView"});
+        frame.keys.push_back(
+            {key.require("time").readNumber({0.0, 1.0}),
+             readMatrix(key.require("viewFromWorld")),
+             readMatrix(key.require("clipFromView"))}
+        );
+    }
+    for (const JsonNode& one : object.require("movers").readArray()) {
+        const JsonObject mover = one.readObject({"row", "worldFromObject"});
+        frame.moverRows.push_back(
+            uint32_t(mover.require("row").readInteger(0, int64_t{frame.motion.rowCount} - 1))
+        );
+        std::vector<glm::dmat4>& matrices = frame.moverMatrices.emplace_back();
+        const JsonNode list = mover.require("worldFromObject");
+        for (const JsonNode& matrix : list.readArray())
+            matrices.push_back(readMatrix(matrix));
+        if (!matrices.empty() && matrices.size() != frame.keys.size())
+            list.fail("must have one matrix for each of the {} keys, or none", frame.keys.size());
+    }
+    const JsonNode ids = object.require("rowIds");
+    for (const JsonNode& one : ids.readArray())
+        frame.rowIds.push_back(readId(one));
+    if (!frame.rowIds.empty() && frame.rowIds.size() != frame.motion.rowCount)
+        ids.fail("must have one id for each of the {} rows, or none", frame.motion.rowCount);
+}
+
+void readSettings(const JsonObject& root, motion_blur::MotionBlurSettings& settings) {
+    const JsonNode name = root.require("method");
+    const motion_blur::Method* method = motion_blur::findMethod(name.readString());
+    if (method)
+        settings.method = method;
+    else
+        name.fail("is no method of the motion blur");
+    for (const auto& [field, value] : root.require("settings").readFields()) {
+        const auto* row = core::findRow(motion_blur::listSettingRows(), field);
+        if (!row) {
+            value.fail("is no setting");
+            return;
+        }
+        if (const core::Status parsed = core::parseValue(*row, value.readString(), settings);
+            !parsed)
+            value.fail(parsed.error().message);
+    }
+}
+
+DumpImage readImage(const JsonNode& node, const ImageRow& row, const DumpFrame& frame) {
+    const JsonObject object =
+        node.readObject({"file", "texels", "width", "height", "area", "format"});
+    DumpImage image;
+    const JsonNode file = object.require("file");
+    image.file = file.readString(255);
+    // A plain name: nothing outside of the folder is read.
+    if (image.file.empty() || image.file.find_first_of("/\\") != std::string::npos ||
+        image.file.starts_with('.') || image.file.find('\0') != std::string::npos)
+        file.fail("must be the name of a file in the folder");
+    const JsonNode texels = object.require("texels");
+    image.texels = texels.readChoice(kTexels);
+    if (image.texels != row.texels[0] && image.texels != row.texels[1])
+        texels.fail("is not what this image holds");
+    image.width = uint32_t(object.require("width").readInteger(1, kMostPixels));
+    image.height = uint32_t(object.require("height").readInteger(1, kMostPixels));
+    const JsonNode area = object.require("area");
+    const std::array<double, 4> numbers = area.readNumbers<4>({0.0, double(kMostPixels)});
+    image.area = {
+        {int32_t(numbers[0]), int32_t(numbers[1])}, {uint32_t(numbers[2]), uint32_t(numbers[3])}};
+    if (numbers[2] < 1.0 || numbers[3] < 1.0 || numbers[0] + numbers[2] > image.width ||
+        numbers[1] + numbers[3] > image.height)
+        area.fail("must lie in the image of {} x {}", image.width, image.height);
+    if (row.hasPictureSize &&
+        (image.area.extent.width != frame.width || image.area.extent.height != frame.height))
+        area.fail("must have the picture's size, {} x {}", frame.width, frame.height);
+    (void)object.require("format").readString(64); // for people
+    return image;
+}
+
+void readImages(const JsonNode& node, DumpFrame& frame) {
+    for (const auto& [name, value] : node.readFields()) {
+        const auto row = std::find_if(kImages.begin(), kImages.end(), [&](const ImageRow& one) {
+            return one.name == name;
+        });
+        if (row == kImages.end())
+            return value.fail("is no image of a dump");
+        frame.images[name] = readImage(value, *row, frame);
+    }
+    std::vector<std::string_view> needed{"color", "picture"};
+    if (frame.hasConvention)
+        needed.insert(needed.end(), {"vectors", "depth"});
+    else
+        needed.push_back("motionDepth");
+    if (frame.reveal == DumpedReveal::Own)
+        needed.insert(needed.end(), {"revealColor", "revealMotionDepth", "revealEntityId"});
+    for (const std::string_view name : needed)
+        if (!frame.find(std::string(name)))
+            node.fail("has no '{}'", name);
+}
+
+DumpFrame readFrame(const JsonNode& node) {
+    const JsonObject root = node.readObject(
+        {"format",
+         "version",
+         "device",
+         "driver",
+         "width",
+         "height",
+         "method",
+         "settings",
+         "rasterTime",
+         "frameNumber",
+         "view",
+         "noEntity",
+         "inPlace",
+         "convention",
+         "motion",
+         "reveal",
+         "response",
+         "images"}
+    );
+    constexpr std::array<std::string_view, 1> kFormat{"shutter motion blur dump"};
+    DumpFrame frame;
+    (void)root.require("format").readWord(kFormat);
+    (void)root.require("version").readInteger(1, 1);
+    (void)root.require("device").readString();
+    (void)root.require("driver").readString();
+    (void)root.require("inPlace").readBoolean();
+    frame.width = uint32_t(root.require("width").readInteger(1, kMostPixels));
+    frame.height = uint32_t(root.require("height").readInteger(1, kMostPixels));
+    readSettings(root, frame.settings);
+    frame.rasterTime = root.require("rasterTime").readNumber({0.0, 1.0});
+    frame.frameNumber = root.require("frameNumber").readInteger();
+    frame.view = uint32_t(root.require("view").readInteger(0, 63));
+    frame.noEntity = uint32_t(root.require("noEntity").readInteger(0, 0xFFFFFFFF));
+    const JsonNode convention = root.require("convention");
+    frame.hasConvention = !convention.isNull();
+    if (frame.hasConvention)
+        frame.convention = readConvention(convention);
+    const JsonNode motion = root.require("motion");
+    if (!motion.isNull())
+        readMotion(motion, frame);
+    frame.reveal = root.require("reveal").readChoice(kReveals);
+    frame.response = root.require("response").readChoice(kResponses);
+    readImages(root.require("images"), frame);
+    return frame;
+}
+
+core::Result<std::vector<uint8_t>>
+readWhole(const std::filesystem::path& file, uint64_t bytes, std::string_view what) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    // Before memory is taken for it.
+    if (!error && size != bytes)
+        return core::makeError("'{}' has {} bytes, {} has {}", file.string(), size, what, bytes);
+    return io::readFileBytes(file, bytes);
+}
+
+} // namespace
+
+uint32_t texelBytes(Texels texels) {
+    switch (texels) {
+    case Texels::Half4:
+    case Texels::Float2:
+        return 8;
+    case Texels::Float4:
+        return 16;
+    default:
+        return 4;
+    }
+}
+
+core::Result<DumpFrame> readDumpManifest(const std::filesystem::path& file) {
+    auto frame = json::readJsonFile(file, readFrame);
+    if (frame)
+        frame.value().name = file.stem().string();
+    return frame;
+}
+
+core::Status readDumpTexels(const std::filesystem::path& folder, DumpFrame& frame) {
+    for (auto& [name, image] : frame.images) {
+        const uint64_t bytes = uint64_t{image.width} * image.height * texelBytes(image.texels);
+        auto read = readWhole(
+            folder / image.file,
+            bytes,
+            fmt::format("the image '{}' of {} x {}", name, image.width, image.height)
+        );
+        if (!read)
+            return read.error();
+        image.bytes = std::move(read).value();
+    }
+    if (frame.response != DumpedResponse::File)
+        return {};
+    auto table = readWhole(
+        folder / (frame.name + "_response.bin"),
+        sizeof(shader::ResponseTable),
+        "a table of the shutter's response"
+    );
+    if (!table)
+        return table.error();
+    frame.responseBytes = std::move(table).value();
+    return {};
+}
+
+core::Result<std::vector<std::filesystem::path>> listDumpFrames(const std::filesystem::path& folder
+) {
+    std::vector<std::filesystem::path> files;
+    std::error_code ignored;
+    for (uint32_t i = 0; i < 9999; ++i) {
+        const auto file = folder / fmt::format("frame_{:04}.json", i);
+        if (!std::filesystem::exists(file, ignored))
+            break;
+        files.push_back(file);
+    }
+    if (files.empty())
+        return core::makeError("'{}' holds no dump: there is no frame_0000.json", folder.string());
+    return files;
+}
+
+} // namespace shutter::replay

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Draws the frames of a dump again, as the host drew them or by another method.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "modules/motion_blur/settings.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shutter::replay {
+
+struct ReplayOptions {
+    std::filesystem::path folder;
+    std::filesystem::path out; ///< empty: nothing is written
+    /// Names of intermediates, or "all", to write beside `out`.
+    std::vector<std::string> aovs;
+    bool explains = false;
+    /// Changes the settings of a frame; empty: they stay. Error: names the option.
+    std::function<core::Status(motion_blur::MotionBlurSettings&)> change;
+};
+
+/// Prints a line for each frame: how far its picture is from the host's. Error: names the file or
+/// option at fault; pictures of the frames before it may have been written.
+[[nodiscard]] core::Status replay(const ReplayOptions& options, gpu::Device& device);
+
+} // namespace shutter::replay

@@ -1,0 +1,516 @@
+// SPDX-License-Identifier: MIT
+// Motion vectors against what the cameras imply where things stand still. What a host may have got
+// wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
+// do not now. What moves by itself agrees with neither, and so decides nothing.
+#include "engine/math/math.h"
+#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using math::dvec2;
+
+constexpr size_t kLeastPoints = 96;      ///< fewer tell nothing
+constexpr size_t kLeastTelling = 48;     ///< points at which a mistake would show
+constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
+constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
+
+/// What vectors and cameras would be if the host had meant something else.
+struct Reading {
+    std::vector<CheckPoint> points;
+    dvec2 scale{1.0}; ///< of the motion
+    bool isSwapped = false;
+    bool haveCamera = true;
+    std::string sentence;
+
+    [[nodiscard]] dvec2 motionOf(const CheckPoint& point) const {
+        return scale * (isSwapped ? dvec2(point.motion.y, point.motion.x) : point.motion);
+    }
+
+    [[nodiscard]] dvec2 cameraOf(const CheckPoint& point) const {
+        return haveCamera ? point.camera : dvec2(0.0);
+    }
+
+    [[nodiscard]] dvec2 differenceOf(const CheckPoint& point) const {
+        return motionOf(point) - cameraOf(point);
+    }
+
+    [[nodiscard]] bool agreesAt(const CheckPoint& point) const {
+        const double tolerance = kTolerancePx + kToleranceShare * glm::length(cameraOf(point));
+        return glm::length(differenceOf(point)) <= tolerance;
+    }
+};
+
+/// How many points the guess explains; nothing where it is no better than what the host said.
+std::optional<size_t> judge(const Reading& said, const Reading& guess) {
+    size_t count = 0;
+    size_t explained = 0;
+    size_t telling = 0;
+    size_t tellingGuess = 0;
+    size_t tellingSaid = 0;
+    for (size_t i = 0; i < guess.points.size(); ++i) {
+        const CheckPoint& point = guess.points[i];
+        if (point.isSky)
+            continue; // hosts seldom write vectors there
+        ++count;
+        explained += guess.agreesAt(point);
+        const dvec2 apart = guess.differenceOf(point) - said.differenceOf(said.points[i]);
+        const double motion = std::max(
+            glm::length(guess.cameraOf(point)), glm::length(said.cameraOf(said.points[i]))
+        );
+        if (glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
+            continue;
+        ++telling;
+        tellingGuess += guess.agreesAt(point);
+        tellingSaid += said.agreesAt(said.points[i]);
+    }
+    const bool isBetter = count >= kLeastPoints && telling >= std::max(kLeastTelling, count / 20) &&
+                          10 * tellingGuess >= 6 * telling && 10 * tellingSaid <= telling &&
+                          2 * explained >= count;
+    return isBetter ? std::optional(explained) : std::nullopt;
+}
+
+std::optional<double> takeMedian(std::vector<double>& values, size_t least) {
+    if (values.size() < least)
+        return std::nullopt;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// What the motion along `from` must be multiplied by to be the camera's along `to`.
+std::optional<double> fitScale(const std::vector<CheckPoint>& points, int from, int to) {
+    std::vector<double> ratios;
+    for (const CheckPoint& point : points)
+        if (!point.isSky && std::abs(point.camera[to]) > 1.0 &&
+            std::abs(point.motion[from]) > 1.0e-9)
+            ratios.push_back(point.camera[to] / point.motion[from]);
+    return takeMedian(ratios, kLeastTelling);
+}
+
+bool isNear(double value, double wanted) {
+    return std::abs(value - wanted) <= 0.05 * std::abs(wanted);
+}
+
+/// A unit of motion vectors that hosts have.
+struct Unit {
+    const char* name;
+    dvec2 pixels; ///< per unit
+};
+
+std::string describeFactors(const dvec2& factors) {
+    const auto describe = [](const char* axis, double factor) {
+        return isNear(factor, -1.0) ? fmt::format("{} is negated", axis)
+                                    : fmt::format("{} is multiplied by {:.4g}", axis, factor);
+    };
+    const bool hasX = !isNear(factors.x, 1.0);
+    const bool hasY = !isNear(factors.y, 1.0);
+    if (hasX && hasY)
+        return describe("x", factors.x) + " and " + describe("y", factors.y);
+    return hasX ? describe("x", factors.x) : describe("y", factors.y);
+}
+
+/// Collects what the host might have meant.
+class Guesses {
+  public:
+    Guesses(const CheckedFrame& now, const CheckedFrame* last, Reading said)
+        : mNow(now), mLast(last), mFacts(now.facts), mSaid(std::move(said)) {}
+
+    [[nodiscard]] std::optional<std::string> findMistake() {
+        tryUnits();
+        tryExposure();
+        tryCamera();
+        trySwap();
+        tryFrames();
+        tryCameras();
+        tryDepth();
+        tryFactors();
+        return mBest ? std::optional(mSentence) : std::nullopt;
+    }
+
+  private:
+    void consider(const Reading& said, const Reading& guess) {
+        const auto explained = judge(said, guess);
+        // The first of what explains as much: they come in the order of how often hosts do so.
+        if (!explained || (mBest && *explained <= *mBest + guess.points.size() / 33))
+            return;
+        mBest = explained;
+        mSentence = guess.sentence;
+    }
+
+    void consider(const Reading& guess) { consider(mSaid, guess); }
+
+    void tryCamera() {
+        if (mFacts.isNative || (mSaid.haveCamera && !areZero()))
+            return;
+        Reading guess = mSaid;
+        guess.haveCamera = !mSaid.haveCamera;
+        guess.sentence =
+            mSaid.haveCamera
+                ? "vectors are 0 where things stand still although the camera moves: the camera's "
+                  "part is not in them, set vectors.haveCamera = false"
+                : "vectors hold the camera's part already: set vectors.haveCamera = true";
+        consider(guess);
+    }
+
+    /// Whether most vectors are none at all, and not short ones, where the camera's are long.
+    [[nodiscard]] bool areZero() const {
+        size_t count = 0;
+        size_t zero = 0;
+        for (const CheckPoint& point : mSaid.points) {
+            const double camera = glm::length(point.camera);
+            if (point.isSky || camera < 1.0)
+                continue;
+            ++count;
+            zero += glm::length(point.motion) <= 1.5e-4 * camera; // texture coordinates: 1 / width
+        }
+        return 10 * zero >= 6 * count;
+    }
+
+    /// Units that hosts have, either way in time, y down or up.
+    void tryUnits() {
+        if (!mSaid.haveCamera)
+            return;
+        const dvec2 size(mFacts.picture.width, mFacts.picture.height);
+        for (const Unit& unit : std::initializer_list<Unit>{
+                 {"pixels", dvec2(1.0)},
+                 {"texture coordinates", size},
+                 {"normalised device coordinates", 0.5 * size}})
+            for (const dvec2& sign :
+                 {dvec2(1.0, 1.0), dvec2(-1.0, -1.0), dvec2(1.0, -1.0), dvec2(-1.0, 1.0)})
+                considerScale(
+                    sign * unit.pixels / dvec2(mFacts.convention.vectors.pixelsPerUnit),
+                    fmt::format(
+                        ", as for {} that lead to {} with y {}",
+                        unit.name,
+                        sign.x < 0.0 ? "the frame before" : "this frame",
+                        sign.x == sign.y ? "down" : "up"
+                    )
+                );
+    }
+
+    void considerScale(const dvec2& factors, const std::string& unit) {
+        Reading guess = mSaid;
+        guess.scale = factors;
+        const dvec2 pixels = factors * dvec2(mFacts.convention.vectors.pixelsPerUnit);
+        guess.sentence =
+            mFacts.isNative
+                ? fmt::format(
+                      "motionDepth agrees with the cameras after {}{}: it must hold pixels, right "
+                      "and down, from shutter open to close; or give convention.vectors with "
+                      "pixelsPerUnit = ({:.6g}, {:.6g})",
+                      describeFactors(factors),
+                      unit,
+                      pixels.x,
+                      pixels.y
+                  )
+                : fmt::format(
+                      "vectors agree with the cameras after {}{}: set vectors.pixelsPerUnit = "
+                      "({:.6g}, {:.6g})",
+                      describeFactors(factors),
+                      unit,
+                      pixels.x,
+                      pixels.y
+                  );
+        consider(guess);
+    }
+
+    void tryExposure() {
+        const double share = mFacts.convention.scales.exposureShare;
+        if (mFacts.isNative || !mSaid.haveCamera || !(share > 0.0))
+            return;
+        Reading guess = mSaid;
+        guess.scale = dvec2(1.0 / share);
+        guess.sentence = fmt::format(
+            "vectors agree with the cameras after multiplication by {:.4g}, 1 / exposureShare: "
+            "they are over the exposure already, set scales.exposureShare = 1, and give the camera "
+            "at shutter open as the one before",
+            1.0 / share
+        );
+        consider(guess);
+    }
+
+    /// Any factors. Much may pass for them, such as another frame's motion, so they come last, and
+    /// not before there is another frame.
+    void tryFactors() {
+        const auto x = fitScale(mSaid.points, 0, 0);
+        const auto y = fitScale(mSaid.points, 1, 1);
+        if (mLast && mSaid.haveCamera && (x || y))
+            considerScale(dvec2(x ? *x : *y, y ? *y : *x), {});
+    }
+
+    void trySwap() {
+        const auto x = fitScale(mSaid.points, 1, 0);
+        const auto y = fitScale(mSaid.points, 0, 1);
+        if (!x || !y || !mSaid.haveCamera)
+            return;
+        Reading guess = mSaid;
+        guess.isSwapped = true;
+        guess.scale = dvec2(*x, *y);
+        const dvec2 unit(mFacts.convention.vectors.pixelsPerUnit);
+        guess.sentence = fmt::format(
+            "vectors agree with the cameras after x and y are exchanged: write x to the first "
+            "channel and y to the second, with vectors.pixelsPerUnit = ({:.6g}, {:.6g})",
+            *x * unit.y,
+            *y * unit.x
+        );
+        consider(guess);
+    }
+
+    /// Vectors, or cameras, of another frame.
+    void tryFrames() {
+        const HostCameras& cameras = mFacts.convention.cameras;
+        if (!mLast || !cameras.areGiven || mFacts.hasExposureCameras ||
+            !mLast->facts.convention.cameras.areGiven)
+            return;
+        const HostCameras& then = mLast->facts.convention.cameras;
+        CheckFacts facts = mFacts;
+        facts.convention.cameras.viewFromWorldBefore = then.viewFromWorld;
+        facts.convention.cameras.clipFromViewBefore = then.clipFromView;
+        considerFacts(
+            facts,
+            "vectors agree with the viewFromWorld of the frame before, which "
+            "cameras.viewFromWorldBefore is not: set it, and clipFromViewBefore, to last frame's"
+        );
+        facts.convention.cameras = then;
+        considerFacts(
+            facts,
+            "vectors are those of the frame before: they agree with last frame's cameras, so read "
+            "the image after this frame has written it"
+        );
+        // The last frame's vectors lead to this frame.
+        Reading said = read(*mLast, mLast->facts);
+        facts = mLast->facts;
+        facts.convention.cameras.viewFromWorldBefore = cameras.viewFromWorld;
+        facts.convention.cameras.clipFromViewBefore = cameras.clipFromView;
+        Reading guess = read(*mLast, facts);
+        for (CheckPoint& point : guess.points)
+            point.camera = -point.camera;
+        guess.sentence = "vectors lead from this frame to the next one: make them from the frame "
+                         "before, or delay the cameras by a frame";
+        consider(said, guess);
+    }
+
+    void tryCameras() {
+        const HostCameras& cameras = mFacts.convention.cameras;
+        if (!cameras.areGiven || mFacts.hasExposureCameras)
+            return;
+        CheckFacts facts = mFacts;
+        for (math::dmat4* view :
+             {&facts.convention.cameras.viewFromWorld,
+              &facts.convention.cameras.viewFromWorldBefore})
+            *view = glm::inverse(*view);
+        considerFacts(
+            facts,
+            "vectors agree with the inverse of cameras.viewFromWorld: it holds the camera's own "
+            "place (world from view); give its inverse, and that of viewFromWorldBefore"
+        );
+        facts = mFacts;
+        for (math::dmat4* clip :
+             {&facts.convention.cameras.clipFromView, &facts.convention.cameras.clipFromViewBefore})
+            for (int column = 0; column < 4; ++column)
+                (*clip)[column].y = -(*clip)[column].y;
+        considerFacts(
+            facts,
+            "vectors agree with the cameras after the second row of cameras.clipFromView is "
+            "negated: y = -1 must be the top of the picture; negate the row of clipFromViewBefore, "
+            "too"
+        );
+    }
+
+    void tryDepth() {
+        const HostDepth& depth = mFacts.convention.depth;
+        if (mFacts.isNative || !mFacts.convention.cameras.areGiven)
+            return;
+        CheckFacts facts = mFacts;
+        if (depth.isRaw) {
+            facts.convention.depth.skyValue = 1.0f - depth.skyValue;
+            const auto flipped = std::make_unique<CheckedFrame>(mNow);
+            for (shader::CheckSample& sample : flipped->totals.samples)
+                sample.depth = 1.0f - sample.depth;
+            Reading guess = read(*flipped, facts);
+            guess.sentence =
+                "vectors agree with the cameras after depth is reversed: cameras.clipFromView has "
+                "near and far the other way round than convention.depth.image";
+            consider(guess);
+        }
+        facts = mFacts;
+        facts.convention.depth.isRaw = !depth.isRaw;
+        facts.convention.depth.skyValue = std::numeric_limits<float>::quiet_NaN();
+        considerFacts(
+            facts,
+            depth.isRaw
+                ? "vectors agree with the cameras if depth is linear: set depth.isRaw = false"
+                : "vectors agree with the cameras if depth is as the hardware stores it: set "
+                  "depth.isRaw = true"
+        );
+        if (depth.isRaw)
+            return;
+        for (const float factor : {0.001f, 0.01f, 0.1f, 0.3048f, 10.0f, 100.0f, 1000.0f}) {
+            facts = mFacts;
+            facts.convention.depth.metresPerUnit *= factor;
+            considerFacts(
+                facts,
+                fmt::format(
+                    "vectors agree with the cameras after depth is multiplied by {:g}: depth and "
+                    "viewFromWorld are in different units, set depth.metresPerUnit = {:g}",
+                    factor,
+                    facts.convention.depth.metresPerUnit
+                )
+            );
+        }
+    }
+
+    void considerFacts(const CheckFacts& facts, std::string sentence) {
+        Reading guess = read(mNow, facts);
+        guess.sentence = std::move(sentence);
+        consider(guess);
+    }
+
+    static Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
+        Reading reading;
+        reading.points = makePoints(frame, facts);
+        reading.haveCamera = facts.isNative || facts.convention.vectors.haveCamera;
+        return reading;
+    }
+
+    const CheckedFrame& mNow;
+    const CheckedFrame* mLast;
+    const CheckFacts& mFacts;
+    Reading mSaid;
+    std::optional<size_t> mBest;
+    std::string mSentence;
+};
+
+/// Cameras of motionDepth are over a frame, and its vectors over an exposure that nobody tells.
+void scaleToExposure(std::vector<CheckPoint>& points) {
+    std::vector<double> shares;
+    for (const CheckPoint& point : points) {
+        const double square = glm::dot(point.camera, point.camera);
+        if (!point.isSky && square > 1.0)
+            shares.push_back(glm::dot(point.motion, point.camera) / square);
+    }
+    const auto share = takeMedian(shares, kLeastTelling);
+    if (share && std::abs(*share) > 0.02 && std::abs(*share) < 1.05)
+        for (CheckPoint& point : points)
+            point.camera *= std::abs(*share);
+}
+
+/// What is the same at nearly all that stands still, beyond the camera's part.
+std::optional<dvec2> findOffset(const Reading& said) {
+    std::vector<double> xs;
+    std::vector<double> ys;
+    size_t count = 0;
+    for (const CheckPoint& point : said.points) {
+        const dvec2 off = said.differenceOf(point);
+        // Half floats hold longer vectors too coarsely.
+        if (point.isSky || glm::length(said.cameraOf(point)) > 48.0)
+            continue;
+        ++count;
+        if (glm::length(off) < 2.5) {
+            xs.push_back(off.x);
+            ys.push_back(off.y);
+        }
+    }
+    const size_t least = std::max(kLeastPoints, count * 6 / 10);
+    const auto x = takeMedian(xs, least);
+    const auto y = takeMedian(ys, least);
+    if (!x || !y)
+        return std::nullopt;
+    const dvec2 offset(*x, *y);
+    const double tolerance = 0.02 + 0.12 * glm::length(offset);
+    size_t near = 0;
+    for (const CheckPoint& point : said.points)
+        near += !point.isSky && glm::length(said.cameraOf(point)) <= 48.0 &&
+                glm::length(said.differenceOf(point) - offset) <= tolerance;
+    return 10 * near >= 6 * count ? std::optional(offset) : std::nullopt;
+}
+
+bool isOffsetNear(const dvec2& offset, const dvec2& wanted) {
+    return glm::length(offset - wanted) <= 0.03 + 0.15 * glm::length(wanted);
+}
+
+void checkOffset(
+    CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
+) {
+    const auto found = findOffset(said);
+    if (!found)
+        return;
+    now.offsetPx = *found;
+    now.hasOffset = true;
+    const dvec2 offset = *found;
+    if (glm::length(offset) < 0.1)
+        return;
+    const HostConvention& convention = now.facts.convention;
+    const HostCameras& cameras = convention.cameras;
+    // By how much jitter that is left in the vectors makes them longer.
+    const dvec2 jitter = cameras.jitterPxBefore - cameras.jitterPx;
+    const bool isDeclared = glm::length(jitter) >= 0.1;
+    const dvec2 signY(1.0, -1.0);
+    const auto tell = [&](std::string sentence) {
+        findings.push_back({CheckKind::VectorOffset, std::move(sentence)});
+    };
+    const std::string what = fmt::format(
+        "what stands still has ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
+    );
+    if (!now.facts.isNative && isDeclared && !convention.vectors.haveJitter &&
+        isOffsetNear(offset, jitter))
+        return tell(
+            what + ", the change of cameras.jitterPx: jitter is left in the vectors, set "
+                   "vectors.haveJitter = true"
+        );
+    if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
+        isOffsetNear(offset, -jitter))
+        return tell(
+            what + ", the change of cameras.jitterPx: the vectors have no jitter, set "
+                   "vectors.haveJitter = false"
+        );
+    if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
+        (isOffsetNear(offset, (signY - 1.0) * jitter) ||
+         isOffsetNear(offset, (-signY - 1.0) * jitter) || isOffsetNear(offset, -2.0 * jitter)))
+        return tell(
+            what + ": cameras.jitterPx and jitterPxBefore have the wrong sign (by how much samples "
+                   "lie right and down of the pixels' centres)"
+        );
+    if (isDeclared && isOffsetNear(offset, -jitter))
+        return tell(
+            what + ", the change of cameras.jitterPx: the jitter is in cameras.clipFromView, which "
+                   "must be without"
+        );
+    // Jitter that was not declared differs from frame to frame; what moves evenly does not.
+    if (last && last->hasOffset && glm::length(offset - last->offsetPx) > 0.1 &&
+        glm::length(last->offsetPx) < 2.5)
+        tell(
+            what + ", and another offset in the frame before: is temporal jitter left in the "
+                   "vectors? Project both ends without it, or set vectors.haveJitter and "
+                   "cameras.jitterPx"
+        );
+}
+
+} // namespace
+
+void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings) {
+    Reading said;
+    said.points = makePoints(now, now.facts);
+    said.haveCamera = now.facts.isNative || now.facts.convention.vectors.haveCamera;
+    if (now.facts.isNative && !now.facts.hasExposureCameras)
+        scaleToExposure(said.points);
+    if (const auto mistake = Guesses(now, last, said).findMistake())
+        findings.push_back({CheckKind::Vectors, *mistake});
+    else
+        checkOffset(now, last, said, findings);
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_checker.h"
+
+#include "spirv/motion_blur/check_ids.comp.h"
+#include "spirv/motion_blur/check_picture.comp.h"
+
+#include "engine/gpu/frame.h"
+#include "engine/graph/execute.h"
+#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "modules/motion_blur/passes/dispatch.h"
+#include "shaders/render/scene_shared.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+constexpr uint64_t kQuietFrames = 600; ///< until a sentence is told again
+
+// Push constants, as the shaders declare them.
+struct PicturePush {
+    glm::uvec2 sizePx;
+    shader::PrepareArea color;
+    shader::PrepareArea vectors;
+    shader::PrepareArea depth;
+    glm::vec2 pixelsPerUnit;
+    float skyValue;
+    uint32_t flags;
+    uint32_t serial;
+};
+
+struct IdsPush {
+    glm::uvec2 sizePx;
+    shader::PrepareArea area;
+    uint32_t noneValue;
+    uint32_t rowCount;
+};
+
+gpu::ComputePipelineDesc describe(
+    const char* name, std::span<const uint32_t> spirv, uint32_t sampledCount, uint32_t pushBytes
+) {
+    gpu::ComputePipelineDesc desc;
+    desc.name = name;
+    desc.spirv = spirv;
+    desc.interface.bindings.assign(sampledCount, kSampled);
+    desc.interface.bindings.push_back(kBuffer);
+    desc.interface.pushConstantBytes = pushBytes;
+    return desc;
+}
+
+const HostCameraKey& findRasterKey(const HostInputs& inputs) {
+    for (const HostCameraKey& key : inputs.motion.keys)
+        if (isRasterKey(key, inputs.rasterTime))
+            return key;
+    return inputs.motion.keys.front();
+}
+
+HostCameras makePair(const HostCameraKey& now, const HostCameraKey& before, bool aheadIsPlusZ) {
+    HostCameras pair;
+    pair.areGiven = true;
+    pair.aheadIsPlusZ = aheadIsPlusZ;
+    pair.viewFromWorld = now.viewFromWorld;
+    pair.clipFromView = now.clipFromView;
+    pair.viewFromWorldBefore = before.viewFromWorld;
+    pair.clipFromViewBefore = before.clipFromView;
+    return pair;
+}
+
+/// Whether an entity's origin is well within the picture, in front of the camera.
+bool isInView(const HostInputs& inputs, const HostMover& mover) {
+    const auto& keys = inputs.motion.keys;
+    if (mover.worldFromObject.size() != keys.size())
+        return false;
+    const HostCameraKey& key = findRasterKey(inputs);
+    const glm::dvec4 world = mover.worldFromObject[size_t(&key - keys.data())][3];
+    const glm::dvec4 clip = key.clipFromView * (key.viewFromWorld * world);
+    return clip.w > 0.0 && std::abs(clip.x) < 0.8 * clip.w && std::abs(clip.y) < 0.8 * clip.w;
+}
+
+void describeMotion(const HostInputs& inputs, CheckFacts& facts) {
+    const HostMotion& motion = inputs.motion;
+    facts.followsLast = motion.followsLast;
+    facts.rowCount = motion.rowCount;
+    facts.movers.clear();
+    for (const HostMover& mover : motion.movers)
+        facts.movers.push_back({mover.row, isInView(inputs, mover)});
+    facts.hasExposureCameras = facts.isNative && motion.keys.size() > 1 &&
+                               motion.keys.front().time == 0.0 && motion.keys.back().time == 1.0;
+    if (!facts.hasExposureCameras)
+        return;
+    const HostCameraKey& raster = findRasterKey(inputs);
+    facts.open = makePair(raster, motion.keys.front(), motion.aheadIsPlusZ);
+    facts.close = makePair(raster, motion.keys.back(), motion.aheadIsPlusZ);
+}
+
+/// What is said of motionDepth by its own convention.
+void describeNative(const HostInputs& inputs, HostConvention& convention) {
+    const HostCameras cameras = convention.cameras;
+    const bool isCut = convention.scales.isCut;
+    convention = {};
+    convention.cameras = cameras;
+    convention.scales.isCut = isCut;
+    convention.vectors.image = inputs.motionDepth;
+    convention.depth.image = inputs.motionDepth;
+    convention.depth.isRaw = false;
+    convention.depth.skyValue = shader::kSkyDepth;
+}
+
+void clearTotals(graph::PassContext& context, graph::BufferHandle totals) {
+    const VkBuffer buffer = context.resources.buffer(totals);
+    constexpr VkDeviceSize kLeast = offsetof(shader::CheckTotals, depthLeast);
+    vkCmdFillBuffer(context.commands, buffer, 0, kLeast, 0);
+    vkCmdFillBuffer(context.commands, buffer, kLeast, 4, 0xFFFFFFFFu);
+    vkCmdFillBuffer(context.commands, buffer, kLeast + 4, VK_WHOLE_SIZE, 0);
+}
+
+struct TotalsData {
+    graph::BufferHandle totals;
+};
+
+/// Declares a pass of one thread a pixel that reads `sources` and adds to the totals.
+template <class Push>
+graph::BufferHandle addTotalsPass(
+    graph::Graph& graph,
+    const char* name,
+    const gpu::LazyPipeline& pipeline,
+    const std::vector<graph::ImageHandle>& sources,
+    graph::BufferHandle totals,
+    const Push& push,
+    VkSampler sampler
+) {
+    return graph
+        .addPass<TotalsData>(
+            name,
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, TotalsData& data) {
+                for (size_t i = 0; i < sources.size(); ++i)
+                    if (std::find(
+                            sources.begin(), sources.begin() + std::ptrdiff_t(i), sources[i]
+                        ) == sources.begin() + std::ptrdiff_t(i))
+                        builder.read(sources[i], Access::SampledCompute);
+                data.totals = builder.write(totals, Access::StorageWrite);
+            },
+            [&pipeline, sources, push, sampler](
+                const TotalsData& data, graph::PassContext& context
+            ) {
+                gpu::BindingList bindings;
+                for (const graph::ImageHandle source : sources)
+                    bindings.sampled(context.resources.view(source), sampler);
+                bindings.buffer(context.resources.buffer(data.totals));
+                context.frame.bind(pipeline.get(), bindings, &push, sizeof(push));
+                const glm::uvec2 groups =
+                    (push.sizePx + shader::kGroupSize - 1u) / shader::kGroupSize;
+                vkCmdDispatch(context.commands, groups.x, groups.y, 1);
+            }
+        )
+        .totals;
+}
+
+/// Copies the totals to where the CPU reads them.
+void addReadback(graph::Graph& graph, graph::BufferHandle totals, const gpu::Buffer& target) {
+    struct Data {
+        graph::BufferHandle from;
+        graph::BufferHandle to;
+    };
+
+    const auto imported = graph.importBuffer("checked totals", target.handle(), target.bytes());
+    const graph::BufferHandle copied =
+        graph
+            .addPass<Data>(
+                "copy checked totals",
+                graph::PassKind::Transfer,
+                [&](graph::PassBuilder& builder, Data& data) {
+                    data.from = builder.read(totals, Access::TransferRead);
+                    data.to = builder.write(imported, Access::TransferWrite);
+                },
+                [](const Data& data, graph::PassContext& context) {
+                    const VkBufferCopy region{0, 0, sizeof(shader::CheckTotals)};
+                    vkCmdCopyBuffer(
+                        context.commands,
+                        context.resources.buffer(data.from),
+                        context.resources.buffer(data.to),
+                        1,
+                        &region
+                    );
+                }
+            )
+            .to;
+    graph.addPass<TotalsData>(
+        "read checked totals",
+        graph::PassKind::Transfer,
+        [&](graph::PassBuilder& builder, TotalsData& data) {
+            data.totals = builder.read(copied, Access::HostRead);
+            builder.sideEffect();
+        },
+        [](const TotalsData&, graph::PassContext&) {}
+    );
+}
+
+} // namespace
+
+HostChecker::HostChecker(gpu::Device& device, uint32_t frames, HostMessage message)
+    : mDevice(device), mMessage(std::move(message)),
+      mPicture(
+          device, describe("check picture", motion_blur_check_picture_comp, 3, sizeof(PicturePush))
+      ),
+      mIds(device, describe("check ids", motion_blur_check_ids_comp, 1, sizeof(IdsPush))),
+      mSlots(frames), mLast(frames), mNumbers(frames), mNow(std::make_unique<CheckedFrame>()) {}
+
+void HostChecker::add(
+    graph::Graph& graph,
+    uint32_t frame,
+    const HostInputs& inputs,
+    const ImportedInputs& images,
+    bool readsMotion
+) {
+    Slot& slot = mSlots[frame];
+    if (!slot.totals)
+        slot.totals = gpu::Buffer(
+            mDevice, "checked totals", sizeof(shader::CheckTotals), 0, gpu::MemoryUse::Readback
+        );
+    slot.serial = ++mSerial == 0 ? ++mSerial : mSerial;
+    slot.isPending = true;
+    CheckFacts& facts = slot.facts;
+    facts.picture = {inputs.width, inputs.height};
+    facts.convention = inputs.convention;
+    facts.isNative = images.motionDepth.isValid();
+    if (facts.isNative)
+        describeNative(inputs, facts.convention);
+    facts.rasterTime = inputs.rasterTime;
+    facts.hasIds = images.entityId.isValid();
+    facts.readsMotion = readsMotion;
+    facts.noEntity = inputs.noEntity;
+    facts.frameNumber = inputs.frameNumber;
+    facts.view = inputs.motion.view;
+    facts.number = ++mNumbers[facts.view];
+    facts.rowCount = 0;
+    facts.movers.clear();
+    facts.followsLast = false;
+    facts.hasExposureCameras = false;
+    if (readsMotion)
+        describeMotion(inputs, facts);
+
+    const HostConvention& convention = facts.convention;
+    PicturePush push{};
+    push.sizePx = {inputs.width, inputs.height};
+    push.color = makeArea(inputs.color, facts.picture);
+    push.vectors = makeArea(convention.vectors.image, facts.picture);
+    push.depth = makeArea(convention.depth.image, facts.picture);
+    push.pixelsPerUnit = convention.vectors.pixelsPerUnit;
+    push.skyValue = convention.depth.skyValue;
+    push.flags = (facts.isNative ? shader::kCheckDepthIsThird : 0u) |
+                 (convention.depth.isRaw ? 0u : shader::kCheckSkyIsBeyond);
+    push.serial = slot.serial;
+    auto totals = graph.createBuffer(
+        "totals", {sizeof(shader::CheckTotals), kListUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT}
+    );
+    totals = graph
+                 .addPass<TotalsData>(
+                     "clear checked totals",
+                     graph::PassKind::Transfer,
+                     [&](graph::PassBuilder& builder, TotalsData& data) {
+                         data.totals = builder.write(totals, Access::TransferWrite);
+                     },
+                     [](const TotalsData& data, graph::PassContext& context) {
+                         clearTotals(context, data.totals);
+                     }
+                 )
+                 .totals;
+    const VkSampler sampler = mDevice.nearestSampler();
+    totals = addTotalsPass(
+        graph,
+        "check picture",
+        mPicture,
+        {images.color,
+         facts.isNative ? images.motionDepth : images.vectors,
+         facts.isNative ? images.motionDepth : images.depth},
+        totals,
+        push,
+        sampler
+    );
+    if (facts.hasIds)
+        totals = addTotalsPass(
+            graph,
+            "check ids",
+            mIds,
+            {images.entityId},
+            totals,
+            IdsPush{
+                push.sizePx,
+                makeArea(inputs.entityId, facts.picture),
+                inputs.noEntity,
+                facts.rowCount},
+            sampler
+        );
+    addReadback(graph, totals, slot.totals);
+}
+
+void HostChecker::finish(uint32_t frame) {
+    Slot& slot = mSlots[frame];
+    if (!std::exchange(slot.isPending, false))
+        return;
+    const void* mapped = slot.totals.mapped();
+    uint32_t serial = 0;
+    std::memcpy(&serial, mapped, sizeof(serial));
+    if (serial != slot.serial)
+        return; // never submitted
+    std::memcpy(&mNow->totals, mapped, sizeof(mNow->totals));
+    std::swap(mNow->facts, slot.facts);
+    mNow->hasOffset = false;
+    ++mEvaluated;
+    std::unique_ptr<CheckedFrame>& last = mLast[mNow->facts.view];
+    const bool isNext = last && mNow->facts.number == last->facts.number + 1;
+    for (const Finding& finding : checkFrame(*mNow, isNext ? last.get() : nullptr))
+        tell(finding);
+    std::swap(last, mNow);
+    if (!mNow)
+        mNow = std::make_unique<CheckedFrame>();
+}
+
+void HostChecker::finishAll() {
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < mSlots.size(); ++i)
+        order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        return mSlots[a].serial < mSlots[b].serial;
+    });
+    for (const uint32_t frame : order)
+        finish(frame);
+}
+
+void HostChecker::tell(const Finding& finding) {
+    uint64_t& told = mTold[size_t(finding.kind)];
+    if (told != 0 && mEvaluated - told < kQuietFrames)
+        return;
+    if (told != 0 && finding.kind == CheckKind::LeftOut)
+        return;
+    told = mEvaluated;
+    if (mMessage)
+        mMessage("motion blur check: " + finding.sentence);
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Looks at a host's inputs while they are blurred: passes gather totals and samples, which are
+// compared once the GPU is done with the frame. It waits for nothing.
+#pragma once
+
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/host_message.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+struct HostInputs;
+
+/// The host's images in the graph, as they were imported. Invalid: not given.
+struct ImportedInputs {
+    graph::ImageHandle color;
+    graph::ImageHandle motionDepth; ///< the host's own; else the two below
+    graph::ImageHandle vectors;
+    graph::ImageHandle depth;
+    graph::ImageHandle blurScale;
+    graph::ImageHandle normal;
+    graph::ImageHandle entityId;
+};
+
+class HostChecker {
+  public:
+    /// \param frames in flight; views are as many
+    HostChecker(gpu::Device& device, uint32_t frames, HostMessage message);
+
+    /// Declares the passes of a recording under a frame's number.
+    void
+    add(graph::Graph& graph,
+        uint32_t frame,
+        const HostInputs& inputs,
+        const ImportedInputs& images,
+        bool readsMotion);
+
+    /// The recording failed: nothing will be read of it.
+    void drop(uint32_t frame) { mSlots[frame].isPending = false; }
+
+    /// The GPU is done with the frame, or will never run it: tells what is found.
+    void finish(uint32_t frame);
+    /// The same of all frames, in the order of their recordings.
+    void finishAll();
+
+    /// The view was closed.
+    void forget(uint32_t view) { mLast[view].reset(); }
+
+    /// What was evaluated last of a view; null: nothing yet.
+    [[nodiscard]] const CheckedFrame* last(uint32_t view) const { return mLast[view].get(); }
+
+  private:
+    struct Slot {
+        gpu::Buffer totals; ///< shader::CheckTotals
+        CheckFacts facts;
+        uint32_t serial = 0;
+        bool isPending = false;
+    };
+
+    void tell(const Finding& finding);
+
+    gpu::Device& mDevice;
+    HostMessage mMessage;
+    gpu::LazyPipeline mPicture;
+    gpu::LazyPipeline mIds;
+    std::vector<Slot> mSlots;
+    std::vector<std::unique_ptr<CheckedFrame>> mLast; ///< by view
+    std::vector<uint32_t> mNumbers;                   ///< by view: recordings so far
+    std::unique_ptr<CheckedFrame> mNow;               ///< is filled and becomes the last one
+    uint32_t mSerial = 0;
+    uint64_t mEvaluated = 0;
+    std::array<uint64_t, size_t(CheckKind::Count)> mTold{}; ///< evaluation it was told in; 0: never
+};
+
+} // namespace shutter::motion_blur

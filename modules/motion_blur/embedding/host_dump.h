@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Writes what a host hands in, and the picture that comes of it, to a folder, so that
+// `shutter replay` draws it again. For each frame `frame_0000.json` says what the host said, and
+// names a file of plain texels for each image (docs/debugging_integration.md).
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/memory.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/embedding/host_checker.h"
+#include "modules/motion_blur/embedding/host_message.h"
+#include "modules/motion_blur/own_reveal.h"
+#include "modules/motion_blur/settings.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+class HostDump {
+  public:
+    /// \param frames in flight
+    HostDump(gpu::Device& device, uint32_t frames, HostMessage message);
+    ~HostDump();
+
+    /// The next recordings will be written. Error: the folder cannot be made, holds a dump already,
+    /// or one is being written.
+    [[nodiscard]] core::Status start(const std::filesystem::path& folder, uint32_t frameCount);
+
+    /// The next recording will be written.
+    [[nodiscard]] bool wantsFrame() const { return mLeft > 0; }
+
+    /// The next recording of the view is the dump's first: it must not look at frames before.
+    [[nodiscard]] bool startsView(uint32_t view) const;
+
+    /// Declares the passes that read the inputs of a recording under a frame's number.
+    void
+    add(graph::Graph& graph,
+        uint32_t frame,
+        const HostInputs& inputs,
+        const ImportedInputs& images,
+        const MotionBlurSettings& settings);
+    /// The same for the blurred picture, after add().
+    void addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandle picture);
+    /// The host's reveal, which is read as well; it refers to this, `inputs` and `recorder`.
+    /// \param recorder binds what is recorded
+    [[nodiscard]] OwnReveal
+    wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Frame& recorder);
+    /// The recording failed: nothing is written of it.
+    void drop(uint32_t frame);
+
+    /// The GPU is done with the frame, or will never run it: writes its files.
+    void finish(uint32_t frame);
+    void finishAll();
+
+  private:
+    struct Slot;
+    struct Plane;
+
+    Plane& addPlane(Slot& slot, const char* name, uint32_t texels, VkExtent2D extent) const;
+    void addImagePass(graph::Graph& graph, Slot& slot, graph::ImageHandle image, const Plane& plane)
+        const;
+    [[nodiscard]] core::Status write(const Slot& slot) const;
+
+    gpu::Device& mDevice;
+    HostMessage mMessage;
+    gpu::LazyPipeline mImage;
+    gpu::LazyPipeline mIds;
+    gpu::LazyPipeline mPicture;
+    gpu::LazyPipeline mReveal;
+    std::vector<std::unique_ptr<Slot>> mSlots;
+    std::filesystem::path mFolder;
+    uint32_t mLeft = 0; ///< recordings to come
+    uint32_t mNext = 0; ///< number of the next file
+    uint32_t mSerial = 0;
+    std::vector<bool> mHasView; ///< by view: a frame of it is in the dump
+};
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+// A dump holds all that a host's picture depends on: replayed, it gives the picture bit for bit.
+#include "engine/gpu/frame.h"
+#include "engine/io/file_bytes.h"
+#include "engine/io/image_file.h"
+#include "engine/math/transform.h"
+#include "game/replay/dump_reader.h"
+#include "game/replay/replay_run.h"
+#include "tests/gpu/embedding_host.h"
+#include "tests/gpu/host_texels.h"
+#include "tests/support/picture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+namespace fs = std::filesystem;
+using motion_blur::HostInputs;
+using test::HostTexels;
+using test::kCopied;
+using test::kNothing;
+
+constexpr uint32_t kWidth = 64;
+constexpr uint32_t kHeight = 48;
+constexpr VkExtent2D kExtent{kWidth, kHeight};
+constexpr size_t kPixels = size_t{kWidth} * kHeight;
+
+/// A square that moves before a wall, under a camera that turns; every frame differs.
+class EmbeddedDump : public test::EmbeddedTest {
+  protected:
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+        mFolder = fs::temp_directory_path() / fmt::format("dump_{}_{}", info->name(), ::getpid());
+        fs::remove_all(mFolder);
+        mHost = describeHost();
+        mHost.message = [this](std::string_view sentence) { mTold.emplace_back(sentence); };
+        mBlur = create(mHost);
+    }
+
+    void TearDown() override {
+        mTexels.clear();
+        mBlur.reset();
+        std::error_code ignored;
+        fs::remove_all(mFolder, ignored);
+        EmbeddedTest::TearDown();
+    }
+
+    template <class T> motion_blur::HostImage make(VkFormat format, const std::vector<T>& values) {
+        return mTexels.emplace_back(device(), format, kExtent, test::bytesOf(values)).describe();
+    }
+
+    HostInputs describe(uint32_t frame) {
+        std::vector<uint64_t> color;
+        std::vector<glm::vec2> vectors;
+        std::vector<float> depth;
+        std::vector<uint16_t> ids;
+        for (uint32_t i = 0; i < kPixels; ++i) {
+            const uint32_t x = i % kWidth;
+            const uint32_t y = i / kWidth;
+            const bool isSquare = x >= 16 + 5 * frame && x < 32 + 5 * frame && y >= 12 && y < 36;
+            const float wave = float((x * 7 + y * 13 + frame) % 16) / 16.0f;
+            color.push_back(test::packHalf({isSquare ? 3.0f : wave, wave, 0.5f, 1.0f}));
+            vectors.push_back(
+                {(isSquare ? -9.0f : -1.5f) / kWidth, (isSquare ? -2.0f : 0.0f) / kHeight}
+            );
+            depth.push_back(y < 6 ? 0.0f : 0.1f / (isSquare ? 2.0f : 6.0f));
+            ids.push_back(y < 6 ? 0xFFFF : isSquare ? 3 : 1);
+        }
+        HostInputs inputs;
+        inputs.width = kWidth;
+        inputs.height = kHeight;
+        inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, color);
+        auto& convention = inputs.convention;
+        convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
+        convention.vectors.pixelsPerUnit = {-float(kWidth), -float(kHeight)};
+        convention.depth.image = make(VK_FORMAT_D32_SFLOAT, depth);
+        const auto clip = math::clipFromViewPerspective(1.0, double(kWidth) / kHeight, 0.1);
+        const auto viewAt = [](double time) {
+            return glm::rotate(glm::dmat4(1.0), 0.03 * time, glm::dvec3(0.0, 1.0, 0.0));
+        };
+        convention.cameras.areGiven = true;
+        convention.cameras.clipFromView = convention.cameras.clipFromViewBefore = clip;
+        convention.cameras.viewFromWorld = viewAt(frame);
+        convention.cameras.viewFromWorldBefore = viewAt(double(frame) - 1.0);
+        inputs.entityId = make(VK_FORMAT_R16_UINT, ids);
+        inputs.noEntity = 0xFFFF;
+        inputs.frameNumber = frame + 7;
+        mKeys = {
+            motion_blur::HostCameraKey{0.0, viewAt(double(frame) - 0.5), clip},
+            motion_blur::HostCameraKey{1.0, viewAt(frame), clip}};
+        inputs.motion.keys = mKeys;
+        inputs.motion.rowCount = 4;
+        inputs.motion.movers = mMovers;
+        inputs.motion.followsLast = frame > 0;
+        return inputs;
+    }
+
+    image::Image draw(uint32_t frame, const motion_blur::MotionBlurSettings& settings) {
+        mTexels.clear();
+        HostInputs inputs = describe(frame);
+        const test::Picture output(device(), "output", {kWidth, kHeight});
+        inputs.output = {output.handle(), kNothing, kCopied};
+        gpu::Frame commands(device());
+        commands.begin();
+        for (const HostTexels& texels : mTexels)
+            texels.record(commands.commands());
+        const core::Status done = mBlur->record(commands.commands(), frame % 2, inputs, settings);
+        EXPECT_TRUE(done.ok()) << done.error().message;
+        output.recordReadback(commands.commands());
+        commands.submit();
+        commands.wait();
+        EXPECT_TRUE(mBlur->markDone(frame % 2).ok());
+        return output.read();
+    }
+
+    /// Replays the dump and expects pictures to be those, bit for bit.
+    void expectReplayed(const std::vector<image::Image>& pictures) {
+        for (size_t i = 0; i < pictures.size(); ++i) {
+            auto frame = replay::readDumpManifest(mFolder / fmt::format("frame_{:04}.json", i));
+            ASSERT_TRUE(frame.ok()) << frame.error().message;
+            const core::Status read = replay::readDumpTexels(mFolder, frame.value());
+            ASSERT_TRUE(read.ok()) << read.error().message;
+        }
+        replay::ReplayOptions options;
+        options.folder = mFolder;
+        options.out = mFolder / "replayed.exr";
+        testing::internal::CaptureStdout();
+        const core::Status done = replay::replay(options, device());
+        std::fflush(stdout);
+        const std::string said = testing::internal::GetCapturedStdout();
+        ASSERT_TRUE(done.ok()) << done.error().message;
+        size_t same = 0;
+        for (size_t at = 0; (at = said.find("bit for bit", at)) != std::string::npos; ++at)
+            ++same;
+        EXPECT_EQ(same, pictures.size()) << said;
+        for (size_t i = 0; i < pictures.size(); ++i) {
+            const fs::path file =
+                mFolder / (pictures.size() > 1 ? fmt::format("replayed_{:04}.exr", i)
+                                               : std::string("replayed.exr"));
+            const auto replayed = io::readImage(file);
+            ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+            EXPECT_TRUE(test::sameBits(replayed.value(), pictures[i])) << i;
+        }
+    }
+
+    fs::path mFolder;
+    motion_blur::HostDevice mHost;
+    std::vector<std::string> mTold;
+    std::unique_ptr<motion_blur::EmbeddedMotionBlur> mBlur;
+    std::deque<HostTexels> mTexels;
+    std::array<motion_blur::HostCameraKey, 2> mKeys;
+    std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
+};
+
+TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    const image::Image picture = draw(0, test::gather());
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({picture});
+}
+
+TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
+    motion_blur::MotionBlurSettings settings;
+    settings.method = &motion_blur::getMethod("resolved");
+    settings.sampleCount = 5;
+    settings.instantNoise = motion_blur::InstantNoise::Turning;
+    (void)draw(0, settings); // before the dump: its first frame must not look it up
+    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
+    const image::Image second = draw(1, settings);
+    const image::Image third = draw(2, settings);
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({second, third});
+}
+
+TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    (void)draw(0, test::gather());
+    const auto refuse = [&](const char* method, const std::string& sentence) {
+        replay::ReplayOptions options;
+        options.folder = mFolder;
+        options.change = [&](motion_blur::MotionBlurSettings& settings) -> core::Status {
+            settings.method = &motion_blur::getMethod(method);
+            return {};
+        };
+        const core::Status done = replay::replay(options, device());
+        ASSERT_FALSE(done.ok());
+        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+    };
+    refuse("hybrid", "the dump holds nothing of what lies behind, since the host ran gather");
+    refuse("resolved", "the dump holds no camera keys, since the host ran gather");
+    refuse("adaptive", "needs the scene, which no dump holds");
+}
+
+TEST_F(EmbeddedDump, WhatIsWrongWithADumpIsTold) {
+    const auto refuse = [&](const fs::path& folder, uint32_t frames, const char* sentence) {
+        const core::Status done = mBlur->dump(folder, frames);
+        ASSERT_FALSE(done.ok());
+        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+    };
+    refuse(mFolder, 0, "frames is 0, it must be 1 to 9999");
+    refuse("/proc/none", 1, "'/proc/none'");
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    refuse(mFolder, 1, "1 recordings of the last dump are to come");
+    (void)draw(0, test::gather());
+    refuse(mFolder, 1, "holds a dump already");
+    // A folder that went away.
+    fs::remove_all(mFolder);
+    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
+    fs::remove_all(mFolder);
+    (void)draw(0, test::gather());
+    ASSERT_EQ(mTold.size(), 1u);
+    EXPECT_NE(mTold[0].find("No such file or directory"), std::string::npos) << mTold[0];
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok()) << "the last one has ended";
+}
+
+TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    (void)draw(0, test::gather());
+    const fs::path file = mFolder / "frame_0000.json";
+    const auto bytes = io::readFileBytes(file, 1 << 20);
+    ASSERT_TRUE(bytes.ok());
+    const std::string text(bytes.value().begin(), bytes.value().end());
+    const auto refuse = [&](const std::string& from, const std::string& to, const char* sentence) {
+        std::string changed = text;
+        const size_t at = changed.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        changed.replace(at, from.size(), to);
+        ASSERT_TRUE(io::writeFileText(file, changed).ok());
+        replay::ReplayOptions options;
+        options.folder = mFolder;
+        const core::Status done = replay::replay(options, device());
+        ASSERT_FALSE(done.ok()) << to;
+        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+    };
+    refuse("frame_0000_color.bin", "../frame_0000_color.bin", "the name of a file in the folder");
+    refuse("frame_0000_color.bin", "/etc/passwd", "the name of a file in the folder");
+    refuse(
+        "frame_0000_color.bin", "frame_0000_depth.bin", "bytes, the image 'color' of 64 x 48 has"
+    );
+    refuse("\"width\": 64", "\"width\": 4000000000", "width");
+    refuse("\"width\": 64", "\"width\": NaN", "frame_0000.json:");
+    refuse("\"gather\"", "\"teapot\"", "is no method of the motion blur");
+    refuse("\"frameNumber\"", "\"frame number\"", "frame number");
+    refuse(text.substr(text.size() / 2), "", "frame_0000.json:");
+    ASSERT_TRUE(io::writeFileText(file, text).ok());
+    fs::resize_file(mFolder / "frame_0000_color.bin", 100);
+    replay::ReplayOptions options;
+    options.folder = mFolder;
+    const core::Status done = replay::replay(options, device());
+    ASSERT_FALSE(done.ok());
+    EXPECT_NE(done.error().message.find("has 100 bytes"), std::string::npos)
+        << done.error().message;
+}
+
+} // namespace
+} // namespace shutter
