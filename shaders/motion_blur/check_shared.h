@@ -10,9 +10,10 @@ SHUTTER_SHADER_BEGIN
 /// Samples lie in the middle of the cells of a grid over the picture.
 SHUTTER_CONST uint kCheckAcross = 64u;
 SHUTTER_CONST uint kCheckDown = 36u;
-SHUTTER_CONST uint kCheckSamples = kCheckAcross * kCheckDown;
+SHUTTER_CONST uint kCheckSamples = 2304u; // across times down
 /// Rows of entities below this are looked for in the picture.
 SHUTTER_CONST uint kCheckRows = 65536u;
+SHUTTER_CONST uint kCheckRowWords = 2048u; // a bit for each
 
 /// A pixel as the host's images have it.
 struct CheckSample {
@@ -45,7 +46,7 @@ struct CheckTotals {
     uint depthMost;
     uint padding;
     uint counts[kCheckCounts];
-    uint seenRows[kCheckRows / 32u]; // a bit for each row
+    uint seenRows[kCheckRowWords]; // a bit for each row
     CheckSample samples[kCheckSamples];
 };
 
@@ -56,7 +57,11 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::CheckSample) == 16);
-static_assert(sizeof(shutter::shader::CheckTotals) == 80 + 65536 / 8 + 64 * 36 * 16);
+static_assert(sizeof(shutter::shader::CheckTotals) == 45136);
+static_assert(
+    shutter::shader::kCheckSamples == shutter::shader::kCheckAcross * shutter::shader::kCheckDown
+);
+static_assert(shutter::shader::kCheckRowWords * 32u == shutter::shader::kCheckRows);
 #endif
 
 #endif
