@@ -18,8 +18,8 @@ failed_folder=$build/failed
 # What a run takes of each reader, in thousands of inputs: the short one, and the long one, a million
 # together. Readers that are quick or that have more to get wrong take more.
 readers=(
-    'uri 20 150' 'gltf 4 100' 'texture 3 50' 'image 2 40' 'environment 2 50' 'flythrough 8 150' 'input_script 5 120'
-    'settings 5 120' 'pipeline_cache 10 60' 'sequence_journal 2 60' 'bench_journal 5 100'
+    'uri 20 120' 'gltf 4 100' 'texture 3 50' 'image 2 40' 'environment 2 50' 'flythrough 8 130' 'input_script 5 120'
+    'settings 5 120' 'pipeline_cache 10 60' 'sequence_journal 2 60' 'bench_journal 5 90'
     'dump 5 60'
 )
 

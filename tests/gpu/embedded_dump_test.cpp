@@ -13,9 +13,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdio>
 #include <deque>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 #include <vector>
 

@@ -24,6 +24,7 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 namespace shutter::motion_blur {
