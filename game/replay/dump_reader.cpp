@@ -228,9 +228,11 @@ DumpImage readImage(const JsonNode& node, const ImageRow& row, const DumpFrame& 
 
 void readImages(const JsonNode& node, DumpFrame& frame) {
     for (const auto& [name, value] : node.readFields()) {
-        const auto row = std::find_if(kImages.begin(), kImages.end(), [&](const ImageRow& one) {
-            return one.name == name;
-        });
+        const std::string_view wanted = name; // Clang 14 captures no structured binding
+        const auto row =
+            std::find_if(kImages.begin(), kImages.end(), [wanted](const ImageRow& one) {
+                return one.name == wanted;
+            });
         if (row == kImages.end())
             return value.fail("is no image of a dump");
         frame.images[name] = readImage(value, *row, frame);
