@@ -171,6 +171,37 @@ class Session(PlayCase):
         self.assertEqual(passes, {"bloom down": 4, "bloom up": 4})
         self.assertGreater(abs(bloomed - sharp).mean(), 0.5)
 
+    def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
+        # Pausing and going on change what a frame consists of; drivers may take tens of
+        # milliseconds over an allocation.
+        script = Script().wait(6)
+        for _ in range(2):
+            script.tap("p").wait(6).tap("p").wait(6)
+        script.wait(12)
+        for _ in range(3):
+            script.tap("p").wait(4).tap("p").wait(4)
+        script.add(window="quit")
+        for demo in ("spin", "gallery", "rally"):
+            for method in ("hybrid", "resolved"):
+                with self.subTest(demo=demo, method=method):
+                    stats = self.play(demo, script, "--method", method, display=False)
+                    self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
+
+    def test_bad_input_is_told_in_one_sentence(self):
+        for arguments, status, told in (
+            (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
+            (["rally"], 2, "--no-window"),
+            (["rally", "--script", "none.json"], 1, "none.json"),
+            (["rally", "--assets", "nowhere", "--frames", "1"], 1, "nowhere"),
+        ):
+            with self.subTest(arguments=arguments):
+                result = self.run_shutter(arguments, display=False)
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertIn(told, result.stderr)
+                self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+
+
+class Effects(PlayCase):
     def test_each_effect_is_switched_by_its_option_and_its_key(self):
         def shoot(keys, *options, rays="query"):
             script = Script().add(key="w", action="press").wait(3)
@@ -243,35 +274,6 @@ class Session(PlayCase):
         )
         self.assertTrue((abs(before + after - 255) <= 1).all())
         self.assertTrue((kept == after).all())
-
-    def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
-        # Pausing and going on change what a frame consists of; drivers may take tens of
-        # milliseconds over an allocation.
-        script = Script().wait(6)
-        for _ in range(2):
-            script.tap("p").wait(6).tap("p").wait(6)
-        script.wait(12)
-        for _ in range(3):
-            script.tap("p").wait(4).tap("p").wait(4)
-        script.add(window="quit")
-        for demo in ("spin", "gallery", "rally"):
-            for method in ("hybrid", "resolved"):
-                with self.subTest(demo=demo, method=method):
-                    stats = self.play(demo, script, "--method", method, display=False)
-                    self.assertEqual(stats["allocationsAfterFirstSecond"], 0)
-
-    def test_bad_input_is_told_in_one_sentence(self):
-        for arguments, status, told in (
-            (["nowhere.glb", "--frames", "1"], 1, "nowhere.glb"),
-            (["rally"], 2, "--no-window"),
-            (["rally", "--script", "none.json"], 1, "none.json"),
-            (["rally", "--assets", "nowhere", "--frames", "1"], 1, "nowhere"),
-        ):
-            with self.subTest(arguments=arguments):
-                result = self.run_shutter(arguments, display=False)
-                self.assertEqual(result.returncode, status, result.stderr)
-                self.assertIn(told, result.stderr)
-                self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
 
 
 if __name__ == "__main__":
