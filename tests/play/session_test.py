@@ -75,7 +75,8 @@ class Session(PlayCase):
             stats = self.play("rally", script, "--method", method, size="320x180", display=False,
                               budget={"milliseconds": milliseconds})
             picture = skimage.io.imread(self.folder / f"{name}.png")
-            return picture[100:150].astype(float), stats["reducedFrames"]
+            # Between the lines of the head-up display, which tell the budget.
+            return picture[75:122].astype(float), stats["reducedFrames"]
 
         sharp, _ = drive_and_shoot("sharp", "sharp", "unlimited")
         full, reduced = drive_and_shoot("full", "resolved", "unlimited")
