@@ -48,7 +48,7 @@ template <class MatrixAt> Way measureWay(const math::Bounds& bounds, const Matri
     return way;
 }
 
-/// Of the corners of what the camera sees `distance` metres ahead.
+/// How many parts the corners of the view take, `distance` metres ahead of the camera.
 uint32_t countCameraParts(const scene::ExposureMotion& motion, double distance) {
     math::Bounds ahead;
     ahead.add(dvec3(-distance, -distance, -distance));

@@ -22,7 +22,8 @@ struct ShadowCaster {
     uint32_t row = 0;      ///< of the entity table
     Sphere sphere;         ///< at the raster instant; of what deforms, around its other shapes too
     double seenSize = 0.0; ///< radius over distance from the camera
-    /// The form whose unit ellipsoid is the caster's box, but for a factor (ShadowMover::shape).
+    /// The form whose unit ellipsoid is that of the caster's box, up to a factor
+    /// (ShadowMover::shape).
     math::dmat3 shape{1.0};
     bool deforms = false; ///< during the exposure
 };

@@ -23,7 +23,7 @@ layout(binding = 17, scalar) buffer AskedSamples {
     AskedSample uAsked[];
 };
 layout(binding = 18, scalar) writeonly buffer Answers { vec4 uAnswers[]; };
-/// By listed pixel, where its samples begin in the list; kNoSamples: nothing is asked for it.
+/// Where each listed pixel's samples begin in the list; kNoSamples: it requests none.
 layout(binding = 19, scalar) writeonly buffer FirstSamples { uint uFirst[]; };
 layout(binding = 20, scalar) buffer Groups { DispatchArguments uGroups; };
 

@@ -60,6 +60,22 @@ double findDarkest(const image::Image& picture) {
     return darkest;
 }
 
+struct Agreement {
+    double psnr = 0.0; ///< dB
+    double gain = 0.0; ///< over a picture without shadows, dB
+};
+
+Agreement compareMapsWithRays(Stage& stage) {
+    Shot shot = makeShot(ShadowMode::Sharp);
+    const auto maps = stage.render(shot);
+    shot.method = "truth";
+    const auto rays = stage.render(shot);
+    shot.shadows.mode = ShadowMode::None;
+    const auto none = stage.render(shot);
+    const double psnr = image::computePsnr(maps.color, rays.color);
+    return {psnr, psnr - image::computePsnr(none.color, rays.color)};
+}
+
 TEST_F(ShadowLaw, MapsAndRaysAgreeFromACentimetreToAKilometre) {
     if (!device().hasRayQuery())
         GTEST_SKIP() << device().info().name << " has no ray queries";
@@ -68,15 +84,9 @@ TEST_F(ShadowLaw, MapsAndRaysAgreeFromACentimetreToAKilometre) {
         SceneBuilder scene = makeFloor({.position = {0.3, 0.4, 0.2}}, scale);
         scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
         Stage stage(device(), scene);
-        Shot shot = makeShot(ShadowMode::Sharp);
-        const auto maps = stage.render(shot);
-        shot.method = "truth";
-        const auto rays = stage.render(shot);
-        shot.shadows.mode = ShadowMode::None;
-        const auto none = stage.render(shot);
-        const double psnr = image::computePsnr(maps.color, rays.color);
-        EXPECT_GT(psnr, 45.0) << scale;
-        EXPECT_GT(psnr - image::computePsnr(none.color, rays.color), 10.0) << scale;
+        const Agreement found = compareMapsWithRays(stage);
+        EXPECT_GT(found.psnr, 45.0) << scale;
+        EXPECT_GT(found.gain, 10.0) << scale;
     }
 }
 
@@ -129,15 +139,9 @@ TEST_F(ShadowLaw, HolesOfAlphaMasksLetLightThroughAsRaysDo) {
     scene.add(test::makeQuad(2.0, 2.0, holes), {.position = {0.2, 1.0, 0}, .rotation = kFlat});
     scene.addSun({-0.2, -1.0, -0.1}, 3.0f);
     Stage stage(device(), scene);
-    Shot shot = makeShot(ShadowMode::Sharp);
-    const auto maps = stage.render(shot);
-    shot.method = "truth";
-    const auto rays = stage.render(shot);
-    shot.shadows.mode = ShadowMode::None;
-    const auto none = stage.render(shot);
-    const double psnr = image::computePsnr(maps.color, rays.color);
-    EXPECT_GT(psnr, 35.0);
-    EXPECT_GT(psnr - image::computePsnr(none.color, rays.color), 10.0);
+    const Agreement found = compareMapsWithRays(stage);
+    EXPECT_GT(found.psnr, 35.0);
+    EXPECT_GT(found.gain, 10.0);
 }
 
 /// Decibels by which shadows over the exposure are nearer to the mean of 64 instants than shadows

@@ -430,8 +430,8 @@ static inline ShutterBlurReport shutterBlurDefaultReport(void) {
     return made;
 }
 
-/* Of what was recorded last under `frame`, with ShutterBlurDevice::measures. Refused while the GPU
- * has not run it. */
+/* Times and counters of what was recorded last under `frame`. Requires ShutterBlurDevice::measures;
+ * refused until the GPU has run the frame. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* report);
 

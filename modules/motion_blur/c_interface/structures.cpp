@@ -123,23 +123,29 @@ HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
     return motion;
 }
 
+/// What both kinds of tasks tell: the recording, the picture's size and the list.
+template <class Told, class Task> Told tellTask(const Task& task) {
+    Told told{};
+    told.structBytes = sizeof(told);
+    told.commands = task.commands;
+    told.width = task.sizePx.x;
+    told.height = task.sizePx.y;
+    told.list = task.list;
+    told.listAddress = task.listAddress;
+    told.listBytes = task.listBytes;
+    told.groups = task.groups;
+    told.launch = task.launch;
+    told.launchAddress = task.launchAddress;
+    return told;
+}
+
 OwnReveal convertReveal(const ShutterBlurInputs& given) {
     OwnReveal reveal;
     reveal.byRayPipeline = given.revealByRayPipeline != VK_FALSE;
     if (!given.recordReveal)
         return reveal;
     reveal.record = [record = given.recordReveal, user = given.revealUser](const RevealTask& task) {
-        ShutterBlurRevealTask told{};
-        told.structBytes = sizeof(told);
-        told.commands = task.commands;
-        told.width = task.sizePx.x;
-        told.height = task.sizePx.y;
-        told.list = task.list;
-        told.listAddress = task.listAddress;
-        told.listBytes = task.listBytes;
-        told.groups = task.groups;
-        told.launch = task.launch;
-        told.launchAddress = task.launchAddress;
+        auto told = tellTask<ShutterBlurRevealTask>(task);
         told.color = {task.color.image, task.color.view};
         told.motionDepth = {task.motionDepth.image, task.motionDepth.view};
         told.entityId = {task.entityId.image, task.entityId.view};
@@ -155,17 +161,7 @@ OwnSamples convertSamples(const ShutterBlurInputs& given) {
         return samples;
     samples.record = [record = given.recordSamples,
                       user = given.samplesUser](const SampleTask& task) {
-        ShutterBlurSampleTask told{};
-        told.structBytes = sizeof(told);
-        told.commands = task.commands;
-        told.width = task.sizePx.x;
-        told.height = task.sizePx.y;
-        told.list = task.list;
-        told.listAddress = task.listAddress;
-        told.listBytes = task.listBytes;
-        told.groups = task.groups;
-        told.launch = task.launch;
-        told.launchAddress = task.launchAddress;
+        auto told = tellTask<ShutterBlurSampleTask>(task);
         told.answers = task.answers;
         told.answersAddress = task.answersAddress;
         told.answersBytes = task.answersBytes;

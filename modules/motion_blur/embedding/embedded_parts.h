@@ -36,7 +36,8 @@ struct EmbeddedMotionBlur::Slot {
     bool isToldDone = true;  ///< by markDone(), or there is none
     bool counts = false;     ///< what was recorded last has counters
     uint32_t view = 0;       ///< of what was recorded last
-    /// Of the budget of that view, with which it was recorded; nothing: the budget knows its time.
+    /// The budget's level that the frame was recorded with; nothing: the budget has its time
+    /// already.
     std::optional<size_t> level;
     std::string gaveUp;
 };
@@ -45,7 +46,8 @@ struct EmbeddedMotionBlur::Slot {
 struct EmbeddedMotionBlur::View {
     explicit View(gpu::Device& device) : history(device) {}
 
-    /// Of what `history` keeps, or the host lends; nothing: there is no frame before.
+    /// Describes the raster that `history` keeps or the host lends; nothing: there is no frame
+    /// before.
     std::optional<HostRaster> last;
     RasterHistory history;
     std::optional<BudgetController> budget;

@@ -41,7 +41,7 @@ struct CheckFacts {
     uint32_t number = 0; ///< of the view's recordings
 };
 
-/// Of one kind a sentence is told once in a while.
+/// Sentences of the same kind are not repeated in every frame.
 enum class CheckKind : uint8_t {
     LeftOut, ///< no mistake: says which checks cannot be made
     ColorNan,

@@ -27,8 +27,7 @@ struct HostImage {
     /// the picture's size. Inputs of another size than the picture's are read at the nearest pixel.
     VkRect2D area{{0, 0}, {0, 0}};
     VkImageUsageFlags usage = 0; ///< that it was made with; 0: not said
-    /// Of an image of several layers, such as one for both eyes: the one that is used, and the only
-    /// one whose layout is changed.
+    /// Array layer that is used, e.g. one eye's; the layout of no other layer is changed.
     uint32_t layer = 0;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT; ///< that it was made with; must be 1
 };

@@ -8,7 +8,7 @@
 
 namespace shutter::motion_blur {
 
-/// Of these headers: major, minor and patch version as VK_MAKE_API_VERSION has them.
+/// Version of these headers: major, minor and patch, packed as by VK_MAKE_API_VERSION.
 inline constexpr uint32_t kHeaderVersion = 0u << 22 | 1u << 12 | 0u;
 
 /// Whether a host compiled with headers of this version may use the library: the same major and
