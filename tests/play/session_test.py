@@ -43,7 +43,7 @@ class Session(PlayCase):
         self.play("rally", script.add(window="quit"), size="480x270", display=False)
         # Between the head-up display's lines and the foot; the divider's line apart.
         hybrid, split, sharp = (
-            skimage.io.imread(self.folder / f"{name}.png")[150:230]
+            skimage.io.imread(self.folder / f"{name}.png")[120:200]
             for name in ("hybrid", "split", "sharp")
         )
         self.assertTrue((split[:, :238] == sharp[:, :238]).all())
