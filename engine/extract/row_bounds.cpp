@@ -10,15 +10,19 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-const math::Bounds&
-findRowBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row) {
-    const auto deformed = std::lower_bound(
+const DeformedEntity* findDeformed(const ExtractedFrame& frame, uint32_t row) {
+    const auto found = std::lower_bound(
         frame.deformed.begin(),
         frame.deformed.end(),
         row,
         [](const DeformedEntity& entity, uint32_t wanted) { return entity.row < wanted; }
     );
-    if (deformed != frame.deformed.end() && deformed->row == row)
+    return found != frame.deformed.end() && found->row == row ? &*found : nullptr;
+}
+
+const math::Bounds&
+findRowBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row) {
+    if (const DeformedEntity* deformed = findDeformed(frame, row))
         return deformed->bounds;
     return layout.bounds[frame.entityMeshes[row]];
 }

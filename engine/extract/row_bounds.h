@@ -10,6 +10,9 @@
 
 namespace shutter::extract {
 
+/// Null: the row's mesh is not deformed.
+[[nodiscard]] const DeformedEntity* findDeformed(const ExtractedFrame& frame, uint32_t row);
+
 /// Object space, raster instant: the deformed mesh's where there is one.
 [[nodiscard]] const math::Bounds&
 findRowBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row);

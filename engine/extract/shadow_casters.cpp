@@ -57,16 +57,6 @@ dmat3 makeShape(const dmat4& worldFromObject, const math::Bounds& bounds) {
     return std::isfinite(trace) && trace > 0.0 ? shape / trace : dmat3(1.0);
 }
 
-const DeformedEntity* findDeformed(const ExtractedFrame& frame, uint32_t row) {
-    const auto found = std::lower_bound(
-        frame.deformed.begin(),
-        frame.deformed.end(),
-        row,
-        [](const DeformedEntity& entity, uint32_t wanted) { return entity.row < wanted; }
-    );
-    return found != frame.deformed.end() && found->row == row ? &*found : nullptr;
-}
-
 /// Where a shape is between those of shutter open, raster instant and close, as ShadowDraw has it.
 float findShapeShift(const DeformationTimes& times, double s) {
     const double end = s < times.raster ? times.open : times.close;
