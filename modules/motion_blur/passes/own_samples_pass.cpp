@@ -42,6 +42,23 @@ struct OwnSamplesPass::Lists {
     graph::BufferHandle groups;  ///< shader::DispatchArguments
 };
 
+/// What both passes have that search as the resolve does, pixel by listed pixel.
+struct OwnSamplesPass::Searching {
+    SearchResources search;
+    ListedPixels listed;
+    Lists lists;
+    graph::ImageHandle picture;
+
+    void use(graph::PassBuilder& builder, const LookUpOutputs& found) {
+        search = found.search;
+        search.use(builder);
+        listed = {
+            builder.read(found.listed.pixels, Access::StorageRead),
+            builder.read(found.listed.arguments, Access::IndirectRead)};
+        picture = builder.write(found.picture, Access::StorageWrite);
+    }
+};
+
 OwnSamplesPass::OwnSamplesPass(gpu::Device& device)
     : mDevice(device), mList(device, describe("list samples", motion_blur_list_samples_comp, 5)),
       mCollect(device, describe("collect samples", motion_blur_collect_samples_comp, 4)) {}
@@ -90,31 +107,18 @@ OwnSamplesPass::createLists(graph::Graph& graph, const PassParams& params) const
 void OwnSamplesPass::addList(
     graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params
 ) const {
-    struct Data {
-        SearchResources search;
-        ListedPixels listed;
-        Lists lists;
-        graph::ImageHandle picture;
-    };
-
-    const Data& pass = graph.addPass<Data>(
+    const Searching& pass = graph.addPass<Searching>(
         "list samples",
         graph::PassKind::Compute,
-        [&](graph::PassBuilder& builder, Data& data) {
-            data.search = found.search;
-            data.search.use(builder);
-            data.listed = {
-                builder.read(found.listed.pixels, Access::StorageRead),
-                builder.read(found.listed.arguments, Access::IndirectRead)};
+        [&](graph::PassBuilder& builder, Searching& data) {
+            data.use(builder, found);
             data.lists = {
                 builder.write(lists.samples, Access::StorageWrite),
                 builder.write(lists.answers, Access::StorageWrite),
                 builder.write(lists.first, Access::StorageWrite),
                 builder.write(lists.groups, Access::StorageWrite)};
-            // Bound, though nothing writes it.
-            data.picture = builder.write(found.picture, Access::StorageWrite);
         },
-        [this, params](const Data& data, graph::PassContext& context) {
+        [this, params](const Searching& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels));
@@ -180,28 +184,16 @@ void OwnSamplesPass::addAnswer(
 void OwnSamplesPass::addCollect(
     graph::Graph& graph, LookUpOutputs& found, const Lists& lists, const PassParams& params
 ) const {
-    struct Data {
-        SearchResources search;
-        ListedPixels listed;
-        Lists lists;
-        graph::ImageHandle picture;
-    };
-
-    const Data& pass = graph.addPass<Data>(
+    const Searching& pass = graph.addPass<Searching>(
         "collect samples",
         graph::PassKind::Compute,
-        [&](graph::PassBuilder& builder, Data& data) {
-            data.search = found.search;
-            data.search.use(builder);
-            data.listed = {
-                builder.read(found.listed.pixels, Access::StorageRead),
-                builder.read(found.listed.arguments, Access::IndirectRead)};
+        [&](graph::PassBuilder& builder, Searching& data) {
+            data.use(builder, found);
             data.lists.samples = builder.read(lists.samples, Access::StorageRead);
             data.lists.answers = builder.read(lists.answers, Access::StorageRead);
             data.lists.first = builder.read(lists.first, Access::StorageRead);
-            data.picture = builder.write(found.picture, Access::StorageWrite);
         },
-        [this, params](const Data& data, graph::PassContext& context) {
+        [this, params](const Searching& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             for (const graph::BufferHandle buffer :

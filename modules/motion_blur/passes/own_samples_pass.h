@@ -22,6 +22,7 @@ class OwnSamplesPass {
 
   private:
     struct Lists;
+    struct Searching;
 
     [[nodiscard]] Lists createLists(graph::Graph& graph, const PassParams& params) const;
     void addList(graph::Graph& graph, LookUpOutputs& found, Lists& lists, const PassParams& params)
