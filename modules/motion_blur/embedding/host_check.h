@@ -110,6 +110,10 @@ struct CheckPoint {
     uint32_t id = 0;
 };
 
+/// "12 pixels (0.3 %)"
+/// \param index of CheckTotals::counts
+[[nodiscard]] std::string describeCount(const CheckedFrame& frame, uint32_t index);
+
 /// Whether cameras imply anything for the frame.
 [[nodiscard]] bool hasCameras(const CheckFacts& facts);
 

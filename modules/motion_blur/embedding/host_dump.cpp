@@ -9,6 +9,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/embedding/dump_files.h"
+#include "modules/motion_blur/embedding/dump_manifest.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"
@@ -19,11 +20,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -88,84 +88,6 @@ uint32_t chooseTexels(const HostImage& image) {
     return isHalf ? shader::kDumpHalf4 : shader::kDumpFloat4;
 }
 
-ordered_json describeMatrix(const glm::dmat4& matrix) {
-    ordered_json numbers = ordered_json::array();
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            numbers.push_back(matrix[column][row]);
-    return numbers;
-}
-
-/// Null for what JSON cannot hold.
-ordered_json describeNumber(double number) {
-    return std::isfinite(number) ? ordered_json(number) : ordered_json();
-}
-
-ordered_json describeCameras(const HostCameras& cameras) {
-    ordered_json root;
-    root["aheadIsPlusZ"] = cameras.aheadIsPlusZ;
-    root["viewFromWorld"] = describeMatrix(cameras.viewFromWorld);
-    root["clipFromView"] = describeMatrix(cameras.clipFromView);
-    root["viewFromWorldBefore"] = describeMatrix(cameras.viewFromWorldBefore);
-    root["clipFromViewBefore"] = describeMatrix(cameras.clipFromViewBefore);
-    root["jitterPx"] = {cameras.jitterPx.x, cameras.jitterPx.y};
-    root["jitterPxBefore"] = {cameras.jitterPxBefore.x, cameras.jitterPxBefore.y};
-    return root;
-}
-
-ordered_json describeConvention(const HostConvention& convention) {
-    ordered_json root;
-    root["pixelsPerUnit"] = {
-        convention.vectors.pixelsPerUnit.x, convention.vectors.pixelsPerUnit.y};
-    root["haveCamera"] = convention.vectors.haveCamera;
-    root["haveJitter"] = convention.vectors.haveJitter;
-    root["depthIsRaw"] = convention.depth.isRaw;
-    root["metresPerUnit"] = convention.depth.metresPerUnit;
-    root["skyValue"] = describeNumber(convention.depth.skyValue);
-    // What does not count may be anything, so it is left out.
-    root["cameras"] =
-        convention.cameras.areGiven ? describeCameras(convention.cameras) : ordered_json();
-    root["exposureShare"] = convention.scales.exposureShare;
-    root["cameraScale"] = convention.scales.camera;
-    root["objectScale"] = convention.scales.object;
-    root["displayedPerRendered"] = convention.scales.displayedPerRendered;
-    root["isCut"] = convention.scales.isCut;
-    return root;
-}
-
-ordered_json describeMotion(const HostMotion& motion) {
-    ordered_json root;
-    root["aheadIsPlusZ"] = motion.aheadIsPlusZ;
-    root["rowCount"] = motion.rowCount;
-    root["followsLast"] = motion.followsLast;
-    ordered_json& keys = root["keys"] = ordered_json::array();
-    for (const HostCameraKey& key : motion.keys)
-        keys.push_back(
-            {{"time", key.time},
-             {"viewFromWorld", describeMatrix(key.viewFromWorld)},
-             {"clipFromView", describeMatrix(key.clipFromView)}}
-        );
-    ordered_json& movers = root["movers"] = ordered_json::array();
-    for (const HostMover& mover : motion.movers) {
-        ordered_json matrices = ordered_json::array();
-        for (const glm::dmat4& matrix : mover.worldFromObject)
-            matrices.push_back(describeMatrix(matrix));
-        movers.push_back({{"row", mover.row}, {"worldFromObject", std::move(matrices)}});
-    }
-    // 64 bits are more than JSON's numbers hold.
-    ordered_json& ids = root["rowIds"] = ordered_json::array();
-    for (const uint64_t id : motion.rowIds)
-        ids.push_back(std::to_string(id));
-    return root;
-}
-
-ordered_json describeSettings(const MotionBlurSettings& settings) {
-    ordered_json root = ordered_json::object();
-    for (const auto& row : listSettingRows())
-        root[row.name] = core::describeValue(row, settings);
-    return root;
-}
-
 /// Waits for the host's commands, which wrote the images by shaders.
 void recordBarrier(VkCommandBuffer commands) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -208,6 +130,29 @@ struct HostDump::Slot {
     uint32_t serial = 0;
     bool isPending = false;
 };
+
+/// An image that the host gave, to be read.
+struct HostDump::Input {
+    const char* name;
+    const HostImage* given;
+    graph::ImageHandle image;
+    uint32_t texels;
+};
+
+std::vector<HostDump::Input>
+HostDump::listInputs(const HostInputs& inputs, const ImportedInputs& images) {
+    const HostConvention& convention = inputs.convention;
+    std::vector<Input> list{
+        {"color", &inputs.color, images.color, chooseTexels(inputs.color)},
+        {"motionDepth", &inputs.motionDepth, images.motionDepth, shader::kDumpFloat4},
+        {"vectors", &convention.vectors.image, images.vectors, shader::kDumpFloat2},
+        {"depth", &convention.depth.image, images.depth, shader::kDumpFloat1},
+        {"blurScale", &convention.scales.perPixel, images.blurScale, shader::kDumpFloat1},
+        {"normal", &inputs.normal, images.normal, chooseTexels(inputs.normal)},
+        {"entityId", &inputs.entityId, images.entityId, shader::kDumpUint1}};
+    std::erase_if(list, [](const Input& input) { return !input.image.isValid(); });
+    return list;
+}
 
 HostDump::HostDump(gpu::Device& device, uint32_t frames, HostMessage message)
     : mDevice(device), mMessage(std::move(message)),
@@ -288,90 +233,58 @@ void HostDump::add(
     --mLeft;
     mHasView[inputs.motion.view] = true;
 
-    const VkExtent2D picture{inputs.width, inputs.height};
-    const Method& method = *settings.method;
-    ordered_json& root = slot.manifest = ordered_json::object();
-    root["format"] = "shutter motion blur dump";
-    root["version"] = 1;
-    root["device"] = mDevice.info().name;
-    root["driver"] = mDevice.info().driver;
-    root["width"] = inputs.width;
-    root["height"] = inputs.height;
-    root["method"] = method.name;
-    root["settings"] = describeSettings(settings);
-    root["rasterTime"] = inputs.rasterTime;
-    root["frameNumber"] = inputs.frameNumber;
-    root["view"] = inputs.motion.view;
-    root["noEntity"] = inputs.noEntity;
-    root["inPlace"] = !inputs.output.image;
-    root["convention"] =
-        images.motionDepth.isValid() ? ordered_json() : describeConvention(inputs.convention);
-    root["motion"] = method.readsInstantMotions ? describeMotion(inputs.motion) : ordered_json();
-    const bool asks = method.rays == RayNeed::Any;
-    root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
-    root["response"] = inputs.response == 0 ? "box" : inputs.motion.response ? "file" : "address";
+    slot.manifest = describeInputs(inputs, settings, images.motionDepth.isValid());
+    slot.manifest["device"] = mDevice.info().name;
+    slot.manifest["driver"] = mDevice.info().driver;
     if (inputs.response != 0 && inputs.motion.response) {
         const auto bytes = std::as_bytes(std::span(inputs.motion.response, 1));
         slot.response.assign(bytes.begin(), bytes.end());
     }
 
-    struct Input {
-        const char* name;
-        const HostImage* given;
-        graph::ImageHandle image;
-        uint32_t texels;
-    };
-
-    const HostConvention& convention = inputs.convention;
-    std::vector<Input> list{
-        {"color", &inputs.color, images.color, chooseTexels(inputs.color)},
-        {"motionDepth", &inputs.motionDepth, images.motionDepth, shader::kDumpFloat4},
-        {"vectors", &convention.vectors.image, images.vectors, shader::kDumpFloat2},
-        {"depth", &convention.depth.image, images.depth, shader::kDumpFloat1},
-        {"blurScale", &convention.scales.perPixel, images.blurScale, shader::kDumpFloat1},
-        {"normal", &inputs.normal, images.normal, chooseTexels(inputs.normal)},
-        {"entityId", &inputs.entityId, images.entityId, shader::kDumpUint1}};
-    std::erase_if(list, [](const Input& input) { return !input.image.isValid(); });
-    ordered_json& files = root["images"] = ordered_json::object();
-    const auto describePlane = [&](const Plane& plane, VkRect2D area, VkFormat format) {
-        files[plane.name] = {
-            {"file", fmt::format("frame_{:04}_{}.bin", slot.number, plane.name)},
-            {"texels", nameTexels(plane.texels)},
-            {"width", plane.extent.width},
-            {"height", plane.extent.height},
-            {"area", {area.offset.x, area.offset.y, area.extent.width, area.extent.height}},
-            {"format", gpu::nameFormat(format)}};
-    };
-    for (const Input& input : list)
-        describePlane(
-            addPlane(slot, input.name, input.texels, extentOf(*input.given, picture)),
-            areaOf(*input.given, picture),
-            input.given->format
-        );
-    const VkRect2D whole{{0, 0}, picture};
-    if (asks && inputs.reveal.record) {
-        describePlane(
-            addPlane(slot, "revealColor", shader::kDumpHalf4, picture), whole, VK_FORMAT_UNDEFINED
-        );
-        describePlane(
-            addPlane(slot, "revealMotionDepth", shader::kDumpFloat4, picture),
-            whole,
-            VK_FORMAT_UNDEFINED
-        );
-        describePlane(
-            addPlane(slot, "revealEntityId", shader::kDumpUint1, picture),
-            whole,
-            VK_FORMAT_UNDEFINED
-        );
-    }
-    describePlane(
-        addPlane(slot, "picture", shader::kDumpHalf4, picture), whole, VK_FORMAT_UNDEFINED
-    );
+    const std::vector<Input> list = listInputs(inputs, images);
+    addPlanes(slot, inputs, settings, list);
     slot.buffer =
         gpu::Buffer(mDevice, "dump", slot.bytes + sizeof(uint32_t), 0, gpu::MemoryUse::Readback);
     slot.handle = graph.importBuffer("dump", slot.buffer.handle(), slot.buffer.bytes());
     for (size_t i = 0; i < list.size(); ++i)
         addImagePass(graph, slot, list[i].image, slot.planes[i]);
+}
+
+/// A plane for each image of the list, for each that the host's reveal writes, and for the picture.
+void HostDump::addPlanes(
+    Slot& slot,
+    const HostInputs& inputs,
+    const MotionBlurSettings& settings,
+    std::span<const Input> list
+) const {
+    const VkExtent2D picture{inputs.width, inputs.height};
+    ordered_json& files = slot.manifest["images"] = ordered_json::object();
+    const auto add =
+        [&](const char* name, uint32_t texels, VkExtent2D extent, VkRect2D area, VkFormat format) {
+            const Plane& plane = addPlane(slot, name, texels, extent);
+            files[plane.name] = {
+                {"file", fmt::format("frame_{:04}_{}.bin", slot.number, plane.name)},
+                {"texels", nameTexels(plane.texels)},
+                {"width", plane.extent.width},
+                {"height", plane.extent.height},
+                {"area", {area.offset.x, area.offset.y, area.extent.width, area.extent.height}},
+                {"format", gpu::nameFormat(format)}};
+        };
+    const auto addWhole = [&](const char* name, uint32_t texels) {
+        add(name, texels, picture, {{0, 0}, picture}, VK_FORMAT_UNDEFINED);
+    };
+    for (const Input& input : list)
+        add(input.name,
+            input.texels,
+            extentOf(*input.given, picture),
+            areaOf(*input.given, picture),
+            input.given->format);
+    if (settings.method->rays == RayNeed::Any && inputs.reveal.record) {
+        addWhole("revealColor", shader::kDumpHalf4);
+        addWhole("revealMotionDepth", shader::kDumpFloat4);
+        addWhole("revealEntityId", shader::kDumpUint1);
+    }
+    addWhole("picture", shader::kDumpHalf4);
 }
 
 void HostDump::addImagePass(

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,16 @@ class HostDump {
   private:
     struct Slot;
     struct Plane;
+    struct Input;
 
+    [[nodiscard]] static std::vector<Input>
+    listInputs(const HostInputs& inputs, const ImportedInputs& images);
+    void addPlanes(
+        Slot& slot,
+        const HostInputs& inputs,
+        const MotionBlurSettings& settings,
+        std::span<const Input> list
+    ) const;
     Plane& addPlane(Slot& slot, const char* name, uint32_t texels, VkExtent2D extent) const;
     void addImagePass(graph::Graph& graph, Slot& slot, graph::ImageHandle image, const Plane& plane)
         const;

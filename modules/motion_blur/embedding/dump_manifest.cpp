@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/dump_manifest.h"
+
+#include "modules/motion_blur/methods.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json describeMatrix(const glm::dmat4& matrix) {
+    ordered_json numbers = ordered_json::array();
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            numbers.push_back(matrix[column][row]);
+    return numbers;
+}
+
+/// Null for what JSON cannot hold.
+ordered_json describeNumber(double number) {
+    return std::isfinite(number) ? ordered_json(number) : ordered_json();
+}
+
+ordered_json describeCameras(const HostCameras& cameras) {
+    ordered_json root;
+    root["aheadIsPlusZ"] = cameras.aheadIsPlusZ;
+    root["viewFromWorld"] = describeMatrix(cameras.viewFromWorld);
+    root["clipFromView"] = describeMatrix(cameras.clipFromView);
+    root["viewFromWorldBefore"] = describeMatrix(cameras.viewFromWorldBefore);
+    root["clipFromViewBefore"] = describeMatrix(cameras.clipFromViewBefore);
+    root["jitterPx"] = {cameras.jitterPx.x, cameras.jitterPx.y};
+    root["jitterPxBefore"] = {cameras.jitterPxBefore.x, cameras.jitterPxBefore.y};
+    return root;
+}
+
+ordered_json describeConvention(const HostConvention& convention) {
+    ordered_json root;
+    root["pixelsPerUnit"] = {
+        convention.vectors.pixelsPerUnit.x, convention.vectors.pixelsPerUnit.y};
+    root["haveCamera"] = convention.vectors.haveCamera;
+    root["haveJitter"] = convention.vectors.haveJitter;
+    root["depthIsRaw"] = convention.depth.isRaw;
+    root["metresPerUnit"] = convention.depth.metresPerUnit;
+    root["skyValue"] = describeNumber(convention.depth.skyValue);
+    // What does not count may be anything, so it is left out.
+    root["cameras"] =
+        convention.cameras.areGiven ? describeCameras(convention.cameras) : ordered_json();
+    root["exposureShare"] = convention.scales.exposureShare;
+    root["cameraScale"] = convention.scales.camera;
+    root["objectScale"] = convention.scales.object;
+    root["displayedPerRendered"] = convention.scales.displayedPerRendered;
+    root["isCut"] = convention.scales.isCut;
+    return root;
+}
+
+ordered_json describeMotion(const HostMotion& motion) {
+    ordered_json root;
+    root["aheadIsPlusZ"] = motion.aheadIsPlusZ;
+    root["rowCount"] = motion.rowCount;
+    root["followsLast"] = motion.followsLast;
+    ordered_json& keys = root["keys"] = ordered_json::array();
+    for (const HostCameraKey& key : motion.keys)
+        keys.push_back(
+            {{"time", key.time},
+             {"viewFromWorld", describeMatrix(key.viewFromWorld)},
+             {"clipFromView", describeMatrix(key.clipFromView)}}
+        );
+    ordered_json& movers = root["movers"] = ordered_json::array();
+    for (const HostMover& mover : motion.movers) {
+        ordered_json matrices = ordered_json::array();
+        for (const glm::dmat4& matrix : mover.worldFromObject)
+            matrices.push_back(describeMatrix(matrix));
+        movers.push_back({{"row", mover.row}, {"worldFromObject", std::move(matrices)}});
+    }
+    // 64 bits are more than JSON's numbers hold.
+    ordered_json& ids = root["rowIds"] = ordered_json::array();
+    for (const uint64_t id : motion.rowIds)
+        ids.push_back(std::to_string(id));
+    return root;
+}
+
+ordered_json describeSettings(const MotionBlurSettings& settings) {
+    ordered_json root = ordered_json::object();
+    for (const auto& row : listSettingRows())
+        root[row.name] = core::describeValue(row, settings);
+    return root;
+}
+
+} // namespace
+
+ordered_json
+describeInputs(const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked) {
+    const Method& method = *settings.method;
+    ordered_json root = ordered_json::object();
+    root["format"] = "shutter motion blur dump";
+    root["version"] = 1;
+    root["width"] = inputs.width;
+    root["height"] = inputs.height;
+    root["method"] = method.name;
+    root["settings"] = describeSettings(settings);
+    root["rasterTime"] = inputs.rasterTime;
+    root["frameNumber"] = inputs.frameNumber;
+    root["view"] = inputs.motion.view;
+    root["noEntity"] = inputs.noEntity;
+    root["inPlace"] = !inputs.output.image;
+    root["convention"] = isPacked ? ordered_json() : describeConvention(inputs.convention);
+    root["motion"] = method.readsInstantMotions ? describeMotion(inputs.motion) : ordered_json();
+    const bool asks = method.rays == RayNeed::Any;
+    root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
+    root["response"] = inputs.response == 0 ? "box" : inputs.motion.response ? "file" : "address";
+    return root;
+}
+
+} // namespace shutter::motion_blur
