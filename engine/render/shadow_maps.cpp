@@ -10,6 +10,7 @@
 #include "engine/graph/execute.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -141,6 +142,24 @@ class Recorder {
     const gpu::Pipeline* mBound = nullptr;
 };
 
+/// Layers that there is room for as soon as there is one.
+constexpr uint64_t kLeastLayers = 16;
+
+/// Texels of the plan's maps, with room for more layers: movers come and go, and each time that the
+/// buffer is made anew, all maps are drawn again.
+uint64_t countRoom(const extract::ShadowPlan& plan) {
+    uint64_t layers = 0;
+    uint64_t largest = 0;
+    for (size_t i = plan.lightMapCount; i < plan.maps.size(); ++i) {
+        const uint64_t texels = uint64_t{plan.maps[i].sizePx} * plan.maps[i].sizePx;
+        layers += texels;
+        largest = std::max(largest, texels);
+    }
+    if (layers == 0)
+        return plan.texelCount;
+    return plan.texelCount - layers + std::bit_ceil(std::max(layers, kLeastLayers * largest));
+}
+
 } // namespace
 
 ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene)
@@ -151,12 +170,11 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
     frame.constants.shadows = {0, 0};
     if (!mPlan.shadows.run)
         return;
-    const VkDeviceSize bytes = mPlan.texelCount * sizeof(float);
-    if (mTexels.bytes() < bytes) {
+    if (mTexels.bytes() < mPlan.texelCount * sizeof(float)) {
         mTexels = gpu::Buffer(
             mDevice,
             "shadow maps",
-            bytes,
+            countRoom(mPlan) * sizeof(float),
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
             gpu::MemoryUse::Device
         );
