@@ -27,11 +27,11 @@ class Vignette : public shutter::render::PostEffect {
             color = builder.write(context.color, Access::StorageWrite);
         };
         const auto run = [this](const ImageHandle& color, PassContext& pass) {
-            const auto& [width, height, format, usage, levels] = pass.resources.image(color).desc();
+            const shutter::gpu::ImageDesc& desc = pass.resources.image(color).desc();
             shutter::gpu::BindingList bindings;
             bindings.storage(pass.resources.image(color));
             pass.frame.bind(mPipeline, bindings, &mLoss, sizeof(mLoss));
-            vkCmdDispatch(pass.commands, (width + 7) / 8, (height + 7) / 8, 1);
+            vkCmdDispatch(pass.commands, (desc.width + 7) / 8, (desc.height + 7) / 8, 1);
         };
         context.color = context.graph.addPass<ImageHandle>(name(), PassKind::Compute, setup, run);
     }
