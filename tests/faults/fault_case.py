@@ -41,8 +41,8 @@ class FaultCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def environment(self, more=()):
-        return {**os.environ, "XDG_CACHE_HOME": self.caches, "HOME": str(self.folder),
-                "MESA_SHADER_CACHE_DIR": self.caches, **dict(more)}
+        return {"MESA_SHADER_CACHE_DIR": self.caches, **os.environ, "XDG_CACHE_HOME": self.caches,
+                "HOME": str(self.folder), **dict(more)}
 
     def run_shutter(self, arguments, environment=(), before=(), **options):
         return subprocess.run([*before, EXECUTABLE, *arguments], cwd=self.folder, text=True,
