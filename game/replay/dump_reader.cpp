@@ -237,11 +237,9 @@ void readImages(const JsonNode& node, DumpFrame& frame) {
             return value.fail("is no image of a dump");
         frame.images[name] = readImage(value, *row, frame);
     }
-    std::vector<std::string_view> needed{"color", "picture"};
-    if (frame.hasConvention)
-        needed.insert(needed.end(), {"vectors", "depth"});
-    else
-        needed.push_back("motionDepth");
+    // Without vectors nothing moves but the camera.
+    std::vector<std::string_view> needed{
+        "color", "picture", frame.hasConvention ? "depth" : "motionDepth"};
     if (frame.reveal == DumpedReveal::Own)
         needed.insert(needed.end(), {"revealColor", "revealMotionDepth", "revealEntityId"});
     for (const std::string_view name : needed)

@@ -68,6 +68,7 @@ void countDepth(float depth) {
 }
 
 vec2 readVector(vec2 place) {
+    if ((params.flags & kCheckHasVectors) == 0u) return vec2(0.0f);
     vec2 at = params.vectors.origin + place * params.vectors.perPixel;
     return textureLod(uVectors, at, 0.0f).xy;
 }

@@ -52,6 +52,7 @@ struct CheckTotals {
 
 SHUTTER_CONST uint kCheckDepthIsThird = 1u; // depth is the third channel of its image
 SHUTTER_CONST uint kCheckSkyIsBeyond = 2u;  // depths of skyValue and more are the sky, too
+SHUTTER_CONST uint kCheckHasVectors = 4u;   // the image of vectors counts; else they are 0
 
 SHUTTER_SHADER_END
 

@@ -28,7 +28,9 @@ void main() {
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
     PrepareTable table = PrepareRef(params.table).value;
     vec2 place = vec2(pixel) + 0.5f;
-    vec2 vector = textureLod(uVectors, placeInArea(table.vectors, place), 0.0f).xy;
+    vec2 vector = vec2(0.0f);
+    if (prepareHas(table, kPrepareHasVectors))
+        vector = textureLod(uVectors, placeInArea(table.vectors, place), 0.0f).xy;
     float value = textureLod(uDepth, placeInArea(table.depth, place), 0.0f).x;
     float blurScale = 1.0f;
     if (prepareHas(table, kPrepareHasBlurScale))

@@ -19,6 +19,7 @@ SHUTTER_CONST uint kPreparePerspective = 2u;       // the camera is; else orthog
 SHUTTER_CONST uint kPrepareVectorsHaveCamera = 4u; // the camera's own motion is in the vectors
 SHUTTER_CONST uint kPrepareSkyBeyond = 8u;     // sky: a value of skyValue and more, not it alone
 SHUTTER_CONST uint kPrepareHasBlurScale = 16u; // the image of scales counts
+SHUTTER_CONST uint kPrepareHasVectors = 32u;   // the image of vectors counts; else they are 0
 
 struct PrepareTable {
     /// Rows of the affine map from picture space (instant_motion_shared.h) now to that of the frame

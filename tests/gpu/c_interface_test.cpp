@@ -207,7 +207,7 @@ TEST_F(CInterface, WhatIsWrongIsNamed) {
         },
         "motionDepth is part of a larger image"
     );
-    refuse([](I& in) { in.motionDepth = {}; }, "motionDepth.image is null, and so is");
+    refuse([](I& in) { in.motionDepth = {}; }, "motionDepth.image is null, and so are");
     refuse([](I& in) { in.keyCount = 1; }, "keys is null, keyCount is 1");
     refuse([](I& in) { in.moverCount = 2; }, "movers is null, moverCount is 2");
     refuse([](I& in) { in.view = 7; }, "motion.view is 7");

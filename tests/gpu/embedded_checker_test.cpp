@@ -62,6 +62,7 @@ struct Given : Drawn {
     glm::dvec2 jitterPx{0.0};
     glm::dvec2 jitterPxBefore{0.0};
     bool isResolved = false;
+    bool hasVectors = true;
 };
 
 using Change = std::function<void(Given&, int frame, const Drawn& before, const Drawn& after)>;
@@ -357,6 +358,13 @@ const std::vector<Case>& listRight() {
                  if (g.ids[i] >= g.rowCount || !moves[g.ids[i]])
                      g.motion[i] = {};
          }},
+        {"no vectors, so that only the camera moves",
+         "",
+         [](Given& g, int, const Drawn&, const Drawn&) {
+             g.hasVectors = false;
+             g.isResolved = true;
+             g.listed.clear();
+         }},
         {"forward depth with a far plane",
          "",
          [](Given& g, int, const Drawn&, const Drawn&) { makeForward(g, true); }},
@@ -614,8 +622,9 @@ class EmbeddedChecker : public test::EmbeddedTest, public testing::WithParamInte
         };
         HostInputs& inputs = given.inputs;
         inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, test::bytesOf(halves));
-        inputs.convention.vectors.image =
-            make(VK_FORMAT_R32G32_SFLOAT, test::bytesOf(given.motion));
+        if (given.hasVectors)
+            inputs.convention.vectors.image =
+                make(VK_FORMAT_R32G32_SFLOAT, test::bytesOf(given.motion));
         inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT, test::bytesOf(given.depth));
         inputs.entityId = make(VK_FORMAT_R32_UINT, test::bytesOf(given.ids));
         motion_blur::MotionBlurSettings settings = test::gather();

@@ -441,6 +441,61 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     EXPECT_TRUE(test::sameBits(blur(inputs), own));
 }
 
+TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
+    HostInputs inputs = conventionInputs();
+    HostConvention& convention = inputs.convention;
+    useReversedInfiniteCamera(convention);
+    convention.depth.isRaw = false;
+    convention.depth.skyValue = 1.0e9f;
+    convention.cameras.viewFromWorldBefore =
+        glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
+    const glm::vec2 still{0.0f};
+    convention.vectors.image =
+        make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still)).describe();
+    convention.vectors.haveCamera = false;
+    const image::Image zeros = blur(inputs);
+    convention.vectors = {};
+    EXPECT_TRUE(test::sameBits(blur(inputs), zeros));
+    HostInputs cut = inputs;
+    cut.convention.scales.isCut = true;
+    EXPECT_FALSE(test::sameBits(blur(cut), zeros)) << "nothing was blurred";
+    // No vectors hold no jitter, whatever is said of them.
+    convention.cameras.jitterPx = {0.25, -0.25};
+    convention.cameras.jitterPxBefore = {-0.25, 0.25};
+    const image::Image jittered = blur(inputs);
+    convention.vectors.haveJitter = true;
+    EXPECT_TRUE(test::sameBits(blur(inputs), jittered));
+}
+
+TEST_F(EmbeddedConventions, MoversWithoutVectorsAreRefused) {
+    HostInputs inputs = conventionInputs();
+    const test::Picture output(device(), "output", {kWidth, kHeight});
+    inputs.output = {output.handle(), test::kNothing, kCopied};
+    inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids).describe();
+    useReversedInfiniteCamera(inputs.convention);
+    inputs.convention.vectors = {};
+    const motion_blur::HostCameraKey key{
+        1.0, math::dmat4(1.0), inputs.convention.cameras.clipFromView};
+    const std::array<motion_blur::HostMover, 2> movers{{{7, {}}, {200, {}}}};
+    inputs.motion.keys = {&key, 1};
+    inputs.motion.rowCount = 201;
+    inputs.motion.movers = movers;
+    MotionBlurSettings settings = test::gather();
+    settings.method = &motion_blur::getMethod("resolved");
+    gpu::Frame frame(device());
+    frame.begin();
+    const core::Status done = mBlur->record(frame.commands(), 0, inputs, settings);
+    frame.submit();
+    frame.wait();
+    ASSERT_FALSE(done.ok());
+    EXPECT_EQ(
+        done.error().message,
+        "motion blur: motion.movers has 2 rows, but convention.vectors.image.image is null: "
+        "without "
+        "vectors only the camera moves"
+    );
+}
+
 TEST_F(EmbeddedConventions, SharesOfTheMotionAreBlurred) {
     HostInputs half = conventionInputs();
     half.convention.scales.exposureShare = 0.5f;

@@ -84,7 +84,8 @@ class EmbeddedDump : public test::EmbeddedTest {
         inputs.height = kHeight;
         inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, color);
         auto& convention = inputs.convention;
-        convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
+        if (mHasVectors)
+            convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
         convention.vectors.pixelsPerUnit = {-float(kWidth), -float(kHeight)};
         convention.depth.image = make(VK_FORMAT_D32_SFLOAT, depth);
         const auto clip = math::clipFromViewPerspective(1.0, double(kWidth) / kHeight, 0.1);
@@ -103,7 +104,8 @@ class EmbeddedDump : public test::EmbeddedTest {
             motion_blur::HostCameraKey{1.0, viewAt(frame), clip}};
         inputs.motion.keys = mKeys;
         inputs.motion.rowCount = 4;
-        inputs.motion.movers = mMovers;
+        if (mHasVectors)
+            inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
         return inputs;
     }
@@ -163,6 +165,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     std::deque<HostTexels> mTexels;
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
+    bool mHasVectors = true;
 };
 
 TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
@@ -172,11 +175,24 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
     expectReplayed({picture});
 }
 
-TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
+motion_blur::MotionBlurSettings resolvedWithNoise() {
     motion_blur::MotionBlurSettings settings;
     settings.method = &motion_blur::getMethod("resolved");
     settings.sampleCount = 5;
     settings.instantNoise = motion_blur::InstantNoise::Turning;
+    return settings;
+}
+
+TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {
+    mHasVectors = false;
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    const image::Image picture = draw(0, resolvedWithNoise());
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({picture});
+}
+
+TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
+    const motion_blur::MotionBlurSettings settings = resolvedWithNoise();
     (void)draw(0, settings); // before the dump: its first frame must not look it up
     ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
     const image::Image second = draw(1, settings);

@@ -302,7 +302,8 @@ typedef struct ShutterBlurInputs {
     /* Either the motion blur's own, RGBA32F: displacement over the exposure, pixels right and down;
      * metres along the view, 1e9 where nothing is. */
     ShutterBlurImage motionDepth;
-    /* Or motion vectors and depth of the host's, of any size; sampled. */
+    /* Or motion vectors and depth of the host's, of any size; sampled. Null vectors: nothing moves
+     * but the camera, by `cameras`. */
     ShutterBlurImage vectors; /* RG16F, RG32F, RGBA16F or RGBA32F */
     ShutterBlurImage depth;   /* D32F, D16, X8D24, D24S8, D32FS8, or a first channel of floats */
     /* What the vectors are multiplied by to be pixels of the picture, right and down, from the

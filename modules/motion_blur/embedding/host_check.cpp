@@ -389,7 +389,8 @@ std::vector<Finding> checkFrame(CheckedFrame& now, const CheckedFrame* last) {
         );
     // Samples that lie where the depth says they do not agree with no camera.
     const bool isDepthWrong = checkDepthDirection(now, findings);
-    if (hasCameras(now.facts) && !isDepthWrong && !now.facts.convention.scales.isCut)
+    if (now.facts.hasVectors && hasCameras(now.facts) && !isDepthWrong &&
+        !now.facts.convention.scales.isCut)
         checkVectors(now, last, findings);
     checkCameras(now, last, findings);
     checkIds(now, last, findings);

@@ -25,6 +25,7 @@ struct CheckFacts {
     VkExtent2D picture{0, 0};
     HostConvention convention; ///< of motionDepth: metres, pixels over the exposure
     bool isNative = false;     ///< motionDepth was given, whose vectors are over the exposure
+    bool hasVectors = true;    ///< false: nothing moves but the camera
     double rasterTime = 1.0;
     /// With `exposure`: of HostMotion::keys, where there is more than one.
     bool hasExposureCameras = false;

@@ -149,13 +149,14 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
                  describeCount(now, shader::kCheckIdBeyond)
              )}
         );
-    if (last && last->facts.hasIds)
+    if (last && last->facts.hasIds && facts.hasVectors)
         checkChangingIds(now, *last, findings);
     if (!facts.readsMotion)
         return;
     if (!facts.movers.empty())
         checkListedMovers(now, findings);
-    if (hasCameras(facts) && (facts.isNative || facts.convention.vectors.haveCamera))
+    if (facts.hasVectors && hasCameras(facts) &&
+        (facts.isNative || facts.convention.vectors.haveCamera))
         checkUnlistedMovers(now, makePoints(now, facts), findings);
 }
 

@@ -233,6 +233,7 @@ void HostChecker::add(
     facts.picture = {inputs.width, inputs.height};
     facts.convention = inputs.convention;
     facts.isNative = images.motionDepth.isValid();
+    facts.hasVectors = facts.isNative || images.vectors.isValid();
     if (facts.isNative)
         describeNative(inputs, facts.convention);
     facts.rasterTime = inputs.rasterTime;
@@ -253,11 +254,13 @@ void HostChecker::add(
     PicturePush push{};
     push.sizePx = {inputs.width, inputs.height};
     push.color = makeArea(inputs.color, facts.picture);
-    push.vectors = makeArea(convention.vectors.image, facts.picture);
+    if (facts.hasVectors)
+        push.vectors = makeArea(convention.vectors.image, facts.picture);
     push.depth = makeArea(convention.depth.image, facts.picture);
     push.pixelsPerUnit = convention.vectors.pixelsPerUnit;
     push.skyValue = convention.depth.skyValue;
     push.flags = (facts.isNative ? shader::kCheckDepthIsThird : 0u) |
+                 (facts.hasVectors ? shader::kCheckHasVectors : 0u) |
                  (convention.depth.isRaw ? 0u : shader::kCheckSkyIsBeyond);
     push.serial = slot.serial;
     auto totals = graph.createBuffer(
@@ -276,13 +279,13 @@ void HostChecker::add(
                  )
                  .totals;
     const VkSampler sampler = mDevice.nearestSampler();
+    const graph::ImageHandle depth = facts.isNative ? images.motionDepth : images.depth;
+    const graph::ImageHandle vectors = facts.isNative ? images.motionDepth : images.vectors;
     totals = addTotalsPass(
         graph,
         "check picture",
         mPicture,
-        {images.color,
-         facts.isNative ? images.motionDepth : images.vectors,
-         facts.isNative ? images.motionDepth : images.depth},
+        {images.color, facts.hasVectors ? vectors : depth, depth},
         totals,
         push,
         sampler

@@ -128,6 +128,8 @@ core::Status checkCameras(const HostCameras& cameras, VkExtent2D picture) {
 const char* findNeedForCameras(const HostConvention& convention) {
     if (convention.depth.isRaw)
         return "depth.isRaw is true";
+    if (!convention.vectors.image.image)
+        return "vectors.image.image is null";
     if (!convention.vectors.haveCamera)
         return "vectors.haveCamera is false";
     if (convention.scales.camera != convention.scales.object)
@@ -165,7 +167,8 @@ const HostImageRule kBlurScaleRule{
 core::Status checkConvention(const HostConvention& convention, VkExtent2D picture) {
     const HostVectors& vectors = convention.vectors;
     const HostDepth& depth = convention.depth;
-    SHUTTER_TRY(checkImage(vectors.image, kVectorsRule, picture));
+    if (vectors.image.image)
+        SHUTTER_TRY(checkImage(vectors.image, kVectorsRule, picture));
     SHUTTER_TRY(checkImage(depth.image, kDepthRule, picture));
     for (const float scale : {vectors.pixelsPerUnit.x, vectors.pixelsPerUnit.y})
         if (!std::isfinite(scale) || scale == 0.0f)
@@ -206,21 +209,24 @@ shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent
     const HostCameras& cameras = convention.cameras;
     const HostScales& scales = convention.scales;
     shader::PrepareTable table{};
-    table.vectors = makeArea(convention.vectors.image, picture);
     table.depth = makeArea(convention.depth.image, picture);
     if (scales.perPixel.image) {
         table.flags |= shader::kPrepareHasBlurScale;
         table.blurScale = makeArea(scales.perPixel, picture);
     }
-    if (convention.vectors.haveCamera)
-        table.flags |= shader::kPrepareVectorsHaveCamera;
+    if (convention.vectors.image.image) {
+        table.flags |= shader::kPrepareHasVectors;
+        table.vectors = makeArea(convention.vectors.image, picture);
+        if (convention.vectors.haveCamera)
+            table.flags |= shader::kPrepareVectorsHaveCamera;
+        if (convention.vectors.haveJitter)
+            table.jitterPx = glm::vec2(cameras.jitterPxBefore - cameras.jitterPx);
+    }
     if (!convention.depth.isRaw)
         table.flags |= shader::kPrepareSkyBeyond;
     table.skyValue = convention.depth.skyValue;
     table.depthFromValue = glm::vec4(0.0f, convention.depth.metresPerUnit, 1.0f, 0.0f);
     table.pixelsPerUnit = convention.vectors.pixelsPerUnit;
-    if (convention.vectors.haveJitter)
-        table.jitterPx = glm::vec2(cameras.jitterPxBefore - cameras.jitterPx);
     const float share = scales.isCut ? 0.0f : scales.exposureShare / scales.displayedPerRendered;
     table.cameraScale = share * scales.camera;
     table.objectScale = share * scales.object;

@@ -13,9 +13,10 @@
 
 namespace shutter::motion_blur {
 
-/// The host's motion vectors, at any resolution: x and y of the image's first two channels.
+/// The host's motion vectors, at any resolution: x and y of the image's first two channels. A host
+/// without vectors leaves the image null: nothing moves but the camera, which `cameras` gives.
 struct HostVectors {
-    HostImage image; ///< RG16F, RG32F, RGBA16F or RGBA32F; sampled
+    HostImage image; ///< RG16F, RG32F, RGBA16F or RGBA32F; sampled; or null
     /// What the vectors are multiplied by to be pixels of the picture, right and down, from where a
     /// point was in the frame before to where it is now. For a picture of w x h pixels:
     ///
@@ -50,8 +51,8 @@ struct HostDepth {
 /// samples lie right and down of their pixels' centres, [-0.5, 0.5] as a rule. Matrices are column
 /// by column and take columns, and have no jitter in them.
 struct HostCameras {
-    /// The two below count: they are needed for raw depth, for vectors without the camera, and for
-    /// scales of HostScales that are not the same.
+    /// The two below count: they are needed for raw depth, without vectors or with vectors that
+    /// lack the camera's part, and for scales of HostScales that are not the same.
     bool areGiven = false;
     glm::dmat4 viewFromWorld{1.0}; ///< ahead is -Z, or +Z with HostCameras::aheadIsPlusZ
     /// As HostCameraKey::clipFromView: perspective or orthographic, y = -1 is the picture's top.

@@ -79,12 +79,15 @@ core::Status check(
 
 core::Status checkMadeMotion(const HostInputs& inputs, const HostAbilities& host) {
     const HostConvention& convention = inputs.convention;
-    if (!convention.vectors.image.image)
+    const bool hasVectors = convention.vectors.image.image != VK_NULL_HANDLE;
+    if (!hasVectors && !convention.depth.image.image)
         return makeError(
-            "motion blur: motionDepth.image is null, and so is convention.vectors.image.image"
+            "motion blur: motionDepth.image is null, and so are convention.vectors.image.image and "
+            "convention.depth.image.image"
         );
     SHUTTER_TRY(checkConvention(convention, pictureOf(inputs)));
-    SHUTTER_TRY(checkSupport(host.physical, convention.vectors.image, kVectorsRule));
+    if (hasVectors)
+        SHUTTER_TRY(checkSupport(host.physical, convention.vectors.image, kVectorsRule));
     SHUTTER_TRY(checkSupport(host.physical, convention.depth.image, kDepthRule));
     if (!convention.scales.perPixel.image)
         return {};
@@ -161,6 +164,18 @@ core::Status checkTables(const HostInputs& inputs, const Method& method) {
     return {};
 }
 
+/// Vectors say in which pixels a mover's motion is seen.
+core::Status checkMoversHaveVectors(const HostInputs& inputs) {
+    const bool hasVectors = inputs.motionDepth.image || inputs.convention.vectors.image.image;
+    if (hasVectors || inputs.motion.movers.empty())
+        return {};
+    return makeError(
+        "motion blur: motion.movers has {} rows, but convention.vectors.image.image is null: "
+        "without vectors only the camera moves",
+        inputs.motion.movers.size()
+    );
+}
+
 core::Status checkMethod(
     const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
 ) {
@@ -185,6 +200,7 @@ core::Status checkMethod(
         );
     if (method.readsInstantMotions) {
         SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
+        SHUTTER_TRY(checkMoversHaveVectors(inputs));
         SHUTTER_TRY(checkLast(inputs, host));
     }
     const bool readsTables = method.rays == RayNeed::Any && !inputs.reveal.record;

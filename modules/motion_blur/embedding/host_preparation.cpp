@@ -150,7 +150,7 @@ graph::ImageHandle HostPreparation::addMotionDepth(
         graph,
         mMotion,
         "prepare motion",
-        {vectors, depth, blurScale.isValid() ? blurScale : depth},
+        {vectors.isValid() ? vectors : depth, depth, blurScale.isValid() ? blurScale : depth},
         createPicture(graph, "motion and depth", VK_FORMAT_R32G32B32A32_SFLOAT, picture),
         MotionPush{sizeOf(picture), gpu::splitAddress(table)},
         mSampler

@@ -17,7 +17,7 @@ class HostPreparation {
   public:
     explicit HostPreparation(gpu::Device& device);
 
-    /// RGBA32F of motion and depth. `blurScale` may be invalid.
+    /// RGBA32F of motion and depth. `vectors` and `blurScale` may be invalid.
     /// \param table where a shader::PrepareTable is; it stays until the GPU is done with the frame
     [[nodiscard]] graph::ImageHandle addMotionDepth(
         graph::Graph& graph,

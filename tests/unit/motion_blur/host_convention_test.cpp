@@ -303,7 +303,6 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
         EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
     };
     using C = HostConvention;
-    refuse([](C& c) { c.vectors.image.image = VK_NULL_HANDLE; }, "vectors.image.image is null");
     refuse([](C& c) { c.depth.image.image = VK_NULL_HANDLE; }, "depth.image.image is null");
     refuse(
         [](C& c) { c.vectors.image.format = VK_FORMAT_R8G8B8A8_UNORM; },
@@ -381,6 +380,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     };
     refuseWithoutCameras([](C& c) { c.depth.isRaw = true; }, "depth.isRaw is true");
     refuseWithoutCameras([](C& c) { c.vectors.haveCamera = false; }, "haveCamera is false");
+    refuseWithoutCameras([](C& c) { c.vectors.image = {}; }, "vectors.image.image is null");
     refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "camera is not scales.object");
 }
 
