@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include "debug_view/debug_view.glsl"
+#include "common/value_colors.glsl"
 #include "debug_view/debug_view_shared.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Values as colours that a person can read; display-encoded, [0, 1].
-#ifndef SHUTTER_DEBUG_VIEW_GLSL
-#define SHUTTER_DEBUG_VIEW_GLSL
+#ifndef SHUTTER_VALUE_COLORS_GLSL
+#define SHUTTER_VALUE_COLORS_GLSL
 
 #include "common/shim.h"
 
