@@ -9,10 +9,8 @@
 #include "spirv/motion_blur/prepare_motion.comp.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
-#include "engine/graph/execute.h"
-#include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/embedding/pixel_pass.h"
 
 #include <span>
 #include <string>
@@ -22,8 +20,6 @@
 namespace shutter::motion_blur {
 
 namespace {
-
-using graph::Access;
 
 // Push constants, as the shaders declare them.
 struct MotionPush {
@@ -47,64 +43,8 @@ struct DeliverPush {
     glm::ivec2 offset;
 };
 
-gpu::ComputePipelineDesc describe(
-    const char* name,
-    std::span<const uint32_t> spirv,
-    uint32_t sampledCount,
-    uint32_t pushConstantBytes,
-    std::vector<uint32_t> specialization = {}
-) {
-    gpu::ComputePipelineDesc desc;
-    desc.name = name;
-    desc.spirv = spirv;
-    desc.interface.bindings.assign(sampledCount, kSampled);
-    desc.interface.bindings.push_back(kStorage);
-    desc.interface.pushConstantBytes = pushConstantBytes;
-    desc.specialization = std::move(specialization);
-    return desc;
-}
-
 glm::uvec2 sizeOf(VkExtent2D extent) {
     return {extent.width, extent.height};
-}
-
-/// Declares a pass of one thread a pixel that samples `sources` and writes `target`.
-template <class Push>
-graph::ImageHandle addPixelPass(
-    graph::Graph& graph,
-    const gpu::LazyPipeline& pipeline,
-    const char* name,
-    const std::vector<graph::ImageHandle>& sources,
-    graph::ImageHandle target,
-    const Push& push,
-    VkSampler sampler
-) {
-    struct Data {
-        std::vector<graph::ImageHandle> sources;
-        graph::ImageHandle target;
-    };
-
-    return graph
-        .addPass<Data>(
-            name,
-            graph::PassKind::Compute,
-            [&](graph::PassBuilder& builder, Data& data) {
-                for (const graph::ImageHandle source : sources)
-                    data.sources.push_back(builder.read(source, Access::SampledCompute));
-                data.target = builder.write(target, Access::StorageWrite);
-            },
-            [&pipeline, push, sampler](const Data& data, graph::PassContext& context) {
-                gpu::BindingList bindings;
-                for (const graph::ImageHandle source : data.sources)
-                    bindings.sampled(context.resources.view(source), sampler);
-                bindings.storage(context.resources.image(data.target));
-                context.frame.bind(pipeline.get(), bindings, &push, sizeof(push));
-                const glm::uvec2 groups =
-                    (push.sizePx + shader::kGroupSize - 1u) / shader::kGroupSize;
-                vkCmdDispatch(context.commands, groups.x, groups.y, 1);
-            }
-        )
-        .target;
 }
 
 graph::ImageHandle
@@ -117,25 +57,37 @@ createPicture(graph::Graph& graph, const char* name, VkFormat format, VkExtent2D
 HostPreparation::HostPreparation(gpu::Device& device)
     : mSampler(device.nearestSampler()),
       mMotion(
-          device, describe("prepare motion", motion_blur_prepare_motion_comp, 3, sizeof(MotionPush))
+          device,
+          describePixelPass(
+              "prepare motion", motion_blur_prepare_motion_comp, 3, sizeof(MotionPush)
+          )
       ),
       mColor(
           device,
-          describe("prepare colour", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {1})
+          describePixelPass(
+              "prepare colour", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {1}
+          )
       ),
       mNormal(
           device,
-          describe("prepare normals", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {0})
+          describePixelPass(
+              "prepare normals", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {0}
+          )
       ),
-      mIds(device, describe("prepare ids", motion_blur_prepare_ids_comp, 1, sizeof(IdsPush))),
+      mIds(
+          device, describePixelPass("prepare ids", motion_blur_prepare_ids_comp, 1, sizeof(IdsPush))
+      ),
       mDeliverHalf(
-          device, describe("deliver", motion_blur_deliver_half_comp, 1, sizeof(DeliverPush))
+          device,
+          describePixelPass("deliver", motion_blur_deliver_half_comp, 1, sizeof(DeliverPush))
       ),
       mDeliverFloat(
-          device, describe("deliver", motion_blur_deliver_float_comp, 1, sizeof(DeliverPush))
+          device,
+          describePixelPass("deliver", motion_blur_deliver_float_comp, 1, sizeof(DeliverPush))
       ),
       mDeliverPacked(
-          device, describe("deliver", motion_blur_deliver_packed_comp, 1, sizeof(DeliverPush))
+          device,
+          describePixelPass("deliver", motion_blur_deliver_packed_comp, 1, sizeof(DeliverPush))
       ) {}
 
 graph::ImageHandle HostPreparation::addMotionDepth(
