@@ -27,6 +27,7 @@ struct Arguments {
     std::string out;
     std::string aov;
     bool explain = false;
+    bool showInputs = false;
     bool hasMethod = false; ///< --method or --preset was typed
     game::MethodArguments method;
     gpu::DeviceOptions device;
@@ -58,12 +59,15 @@ int run(const Arguments& arguments) {
     options.folder = arguments.folder;
     options.out = arguments.out;
     options.explains = arguments.explain;
+    options.showsInputs = arguments.showInputs;
     options.change = [&](MotionBlurSettings& settings) { return change(arguments, settings); };
     std::istringstream names(arguments.aov);
     for (std::string name; std::getline(names, name, ',');)
         options.aovs.push_back(name);
     if (!options.aovs.empty() && options.out.empty())
         return game::fail(game::kExitUsage, makeError("--aov needs --out"));
+    if (options.showsInputs && options.out.empty())
+        return game::fail(game::kExitUsage, makeError("--show-inputs needs --out"));
     if (arguments.method.typed.contains("--budget"))
         return game::fail(game::kExitUsage, makeError("--budget is not for a replay"));
     MotionBlurSettings any;
@@ -98,6 +102,11 @@ void addReplayCommand(CLI::App& app, int& exitStatus) {
     );
     command->add_flag(
         "--explain", arguments->explain, "say what each frame is drawn from, and check its inputs"
+    );
+    command->add_flag(
+        "--show-inputs",
+        arguments->showInputs,
+        "cover the pictures with panels of what the effect reads"
     );
     game::defineMethodOptions(*command, arguments->method);
     game::defineDeviceOptions(*command, arguments->device);

@@ -135,7 +135,8 @@ class Player {
         auto picture = draw(frame, settings);
         if (!picture)
             return picture.error();
-        compare(frame, settings, picture.value());
+        if (!mOptions.showsInputs)
+            compare(frame, settings, picture.value());
         return write(frame, picture.value());
     }
 
@@ -204,6 +205,7 @@ class Player {
         mTickets.clear();
         HostInputs inputs = describe(frame);
         SHUTTER_TRY(giveResponse(frame, inputs));
+        inputs.showsInputs = mOptions.showsInputs;
         if (!mOptions.aovs.empty())
             inputs.observe = [this](
                                  graph::Graph& graph,

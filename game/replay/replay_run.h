@@ -19,6 +19,8 @@ struct ReplayOptions {
     /// Names of intermediates, or "all", to write beside `out`.
     std::vector<std::string> aovs;
     bool explains = false;
+    /// HostInputs::showsInputs of each frame: pictures then are not compared with the host's.
+    bool showsInputs = false;
     /// Changes the settings of a frame; empty: they stay. Error: names the option.
     std::function<core::Status(motion_blur::MotionBlurSettings&)> change;
 };

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <deque>
@@ -181,6 +182,27 @@ motion_blur::MotionBlurSettings resolvedWithNoise() {
     settings.sampleCount = 5;
     settings.instantNoise = motion_blur::InstantNoise::Turning;
     return settings;
+}
+
+TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    const image::Image picture = draw(0, test::gather());
+    replay::ReplayOptions options;
+    options.folder = mFolder;
+    options.out = mFolder / "shown.exr";
+    options.showsInputs = true;
+    ASSERT_TRUE(replay::replay(options, device()).ok());
+    const auto shown = io::readImage(options.out);
+    ASSERT_TRUE(shown.ok());
+    // Panels lie along the top and the bottom.
+    const size_t row = size_t{kWidth} * picture.channels;
+    const auto sameRow = [&](uint32_t y) {
+        return std::equal(
+            &picture.pixels[y * row], &picture.pixels[y * row] + row, &shown.value().pixels[y * row]
+        );
+    };
+    EXPECT_TRUE(sameRow(kHeight / 2));
+    EXPECT_FALSE(sameRow(kHeight / 8));
 }
 
 TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {

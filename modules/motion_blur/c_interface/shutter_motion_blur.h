@@ -362,6 +362,9 @@ typedef struct ShutterBlurInputs {
     /* GPU time that the effect may take of the frame: it gives up quality to stay within. 0:
      * unlimited. With ShutterBlurDevice::measures. */
     double budgetMilliseconds;
+
+    /* For debugging: panels over the blurred picture show what the effect reads. */
+    VkBool32 showsInputs;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {

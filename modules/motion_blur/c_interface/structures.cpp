@@ -304,6 +304,7 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
         convert(wanted.lastColor), convert(wanted.lastMotionDepth), convert(wanted.lastEntityId)};
     if (wanted.budgetMilliseconds != 0.0)
         inputs.budget.milliseconds = wanted.budgetMilliseconds;
+    inputs.showsInputs = wanted.showsInputs != VK_FALSE;
     return inputs;
 }
 

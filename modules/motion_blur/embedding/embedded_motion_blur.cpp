@@ -6,6 +6,7 @@
 #include "modules/motion_blur/embedding/embedded_parts.h"
 #include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_dump.h"
+#include "modules/motion_blur/embedding/host_overlay.h"
 
 #include <new>
 #include <utility>
@@ -91,6 +92,7 @@ EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, cons
       mTimestampBits(host.measures ? findTimestampBits(host.physical, host.queueFamily) : 0),
       mHasRays(host.rayTier != gpu::RayTier::None),
       mEffect(*mDevice, mHasRays ? host.sceneLayout : VK_NULL_HANDLE), mPreparation(*mDevice),
+      mOverlay(std::make_unique<HostOverlay>(*mDevice)),
       mMarks(
           *mDevice, "marks", host.framesInFlight * sizeof(uint32_t), 0, gpu::MemoryUse::Readback
       ) {

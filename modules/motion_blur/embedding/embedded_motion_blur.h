@@ -28,6 +28,7 @@ namespace shutter::motion_blur {
 
 class HostChecker;
 class HostDump;
+class HostOverlay;
 
 class EmbeddedMotionBlur {
   public:
@@ -134,6 +135,9 @@ class EmbeddedMotionBlur {
     [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
     [[nodiscard]] graph::ImageHandle prepareMotion(Frame& frame) const;
     [[nodiscard]] std::optional<LentRaster> prepareLast(Frame& frame) const;
+    /// Draws HostInputs::showsInputs over the picture, and returns it.
+    [[nodiscard]] graph::ImageHandle
+    showInputs(Frame& frame, const MotionBlurInputs& own, graph::ImageHandle picture) const;
     void deliver(Frame& frame, graph::ImageHandle picture) const;
     [[nodiscard]] InstantMotions describeInstants(Frame& frame, View& view);
     /// Whether the GPU has not run what was recorded last under the number.
@@ -150,6 +154,7 @@ class EmbeddedMotionBlur {
     bool mHasLeftAPart = false;
     MotionBlur mEffect;
     HostPreparation mPreparation;
+    std::unique_ptr<HostOverlay> mOverlay;
     std::unique_ptr<HostChecker> mChecker; ///< null: off
     std::unique_ptr<HostDump> mDump;       ///< null: none was wanted yet
     /// By frame in flight, the number of the last recording of it that the GPU ran.

@@ -31,6 +31,7 @@ struct EmbeddedMotionBlur::Slot {
     std::deque<gpu::Image> images;
     gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
     gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
+    gpu::Buffer overlay;     ///< shader::OverlayTable, where inputs are shown
     uint64_t handedOver = 0; ///< timeline value of what was recorded last
     uint32_t recordings = 0; ///< what the GPU marks once it has run the last of them
     bool isToldDone = true;  ///< by markDone(), or there is none

@@ -5,11 +5,28 @@
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
 #include "modules/motion_blur/embedding/host_dump.h"
+#include "modules/motion_blur/embedding/host_overlay.h"
 #include "shaders/render/scene_shared.h"
 
 #include <utility>
 
 namespace shutter::motion_blur {
+
+namespace {
+
+/// Where shaders find the table for this frame.
+template <class Table>
+VkDeviceAddress
+writeTable(gpu::Device& device, gpu::Buffer& buffer, const char* name, const Table& table) {
+    if (!buffer)
+        buffer = gpu::Buffer(
+            device, name, sizeof(table), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::Stream
+        );
+    buffer.writeBytes(&table, sizeof(table), 0);
+    return buffer.address();
+}
+
+} // namespace
 
 graph::ImageHandle EmbeddedMotionBlur::Frame::import(
     gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule
@@ -69,19 +86,18 @@ graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
         return {};
     const VkExtent2D picture = pictureOf(inputs);
     const shader::PrepareTable table = makePrepareTable(convention, picture);
-    gpu::Buffer& buffer = frame.slot.convention;
-    if (!buffer)
-        buffer = gpu::Buffer(
-            device,
-            "convention",
-            sizeof(table),
-            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            gpu::MemoryUse::Stream
-        );
-    buffer.writeBytes(&table, sizeof(table), 0);
+    const VkDeviceAddress address = writeTable(device, frame.slot.convention, "convention", table);
     return mPreparation.addMotionDepth(
-        frame.graph, images.vectors, images.depth, images.blurScale, buffer.address(), picture
+        frame.graph, images.vectors, images.depth, images.blurScale, address, picture
     );
+}
+
+graph::ImageHandle EmbeddedMotionBlur::showInputs(
+    Frame& frame, const MotionBlurInputs& own, graph::ImageHandle picture
+) const {
+    const shader::OverlayTable table = makeOverlayTable(frame.inputs, own);
+    const VkDeviceAddress address = writeTable(*mDevice, frame.slot.overlay, "overlay", table);
+    return mOverlay->add(frame.graph, own, picture, address);
 }
 
 std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
@@ -201,7 +217,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         inputs.observe(frame.graph, own, made);
     if (isDumped)
         mDump->addPicture(frame.graph, frame.number, made.color);
-    deliver(frame, made.color);
+    deliver(frame, inputs.showsInputs ? showInputs(frame, own, made.color) : made.color);
 }
 
 core::Status EmbeddedMotionBlur::record(Frame& frame, View& view, VkCommandBuffer commands) {

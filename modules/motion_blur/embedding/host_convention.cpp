@@ -102,28 +102,6 @@ core::Status checkProjection(
     return {};
 }
 
-core::Status checkCameras(const HostCameras& cameras, VkExtent2D picture) {
-    if (!std::isfinite(cameras.jitterPx.x) || !std::isfinite(cameras.jitterPx.y) ||
-        !std::isfinite(cameras.jitterPxBefore.x) || !std::isfinite(cameras.jitterPxBefore.y))
-        return makeError("motion blur: convention.cameras.jitterPx is not finite");
-    if (!cameras.areGiven)
-        return {};
-    SHUTTER_TRY(checkView("viewFromWorld", cameras.viewFromWorld));
-    SHUTTER_TRY(checkView("viewFromWorldBefore", cameras.viewFromWorldBefore));
-    SHUTTER_TRY(checkProjection("clipFromView", cameras.clipFromView, cameras.aheadIsPlusZ, picture)
-    );
-    SHUTTER_TRY(checkProjection(
-        "clipFromViewBefore", cameras.clipFromViewBefore, cameras.aheadIsPlusZ, picture
-    ));
-    const auto pair = normalize(cameras);
-    if (pair && pair->now.isPerspective != pair->before.isPerspective)
-        return makeError(
-            "motion blur: convention.cameras.clipFromViewBefore is {}, clipFromView is not",
-            pair->before.isPerspective ? "perspective" : "orthographic"
-        );
-    return {};
-}
-
 /// What cannot be told without cameras.
 const char* findNeedForCameras(const HostConvention& convention) {
     if (convention.depth.isRaw)
@@ -164,6 +142,28 @@ const HostImageRule kDepthRule{
 const HostImageRule kBlurScaleRule{
     .name = "convention.scales.perPixel", .formats = kShareFormats, .hasPictureSize = false};
 
+core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
+    if (!std::isfinite(cameras.jitterPx.x) || !std::isfinite(cameras.jitterPx.y) ||
+        !std::isfinite(cameras.jitterPxBefore.x) || !std::isfinite(cameras.jitterPxBefore.y))
+        return makeError("motion blur: convention.cameras.jitterPx is not finite");
+    if (!cameras.areGiven)
+        return {};
+    SHUTTER_TRY(checkView("viewFromWorld", cameras.viewFromWorld));
+    SHUTTER_TRY(checkView("viewFromWorldBefore", cameras.viewFromWorldBefore));
+    SHUTTER_TRY(checkProjection("clipFromView", cameras.clipFromView, cameras.aheadIsPlusZ, picture)
+    );
+    SHUTTER_TRY(checkProjection(
+        "clipFromViewBefore", cameras.clipFromViewBefore, cameras.aheadIsPlusZ, picture
+    ));
+    const auto pair = normalize(cameras);
+    if (pair && pair->now.isPerspective != pair->before.isPerspective)
+        return makeError(
+            "motion blur: convention.cameras.clipFromViewBefore is {}, clipFromView is not",
+            pair->before.isPerspective ? "perspective" : "orthographic"
+        );
+    return {};
+}
+
 core::Status checkConvention(const HostConvention& convention, VkExtent2D picture) {
     const HostVectors& vectors = convention.vectors;
     const HostDepth& depth = convention.depth;
@@ -182,7 +182,7 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
             "motion blur: convention.depth.metresPerUnit is {}, it must be finite and above 0",
             depth.metresPerUnit
         );
-    SHUTTER_TRY(checkCameras(convention.cameras, picture));
+    SHUTTER_TRY(checkHostCameras(convention.cameras, picture));
     SHUTTER_TRY(checkScales(convention.scales, picture));
     const char* need = findNeedForCameras(convention);
     if (need && !convention.cameras.areGiven)

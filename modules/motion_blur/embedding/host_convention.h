@@ -92,7 +92,9 @@ extern const HostImageRule kVectorsRule;   ///< HostVectors::image
 extern const HostImageRule kDepthRule;     ///< HostDepth::image
 extern const HostImageRule kBlurScaleRule; ///< HostScales::perPixel
 
-/// One sentence that names the field which is wrong.
+/// One sentence that names the field which is wrong. Cameras that are not given are not looked at.
+[[nodiscard]] core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture);
+/// The same for all of a convention.
 [[nodiscard]] core::Status checkConvention(const HostConvention& convention, VkExtent2D picture);
 
 /// Where a picture's places are in an image.

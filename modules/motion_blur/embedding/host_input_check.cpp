@@ -216,6 +216,8 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
         SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture));
     else if (!inputs.isOff)
         SHUTTER_TRY(checkMadeMotion(inputs, host));
+    if (inputs.showsInputs)
+        SHUTTER_TRY(checkHostCameras(inputs.convention.cameras, picture));
     return checkDistinct(inputs);
 }
 

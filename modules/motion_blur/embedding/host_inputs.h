@@ -109,6 +109,9 @@ struct HostInputs {
     /// HostDevice::measures.
     BlurBudget budget;
     bool isOff = false; ///< no blur: `output`, if there is one, gets a copy of `color`
+    /// For debugging: panels over the blurred picture show what the effect reads, and what of it
+    /// the camera explains (docs/debugging_integration.md). Dumps are without.
+    bool showsInputs = false;
     /// For tools: called within record() once the effect's passes are declared, unless `isOff`. It
     /// may declare passes that read what the effect reads and makes, and must not throw.
     std::function<void(graph::Graph&, const MotionBlurInputs&, const MotionBlurOutputs&)> observe;
