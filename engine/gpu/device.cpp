@@ -65,6 +65,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->mMakesPipelinesAhead =
             options.pipelinesAhead == PipelinesAhead::Always ||
             (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
+        device->mBeforePipelineAhead = options.beforePipelineAhead;
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
     }

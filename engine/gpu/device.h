@@ -42,6 +42,9 @@ struct DeviceOptions {
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
     PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
+    /// Called before a pipeline is made ahead, with its name and on the thread that makes it, so
+    /// that tests can hold it up; empty: nothing is called.
+    std::function<void(const std::string& name)> beforePipelineAhead;
     /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
     /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
     std::optional<Bounds> bounds;
@@ -169,6 +172,12 @@ class Device {
     /// As DeviceOptions says. Only pipelines may be made on other threads.
     [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
 
+    /// Calls DeviceOptions::beforePipelineAhead, on any thread.
+    void announcePipelineAhead(const std::string& name) const {
+        if (mBeforePipelineAhead)
+            mBeforePipelineAhead(name);
+    }
+
     /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is
     /// kept even where the program does not end well.
     void savePipelineCache() const;
@@ -262,6 +271,7 @@ class Device {
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
     bool mMakesPipelinesAhead = false;
+    std::function<void(const std::string&)> mBeforePipelineAhead;
     Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

@@ -122,8 +122,8 @@ class Pipeline {
 /// everything else that is made from a device.
 class LazyPipeline {
   public:
-    LazyPipeline(Device& device, ComputePipelineDesc desc);
-    LazyPipeline(Device& device, RayPipelineDesc desc);
+    LazyPipeline(Device& device, const ComputePipelineDesc& desc);
+    LazyPipeline(Device& device, const RayPipelineDesc& desc);
     /// Waits for what prepare() started.
     ~LazyPipeline();
     LazyPipeline(LazyPipeline&&) noexcept = default;
@@ -139,8 +139,10 @@ class LazyPipeline {
     [[nodiscard]] Pipeline take();
 
   private:
-    LazyPipeline(Device& device, std::function<Pipeline()> make);
+    LazyPipeline(Device& device, std::string name, std::function<Pipeline()> make);
 
+    const Device* mDevice;
+    std::string mName;
     std::function<Pipeline()> mMake;
     mutable std::future<Pipeline> mUnderWay; ///< of prepare(), until get()
     mutable std::optional<Pipeline> mPipeline;

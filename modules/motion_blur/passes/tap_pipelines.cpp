@@ -33,9 +33,7 @@ const gpu::Pipeline& TapPipelines::find(const PassParams& params) const {
         gpu::ComputePipelineDesc desc = mDesc;
         desc.specialization.insert(desc.specialization.end(), {params.sampleCount, response});
         mVariants.push_back(
-            {params.sampleCount,
-             response,
-             std::make_unique<gpu::LazyPipeline>(*mDevice, std::move(desc))}
+            {params.sampleCount, response, std::make_unique<gpu::LazyPipeline>(*mDevice, desc)}
         );
     }
     const gpu::LazyPipeline& pipeline = *mVariants.back().pipeline;
