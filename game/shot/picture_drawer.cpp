@@ -138,7 +138,9 @@ render::PostEffect* PictureDrawer::prepareEffect(const PictureRequest& request, 
             slot.motionBlur = std::make_unique<motion_blur::MotionBlurPlugin>(
                 mDevice, mRenderer.scene(), request.method.motionBlur, request.method.budget
             );
-        slot.motionBlur->configure(request.method.motionBlur, request.method.budget);
+        slot.motionBlur->configure(
+            request.method.motionBlur, request.method.budget, request.untilReady
+        );
         return slot.motionBlur.get();
     case MethodFamily::Accumulate:
         return nullptr; // the mean is all it is

@@ -39,6 +39,9 @@ struct PictureRequest {
     /// truth: rays per pixel that the slot's last picture, of the same view, was left with; the
     /// method's samples, then 0 or more, are added to them.
     uint32_t raysBefore = 0;
+    /// Blur whose pipelines are still being made ahead: the frame waits for them, or another method
+    /// stands in for it.
+    motion_blur::UntilReady untilReady = motion_blur::UntilReady::Wait;
     /// The frames before are drawn first for a method that looks things up in the last one, and
     /// for AntiAliasing::Taa, unless the slot drew the last one last. Of them only what is looked
     /// up is drawn: no blur, rays nor second raster. Without them, places in the pixel follow one

@@ -51,6 +51,10 @@ class MethodPasses {
         const PassParams& params,
         SharedPasses& shared) = 0;
 
+    /// Whether add() waits for none of the pipelines that take long to make and that the device
+    /// makes ahead.
+    [[nodiscard]] virtual bool isReady() const { return true; }
+
     /// Adds what the frame declared last for the slot counted, besides the blocks of SharedPasses;
     /// the GPU must be done with that frame.
     virtual void count(uint32_t /*slot*/, Counters& /*counters*/) const {}
@@ -60,6 +64,9 @@ struct Method {
     const char* name;        ///< on the command line, in JSON and reports
     const char* description; ///< a few words
     const char* publication; ///< authors, year or title
+    /// The name of a cheaper method without rays that may draw frames until
+    /// MethodPasses::isReady(). Null: frames wait.
+    const char* standIn = nullptr;
     RayNeed rays = RayNeed::None;
     SampleUnit sampleUnit = SampleUnit::Taps;
     uint32_t defaultSamples = 15;

@@ -13,6 +13,13 @@ struct MotionBlur::Parts {
     explicit Parts(gpu::Device& own, VkDescriptorSetLayout layout)
         : device(own), sceneLayout(layout), shared(own) {}
 
+    MethodPasses& find(const Method& method) {
+        std::unique_ptr<MethodPasses>& own = passes[&method];
+        if (!own)
+            own = method.makePasses(device, sceneLayout);
+        return *own;
+    }
+
     gpu::Device& device;
     VkDescriptorSetLayout sceneLayout;
     SharedPasses shared;
@@ -58,10 +65,11 @@ MotionBlurOutputs MotionBlur::add(
     params.response = inputs.response;
     mParts->shared.chooseStillPixelsBy(inputs);
     mParts->declared.at(inputs.slot) = inputs.wantsCounters ? &method : nullptr;
-    std::unique_ptr<MethodPasses>& passes = mParts->passes[&method];
-    if (!passes)
-        passes = method.makePasses(mParts->device, mParts->sceneLayout);
-    return passes->add(graph, inputs, settings, params, mParts->shared);
+    return mParts->find(method).add(graph, inputs, settings, params, mParts->shared);
+}
+
+bool MotionBlur::isReady(const Method& method) {
+    return mParts->find(method).isReady();
 }
 
 Counters MotionBlur::counters(uint32_t slot) const {

@@ -28,6 +28,10 @@ class MotionBlur {
     [[nodiscard]] MotionBlurOutputs
     add(graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurSettings& settings);
 
+    /// Whether a frame by the method waits for none of the pipelines that take long to make. The
+    /// first call starts to make them where the device makes pipelines ahead.
+    [[nodiscard]] bool isReady(const Method& method);
+
     /// What the frame declared last for the slot counted, once the GPU is done with it: "blocks
     /// still", "blocks uniform", "blocks mixed" and "blocks masked" (of 8 x 8 pixels), and the
     /// method's own. Empty before the first, and without MotionBlurInputs::wantsCounters.

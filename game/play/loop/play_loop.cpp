@@ -516,6 +516,10 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.window.size = sizePx;
     picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();
     picture.wantReasons = mSettings.showPanel;
+    // The pictures of scripts, films and watched sessions must not depend on time.
+    const bool isForPlayer = mScreen.hasWindow() && !mScript && !mFiles.isFilming() && !mWatch;
+    picture.untilReady =
+        isForPlayer ? motion_blur::UntilReady::StandIn : motion_blur::UntilReady::Wait;
     picture.readBack = mFiles.wantsPicture();
     return picture;
 }

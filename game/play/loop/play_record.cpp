@@ -46,6 +46,7 @@ void PlayRecord::addStatistics(const render::FrameStatistics& statistics) {
     for (const render::PassTime& pass : statistics.passes)
         ++mPasses[pass.name];
     mReducedFrames += isReduced(statistics);
+    mStandInFrames += isDrawnByStandIn(statistics);
 }
 
 double PlayRecord::meanMilliseconds() const {
@@ -65,6 +66,7 @@ core::Status PlayRecord::write(const std::filesystem::path& path, const SessionF
     addQuartiles(record, "blurMilliseconds", mBlurMilliseconds);
     record["passes"] = mPasses;
     record["reducedFrames"] = mReducedFrames;
+    record["standInFrames"] = mStandInFrames;
     if (facts.score) {
         record["score"] = *facts.score;
         record["isOver"] = facts.isOver;

@@ -66,6 +66,7 @@ class PlayRecord {
     std::optional<uint64_t> mFirstAllocations; ///< once the first second is over
     uint64_t mLastAllocations = 0;
     uint32_t mReducedFrames = 0; ///< in which a budget made the blur give something up
+    uint32_t mStandInFrames = 0; ///< that another method drew until pipelines were made
     uint32_t mPictureCount = 0;
 };
 

@@ -51,7 +51,10 @@ std::optional<image::Image> PlayRenderer::takePicture() {
 }
 
 core::Result<PictureRequest> PlayRenderer::makeRequest(
-    PlaySide side, const render::FrameRequest& frame, const PlaySettings& settings
+    PlaySide side,
+    const render::FrameRequest& frame,
+    motion_blur::UntilReady untilReady,
+    const PlaySettings& settings
 ) {
     const auto method = findMethod(side == PlaySide::Left ? settings.leftMethod : settings.method);
     if (!method)
@@ -60,6 +63,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     request.drawsFramesBefore = false; // a window draws frames in their order
     request.frame = frame;
     request.slot = static_cast<uint32_t>(side);
+    request.untilReady = untilReady;
     request.method.method = method.value();
     request.method.budget = settings.budget;
     request.antiAliasing = settings.antiAliasing;
@@ -88,7 +92,7 @@ core::Status PlayRenderer::draw(
         return cap.error();
     app::WindowTarget window = picture.window;
     if (settings.split) {
-        auto left = makeRequest(PlaySide::Left, frame, settings);
+        auto left = makeRequest(PlaySide::Left, frame, picture.untilReady, settings);
         if (!left)
             return left.error();
         mLeftView.setView(settings.view);
@@ -99,7 +103,7 @@ core::Status PlayRenderer::draw(
         window.dividerShare = settings.dividerShare;
     }
     frame.wantDisplay = picture.readBack;
-    auto right = makeRequest(PlaySide::Right, frame, settings);
+    auto right = makeRequest(PlaySide::Right, frame, picture.untilReady, settings);
     if (!right)
         return right.error();
     if (picture.moreRays) {

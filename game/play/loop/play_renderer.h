@@ -27,6 +27,7 @@ struct PlayPicture {
     app::WindowTarget window;
     bool readBack = false;    ///< keep the window's picture for takePicture()
     bool wantReasons = false; ///< of the work and passes too, for the panel
+    motion_blur::UntilReady untilReady = motion_blur::UntilReady::Wait;
 
     /// Rays that are added to the picture drawn last, whose view it shares.
     struct MoreRays {
@@ -64,8 +65,12 @@ class PlayRenderer {
     [[nodiscard]] std::optional<image::Image> takePicture();
 
   private:
-    [[nodiscard]] core::Result<PictureRequest>
-    makeRequest(PlaySide side, const render::FrameRequest& frame, const PlaySettings& settings);
+    [[nodiscard]] core::Result<PictureRequest> makeRequest(
+        PlaySide side,
+        const render::FrameRequest& frame,
+        motion_blur::UntilReady untilReady,
+        const PlaySettings& settings
+    );
     /// Keeps what the finished pictures leave.
     void takeFinished();
 

@@ -211,11 +211,23 @@ bool isReduced(const render::FrameStatistics& statistics) {
     return level != statistics.measures.end() && level->second > 0.0;
 }
 
+bool isDrawnByStandIn(const render::FrameStatistics& statistics) {
+    return statistics.measures.contains("blur stands in");
+}
+
 std::string describeMethod(
     const std::string& method,
     const render::FrameStatistics* statistics,
     const motion_blur::BlurBudget& budget
 ) {
+    if (statistics && isDrawnByStandIn(*statistics)) {
+        // The player may have chosen another method since, which has no stand-in.
+        const auto info = findMethod(method);
+        if (info && info.value()->blur && info.value()->blur->standIn)
+            return fmt::format(
+                "{}: {} until its pipelines are made", method, info.value()->blur->standIn
+            );
+    }
     if (!statistics || budget.isUnlimited() || !isReduced(*statistics))
         return method;
     return fmt::format("{}, reduced: {:g} ms budget", method, budget.milliseconds);

@@ -45,7 +45,11 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
 /// Whether the budget made the blur of that frame give something up.
 [[nodiscard]] bool isReduced(const render::FrameStatistics& statistics);
 
-/// "resolved", and where the budget made it give something up "resolved, reduced: 16 ms budget".
+/// Whether another method drew that frame, as the pipelines of its own were still being made.
+[[nodiscard]] bool isDrawnByStandIn(const render::FrameStatistics& statistics);
+
+/// "resolved", and where the budget made it give something up "resolved, reduced: 16 ms budget";
+/// "hybrid: gather until its pipelines are made" where that method stood in for it.
 /// \param statistics of the method's last frame; null: none is finished yet
 [[nodiscard]] std::string describeMethod(
     const std::string& method,

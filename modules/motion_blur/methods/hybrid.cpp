@@ -31,6 +31,8 @@ class HybridPasses : public MethodPasses {
         const PassParams& params,
         SharedPasses& shared) override;
 
+    bool isReady() const override { return mReveal.isReady(); }
+
     void count(uint32_t slot, Counters& counters) const override {
         const RayReveal::Counts counted = mReveal.count(slot);
         counters["pixels masked"] = counted.maskedPixels;
@@ -157,6 +159,7 @@ const Method kHybrid = {
     .usesUniformMotion = true,
     .listBytesPerPixel = 4, // the list of masked pixels
     .settings =
+    .standIn = "gather",
         {"tileSizePx",
          "neighbourhoodTiles",
          "softDepthExtent",

@@ -11,6 +11,7 @@
 #include "engine/core/check.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -21,7 +22,7 @@ namespace {
 
 gpu::ComputePipelineDesc describeReveal(VkDescriptorSetLayout sceneLayout, bool hasBlended) {
     gpu::ComputePipelineDesc desc = describePass(
-        "ray reveal",
+        hasBlended ? "ray reveal through blended surfaces" : "ray reveal",
         motion_blur_reveal_comp,
         {kSampled,
          kSampled,
@@ -75,6 +76,13 @@ RayReveal::RayReveal(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
             mPipelines.emplace_back(device, describeReveal(sceneLayout, hasBlended));
         else
             mPipelines.emplace_back(device, describeTracer(sceneLayout, hasBlended));
+}
+
+bool RayReveal::isReady() const {
+    return !mDevice.makesPipelinesAhead() ||
+           std::all_of(mPipelines.begin(), mPipelines.end(), [](const gpu::LazyPipeline& one) {
+               return one.isReady();
+           });
 }
 
 const gpu::Pipeline& RayReveal::findPipeline(const graph::RayScene& rays) {

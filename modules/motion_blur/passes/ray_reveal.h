@@ -49,6 +49,10 @@ class RayReveal {
     RayRevealOutputs
     add(graph::Graph& graph, const RayRevealInputs& inputs, const PassParams& params);
 
+    /// Whether add() waits for no pipeline that traces rays, as they are made ahead of their use
+    /// and are ready. True where each is made when it is first used.
+    [[nodiscard]] bool isReady() const;
+
     /// Lets count() tell of a frame whose masked pixels somebody else reveals.
     /// \param list of RayMask
     void countOwn(graph::Graph& graph, graph::BufferHandle list, uint32_t slot);

@@ -39,10 +39,24 @@ MotionBlurPlugin::MotionBlurPlugin(
     : mWanted(settings), mBudget(budget, settings), mInstantMotions(device),
       mEffect(device, scene.textureLayout()) {}
 
-void MotionBlurPlugin::configure(const MotionBlurSettings& settings, const BlurBudget& budget) {
+void MotionBlurPlugin::configure(
+    const MotionBlurSettings& settings, const BlurBudget& budget, UntilReady untilReady
+) {
     if (settings != mWanted || budget.milliseconds != mBudget.budget().milliseconds)
         mBudget = BudgetController(budget, settings);
     mWanted = settings;
+    mUntilReady = untilReady;
+    chooseStandIn();
+}
+
+void MotionBlurPlugin::chooseStandIn() {
+    mStandIn.reset();
+    const MotionBlurSettings& wanted = mBudget.current().settings;
+    if (mUntilReady == UntilReady::Wait || !wanted.method->standIn ||
+        mEffect.isReady(*wanted.method))
+        return;
+    mStandIn = wanted;
+    mStandIn->method = &getMethod(wanted.method->standIn);
 }
 
 core::Decision MotionBlurPlugin::ask(const render::ViewFacts& facts) const {
@@ -107,11 +121,24 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     else
         mInstantMotions.forget();
     const bool keepsOnly = onlyKeeps(context.facts);
+    const bool standsIn = mStandIn.has_value();
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
-    mDrawnLevels.at(context.slot) = keepsOnly ? kNoLevel : mBudget.level();
+    const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
+    mDrawn.at(context.slot) = {level, keepsOnly, standsIn};
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
+    if (standsIn)
+        context.explainer.decide(
+            render::ExplainedKind::Work,
+            "stand-in",
+            {true,
+             fmt::format(
+                 "{} draws until the pipelines of {} are made",
+                 settings().method->name,
+                 mBudget.current().settings.method->name
+             )}
+        );
     if (settings().method->rays == RayNeed::Any && !context.rays)
         context.explainer.decide(
             render::ExplainedKind::Pass, "ray reveal", {false, context.facts.reveal.reason}
@@ -122,19 +149,22 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
 }
 
 void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
-    const size_t level = mDrawnLevels.at(frame.slot);
+    const Drawn& drawn = mDrawn.at(frame.slot);
     double milliseconds = 0.0;
     for (const gpu::PassTime& pass : frame.passes)
         milliseconds += pass.gpuMilliseconds;
     if (!frame.passes.empty())
-        mBudget.observe(level, milliseconds);
-    if (!frame.ran || level == kNoLevel)
+        mBudget.observe(drawn.level, milliseconds);
+    chooseStandIn();
+    if (!frame.ran || drawn.keepsOnly)
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))
         frame.counters[name] = value;
     frame.measures["blur ms"] = milliseconds;
-    if (!mBudget.budget().isUnlimited())
-        frame.measures["blur budget level"] = double(level);
+    if (drawn.standsIn)
+        frame.measures["blur stands in"] = 1.0;
+    else if (!mBudget.budget().isUnlimited())
+        frame.measures["blur budget level"] = double(drawn.level);
 }
 
 } // namespace shutter::motion_blur

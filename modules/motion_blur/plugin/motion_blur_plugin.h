@@ -10,9 +10,17 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace shutter::motion_blur {
+
+/// What becomes of a frame whose method's pipelines are still being made ahead.
+enum class UntilReady : uint8_t {
+    Wait,    ///< it waits for them: pictures do not depend on time
+    StandIn, ///< Method::standIn draws it
+};
 
 class MotionBlurPlugin : public render::PostEffect {
   public:
@@ -24,8 +32,13 @@ class MotionBlurPlugin : public render::PostEffect {
         const BlurBudget& budget = {}
     );
 
-    /// For the frames to come; both must be valid. The budget starts anew where either changed.
-    void configure(const MotionBlurSettings& settings, const BlurBudget& budget);
+    /// For the frames to come; settings and budget must be valid. The budget starts anew where
+    /// either of them changed.
+    void configure(
+        const MotionBlurSettings& settings,
+        const BlurBudget& budget,
+        UntilReady untilReady = UntilReady::Wait
+    );
 
     [[nodiscard]] std::string name() const override { return "motion blur"; }
 
@@ -46,14 +59,29 @@ class MotionBlurPlugin : public render::PostEffect {
     void finish(render::FinishedFrame& frame) override;
 
   private:
-    [[nodiscard]] const MotionBlurSettings& settings() const { return mBudget.current().settings; }
+    /// What was declared for a slot's frame.
+    struct Drawn {
+        size_t level = 0;       ///< of the budget, or kNoLevel
+        bool keepsOnly = false; ///< onlyKeeps()
+        bool standsIn = false;  ///< by Method::standIn
+    };
+
+    /// Of the next frame.
+    [[nodiscard]] const MotionBlurSettings& settings() const {
+        return mStandIn ? *mStandIn : mBudget.current().settings;
+    }
+
+    /// Decides whether another method draws the next frame in place of the budget's.
+    void chooseStandIn();
 
     /// Whether the frame is drawn for what the next one looks up, and the method keeps something.
     [[nodiscard]] bool onlyKeeps(const render::ViewFacts& facts) const;
 
     MotionBlurSettings mWanted;
     BudgetController mBudget;
-    std::array<size_t, gpu::kMaxFramesInFlight> mDrawnLevels{}; ///< of the budget, by slot
+    UntilReady mUntilReady = UntilReady::Wait;
+    std::optional<MotionBlurSettings> mStandIn; ///< of the next frame; nothing: the budget's
+    std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     InstantMotionBuffers mInstantMotions;
     MotionBlur mEffect;
 };

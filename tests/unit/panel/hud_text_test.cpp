@@ -32,6 +32,18 @@ TEST(HudText, AMethodThatKeptEverythingHasItsNameAlone) {
     EXPECT_EQ(describeMethod("resolved", &reduced, {}), "resolved");
 }
 
+TEST(HudText, AMethodThatAnotherStandsInForNamesIt) {
+    auto frame = makeFrame(2.0);
+    frame.measures["blur stands in"] = 1.0;
+    EXPECT_EQ(
+        describeMethod("hybrid", &frame, {16.0}), "hybrid: gather until its pipelines are made"
+    );
+    // The player chose another method; the last finished frame had the one before.
+    frame.measures.erase("blur budget level");
+    EXPECT_EQ(describeMethod("resolved", &frame, {16.0}), "resolved");
+    EXPECT_EQ(describeMethod("truth", &frame, {16.0}), "truth");
+}
+
 TEST(PanelRows, TheCountOfSamplesIsShownForTapsAndInstantsAndRaysHaveTheirOwn) {
     const auto reads = [](const char* method) {
         const auto names = listReadSettings(*findMethod(method).value());
