@@ -93,7 +93,11 @@ class Recorder {
         );
     }
 
-    void set(bool doubleSided, bool mirrored) const {
+    /// Says which sides are drawn, unless that is what was said last.
+    void set(bool doubleSided, bool mirrored) {
+        const Sides sides{doubleSided, mirrored};
+        if (std::exchange(mSides, sides) == sides)
+            return;
         const VkCommandBuffer commands = mCommands.commands();
         vkCmdSetCullMode(commands, doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(
@@ -101,11 +105,19 @@ class Recorder {
         );
     }
 
+    struct Sides {
+        bool doubleSided = false;
+        bool mirrored = false;
+
+        bool operator==(const Sides&) const = default;
+    };
+
     gpu::Frame& mCommands;
     const extract::ExtractedFrame& mFrame;
     const gpu_scene::GpuScene& mScene;
     math::uvec2 mConstants;
     const gpu::Pipeline* mBound = nullptr;
+    std::optional<Sides> mSides; ///< that were set last: they outlast a change of pipeline
 };
 
 } // namespace
