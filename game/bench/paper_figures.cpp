@@ -41,7 +41,7 @@ json describePassTimes() {
         {0.05, 0.05, 0.06},
         {0.33, 0.38, 0.33},
         "ours",
-        names({"sort blocks", "clear ray mask", "edge", "ray mask"}));
+        names({"sort blocks", "clear lists", "edge", "ray mask"}));
     add("Ray Trace",
         {1.13, 2.27, 2.99},
         {0.59, 0.65, 0.62},

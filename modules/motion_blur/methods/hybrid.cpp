@@ -60,10 +60,16 @@ MotionBlurOutputs HybridPasses::add(
         own.frame = gpu::splitAddress(inputs.rays->frameConstants);
     params.setMethod(own);
     const TileMotionOutputs tiles = shared.tileMotion.add(graph, inputs.motionDepth, params);
-    const SortedBlocks sorted = shared.sorter.add(graph, tiles, params, true);
+    Clears clears;
+    const SortedBlocks lists = BlockSorter::create(graph, params, true, clears);
+    const EmptyMask masks = RayMask::create(graph, params, clears);
+    clears.declare(graph);
+    const SortedBlocks sorted =
+        shared.sorter.add(graph, tiles, BlockSorter::getEmpty(lists, clears), params, true);
     const RayMaskOutputs mask = mMask.add(
         graph,
         {inputs.motionDepth, inputs.normal, inputs.entityId, sorted, inputs.measureEdgesEverywhere},
+        RayMask::getEmpty(masks, clears),
         params
     );
     if (inputs.wantsCounters)

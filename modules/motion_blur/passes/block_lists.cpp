@@ -44,39 +44,6 @@ SortedBlocks createSorted(graph::Graph& graph, const PassParams& params, bool fo
         createLists(graph, "candidate blocks", forMask ? 2 * blockCount : 0, 1)};
 }
 
-struct ClearData {
-    SortedBlocks sorted;
-};
-
-/// Empty lists, and no block flagged.
-void addClear(graph::Graph& graph, SortedBlocks& sorted) {
-    const ClearData& cleared = graph.addPass<ClearData>(
-        "clear block lists",
-        graph::PassKind::Transfer,
-        [&](graph::PassBuilder& builder, ClearData& data) {
-            data.sorted = sorted;
-            for (BlockLists* pair : {&data.sorted.lists, &data.sorted.candidates}) {
-                pair->blocks = builder.write(pair->blocks, Access::TransferWrite);
-                pair->arguments = builder.write(pair->arguments, Access::TransferWrite);
-            }
-        },
-        [](const ClearData& data, graph::PassContext& context) {
-            const shader::BlockHeader header{};
-            clearList(context, data.sorted.lists.blocks, &header, sizeof(header));
-            clearArguments(context, data.sorted.lists.arguments, shader::kListCount);
-            vkCmdFillBuffer(
-                context.commands,
-                context.resources.buffer(data.sorted.candidates.blocks),
-                0,
-                VK_WHOLE_SIZE,
-                0
-            );
-            clearArguments(context, data.sorted.candidates.arguments, 1);
-        }
-    );
-    sorted = cleared.sorted;
-}
-
 /// Headers of one slot: the lists' and the candidates'.
 constexpr VkDeviceSize kHeaderBytes = 2 * sizeof(shader::BlockHeader);
 
@@ -89,18 +56,40 @@ BlockSorter::BlockSorter(gpu::Device& device)
     mHeaders.writeZeros();
 }
 
-SortedBlocks BlockSorter::addEmpty(graph::Graph& graph, const PassParams& params) const {
-    SortedBlocks sorted = createSorted(graph, params, false);
-    addClear(graph, sorted);
+SortedBlocks
+BlockSorter::create(graph::Graph& graph, const PassParams& params, bool forMask, Clears& clears) {
+    SortedBlocks sorted = createSorted(graph, params, forMask);
+    clears.addHead(sorted.lists.blocks, sizeof(shader::BlockHeader));
+    clears.addArguments(sorted.lists.arguments, shader::kListCount);
+    clears.add(sorted.candidates.blocks, 0); // no block is flagged
+    clears.addArguments(sorted.candidates.arguments, 1);
     return sorted;
+}
+
+SortedBlocks BlockSorter::getEmpty(const SortedBlocks& created, const Clears& clears) {
+    const auto get = [&](const BlockLists& lists) {
+        return BlockLists{clears.get(lists.blocks), clears.get(lists.arguments)};
+    };
+    return {get(created.lists), get(created.candidates)};
 }
 
 SortedBlocks BlockSorter::add(
     graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask
 ) const {
+    Clears clears;
+    const SortedBlocks created = create(graph, params, forMask, clears);
+    clears.declare(graph);
+    return add(graph, tiles, getEmpty(created, clears), params, forMask);
+}
+
+SortedBlocks BlockSorter::add(
+    graph::Graph& graph,
+    const TileMotionOutputs& tiles,
+    const SortedBlocks& empty,
+    const PassParams& params,
+    bool forMask
+) const {
     const glm::uvec2 extent = countBlocks(params);
-    SortedBlocks sorted = createSorted(graph, params, forMask);
-    addClear(graph, sorted);
 
     struct Data {
         TileMotionOutputs tiles;
@@ -114,7 +103,7 @@ SortedBlocks BlockSorter::add(
             data.tiles = tiles;
             builder.read(tiles.tiles, Access::SampledCompute);
             builder.read(tiles.tileClass, Access::SampledCompute);
-            data.sorted = sorted;
+            data.sorted = empty;
             for (BlockLists* pair : {&data.sorted.lists, &data.sorted.candidates}) {
                 pair->blocks = builder.write(pair->blocks, Access::StorageWrite);
                 pair->arguments = builder.write(pair->arguments, Access::StorageWrite);

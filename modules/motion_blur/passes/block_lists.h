@@ -8,6 +8,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/clears.h"
 #include "modules/motion_blur/passes/tile_motion.h"
 
 #include <array>
@@ -41,10 +42,23 @@ class BlockSorter {
   public:
     explicit BlockSorter(gpu::Device& device);
 
-    /// Empty lists, for passes that sort otherwise.
-    [[nodiscard]] SortedBlocks addEmpty(graph::Graph& graph, const PassParams& params) const;
-
+    /// Lists that nothing has written, to be cleared with others.
     /// \param forMask blocks that may have masked pixels go to the candidates
+    [[nodiscard]] static SortedBlocks
+    create(graph::Graph& graph, const PassParams& params, bool forMask, Clears& clears);
+
+    /// \param created of create() \param clears after Clears::declare()
+    [[nodiscard]] static SortedBlocks getEmpty(const SortedBlocks& created, const Clears& clears);
+
+    /// \param empty getEmpty() of lists that were created with the same forMask
+    [[nodiscard]] SortedBlocks
+    add(graph::Graph& graph,
+        const TileMotionOutputs& tiles,
+        const SortedBlocks& empty,
+        const PassParams& params,
+        bool forMask) const;
+
+    /// The same with lists that it clears itself.
     SortedBlocks
     add(graph::Graph& graph, const TileMotionOutputs& tiles, const PassParams& params, bool forMask
     ) const;

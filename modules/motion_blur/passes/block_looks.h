@@ -35,7 +35,7 @@ class BlockLooks {
 
     /// Sorts the blocks that something moves in.
     /// \param raster this frame's
-    /// \param empty BlockSorter::addEmpty()
+    /// \param empty BlockSorter::getEmpty()
     /// \param params with shader::ResolvedParams; uniformMotionPx 0: each pixel searches for
     /// itself, as it must unless canFind()
     [[nodiscard]] BlockLookOutputs addFind(

@@ -36,31 +36,6 @@ gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex laye
     return desc;
 }
 
-graph::BufferHandle addClear(graph::Graph& graph, graph::BufferHandle lists) {
-    struct Data {
-        graph::BufferHandle lists;
-    };
-
-    return graph
-        .addPass<Data>(
-            "clear candidates",
-            graph::PassKind::Transfer,
-            [&](graph::PassBuilder& builder, Data& data) {
-                data.lists = builder.write(lists, Access::TransferWrite);
-            },
-            [](const Data& data, graph::PassContext& context) {
-                vkCmdFillBuffer(
-                    context.commands,
-                    context.resources.buffer(data.lists),
-                    0,
-                    VK_WHOLE_SIZE,
-                    0xFFFFFFFFu
-                );
-            }
-        )
-        .lists;
-}
-
 } // namespace
 
 CandidateLists::CandidateLists(gpu::Device& device)
@@ -70,20 +45,26 @@ CandidateLists::CandidateLists(gpu::Device& device)
           gpu::LazyPipeline(device, describeList(device, LayerIndex::Last)),
           gpu::LazyPipeline(device, describeList(device, LayerIndex::Second))} {}
 
+graph::BufferHandle
+CandidateLists::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
+    const glm::uvec2 tiles = countCandidateTiles(params);
+    const VkDeviceSize bytes = VkDeviceSize(tiles.x) * tiles.y * sizeof(shader::TileCandidates);
+    const graph::BufferHandle lists = graph.createBuffer("candidates", {bytes, kListUsage});
+    clears.add(lists, 0xFFFFFFFFu);
+    return lists;
+}
+
 CandidateOutputs CandidateLists::add(
     graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params
 ) const {
     const glm::uvec2 tiles = countCandidateTiles(params);
-    const VkDeviceSize bytes = VkDeviceSize(tiles.x) * tiles.y * sizeof(shader::TileCandidates);
-    const graph::BufferHandle lists =
-        addClear(graph, graph.createBuffer("candidates", {bytes, kListUsage}));
     return graph.addPass<CandidateOutputs>(
         namePass(layer),
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, CandidateOutputs& data) {
             builder.read(inputs.surface, Access::SampledCompute);
             builder.read(inputs.motionDepth, Access::SampledCompute);
-            data.candidates = builder.write(lists, Access::StorageWrite);
+            data.candidates = builder.write(inputs.empty, Access::StorageWrite);
             data.counters = builder.write(inputs.counters, Access::StorageWrite);
         },
         [this, inputs, layer, params, tiles](

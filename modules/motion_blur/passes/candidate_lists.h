@@ -5,6 +5,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
+#include "modules/motion_blur/passes/clears.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
 #include <array>
@@ -19,6 +20,7 @@ struct CandidateInputs {
     graph::ImageHandle surface;     ///< of the layer
     graph::ImageHandle motionDepth; ///< of this frame's raster
     graph::BufferHandle counters;   ///< shader::ResolvedCounters
+    graph::BufferHandle empty;      ///< of CandidateLists::create(), cleared
 };
 
 struct CandidateOutputs {
@@ -34,6 +36,10 @@ struct CandidateOutputs {
 class CandidateLists {
   public:
     explicit CandidateLists(gpu::Device& device);
+
+    /// The lists of a layer, which nothing has written, to be cleared with others.
+    [[nodiscard]] static graph::BufferHandle
+    create(graph::Graph& graph, const PassParams& params, Clears& clears);
 
     /// \param params with shader::ResolvedParams
     CandidateOutputs

@@ -54,41 +54,46 @@ float turnOf(int64_t frameNumber) {
     return static_cast<float>(turns - std::floor(turns));
 }
 
-struct ClearData {
+/// What a frame of the look-up starts with.
+struct Starts {
     graph::BufferHandle counters;
     ListedPixels listed;
+    std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
+    SortedBlocks blocks;
 };
 
-/// Counters of 0 and, where pixels are listed, a list of none.
-ClearData addClear(graph::Graph& graph, const PassParams& params, bool listsPixels) {
-    const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
-    ClearData cleared;
-    cleared.counters = graph.createBuffer(
+Starts createStarts(
+    graph::Graph& graph,
+    const SurfaceLayersOutputs& layers,
+    const PassParams& params,
+    bool listsPixels,
+    Clears& clears
+) {
+    Starts starts;
+    starts.counters = graph.createBuffer(
         "resolved counters", {sizeof(shader::ResolvedCounters), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
     );
-    if (listsPixels)
-        cleared.listed = {
+    clears.add(starts.counters, 0);
+    if (listsPixels) {
+        const VkDeviceSize pixels = VkDeviceSize(params.sizePx.x) * params.sizePx.y;
+        starts.listed = {
+            // Not cleared: the counters know how many there are.
             graph.createBuffer("listed pixels", {pixels * sizeof(glm::uvec2), kListUsage}),
             graph.createBuffer(
                 "listed pixel arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
             )};
-    return graph.addPass<ClearData>(
-        "clear resolved counters",
-        graph::PassKind::Transfer,
-        [&](graph::PassBuilder& builder, ClearData& data) {
-            data.counters = builder.write(cleared.counters, Access::TransferWrite);
-            data.listed.pixels = cleared.listed.pixels; // the counters know how many there are
-            if (listsPixels)
-                data.listed.arguments =
-                    builder.write(cleared.listed.arguments, Access::TransferWrite);
-        },
-        [](const ClearData& data, graph::PassContext& context) {
-            const shader::ResolvedCounters none{};
-            clearList(context, data.counters, &none, sizeof(none));
-            if (data.listed.arguments.isValid())
-                clearArguments(context, data.listed.arguments, 1);
-        }
-    );
+        clears.addArguments(starts.listed.arguments, 1);
+    }
+    const auto create = [&](const SurfaceLayer& layer, LayerIndex index) {
+        if (layer.surface.isValid())
+            starts.candidates.at(static_cast<size_t>(index)) =
+                CandidateLists::create(graph, params, clears);
+    };
+    create(layers.raster, LayerIndex::Raster);
+    create(layers.second, LayerIndex::Second);
+    create(layers.last, LayerIndex::Last);
+    starts.blocks = BlockSorter::create(graph, params, false, clears);
+    return starts;
 }
 
 } // namespace
@@ -198,14 +203,20 @@ LookUpOutputs LookUp::add(
     search.motionDepth = inputs.motionDepth;
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
-    const ClearData cleared = addClear(graph, params, mListsPixels);
-    outputs.listed = cleared.listed;
-    search.counters = cleared.counters;
+    Clears clears;
+    const Starts starts = createStarts(graph, search.layers, params, mListsPixels, clears);
+    clears.declare(graph);
+    outputs.listed = starts.listed;
+    if (mListsPixels)
+        outputs.listed.arguments = clears.get(starts.listed.arguments);
+    search.counters = clears.get(starts.counters);
     const auto list = [&](const SurfaceLayer& layer, LayerIndex index) -> graph::BufferHandle {
         if (!layer.surface.isValid())
             return {};
+        const graph::BufferHandle empty =
+            clears.get(starts.candidates.at(static_cast<size_t>(index)));
         const CandidateOutputs listed = mCandidates.add(
-            graph, {layer.surface, inputs.motionDepth, search.counters}, index, params
+            graph, {layer.surface, inputs.motionDepth, search.counters, empty}, index, params
         );
         search.counters = listed.counters;
         return listed.candidates;
@@ -216,7 +227,7 @@ LookUpOutputs LookUp::add(
     candidates.last = list(search.layers.last, LayerIndex::Last);
     search.candidates = addSort(graph, candidates, params);
     const BlockLookOutputs looks = mBlocks.addFind(
-        graph, raster, search.candidates, shared.sorter.addEmpty(graph, params), params
+        graph, raster, search.candidates, BlockSorter::getEmpty(starts.blocks, clears), params
     );
     outputs.blocks = looks.blocks;
     search.looks = looks.looks;

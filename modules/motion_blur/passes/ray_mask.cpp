@@ -56,24 +56,17 @@ graph::BufferHandle createArguments(graph::Graph& graph, const char* name, uint3
     return graph.createBuffer(name, {sizeof(shader::DispatchArguments) * count, kArgumentsUsage});
 }
 
-/// What starts empty: pictures of 0, lists of nothing.
-struct Cleared {
-    std::array<graph::ImageHandle, 3> images; ///< edges, blocks with edges, mask
-    graph::BufferHandle list;
-    graph::BufferHandle arguments;
-    graph::BufferHandle tiles;
-    graph::BufferHandle tileArguments;
-};
+} // namespace
 
-Cleared createCleared(graph::Graph& graph, const PassParams& params) {
+EmptyMask RayMask::create(graph::Graph& graph, const PassParams& params, Clears& clears) {
     const glm::uvec2 size = params.sizePx;
     const glm::uvec2 blocks = countBlocks(params);
     const VkDeviceSize pixelCount = VkDeviceSize(size.x) * size.y;
     const VkDeviceSize tileCount = VkDeviceSize(params.tileCount.x) * params.tileCount.y;
-    return {
-        {graph.createImage("edges", {size.x, size.y, VK_FORMAT_R8_UNORM}),
-         graph.createImage("edge blocks", {blocks.x, blocks.y, VK_FORMAT_R8_UNORM}),
-         graph.createImage("ray mask", {size.x, size.y, VK_FORMAT_R8_UNORM})},
+    const EmptyMask created{
+        graph.createImage("edges", {size.x, size.y, VK_FORMAT_R8_UNORM}),
+        graph.createImage("edge blocks", {blocks.x, blocks.y, VK_FORMAT_R8_UNORM}),
+        graph.createImage("ray mask", {size.x, size.y, VK_FORMAT_R8_UNORM}),
         graph.createBuffer(
             "masked pixels",
             {sizeof(shader::MaskHeader) + pixelCount * sizeof(uint32_t), kListUsage}
@@ -84,45 +77,25 @@ Cleared createCleared(graph::Graph& graph, const PassParams& params) {
             {sizeof(shader::TileHeader) + 2 * tileCount * sizeof(uint32_t), kListUsage}
         ),
         createArguments(graph, "masked tile arguments", 2)};
+    for (const graph::ImageHandle image : {created.edges, created.edgeBlocks, created.mask})
+        clears.add(image);
+    clears.addHead(created.list, sizeof(shader::MaskHeader));
+    clears.addArguments(created.arguments, 1);
+    clears.add(created.tiles, 0);
+    clears.addArguments(created.tileArguments, 2);
+    return created;
 }
 
-Cleared addClear(graph::Graph& graph, const PassParams& params) {
-    return graph.addPass<Cleared>(
-        "clear ray mask",
-        graph::PassKind::Transfer,
-        [&](graph::PassBuilder& builder, Cleared& data) {
-            data = createCleared(graph, params);
-            for (graph::ImageHandle& image : data.images)
-                image = builder.write(image, Access::TransferWrite);
-            for (graph::BufferHandle* buffer :
-                 {&data.list, &data.arguments, &data.tiles, &data.tileArguments})
-                *buffer = builder.write(*buffer, Access::TransferWrite);
-        },
-        [](const Cleared& data, graph::PassContext& context) {
-            const VkClearColorValue zero{};
-            const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-            for (graph::ImageHandle image : data.images)
-                vkCmdClearColorImage(
-                    context.commands,
-                    context.resources.image(image).handle(),
-                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                    &zero,
-                    1,
-                    &whole
-                );
-            const shader::MaskHeader header{};
-            clearList(context, data.list, &header, sizeof(header));
-            const shader::DispatchArguments reveal{0, 0, 1};
-            clearList(context, data.arguments, &reveal, sizeof(reveal));
-            vkCmdFillBuffer(
-                context.commands, context.resources.buffer(data.tiles), 0, VK_WHOLE_SIZE, 0
-            );
-            clearArguments(context, data.tileArguments, 2);
-        }
-    );
+EmptyMask RayMask::getEmpty(const EmptyMask& created, const Clears& clears) {
+    return {
+        clears.get(created.edges),
+        clears.get(created.edgeBlocks),
+        clears.get(created.mask),
+        clears.get(created.list),
+        clears.get(created.arguments),
+        clears.get(created.tiles),
+        clears.get(created.tileArguments)};
 }
-
-} // namespace
 
 RayMask::RayMask(gpu::Device& device)
     : RayMask(device, isSoftware(device) ? MaskListing::PixelByPixel : MaskListing::BlockByBlock) {}
@@ -211,8 +184,19 @@ RayMask::Edges RayMask::addEdges(
 
 RayMaskOutputs
 RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const {
-    const Cleared cleared = addClear(graph, params);
-    const Edges edges = addEdges(graph, inputs, {cleared.images[0], cleared.images[1]}, params);
+    Clears clears;
+    const EmptyMask created = create(graph, params, clears);
+    clears.declare(graph);
+    return add(graph, inputs, getEmpty(created, clears), params);
+}
+
+RayMaskOutputs RayMask::add(
+    graph::Graph& graph,
+    const RayMaskInputs& inputs,
+    const EmptyMask& empty,
+    const PassParams& params
+) const {
+    const Edges edges = addEdges(graph, inputs, {empty.edges, empty.edgeBlocks}, params);
 
     struct Data {
         graph::ImageHandle motionDepth;
@@ -230,9 +214,9 @@ RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams&
             data.edges = edges;
             builder.read(edges.edges, Access::SampledCompute);
             builder.read(edges.blocks, Access::SampledCompute);
-            data.out.mask = builder.write(cleared.images[2], Access::StorageWrite);
-            data.out.list = builder.write(cleared.list, Access::StorageWrite);
-            data.out.arguments = builder.write(cleared.arguments, Access::StorageWrite);
+            data.out.mask = builder.write(empty.mask, Access::StorageWrite);
+            data.out.list = builder.write(empty.list, Access::StorageWrite);
+            data.out.arguments = builder.write(empty.arguments, Access::StorageWrite);
             const SortedBlocks& blocks = inputs.blocks;
             data.out.blocks.lists = {
                 builder.write(blocks.lists.blocks, Access::StorageWrite),
@@ -240,8 +224,8 @@ RayMask::add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams&
             data.out.blocks.candidates = {
                 builder.write(blocks.candidates.blocks, Access::StorageWrite),
                 builder.read(blocks.candidates.arguments, Access::IndirectRead)};
-            data.out.tiles = builder.write(cleared.tiles, Access::StorageWrite);
-            data.out.tileArguments = builder.write(cleared.tileArguments, Access::StorageWrite);
+            data.out.tiles = builder.write(empty.tiles, Access::StorageWrite);
+            data.out.tileArguments = builder.write(empty.tileArguments, Access::StorageWrite);
         },
         [this, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;

@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/clears.h"
 
 #include <cstdint>
 
@@ -30,6 +31,17 @@ struct RayMaskOutputs {
     graph::BufferHandle tileArguments; ///< DispatchArguments: a group a tile, 64 tiles a group
 };
 
+/// What the ray mask writes, with nothing in it.
+struct EmptyMask {
+    graph::ImageHandle edges;
+    graph::ImageHandle edgeBlocks;
+    graph::ImageHandle mask;
+    graph::BufferHandle list;
+    graph::BufferHandle arguments;
+    graph::BufferHandle tiles;
+    graph::BufferHandle tileArguments;
+};
+
 /// How masked pixels come into their list: one by one, or all of a block at once, which takes fewer
 /// atomics and two barriers. The lists hold the same.
 enum class MaskListing : uint8_t { PixelByPixel, BlockByBlock };
@@ -38,6 +50,22 @@ class RayMask {
   public:
     explicit RayMask(gpu::Device& device); ///< the listing that is faster on the device
     RayMask(gpu::Device& device, MaskListing listing);
+
+    /// What nothing has written, to be cleared with other lists.
+    [[nodiscard]] static EmptyMask
+    create(graph::Graph& graph, const PassParams& params, Clears& clears);
+
+    /// \param created of create() \param clears after Clears::declare()
+    [[nodiscard]] static EmptyMask getEmpty(const EmptyMask& created, const Clears& clears);
+
+    /// \param empty of getEmpty()
+    [[nodiscard]] RayMaskOutputs
+    add(graph::Graph& graph,
+        const RayMaskInputs& inputs,
+        const EmptyMask& empty,
+        const PassParams& params) const;
+
+    /// The same with lists that it clears itself.
     RayMaskOutputs
     add(graph::Graph& graph, const RayMaskInputs& inputs, const PassParams& params) const;
 
