@@ -35,6 +35,8 @@ struct ViewFacts {
     core::Decision reveal;
     /// False: the frame is drawn for what effects keep for the next one alone, and shown by none.
     bool pictureWanted = true;
+    /// Somebody reads what effects count on the device, beyond what they need themselves.
+    bool countersWanted = true;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
 };
 

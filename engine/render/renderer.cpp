@@ -34,6 +34,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
     facts.pictureWanted = request.wantPicture;
+    facts.countersWanted = request.wantCounters;
     facts.displayWanted = request.wantDisplay || request.showsDisplay;
     return facts;
 }

@@ -51,6 +51,9 @@ struct FrameRequest {
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
     bool wantTrace = false; ///< copy what each pass writes to FrameResult::trace
+    /// False: effects need not count what they do on the device; FrameStatistics::counters may lack
+    /// it.
+    bool wantCounters = true;
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };

@@ -71,6 +71,7 @@ struct MotionBlurInputs {
     /// Method::readsInstantMotions, which then needs no timed rays.
     bool wantsPicture = true;
     bool wantsCounters = true;           ///< somebody reads MotionBlur::counters()
+    bool wantsMethodCounters = true;     ///< and the method's own among them, not the blocks alone
     bool measureEdgesEverywhere = false; ///< fill the edge view beyond candidates (debug, slower)
     /// The colour image may be written in place: it is a transient, or has storage usage. Where
     /// little moves, still pixels are then not touched.
@@ -78,6 +79,10 @@ struct MotionBlurInputs {
     /// Index of the frame in flight, below kMostSlots (params.h): the GPU must be done with the
     /// slot's last frame.
     uint32_t slot = 0;
+
+    /// Whether the method reads back what it counts itself.
+    [[nodiscard]] bool countsOwn() const { return wantsCounters && wantsMethodCounters; }
+
     /// Image that gets the blurred picture: one with storage and transfer usage that is no other
     /// input, or `color` if that is writable. Invalid: the cheapest. Unused by methods that do not
     /// read the raster image.

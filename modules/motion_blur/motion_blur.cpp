@@ -24,7 +24,14 @@ struct MotionBlur::Parts {
     VkDescriptorSetLayout sceneLayout;
     SharedPasses shared;
     std::map<const Method*, std::unique_ptr<MethodPasses>> passes;
-    std::array<const Method*, kMostSlots> declared{}; ///< by slot
+
+    /// A frame that counts something.
+    struct Declared {
+        const Method* method = nullptr; ///< null: nothing
+        bool countsOwn = false;         ///< the method's own, too
+    };
+
+    std::array<Declared, kMostSlots> declared{}; ///< by slot
 };
 
 MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
@@ -64,7 +71,8 @@ MotionBlurOutputs MotionBlur::add(
     PassParams params = resolve(settings, size.width, size.height, inputs.rasterTime);
     params.response = inputs.response;
     mParts->shared.chooseStillPixelsBy(inputs);
-    mParts->declared.at(inputs.slot) = inputs.wantsCounters ? &method : nullptr;
+    const Method* const counted = inputs.wantsCounters ? &method : nullptr;
+    mParts->declared.at(inputs.slot) = {counted, inputs.countsOwn()};
     return mParts->find(method).add(graph, inputs, settings, params, mParts->shared);
 }
 
@@ -74,7 +82,7 @@ bool MotionBlur::isReady(const Method& method) {
 
 Counters MotionBlur::counters(uint32_t slot) const {
     Counters counters;
-    const Method* method = mParts->declared.at(slot);
+    const auto& [method, countsOwn] = mParts->declared.at(slot);
     if (!method)
         return counters;
     if (method->countsBlocks) {
@@ -84,7 +92,8 @@ Counters MotionBlur::counters(uint32_t slot) const {
         counters["blocks mixed"] = blocks.mixed;
         counters["blocks masked"] = blocks.masked;
     }
-    mParts->passes.at(method)->count(slot, counters);
+    if (countsOwn)
+        mParts->passes.at(method)->count(slot, counters);
     return counters;
 }
 

@@ -34,7 +34,8 @@ class MotionBlur {
 
     /// What the frame declared last for the slot counted, once the GPU is done with it: "blocks
     /// still", "blocks uniform", "blocks mixed" and "blocks masked" (of 8 x 8 pixels), and the
-    /// method's own. Empty before the first, and without MotionBlurInputs::wantsCounters.
+    /// method's own, with MotionBlurInputs::wantsMethodCounters. Empty before the first, and
+    /// without MotionBlurInputs::wantsCounters.
     [[nodiscard]] Counters counters(uint32_t slot = 0) const;
 
   private:

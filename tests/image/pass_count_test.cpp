@@ -3,6 +3,7 @@
 #include "game/shot/picture_drawer.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
 
 #include <algorithm>
 #include <string>
@@ -30,13 +31,14 @@ struct Drawer {
         return builder;
     }
 
-    render::FrameResult draw(const char* method) {
+    render::FrameResult draw(const char* method, bool wantCounters) {
         game::PictureRequest request;
         request.frame.view.camera = scene.camera;
         request.frame.view.exposure =
             scene::computeExposure({0.25, scene::ShutterPhase::Centre}, 0.0);
         request.frame.view.width = 96;
         request.frame.view.height = 64;
+        request.frame.wantCounters = wantCounters;
         request.method = game::makeMethod(*game::findMethod(method).value());
         auto drawn = pictures.draw(scene.world, request);
         EXPECT_TRUE(drawn) << (drawn ? "" : drawn.error().message);
@@ -58,9 +60,31 @@ TEST_F(PassCount, AllThatAMethodMustFindEmptyIsClearedInOnePass) {
     for (const char* method : {"gather", "hybrid", "resolved", "adaptive"}) {
         if (!game::canRun(*game::findMethod(method).value(), device()))
             continue;
-        const render::FrameResult frame = drawer.draw(method);
+        const render::FrameResult frame = drawer.draw(method, true);
         EXPECT_EQ(countPasses(frame, "clear"), 1) << method;
     }
+}
+
+TEST_F(PassCount, WhatNobodyReadsIsNotReadBack) {
+    Drawer drawer(device());
+    const auto check = [&](const char* method, const char* counter, const char* pass) {
+        if (!game::canRun(*game::findMethod(method).value(), device()))
+            return;
+        // Frames that follow are alike: the first builds what rays need and counts its blocks.
+        (void)drawer.draw(method, true);
+        const render::FrameResult counted = drawer.draw(method, true);
+        const render::FrameResult plain = drawer.draw(method, false);
+        EXPECT_TRUE(counted.statistics.counters.contains(counter)) << method;
+        EXPECT_FALSE(plain.statistics.counters.contains(counter)) << method;
+        EXPECT_EQ(countPasses(counted, pass), 1) << method;
+        EXPECT_EQ(countPasses(plain, pass), 0) << method;
+        EXPECT_EQ(plain.statistics.passes.size() + 1, counted.statistics.passes.size()) << method;
+        EXPECT_TRUE(test::sameBits(plain.color, counted.color)) << method;
+        // They choose how the next frame's still pixels are copied.
+        EXPECT_TRUE(plain.statistics.counters.contains("blocks still")) << method;
+    };
+    check("hybrid", "pixels masked", "read ray mask counters");
+    check("resolved", "unresolved samples", "read resolved counters");
 }
 
 } // namespace

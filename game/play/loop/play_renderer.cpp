@@ -82,7 +82,7 @@ core::Status PlayRenderer::draw(
     frame.view = picture.view;
     frame.wantColor = false;
     frame.showsDisplay = true;
-    frame.wantReasons = picture.wantReasons;
+    frame.wantReasons = frame.wantCounters = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
     mBloom.configure({settings.bloomShare});

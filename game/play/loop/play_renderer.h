@@ -26,7 +26,7 @@ struct PlayPicture {
     extract::ViewRequest view;
     app::WindowTarget window;
     bool readBack = false;    ///< keep the window's picture for takePicture()
-    bool wantReasons = false; ///< of the work and passes too, for the panel
+    bool wantReasons = false; ///< of the work and passes too, and counters, for the panel
     motion_blur::UntilReady untilReady = motion_blur::UntilReady::Wait;
 
     /// Rays that are added to the picture drawn last, whose view it shares.

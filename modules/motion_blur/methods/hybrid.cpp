@@ -83,8 +83,8 @@ MotionBlurOutputs HybridPasses::add(
         mask.arguments,
         inputs.rays.value_or(graph::RayScene{}),
         inputs.slot,
-        inputs.wantsCounters};
-    if (inputs.reveal && inputs.wantsCounters)
+        inputs.countsOwn()};
+    if (inputs.reveal && inputs.countsOwn())
         mReveal.countOwn(graph, mask.list, inputs.slot);
     const RayRevealOutputs reveal = inputs.reveal
                                         ? addOwnReveal(graph, mDevice, revealInputs, *inputs.reveal)
@@ -159,13 +159,13 @@ const Method kHybrid = {
     .name = "hybrid",
     .description = "gather with the background that rays reveal (the paper)",
     .publication = "Tan, Cui, Bhojan, Hybrid MBlur",
+    .standIn = "gather",
     .rays = RayNeed::Any,
     .readsNormal = true,
     .readsEntityId = true,
     .usesUniformMotion = true,
     .listBytesPerPixel = 4, // the list of masked pixels
     .settings =
-    .standIn = "gather",
         {"tileSizePx",
          "neighbourhoodTiles",
          "softDepthExtent",

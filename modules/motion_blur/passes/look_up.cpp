@@ -335,7 +335,7 @@ MotionBlurOutputs LookUp::end(
     const PassParams& params,
     SharedPasses& shared
 ) const {
-    if (inputs.wantsCounters)
+    if (inputs.countsOwn())
         readCounters(graph, found.search.counters, inputs.slot);
     MotionBlurOutputs outputs;
     outputs.color = shared.stillPixels.end(

@@ -122,7 +122,10 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         mInstantMotions.forget();
     const bool keepsOnly = onlyKeeps(context.facts);
     const bool standsIn = mStandIn.has_value();
+    // Counts of blocks choose how the next frames' still pixels are copied, whoever else reads
+    // them.
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
+    inputs.wantsMethodCounters = context.facts.countersWanted;
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
     mDrawn.at(context.slot) = {level, keepsOnly, standsIn};
     inputs.slot = context.slot;
