@@ -29,9 +29,11 @@ namespace shutter::faults {
 #define SHUTTER_NEXT_OF_DEVICE(X)                                                                  \
     X(AcquireNextImageKHR)                                                                         \
     X(AllocateMemory)                                                                              \
+    X(BeginCommandBuffer)                                                                          \
     X(CreateSwapchainKHR)                                                                          \
     X(DestroyDevice)                                                                               \
     X(DeviceWaitIdle)                                                                              \
+    X(EndCommandBuffer)                                                                            \
     X(FreeMemory)                                                                                  \
     X(GetBufferMemoryRequirements)                                                                 \
     X(GetBufferMemoryRequirements2)                                                                \
@@ -97,6 +99,8 @@ struct DeviceTable {
     std::array<std::atomic<uint32_t>, kMaxCreations> creationCounts{}; ///< as SHUTTER_CREATIONS
     std::atomic<uint32_t> swapchainCount = 0;
     std::atomic<uint32_t> acquisitionCount = 0;
+    std::atomic<uint32_t> recordingCount = 0;       ///< command buffers begun and not ended
+    std::atomic<uint32_t> lateAcquisitionCount = 0; ///< while one was recorded
     std::atomic<uint32_t> presentationCount = 0;
     std::mutex hiddenMutex;
     std::set<VkDeviceMemory> hiddenMemory; ///< memory of types that are said not to be visible
@@ -110,7 +114,7 @@ DeviceTable& addDevice(VkDevice device, PFN_vkGetDeviceProcAddr getProcAddr);
 
 /// \param handle an instance, or a physical device of it
 [[nodiscard]] InstanceTable& findInstance(const void* handle);
-/// \param handle a device, or a queue of it
+/// \param handle a device, or a queue or command buffer of it
 [[nodiscard]] DeviceTable& findDevice(const void* handle);
 
 /// A function of this layer.

@@ -93,10 +93,12 @@ void writeCounts(const DeviceTable& table) {
         refuse("cannot write '" + path + "'");
     std::fprintf(
         file,
-        "{\"allocations\": %u, \"submissions\": %u, \"acquisitions\": %u, \"presentations\": %u",
+        "{\"allocations\": %u, \"submissions\": %u, \"acquisitions\": %u, "
+        "\"lateAcquisitions\": %u, \"presentations\": %u",
         table.allocationCount.load(),
         table.submissionCount.load(),
         table.acquisitionCount.load(),
+        table.lateAcquisitionCount.load(),
         table.presentationCount.load()
     );
     const auto names = listCreationNames();

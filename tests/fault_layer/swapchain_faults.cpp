@@ -19,6 +19,8 @@ VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(
     DeviceTable& table = findDevice(device);
     const auto& planned = FaultPlan::get().acquisitions;
     const auto found = planned.find(++table.acquisitionCount);
+    if (table.recordingCount > 0)
+        ++table.lateAcquisitionCount;
     if (table.isLost)
         return VK_ERROR_DEVICE_LOST;
     // An error acquires nothing and leaves the semaphore alone.
@@ -27,6 +29,19 @@ VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(
     const VkResult result =
         table.AcquireNextImageKHR(device, swapchain, timeout, semaphore, fence, index);
     return result == VK_SUCCESS && found != planned.end() ? found->second : result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL
+beginCommandBuffer(VkCommandBuffer commands, const VkCommandBufferBeginInfo* info) {
+    DeviceTable& table = findDevice(commands);
+    ++table.recordingCount;
+    return table.BeginCommandBuffer(commands, info);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL endCommandBuffer(VkCommandBuffer commands) {
+    DeviceTable& table = findDevice(commands);
+    --table.recordingCount;
+    return table.EndCommandBuffer(commands);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(
@@ -62,7 +77,9 @@ VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKH
 std::span<const Entry> listSwapchainFaults() {
     static const std::array sEntries{
         SHUTTER_ENTRY(AcquireNextImageKHR, acquireNextImage),
+        SHUTTER_ENTRY(BeginCommandBuffer, beginCommandBuffer),
         SHUTTER_ENTRY(CreateSwapchainKHR, createSwapchain),
+        SHUTTER_ENTRY(EndCommandBuffer, endCommandBuffer),
         SHUTTER_ENTRY(QueuePresentKHR, queuePresent),
     };
     return sEntries;

@@ -66,6 +66,13 @@ class Window(FaultCase):
                               result.stderr)
                 self.assertNotIn("validation", result.stderr.lower())
 
+    def test_a_frame_is_recorded_before_it_waits_for_an_image_of_the_window(self):
+        counts = self.folder / "counts.json"
+        self.expect_done(self.play({"counts": counts}))
+        counted = json.loads(counts.read_text(encoding="utf-8"))
+        self.assertEqual(counted["acquisitions"], FRAMES)
+        self.assertEqual(counted["lateAcquisitions"], FRAMES)
+
     def test_a_surface_that_goes_while_its_swapchain_is_made_is_replaced(self):
         counts = self.folder / "counts.json"
         for answers in ("1=SURFACE_LOST", "2=SURFACE_LOST", "1=SURFACE_LOST,2=SURFACE_LOST"):
