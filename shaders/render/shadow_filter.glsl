@@ -85,6 +85,14 @@ SHUTTER_INLINE float lightThrough(vec3 casters, vec3 weights, vec3 depths) {
            (casters.z > at.z ? 0.0f : weights.z);
 }
 
+/// The weights of nine texels need not add up to exactly 1: their rounding must neither darken what is
+/// fully lit nor light what is fully dark.
+SHUTTER_INLINE float settleLight(float sum) {
+    float rounding = 1.0e-6f;
+    if (sum < rounding) return 0.0f;
+    return sum > 1.0f - rounding ? 1.0f : sum;
+}
+
 /// Which of a point light's six maps sees a direction: +x -x +y -y +z -z.
 SHUTTER_INLINE uint cubeFace(vec3 direction) {
     vec3 a = abs(direction);

@@ -67,7 +67,7 @@ float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
         vec3 depths = own + place.slope.x * vec3(-1.0f, 0.0f, 1.0f);
         light += down[row] * lightThrough(casters, across, depths);
     }
-    return light;
+    return settleLight(light);
 }
 
 /// Where the receiver is in a map, lifted off its surface.

@@ -65,6 +65,28 @@ TEST(ShadowFilter, WeightsSumToOneAndAreEvenAtTheCentre) {
     EXPECT_NEAR(splineWeights(0.5f).z, splineWeights(-0.5f).y, 1e-6f);
 }
 
+/// What filterMap() adds up where all nine texels let light through, or none does.
+float addTexels(float right, float down, float caster) {
+    const vec3 across = splineWeights(right);
+    const vec3 rows = splineWeights(down);
+    const float row = lightThrough(vec3(caster), across, vec3(0.5f));
+    return rows.x * row + rows.y * row + rows.z * row;
+}
+
+TEST(ShadowFilter, WhatIsFullyLitOrDarkIsExactlySo) {
+    bool isRounded = false;
+    for (int i = -50; i <= 50; ++i)
+        for (int j = -50; j <= 50; ++j) {
+            const float lit = addTexels(0.01f * float(i), 0.01f * float(j), 0.0f);
+            isRounded = isRounded || lit != 1.0f;
+            EXPECT_EQ(settleLight(lit), 1.0f) << i << ", " << j;
+            EXPECT_EQ(settleLight(1.0f - lit), 0.0f) << i << ", " << j;
+        }
+    EXPECT_TRUE(isRounded) << "nothing had to be settled";
+    for (const float soft : {1.0e-3f, 0.25f, 0.999f})
+        EXPECT_EQ(settleLight(soft), soft);
+}
+
 TEST(ShadowFilter, ASlopeIsExactOnAPlaneWhateverTheView) {
     const dvec3 toLight = glm::normalize(dvec3(0.3, 1.0, 0.2));
     const extract::LightView layer = extract::fitLayer(toLight, {{0, 0, 0}, 2.0}, kSize);
