@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shutter::extract {
 
@@ -101,9 +102,15 @@ class Planner {
         size_t casters = 0;
         for (uint32_t row = 0; row < mFrame.changes.ownRows; ++row) {
             casters += castsShadows(mLayout, mFrame.entityMeshes[row]);
-            mScene.add(math::transformBounds(
+            const math::Bounds box = math::transformBounds(
                 mFrame.worldFromObject[row], findRowBounds(mFrame, mLayout, row)
-            ));
+            );
+            mScene.add(box);
+            // Outside of the box: what surrounds the camera says nothing of how near it comes.
+            const double distance =
+                glm::length(glm::max(glm::max(box.min - eye(), eye() - box.max), 0.0));
+            if (distance > 0.0)
+                mNearest = std::min(mNearest, distance);
         }
         if (casters == 0)
             return {false, "nothing casts shadows"};
@@ -273,7 +280,10 @@ class Planner {
             slice.isPerspective ? constants.pixelFootprint.x : constants.pixelFootprint.y;
         slice.cornerReach =
             0.5 * pixel * std::hypot(double(constants.sizePx.x), double(constants.sizePx.y));
+        // Rounded down, so that moving on moves no cascade for a while.
         slice.near = mWorld.registry.get<scene::Camera>(mView.camera).near;
+        if (std::isfinite(mNearest))
+            slice.near = std::max(slice.near, std::exp2(std::floor(std::log2(mNearest))));
         return slice;
     }
 
@@ -364,6 +374,8 @@ class Planner {
     bool mBlurs = false;
     std::vector<PlacedLight> mLights;
     math::Bounds mScene; ///< all rows, world space
+    /// Distance of the nearest row's box from the camera, of those that it is not in; metres.
+    double mNearest = std::numeric_limits<double>::infinity();
     std::vector<Mover> mMovers;
     size_t mMoving = 0;      ///< of mMovers, in the exposure
     size_t mSharpMovers = 0; ///< that have no layers

@@ -16,13 +16,8 @@ using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 
-/// Between splits by equal ratios (1) and by equal distances (0): Zhang et al. 2006,
-/// "Parallel-Split Shadow Maps", with more of the ratios, since the finest cascades are cheap to
-/// keep.
-constexpr double kRatioShare = 0.7;
-
 /// Least share of the farthest distance that the first cascade begins at.
-constexpr double kLeastNearShare = 1.0 / 64.0;
+constexpr double kLeastNearShare = 1.0 / 256.0;
 
 /// Steps of a cascade's place, in its width.
 constexpr double kStep = 1.0 / 8.0;
@@ -143,9 +138,9 @@ std::vector<LightView> fitCascades(
     double from = first;
     for (uint32_t i = 1; i <= kMaxCascades; ++i) {
         const double share = double(i) / kMaxCascades;
-        const double to = std::lerp(
-            std::lerp(first, last, share), first * std::pow(last / first, share), kRatioShare
-        );
+        // Equal ratios: a texel is as wide in the picture everywhere (Zhang et al. 2006,
+        // "Parallel-Split Shadow Maps").
+        const double to = first * std::pow(last / first, share);
         const Sphere slice = boundSlice(camera, from, to);
         const double half = roundUp(slice.radius / usableShare(sizePx), 4.0);
         if (half >= whole) {

@@ -26,7 +26,7 @@ struct CameraSlice {
     /// any (orthographic).
     double cornerReach = 1.0;
     bool isPerspective = true;
-    double near = 0.05; ///< metres along the view, above 0
+    double near = 0.05; ///< metres along the view, above 0: nothing much is nearer
 };
 
 struct Sphere {

@@ -67,6 +67,16 @@ TEST(ShadowViews, CascadesGrowAndTheLastHasTheWholeScene) {
             EXPECT_TRUE(isInside(views.back(), {x, 0.0, z})) << x << ", " << z;
 }
 
+TEST(ShadowViews, EachCascadeReachesTheSameNumberOfTimesAsFarAsTheOneBefore) {
+    CameraSlice camera = makeCamera();
+    camera.near = 4.0;
+    const auto views = fitCascades(camera, kToSun, makeBox(5000.0), 1024.0, kSize);
+    ASSERT_EQ(views.size(), size_t{kMaxCascades});
+    // Four times, give or take the rounding of their widths to quarters of a power of two.
+    for (size_t i = 1; i < views.size(); ++i)
+        EXPECT_NEAR(std::log2(views[i].texelMetres / views[i - 1].texelMetres), 2.0, 0.26) << i;
+}
+
 TEST(ShadowViews, ACascadeStaysWhileTheCameraMovesALittleAndThenMovesByWholeTexels) {
     const math::Bounds scene = makeBox(500.0);
     const auto before = fitCascades(makeCamera(), kToSun, scene, 1000.0, kSize);
