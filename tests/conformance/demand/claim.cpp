@@ -13,6 +13,7 @@ std::vector<Claim> listClaims() {
         makeMethodsClaim(),
         makeTraversalClaim(),
         makeInstantsClaim(),
+        makeLitClaim(),
         makeTogglesClaim()};
 }
 

@@ -65,6 +65,7 @@ struct Claim {
 [[nodiscard]] Claim makeMethodsClaim();
 [[nodiscard]] Claim makeTraversalClaim();
 [[nodiscard]] Claim makeInstantsClaim();
+[[nodiscard]] Claim makeLitClaim();
 [[nodiscard]] Claim makeTogglesClaim();
 
 } // namespace shutter::demand
