@@ -74,7 +74,7 @@ class Measured(unittest.TestCase):
         # So small and once only, times say nothing: claims may break, but each is measured. Toggles
         # has a test of its own.
         names = ["Still", "MovingShare", "Reveal", "Entities", "FullScreen", "MethodsAgainstGather",
-                 "RevealTraversal", "Instants"]
+                 "RevealTraversal", "Instants", "Lit"]
         cases = [word for name in names for word in ("--case", name)]
         results = self.measure("--suite", "demand", *cases, statuses=(0, 1), size="160x90")
         self.validate(results)
@@ -89,6 +89,8 @@ class Measured(unittest.TestCase):
         for check in claims["Instants"]["checks"]:
             if "time" not in check["check"]:
                 self.assertTrue(check["held"], check)
+        for check in claims["Lit"]["checks"]:
+            self.assertTrue(check["held"], check)
         shares = [[p["x"] for p in curve["points"]] for curve in claims["MovingShare"]["curves"]]
         self.assertEqual(len(shares), 6)
         self.assertEqual([shares[0][0], shares[0][-1]], [0, 100])
