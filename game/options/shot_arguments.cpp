@@ -146,7 +146,9 @@ Status parseShadows(const ShotArguments& arguments, ShotOptions& options) {
         .instants = arguments.shadowInstants};
     // Written so that NaN fails.
     if (!(arguments.shadowDistance >= 0.0 && std::isfinite(arguments.shadowDistance)))
-        return makeError("--shadow-distance {} must be 0 or more", arguments.shadowDistance);
+        return makeError(
+            "--shadow-distance {} must be 0 or more and finite", arguments.shadowDistance
+        );
     if (arguments.shadowInstants < 1 || arguments.shadowInstants > 64)
         return makeError("--shadow-instants {} must lie in [1, 64]", arguments.shadowInstants);
     if (!extract::validate(options.shadows).ok())
