@@ -25,6 +25,7 @@ constexpr size_t kMaxKeys = 100'000;
 constexpr json::JsonRange kTimes{.min = -1.0e6, .max = 1.0e6};
 constexpr json::JsonRange kPlaces{.min = -1.0e9, .max = 1.0e9};
 constexpr json::JsonRange kFieldsOfView{.min = 0.01, .max = 179.0};
+constexpr json::JsonRange kTimeScales{.min = 0.001, .max = 1000.0};
 constexpr json::JsonRange kRates{.min = 0.0, .max = 1000.0, .isAboveMin = true};
 /// Tolerance of a rotation's length, whose components a file may have rounded.
 constexpr double kUnitTolerance = 1.0e-3;
@@ -85,9 +86,9 @@ FlythroughShutter readShutter(const json::JsonNode& node) {
 FlythroughKey
 readKey(const json::JsonNode& node, const FlythroughKey* first, const FlythroughKey* before) {
     FlythroughKey key;
-    const json::JsonObject object =
-        node.readObject({"time", "position", "lookAt", "rotation", "fieldOfView", "shutter", "cut"}
-        );
+    const json::JsonObject object = node.readObject(
+        {"time", "position", "lookAt", "rotation", "fieldOfView", "shutter", "timeScale", "cut"}
+    );
     const json::JsonNode time = object.require("time");
     key.seconds = time.readNumber(kTimes);
     if (before && !(key.seconds > before->seconds))
@@ -101,6 +102,8 @@ readKey(const json::JsonNode& node, const FlythroughKey* first, const Flythrough
         key.fieldOfView = fieldOfView->readNumber(kFieldsOfView);
     if (const auto shutter = object.find("shutter"))
         key.shutter = readShutter(*shutter);
+    if (const auto timeScale = object.find("timeScale"))
+        key.timeScale = timeScale->readNumber(kTimeScales);
     if (const auto cut = object.find("cut"))
         key.cut = cut->readBoolean();
     if (key.lookAt.has_value() == key.rotation.has_value())
@@ -179,6 +182,8 @@ ordered_json describeKey(const FlythroughKey& key) {
         described["fieldOfView"] = *key.fieldOfView;
     if (key.shutter)
         described["shutter"] = describeShutter(*key.shutter);
+    if (key.timeScale)
+        described["timeScale"] = *key.timeScale;
     if (key.cut)
         described["cut"] = true;
     return described;
@@ -209,7 +214,7 @@ bool isFinite(const FlythroughKey& key) {
     return std::isfinite(key.seconds) && isFinite(key.position) &&
            (!key.lookAt || isFinite(*key.lookAt)) &&
            (!key.rotation || std::isfinite(glm::length(*key.rotation))) &&
-           isNone(key.fieldOfView) &&
+           isNone(key.fieldOfView) && isNone(key.timeScale) &&
            (!key.shutter ||
             (isNone(key.shutter->exposureSeconds) && isNone(key.shutter->angleDegrees)));
 }

@@ -32,6 +32,8 @@ struct FlythroughKey {
     std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
     std::optional<double> fieldOfView;   ///< vertical, degrees, [0.01, 179]; in all keys or none
     std::optional<FlythroughShutter> shutter;
+    /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp says between keys.
+    std::optional<double> timeScale;
     bool cut = false; ///< the camera jumps here; until then it stays at the key before
 };
 

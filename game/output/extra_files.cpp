@@ -5,6 +5,7 @@
 #include "engine/io/image_file.h"
 #include "engine/json/json_file.h"
 #include "engine/scene/shutter.h"
+#include "game/shot/shot.h"
 
 #include <nlohmann/json.hpp>
 
@@ -115,16 +116,12 @@ core::Status writeStatistics(
     const gpu::DeviceInfo& device,
     const std::vector<PictureStatistics>& pictures
 ) {
-    scene::CameraShutter shutter = options.shot.shutter;
-    if (options.shot.flythrough && options.shot.isFlythroughShutter)
-        flythrough::applyShutter(
-            *options.shot.flythrough, options.shot.frameTimes.front(), shutter
-        );
+    const scene::ExposureInterval exposure =
+        computeExposure(options.shot, options.shot.shutter, options.shot.frameTimes.front());
     ordered_json root;
     root["device"] = device.name;
     root["driver"] = device.driver;
-    root["exposure_s"] =
-        describeNumber(scene::computeExposureSeconds(shutter, options.shot.frameSeconds));
+    root["exposure_s"] = describeNumber(exposure.close - exposure.open);
     root["height"] = options.shot.height;
     root["method"] = options.method.method->name;
     ordered_json& described = root["pictures"] = ordered_json::array();

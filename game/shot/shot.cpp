@@ -2,6 +2,7 @@
 #include "game/shot/shot.h"
 
 #include "engine/core/log.h"
+#include "engine/flythrough/time_ramp.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/world.h"
@@ -161,10 +162,9 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
 extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, double seconds) {
     extract::ViewRequest view;
     view.camera = shot.camera;
-    auto shutter = shot.world.registry.get<scene::CameraShutter>(shot.camera);
-    if (options.flythrough && options.isFlythroughShutter)
-        flythrough::applyShutter(*options.flythrough, seconds, shutter);
-    view.exposure = scene::computeExposure(shutter, seconds, options.frameSeconds);
+    view.exposure = computeExposure(
+        options, shot.world.registry.get<scene::CameraShutter>(shot.camera), seconds
+    );
     view.width = options.width;
     view.height = options.height;
     view.background = options.background;
@@ -172,6 +172,16 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     view.unlit = options.unlit;
     view.shadows = options.shadows;
     return view;
+}
+
+scene::ExposureInterval
+computeExposure(const ShotOptions& options, scene::CameraShutter shutter, double seconds) {
+    if (!options.flythrough)
+        return scene::computeExposure(shutter, seconds, options.frameSeconds);
+    if (options.isFlythroughShutter)
+        flythrough::applyShutter(*options.flythrough, seconds, shutter);
+    return flythrough::TimeRamp(*options.flythrough)
+        .computeExposure(shutter, seconds, options.frameSeconds);
 }
 
 core::Status planFrames(const char* option, double first, double last, ShotOptions& options) {
@@ -194,10 +204,30 @@ core::Status planFrames(const char* option, double first, double last, ShotOptio
     options.frameTimes.clear();
     for (double frame = first; frame <= last; ++frame)
         options.frameTimes.push_back(frame / fps);
+    if (!options.flythrough)
+        return {};
+    const flythrough::TimeRamp ramp(*options.flythrough);
+    for (double& seconds : options.frameTimes) {
+        seconds = ramp.sceneFromFilm(seconds);
+        if (!(std::abs(seconds) <= kMaxSeconds))
+            return makeError(
+                "{}: by the flythrough's timeScale, frames {}:{} lie beyond {} seconds of the "
+                "scene",
+                option,
+                first,
+                last,
+                kMaxSeconds
+            );
+    }
     return {};
 }
 
 core::Status planWholeFlight(double from, double to, ShotOptions& options) {
+    if (options.flythrough) {
+        const flythrough::TimeRamp ramp(*options.flythrough);
+        from = ramp.filmFromScene(from);
+        to = ramp.filmFromScene(to);
+    }
     const double first = std::ceil(from * options.fps - kFrameSlack);
     const double last = std::max(std::floor(to * options.fps + kFrameSlack), first);
     return planFrames("--flythrough", first, last, options);

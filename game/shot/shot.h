@@ -28,7 +28,13 @@ struct Shot {
 [[nodiscard]] extract::ViewRequest
 makeView(const Shot& shot, const ShotOptions& options, double seconds);
 
-/// Sets frameTimes and firstFrame: frames `first` to `last`, both included, at `options.fps`.
+/// The exposure of the frame at a time of the scene.
+/// \param shutter of the camera; that of the flythrough changes it where no option sets one
+[[nodiscard]] scene::ExposureInterval
+computeExposure(const ShotOptions& options, scene::CameraShutter shutter, double seconds);
+
+/// Sets frameTimes and firstFrame: frames `first` to `last`, both included, at `options.fps` of the
+/// film.
 /// Error: names `option`; there are too many frames, or they lie beyond the times that count.
 [[nodiscard]] core::Status
 planFrames(const char* option, double first, double last, ShotOptions& options);

@@ -31,6 +31,7 @@ EXAMPLE = {
         {"time": 0, "position": [0, 1, 2], "lookAt": [0, 0, 0], "fieldOfView": 40,
          "shutter": {"exposure": 0.01, "phase": "centre"}},
         {"time": 1.5, "position": [0, 1, 3], "lookAt": [0, 0, 0], "fieldOfView": 30, "cut": True,
+         "timeScale": 0.25,
          "shutter": {"shutterAngle": 180}},
     ],
 }
@@ -69,6 +70,8 @@ WRONG = [
     (key({"fieldOfView": 180}), "keys[0].fieldOfView"),
     (key({"fieldOfView": 0}), "keys[0].fieldOfView"),
     (key({"cut": 1}), "keys[0].cut"),
+    (key({"timeScale": 0}), "keys[0].timeScale"),
+    (key({"timeScale": 1001}), "keys[0].timeScale"),
     (key({"colour": "red"}), "keys[0].colour"),
     (key({"shutter": {}}), "keys[0].shutter"),
     (key({"shutter": {"exposure": 1, "shutterAngle": 1}}), "keys[0].shutter"),

@@ -45,6 +45,8 @@ Flythrough makeFull() {
     flythrough.keys[1].shutter = FlythroughShutter{{}, 180.0, scene::ShutterPhase::Centre};
     flythrough.keys[2].shutter = FlythroughShutter{{}, {}, scene::ShutterPhase::Start};
     flythrough.keys[2].cut = true;
+    flythrough.keys[0].timeScale = 1.0 / 3.0;
+    flythrough.keys[2].timeScale = 2.0;
     return flythrough;
 }
 
@@ -78,6 +80,7 @@ TEST(Flythrough, IsReadBackToTheLastBit) {
         EXPECT_EQ(again.keys[i].rotation, written.keys[i].rotation);
         EXPECT_EQ(again.keys[i].fieldOfView, written.keys[i].fieldOfView);
         EXPECT_EQ(again.keys[i].cut, written.keys[i].cut);
+        EXPECT_EQ(again.keys[i].timeScale, written.keys[i].timeScale);
         ASSERT_TRUE(again.keys[i].shutter.has_value());
         EXPECT_EQ(again.keys[i].shutter->exposureSeconds, written.keys[i].shutter->exposureSeconds);
         EXPECT_EQ(again.keys[i].shutter->angleDegrees, written.keys[i].shutter->angleDegrees);

@@ -75,6 +75,35 @@ TEST_F(Flight, AMomentIsOneFrame) {
     EXPECT_EQ(load().frameTimes, std::vector<double>{4 / 10.0});
 }
 
+TEST_F(Flight, SlowMotionHasMoreFramesOfShorterExposures) {
+    write(R"({"version": 1, "fps": 10, "keys": [
+        {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0], "timeScale": 0.5,
+         "shutter": {"shutterAngle": 180, "phase": "end"}},
+        {"time": 0.2, "position": [0, 0, 2], "lookAt": [0, 0, 0]}]})");
+    const ShotOptions options = load();
+    ASSERT_EQ(options.frameTimes.size(), 5u);
+    for (size_t i = 0; i < 5; ++i)
+        EXPECT_NEAR(options.frameTimes[i], 0.05 * double(i), 1.0e-12);
+    const auto exposure = computeExposure(options, options.shutter, options.frameTimes[2]);
+    EXPECT_NEAR(exposure.close - exposure.open, 0.025, 1.0e-12);
+    EXPECT_NEAR(exposure.frameSeconds, 0.05, 1.0e-12);
+    // The same frame by its number.
+    mArguments.frames = "2:2";
+    EXPECT_EQ(load().frameTimes, std::vector<double>{options.frameTimes[2]});
+}
+
+TEST_F(Flight, ARampBeyondAllTimesIsRefused) {
+    write(R"({"version": 1, "fps": 10, "keys": [
+        {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0], "timeScale": 1000}]})");
+    mArguments.fps = 1.0e-3;
+    mArguments.frames = "0:1001";
+    auto options = interpret(mArguments);
+    ASSERT_TRUE(options.ok()) << options.error().message;
+    const core::Status loaded = loadFlythrough(mArguments, options.value());
+    ASSERT_FALSE(loaded.ok());
+    EXPECT_NE(loaded.error().message.find("timeScale"), std::string::npos);
+}
+
 TEST_F(Flight, TooLongAFlightIsRefused) {
     write(R"({"version": 1, "fps": 1000, "keys": [
         {"time": 0, "position": [0, 0, 1], "lookAt": [0, 0, 0]},
