@@ -25,6 +25,11 @@ constexpr std::array kViewRows = {
     makeRow<&A::camera>(
         "--camera", "camera by name or index; default: the first, or one that frames the scene"
     ),
+    makeRow<&A::framingTime>(
+        "--framing-time",
+        "when a camera made to fit the scene fits it, seconds; default: in the first frame drawn",
+        Matters::ToNoPicture // it counts as it is resolved, and only where a camera is made
+    ),
     makeRow<&A::time>("--time", "time of the picture, seconds; default 0"),
     makeRow<&A::fps>("--fps", "frames per second; default 24, or the flythrough's"),
     makeRow<&A::clips>("--clip", "clip to play (repeatable), or none; default: all"),
@@ -114,6 +119,14 @@ Status parseTimes(const ShotArguments& arguments, ShotOptions& options) {
         return makeError(
             "--time {} must lie in [-{}, {}]", arguments.time, kMaxSeconds, kMaxSeconds
         );
+    if (arguments.framingTime && !(std::abs(*arguments.framingTime) <= kMaxSeconds))
+        return makeError(
+            "--framing-time {} must lie in [-{}, {}]",
+            *arguments.framingTime,
+            kMaxSeconds,
+            kMaxSeconds
+        );
+    options.framingSeconds = arguments.framingTime;
     options.fps = arguments.fps.value_or(options.fps);
     if (!(options.fps > 0.0) || !std::isfinite(options.fps))
         return makeError("--fps {} must be above 0", options.fps);

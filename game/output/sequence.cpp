@@ -3,14 +3,13 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
-#include "engine/gltf/gltf_loader.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/output/extra_files.h"
+#include "game/output/fingerprint.h"
 #include "game/output/sequence_journal.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
-#include "game/shot/surroundings.h"
 
 #include <fmt/format.h>
 
@@ -68,35 +67,6 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
             line.decision.run ? "ran" : "skipped",
             line.decision.reason
         );
-}
-
-/// Hashes everything that a frame's picture depends on, except its number. A film's frames are
-/// named from the first on, so their names depend on that.
-core::Result<std::string>
-computeFingerprint(const RenderOptions& options, const gpu::DeviceInfo& device) {
-    auto scene = gltf::computeSceneHash(options.shot.scene, options.shot.reach);
-    if (!scene)
-        return scene.error();
-    auto program = io::computeFileHash("/proc/self/exe");
-    if (!program)
-        return program.error();
-    auto surroundings = computeSurroundingsHash(options.shot.environment);
-    if (!surroundings)
-        return surroundings.error();
-    return io::computeContentHash(fmt::format(
-        "scene {} surroundings {} program {} device {} {} flythrough {} clip {} fps {} first {} "
-        "options {}",
-        scene.value(),
-        surroundings.value(),
-        program.value(),
-        device.name,
-        device.driver,
-        options.shot.flythroughHash,
-        options.shot.flythroughClip,
-        options.shot.fps,
-        options.output.film.empty() ? 0 : options.shot.firstFrame,
-        options.fingerprint
-    ));
 }
 
 /// Number in the file's name: a film's frames count from 0.
@@ -314,12 +284,14 @@ core::Status renderSequence(
     SHUTTER_TRY(sequence.prepare(device, shot.value()));
     core::Status drawn;
     if (options.shot.isSequence) {
-        const auto fingerprint = computeFingerprint(options, device.info());
-        if (!fingerprint)
-            return fingerprint.error();
+        const auto pictures = computeFingerprint(options, shot.value());
+        if (!pictures)
+            return pictures.error();
+        const gpu::DeviceInfo& drawing = device.info();
+        const std::string fingerprint = addDevice(pictures.value(), drawing.name, drawing.driver);
         if (encoder)
-            drawn = renderFilm(*encoder, options, fingerprint.value(), sequence);
-        else if (core::Status opened = sequence.openJournal(fingerprint.value()); !opened)
+            drawn = renderFilm(*encoder, options, fingerprint, sequence);
+        else if (core::Status opened = sequence.openJournal(fingerprint); !opened)
             drawn = opened;
         else
             drawn = sequence.draw();

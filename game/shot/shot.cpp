@@ -58,6 +58,10 @@ core::Status selectClips(scene::World& world, const ShotOptions& options) {
     return {};
 }
 
+double findFramingTime(const ShotOptions& options) {
+    return options.framingSeconds.value_or(options.frameTimes.front());
+}
+
 core::Result<ecs::Entity> chooseCamera(scene::World& world, const ShotOptions& options) {
     if (options.flythrough)
         return flythrough::addFlythroughCamera(world, *options.flythrough);
@@ -114,7 +118,7 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& opt
         if (!world.cameras.empty())
             return world.cameras.front();
         const double aspect = double(options.width) / options.height;
-        return scene::addFramingCamera(world, aspect, options.frameTimes.front());
+        return scene::addFramingCamera(world, aspect, findFramingTime(options));
     }
     std::string names;
     for (size_t i = 0; i < world.cameras.size(); ++i) {
@@ -147,10 +151,13 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
     Shot shot;
     shot.world = std::move(loaded.value().world);
     SHUTTER_TRY(selectClips(shot.world, options));
+    const bool hasCamera = !shot.world.cameras.empty() || options.flythrough;
     auto camera = chooseCamera(shot.world, options);
     if (!camera)
         return camera.error();
     shot.camera = camera.value();
+    if (!hasCamera)
+        shot.framedAt = findFramingTime(options);
     shot.world.registry.add(shot.camera, options.shutter);
     // Surroundings of its own light a scene; a sky is that of the scene's sun.
     if (options.environment.empty() && !shot.world.assets.environment)

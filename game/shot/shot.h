@@ -10,11 +10,15 @@
 #include "engine/scene/world.h"
 #include "game/shot/shot_options.h"
 
+#include <optional>
+
 namespace shutter::game {
 
 struct Shot {
     scene::World world;
     ecs::Entity camera;
+    /// When the camera was made to fit, seconds; nothing: the scene or a flythrough has one.
+    std::optional<double> framedAt;
 };
 
 /// The camera that --camera names, the first, or one made to fit.

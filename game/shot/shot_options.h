@@ -45,7 +45,9 @@ struct ShotOptions {
     std::filesystem::path scene;
     io::Reach reach = io::Reach::Folder; ///< the files that the scene, or a script, may name
     std::string camera;                  ///< name or index; empty: the first
-    std::vector<std::string> clips;      ///< names, or "none"; empty: all
+    /// When a camera made to fit the scene fits it, seconds; nothing: in the first frame.
+    std::optional<double> framingSeconds;
+    std::vector<std::string> clips; ///< names, or "none"; empty: all
     bool loop = false;
     std::vector<double> frameTimes; ///< seconds
     int firstFrame = 0;             ///< number of the first file of a sequence

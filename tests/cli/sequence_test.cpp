@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flythroughs and films as a person renders them: the same bits each time, stopped or not.
 #include "tests/cli/cli_fixture.h"
+#include "tests/cli/drifting_scene.h"
 #include "tests/cli/folder_watch.h"
 
 #include <fmt/format.h>
@@ -103,6 +104,28 @@ TEST_F(Sequence, OtherOptionsDrawAllAnewAndSaySo) {
     writeFile("flight.json", other);
     const auto changed = expectSuccess(fly({"--frames", "0:1", "--unlit", "--out", "f_%04d.png"}));
     EXPECT_NE(changed.out.find("drawn otherwise"), std::string::npos) << changed.out;
+}
+
+TEST_F(Sequence, ACameraMadeToFitFitsWhenItIsTold) {
+    writeFile("drifting.gltf", kDriftingScene);
+    const auto draw = [&](const Arguments& more) {
+        Arguments arguments = {"render", "drifting.gltf", "--size", "64x36", "--method", "sharp"};
+        arguments.insert(arguments.end(), kOnSoftware.begin(), kOnSoftware.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return expectSuccess(arguments).out;
+    };
+    draw({"--time", "1", "--out", "fitted.png"});
+    draw({"--time", "1", "--framing-time", "1", "--out", "same.png"});
+    draw({"--time", "1", "--framing-time", "0", "--out", "other.png"});
+    EXPECT_TRUE(readFile("same.png") == readFile("fitted.png"));
+    EXPECT_TRUE(readFile("other.png") != readFile("fitted.png"));
+    // A frame that another camera drew is drawn again.
+    draw({"--fps", "2", "--frames", "1:2", "--out", "f_%d.png"});
+    const std::string own = readFile("f_2.png");
+    const std::string said = draw({"--fps", "2", "--frames", "0:2", "--out", "f_%d.png"});
+    EXPECT_NE(said.find("drawn otherwise"), std::string::npos) << said;
+    EXPECT_TRUE(readFile("f_2.png") != own);
+    EXPECT_TRUE(readFile("f_2.png") == readFile("other.png"));
 }
 
 TEST_F(Sequence, KilledInTheMiddleAndStartedAgainItLeavesTheSameFiles) {

@@ -234,6 +234,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--ffmpeg", {}},                             // needs a film
         {"--flythrough", {"--flythrough", "f.json"}}, // told by content
         {"--frames", {"--frames", "0:3"}},
+        {"--framing-time", {"--framing-time", "1"}}, // told as it is resolved
         {"--hash-passes", {"--hash-passes", "h.json"}},
         {"--keep-frames", {}}, // needs a film
         {"--out", {}},
