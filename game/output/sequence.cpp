@@ -25,8 +25,8 @@ namespace {
 
 /// \return the files that were written
 core::Result<std::vector<std::filesystem::path>>
-writePicture(const RenderOptions& options, int frameNumber, const render::FrameResult& result) {
-    const std::filesystem::path file = frameFile(options.output.out, frameNumber);
+writePicture(const RenderOptions& options, size_t frame, const render::FrameResult& result) {
+    const std::filesystem::path file = fileOfFrame(options, frame);
     std::vector<std::filesystem::path> files = {file};
     const image::Image& drawn = options.output.displayOut ? result.display : result.color;
     const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
@@ -69,16 +69,6 @@ void printExplanations(double seconds, const render::FrameStatistics& statistics
         );
 }
 
-/// Number in the file's name: a film's frames count from 0.
-int fileNumber(const RenderOptions& options, size_t frame) {
-    return static_cast<int>(frame) + (options.output.film.empty() ? options.shot.firstFrame : 0);
-}
-
-/// Key in the journal.
-int frameNumber(const RenderOptions& options, size_t frame) {
-    return static_cast<int>(frame) + options.shot.firstFrame;
-}
-
 /// What drawing alone tells makes frames that need not be drawn needed.
 bool maySkip(const RenderOptions& options) {
     return !options.output.restart && options.output.stats.empty() && !options.output.explain &&
@@ -88,7 +78,12 @@ bool maySkip(const RenderOptions& options) {
 /// A sequence on its way, with its journal; a single picture has none.
 class Sequence {
   public:
-    explicit Sequence(const RenderOptions& options) : mOptions(options) {}
+    explicit Sequence(const RenderOptions& options)
+        : mOptions(options), mCount(options.shot.frameTimes.size()) {}
+
+    /// \param part draws this alone
+    Sequence(const RenderOptions& options, const FramePart& part)
+        : mOptions(options), mFirst(part.first), mCount(part.count) {}
 
     /// Error: the device cannot draw this. Nothing was written yet.
     core::Status prepare(gpu::Device& device, const Shot& shot) {
@@ -106,8 +101,8 @@ class Sequence {
     }
 
     /// Looks for what an earlier run left, and says so.
-    core::Status openJournal(const std::string& fingerprint) {
-        auto opened = SequenceJournal::open(journalFile(mOptions.output.out), fingerprint);
+    core::Status openJournal(const std::filesystem::path& file, const std::string& fingerprint) {
+        auto opened = SequenceJournal::open(file, fingerprint);
         if (!opened)
             return opened.error();
         mJournal = std::move(opened).value();
@@ -118,17 +113,30 @@ class Sequence {
             );
         if (!maySkip(mOptions))
             return {};
-        for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
-            mIsComplete.push_back(mJournal->isComplete(
-                frameNumber(mOptions, i), frameFile(mOptions.output.out, fileNumber(mOptions, i))
-            ));
+        for (size_t i = mFirst; i < mFirst + mCount; ++i)
+            mIsComplete.push_back(
+                mJournal->isComplete(numberOfFrame(mOptions, i), fileOfFrame(mOptions, i))
+            );
         if (countComplete() > 0)
             fmt::print(
                 "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
                 mOptions.output.out.string(),
                 countComplete(),
-                mOptions.shot.frameTimes.size()
+                mCount
             );
+        return {};
+    }
+
+    /// Takes over what an unbroken run left of the part.
+    core::Status takeFrames(const SequenceJournal& whole) {
+        for (size_t i = mFirst; i < mFirst + mCount; ++i) {
+            const int number = numberOfFrame(mOptions, i);
+            const std::filesystem::path file = fileOfFrame(mOptions, i);
+            if (mJournal->isComplete(number, file) || !whole.isComplete(number, file))
+                continue;
+            SHUTTER_TRY(mJournal->addFrom(whole, number));
+            mIsComplete[i - mFirst] = true;
+        }
         return {};
     }
 
@@ -136,14 +144,14 @@ class Sequence {
     core::Status draw() {
         bool hasKeptPipelines = false;
         const uint64_t draws = mOptions.output.repeat > 1 ? mOptions.output.repeat + 1 : 1;
-        const size_t count = mOptions.shot.frameTimes.size() - countComplete();
+        const size_t count = mCount - countComplete();
         if (count == 0)
             return {};
         core::Progress progress(
             "rendering",
             count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.antiAliasing) * draws
         );
-        for (size_t i = 0; i < mOptions.shot.frameTimes.size(); ++i)
+        for (size_t i = mFirst; i < mFirst + mCount; ++i)
             if (!isComplete(i)) {
                 SHUTTER_TRY(drawFrame(i, progress));
                 if (count > 1 && !std::exchange(hasKeptPipelines, true))
@@ -186,7 +194,7 @@ class Sequence {
     }
 
     [[nodiscard]] bool isComplete(size_t frame) const {
-        return frame < mIsComplete.size() && mIsComplete[frame];
+        return !mIsComplete.empty() && mIsComplete[frame - mFirst];
     }
 
     [[nodiscard]] size_t countComplete() const {
@@ -206,16 +214,18 @@ class Sequence {
             SHUTTER_TRY(
                 writePassHashes(mOptions.output.hashPasses, mDevice->info(), result.value().trace)
             );
-        const auto files = writePicture(mOptions, fileNumber(mOptions, frame), result.value());
+        const auto files = writePicture(mOptions, frame, result.value());
         if (!files)
             return files.error();
         if (!mOptions.output.stats.empty())
             mPictures.push_back({seconds, result.value().statistics});
-        return mJournal ? mJournal->add(frameNumber(mOptions, frame), files.value())
+        return mJournal ? mJournal->add(numberOfFrame(mOptions, frame), files.value())
                         : core::Status();
     }
 
     const RenderOptions& mOptions;
+    size_t mFirst = 0; ///< of the frames that are drawn
+    size_t mCount = 0;
     gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
@@ -223,7 +233,7 @@ class Sequence {
     std::optional<tonemap::Tonemap> mTonemap;
     std::optional<PictureDrawer> mDrawer;
     std::optional<SequenceJournal> mJournal;
-    std::vector<bool> mIsComplete; ///< one per frame; empty: none is
+    std::vector<bool> mIsComplete; ///< one per frame that is drawn; empty: none is
     std::vector<PictureStatistics> mPictures;
 };
 
@@ -262,7 +272,7 @@ core::Status renderFilm(
         return {};
     }
     SHUTTER_TRY(makeFilmFolder(options));
-    SHUTTER_TRY(sequence.openJournal(fingerprint));
+    SHUTTER_TRY(sequence.openJournal(journalFile(options.output.out), fingerprint));
     SHUTTER_TRY(sequence.draw());
     SHUTTER_TRY(encodeFilm(encoder, options));
     // Known to be complete before its frames go: a run that ends here draws nothing again.
@@ -272,6 +282,40 @@ core::Status renderFilm(
 }
 
 } // namespace
+
+std::filesystem::path fileOfFrame(const RenderOptions& options, size_t frame) {
+    const int number = static_cast<int>(frame);
+    return frameFile(
+        options.output.out, options.output.film.empty() ? number + options.shot.firstFrame : number
+    );
+}
+
+int numberOfFrame(const RenderOptions& options, size_t frame) {
+    return static_cast<int>(frame) + options.shot.firstFrame;
+}
+
+core::Status drawFrames(
+    const RenderOptions& options,
+    const Shot& shot,
+    const FramePart& part,
+    const std::string& fingerprint,
+    gpu::Device& device
+) {
+    SHUTTER_CHECK(
+        part.first + part.count <= options.shot.frameTimes.size(),
+        "frames {} and {} more",
+        part.first,
+        part.count
+    );
+    Sequence sequence(options, part);
+    SHUTTER_TRY(sequence.prepare(device, shot));
+    SHUTTER_TRY(sequence.openJournal(part.journal, fingerprint));
+    const auto whole = SequenceJournal::read(journalFile(options.output.out), fingerprint);
+    if (!whole)
+        return whole.error();
+    SHUTTER_TRY(sequence.takeFrames(whole.value()));
+    return sequence.draw();
+}
 
 core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
@@ -291,7 +335,9 @@ core::Status renderSequence(
         const std::string fingerprint = addDevice(pictures.value(), drawing.name, drawing.driver);
         if (encoder)
             drawn = renderFilm(*encoder, options, fingerprint, sequence);
-        else if (core::Status opened = sequence.openJournal(fingerprint); !opened)
+        else if (core::Status opened =
+                     sequence.openJournal(journalFile(options.output.out), fingerprint);
+                 !opened)
             drawn = opened;
         else
             drawn = sequence.draw();

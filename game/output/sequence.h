@@ -8,7 +8,9 @@
 #include "engine/gpu/device.h"
 #include "engine/io/video.h"
 #include "game/output/render_options.h"
+#include "game/shot/shot.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +22,33 @@ namespace shutter::game {
 [[nodiscard]] core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
 );
+
+/// Frames that one of several processes draws.
+struct FramePart {
+    size_t first = 0; ///< index among the shot's frame times
+    size_t count = 0;
+    std::filesystem::path journal; ///< its own, beside journalFile() of the pictures
+};
+
+/// Draws the frames of a part that are complete neither by its journal nor by that of the whole,
+/// and writes their files, not the film.
+/// \param shot loaded from `options.shot`, its frames planned
+/// \param fingerprint of the pictures, by the device
+[[nodiscard]] core::Status drawFrames(
+    const RenderOptions& options,
+    const Shot& shot,
+    const FramePart& part,
+    const std::string& fingerprint,
+    gpu::Device& device
+);
+
+/// The file of a frame. A film's files count from 0.
+/// \param frame index among the shot's frame times
+[[nodiscard]] std::filesystem::path fileOfFrame(const RenderOptions& options, size_t frame);
+
+/// The frame's number, by which journals know it.
+/// \param frame index among the shot's frame times
+[[nodiscard]] int numberOfFrame(const RenderOptions& options, size_t frame);
 
 /// The folder beside the film that its frames are drawn into, and their names, from 0.
 [[nodiscard]] std::filesystem::path filmFrames(const std::filesystem::path& film);

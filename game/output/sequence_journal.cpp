@@ -96,19 +96,30 @@ fs::path journalFile(const fs::path& pattern) {
 
 core::Result<SequenceJournal> SequenceJournal::open(fs::path file, const std::string& fingerprint) {
     SequenceJournal journal(std::move(file), Before::Nothing);
-    std::error_code ignored;
-    bool isWhole = false;
-    if (fs::is_regular_file(journal.mFile, ignored)) {
-        const auto bytes = io::readFileBytes(journal.mFile, kMaxJournalBytes);
-        if (!bytes)
-            return bytes.error();
-        const auto* text = reinterpret_cast<const char*>(bytes.value().data());
-        isWhole = journal.readLines({text, bytes.value().size()}, fingerprint);
-    }
-    if (isWhole)
-        return journal;
-    SHUTTER_TRY(journal.rewrite(fingerprint));
+    const auto isWhole = journal.readFile(fingerprint);
+    if (!isWhole)
+        return isWhole.error();
+    if (!isWhole.value())
+        SHUTTER_TRY(journal.rewrite(fingerprint));
     return journal;
+}
+
+core::Result<SequenceJournal> SequenceJournal::read(fs::path file, const std::string& fingerprint) {
+    SequenceJournal journal(std::move(file), Before::Nothing);
+    if (const auto isWhole = journal.readFile(fingerprint); !isWhole)
+        return isWhole.error();
+    return journal;
+}
+
+core::Result<bool> SequenceJournal::readFile(const std::string& fingerprint) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(mFile, ignored))
+        return false;
+    const auto bytes = io::readFileBytes(mFile, kMaxJournalBytes);
+    if (!bytes)
+        return bytes.error();
+    const auto* text = reinterpret_cast<const char*>(bytes.value().data());
+    return readLines({text, bytes.value().size()}, fingerprint);
 }
 
 bool SequenceJournal::readLines(std::string_view text, const std::string& fingerprint) {
@@ -179,6 +190,15 @@ bool SequenceJournal::isComplete(int frame, const fs::path& picture) const {
 
 std::string SequenceJournal::nameInFolder(const fs::path& file) const {
     return file.lexically_relative(folderOf(mFile)).string();
+}
+
+core::Status SequenceJournal::addFrom(const SequenceJournal& other, int frame) {
+    const auto found = other.mFrames.find(frame);
+    if (found == other.mFrames.end())
+        return {};
+    SHUTTER_TRY(appendLine(mFile, formatLine(frame, found->second)));
+    mFrames[frame] = found->second;
+    return {};
 }
 
 core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files) {

@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -29,6 +30,11 @@ class SequenceJournal {
     [[nodiscard]] static core::Result<SequenceJournal>
     open(std::filesystem::path file, const std::string& fingerprint);
 
+    /// What a journal of this fingerprint tells, without a write: another process may be adding to
+    /// it. Empty where there is none. Error: the file cannot be read.
+    [[nodiscard]] static core::Result<SequenceJournal>
+    read(std::filesystem::path file, const std::string& fingerprint);
+
     [[nodiscard]] Before before() const { return mBefore; }
 
     /// Whether all files of the frame are what they were when it was added, its own picture among
@@ -39,6 +45,13 @@ class SequenceJournal {
     /// \param files in the journal's folder or below, complete
     /// Error: a file cannot be read, or the journal cannot be written.
     [[nodiscard]] core::Status add(int frame, const std::vector<std::filesystem::path>& files);
+
+    /// Adds a frame that `other`, a journal in the same folder, has as complete, if it has it.
+    /// Error: the journal cannot be written.
+    [[nodiscard]] core::Status addFrom(const SequenceJournal& other, int frame);
+
+    /// Frames that were added, whatever became of their files.
+    [[nodiscard]] size_t frameCount() const { return mFrames.size(); }
 
     [[nodiscard]] const std::filesystem::path& file() const { return mFile; }
 
@@ -51,6 +64,8 @@ class SequenceJournal {
     SequenceJournal(std::filesystem::path file, Before before)
         : mFile(std::move(file)), mBefore(before) {}
 
+    /// False where there is no file, and where readLines() is false.
+    core::Result<bool> readFile(const std::string& fingerprint);
     /// False where a line is broken, as the last of a killed run may be.
     bool readLines(std::string_view text, const std::string& fingerprint);
     [[nodiscard]] core::Status rewrite(const std::string& fingerprint) const;

@@ -104,6 +104,41 @@ TEST_F(JournalOfASequence, CutOffAnywhereItStillTellsTheTruth) {
     }
 }
 
+TEST_F(JournalOfASequence, IsReadWithoutAWrite) {
+    const auto missing = SequenceJournal::read(file(), "a");
+    ASSERT_TRUE(missing.ok());
+    EXPECT_EQ(missing.value().frameCount(), 0u);
+    EXPECT_FALSE(fs::exists(file()));
+    ASSERT_TRUE(open("a").add(2, {write("f_0002.png", "x")}).ok());
+    const std::string cut = text() + "{\"files\": ["; // another process is adding to it
+    ASSERT_TRUE(io::writeFileText(file(), cut).ok());
+    const auto read = SequenceJournal::read(file(), "a");
+    ASSERT_TRUE(read.ok());
+    EXPECT_EQ(read.value().frameCount(), 1u);
+    EXPECT_TRUE(isComplete(read.value(), 2));
+    const auto other = SequenceJournal::read(file(), "b");
+    ASSERT_TRUE(other.ok());
+    EXPECT_EQ(other.value().frameCount(), 0u);
+    EXPECT_EQ(text(), cut);
+}
+
+TEST_F(JournalOfASequence, TakesFramesFromAnother) {
+    SequenceJournal part = open("a");
+    ASSERT_TRUE(part.add(2, {write("f_0002.png", "x")}).ok());
+    const fs::path wholeFile = mFolder / ".whole.journal";
+    {
+        auto whole = SequenceJournal::open(wholeFile, "a");
+        ASSERT_TRUE(whole.ok());
+        ASSERT_TRUE(whole.value().addFrom(part, 2).ok());
+        ASSERT_TRUE(whole.value().addFrom(part, 3).ok());
+        EXPECT_EQ(whole.value().frameCount(), 1u);
+    }
+    const auto again = SequenceJournal::read(wholeFile, "a");
+    ASSERT_TRUE(again.ok());
+    EXPECT_TRUE(isComplete(again.value(), 2));
+    EXPECT_FALSE(isComplete(again.value(), 3));
+}
+
 TEST_F(JournalOfASequence, WhatIsNoJournalBeginsAnew) {
     ASSERT_TRUE(open("a").add(0, {write("f_0000.png", "x")}).ok());
     const std::string header = text().substr(0, text().find('\n') + 1);
