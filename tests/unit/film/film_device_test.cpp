@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "game/film/film_device.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace shutter::film {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DeviceFile : public testing::Test {
+  protected:
+    DeviceFile() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        mFolder = fs::path(testing::TempDir()) / (std::string("device_") + test->name());
+        fs::remove_all(mFolder);
+        fs::create_directories(mFolder);
+        mFile = mFolder / "device.json";
+    }
+
+    ~DeviceFile() override { fs::remove_all(mFolder); }
+
+    [[nodiscard]] size_t countFiles() const {
+        return size_t(std::distance(fs::directory_iterator(mFolder), fs::directory_iterator()));
+    }
+
+    fs::path mFolder;
+    fs::path mFile;
+};
+
+} // namespace
+
+TEST_F(DeviceFile, TheFirstDeviceIsTheFilmsAndOthersAreNamedAndRefused) {
+    const auto none = readDevice(mFile);
+    ASSERT_TRUE(none.ok());
+    EXPECT_FALSE(none.value().has_value());
+    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}).ok());
+    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}).ok());
+    for (const FilmDevice& other : {FilmDevice{"card", "driver 2"}, FilmDevice{"c", "driver 1"}}) {
+        const core::Status refused = settleDevice(mFile, other);
+        ASSERT_FALSE(refused.ok());
+        for (const std::string& word :
+             {std::string("'card'"),
+              std::string("'driver 1'"),
+              "'" + other.name + "'",
+              "'" + other.driver + "'"})
+            EXPECT_NE(refused.error().message.find(word), std::string::npos)
+                << refused.error().message;
+    }
+    const auto settled = readDevice(mFile);
+    ASSERT_TRUE(settled.ok());
+    EXPECT_EQ(*settled.value(), (FilmDevice{"card", "driver 1"}));
+    EXPECT_EQ(countFiles(), 1u);
+}
+
+TEST_F(DeviceFile, OfDevicesThatTryAtOnceOneIsTheFilms) {
+    std::atomic<int> accepted = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 8; ++i)
+            threads.emplace_back([&, i] {
+                if (settleDevice(mFile, {"card", std::to_string(i)}).ok())
+                    ++accepted;
+            });
+    }
+    EXPECT_EQ(accepted, 1);
+    EXPECT_EQ(countFiles(), 1u);
+}
+
+} // namespace shutter::film
