@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -31,10 +32,12 @@ fs::path folderOf(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-uint8_t toByte(float value) {
+/// From [0, 1] to all values of the integer.
+template <class Integer> Integer toInteger(float value) {
     if (!(value > 0.0f))
         return 0; // NaN too
-    return uint8_t(std::lround(std::min(value, 1.0f) * 255.0f));
+    constexpr auto kMax = float(std::numeric_limits<Integer>::max());
+    return Integer(std::lround(std::min(value, 1.0f) * kMax));
 }
 
 uint32_t toUint(float value) {
@@ -45,23 +48,28 @@ uint32_t toUint(float value) {
 }
 
 /// Display formats hold one or three channels.
-std::vector<uint8_t> packBytes(const image::Image& image, uint32_t channels) {
+template <class Integer>
+std::vector<Integer> packIntegers(const image::Image& image, uint32_t channels) {
     const size_t count = size_t(image.width) * image.height;
-    std::vector<uint8_t> bytes(count * channels);
+    std::vector<Integer> packed(count * channels);
     for (size_t i = 0; i < count; ++i) {
         for (uint32_t c = 0; c < channels; ++c) {
-            bytes[i * channels + c] = toByte(image.pixels[i * image.channels + c]);
+            packed[i * channels + c] = toInteger<Integer>(image.pixels[i * image.channels + c]);
         }
     }
-    return bytes;
+    return packed;
 }
+
+/// Of formats for display: 8 bits a channel, or 16.
+enum class DisplayDepth : uint8_t { Bytes, Deep };
 
 std::string encode(
     const fs::path& path,
     const image::Image& image,
     SampleType type,
     std::span<const PictureText> texts,
-    std::vector<uint8_t>& out
+    std::vector<uint8_t>& out,
+    DisplayDepth depth = DisplayDepth::Bytes
 ) {
     oiio::EncodeRequest request;
     for (const PictureText& one : texts)
@@ -71,8 +79,14 @@ std::string encode(
     request.height = image.height;
     if (isDisplayFormat(path).value()) {
         request.channels = image.channels >= 3 ? 3 : 1;
+        if (depth == DisplayDepth::Deep) {
+            request.storage = oiio::Storage::Short;
+            const auto deep = packIntegers<uint16_t>(image, request.channels);
+            request.pixels = deep.data();
+            return oiio::encode(request, out);
+        }
         request.storage = oiio::Storage::Byte;
-        const std::vector<uint8_t> bytes = packBytes(image, request.channels);
+        const auto bytes = packIntegers<uint8_t>(image, request.channels);
         request.pixels = bytes.data();
         return oiio::encode(request, out);
     }
@@ -183,7 +197,8 @@ core::Status write(
     const fs::path& path,
     const image::Image& image,
     SampleType type,
-    std::span<const PictureText> texts
+    std::span<const PictureText> texts,
+    DisplayDepth depth = DisplayDepth::Bytes
 ) {
     checkImage(image);
     if (const core::Status writable = checkWritable(path); !writable)
@@ -192,7 +207,7 @@ core::Status write(
         return core::makeError("cannot write '{}': the picture has no pixels", path.string());
     }
     std::vector<uint8_t> bytes;
-    const std::string why = encode(path, image, type, texts, bytes);
+    const std::string why = encode(path, image, type, texts, bytes, depth);
     if (!why.empty())
         return core::makeError("cannot write '{}': {}", path.string(), why);
     return writeFileBytes(path, bytes);
@@ -202,6 +217,11 @@ core::Status write(
 
 core::Status writeImage(const fs::path& path, const image::Image& image, SampleType type) {
     return write(path, image, type, {});
+}
+
+core::Status writeDeepPng(const fs::path& path, const image::Image& image) {
+    SHUTTER_CHECK(lowerExtension(path) == ".png", "'{}' is no PNG", path.string());
+    return write(path, image, SampleType::Float, {}, DisplayDepth::Deep);
 }
 
 core::Status writePngWithTexts(

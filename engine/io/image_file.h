@@ -48,6 +48,10 @@ enum class SampleType : uint8_t { Half, Float, Uint };
     SampleType type = SampleType::Float
 );
 
+/// writeImage() of a .png (CHECKed) of 16 bits a channel.
+[[nodiscard]] core::Status
+writeDeepPng(const std::filesystem::path& path, const image::Image& image);
+
 /// A key of at most 79 letters, and what a PNG file says under it (tEXt).
 struct PictureText {
     std::string key;

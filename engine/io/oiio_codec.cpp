@@ -224,7 +224,7 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
     spec.alpha_channel =
         alpha == request.channelNames.end() ? -1 : int(alpha - request.channelNames.begin());
     spec.z_channel = -1;
-    if (request.storage == Storage::Byte) {
+    if (request.storage == Storage::Byte || request.storage == Storage::Short) {
         spec.attribute("oiio:ColorSpace", "sRGB");
         spec.attribute("Compression", "jpeg:95");
         spec.attribute("CompressionQuality", 95);
@@ -243,6 +243,8 @@ TypeDesc memoryTypeOf(Storage storage) {
     switch (storage) {
     case Storage::Byte:
         return TypeDesc::UINT8;
+    case Storage::Short:
+        return TypeDesc::UINT16;
     case Storage::Uint:
         return TypeDesc::UINT32;
     case Storage::Half:

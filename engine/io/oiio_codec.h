@@ -27,10 +27,10 @@ struct Rgba8Pixels {
     std::vector<uint8_t> values; ///< width * height * 4
 };
 
-enum class Storage : uint8_t { Byte, Half, Float, Uint };
+enum class Storage : uint8_t { Byte, Short, Half, Float, Uint };
 
 /// What to encode: `pixels` holds width * height * channels values of the C type of `storage`
-/// (uint8_t; float for Half and Float; uint32_t).
+/// (uint8_t; uint16_t; float for Half and Float; uint32_t).
 struct EncodeRequest {
     std::string extension; ///< ".exr", ".png", ".jpg" or ".jpeg"
     uint32_t width = 0;

@@ -4,7 +4,9 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/process.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <optional>
 #include <string_view>
@@ -31,14 +33,57 @@ std::string_view findLastLine(std::string_view text) {
     return start == std::string_view::npos ? text : text.substr(start + 1);
 }
 
-std::vector<std::string> describeCodec(const std::string& codec) {
-    if (codec == "libx264")
-        return {"-c:v", "libx264", "-preset", "medium", "-crf", "16"};
-    return {"-c:v", "mpeg4", "-q:v", "2"};
+struct CodecRow {
+    VideoCodec codec;
+    uint32_t bitDepth;
+    const char* name; ///< ffmpeg's; of rows of equal codec and depth the first that it has is taken
+    const char* pixelFormat;
+    std::vector<std::string> options;
+};
+
+const std::vector<CodecRow>& listCodecs() {
+    static const std::vector<std::string> kH264 = {"-preset", "medium", "-crf", "16"};
+    static const std::vector<std::string> kAv1 = {"-crf", "20", "-b:v", "0", "-cpu-used", "6"};
+    static const std::vector<CodecRow> kRows = {
+        {VideoCodec::H264, 8, "libx264", "yuv420p", kH264},
+        {VideoCodec::H264, 8, "mpeg4", "yuv420p", {"-q:v", "2"}},
+        {VideoCodec::H264, 10, "libx264", "yuv420p10le", kH264},
+        {VideoCodec::Av1, 8, "libaom-av1", "yuv420p", kAv1},
+        {VideoCodec::Av1, 10, "libaom-av1", "yuv420p10le", kAv1},
+        {VideoCodec::ProRes, 10, "prores_ks", "yuv422p10le", {"-profile:v", "hq"}},
+    };
+    return kRows;
 }
 
-std::vector<std::string>
-listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::path& target) {
+bool isOfFormat(const CodecRow& row, const VideoFormat& format) {
+    return row.codec == format.codec && row.bitDepth == format.bitDepth;
+}
+
+const CodecRow& findCodec(const VideoEncoder& encoder) {
+    const auto row =
+        std::find_if(listCodecs().begin(), listCodecs().end(), [&](const CodecRow& each) {
+            return isOfFormat(each, encoder.format) && encoder.codec == each.name;
+        });
+    SHUTTER_CHECK(row != listCodecs().end(), "no codec '{}'", encoder.codec);
+    return *row;
+}
+
+/// By the file's name: .mov, else .mp4.
+const char* findContainer(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+        return char(std::tolower(c));
+    });
+    return extension == ".mov" ? "mov" : "mp4";
+}
+
+std::vector<std::string> listArguments(
+    const VideoEncoder& encoder,
+    const VideoFrames& frames,
+    const char* container,
+    const fs::path& target
+) {
+    const CodecRow& codec = findCodec(encoder);
     // Without -xerror a full disk and a damaged frame end with status 0.
     std::vector<std::string> words = {
         "-nostdin", "-hide_banner", "-loglevel", "error", "-xerror", "-y"};
@@ -47,12 +92,14 @@ listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::
     };
     add({"-framerate", fmt::format("{}", frames.framesPerSecond), "-start_number", "0"});
     add({"-i", frames.pattern, "-frames:v", fmt::format("{}", frames.count), "-an"});
-    add(describeCodec(encoder.codec));
+    add({"-c:v", codec.name});
+    add(codec.options);
     // Players take the matrix of BT.709 for granted; swscale's own default is BT.601's.
     add(
         {"-vf",
-         "scale=out_color_matrix=bt709:out_range=tv:"
-         "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=yuv420p",
+         std::string("scale=out_color_matrix=bt709:out_range=tv:"
+                     "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format="
+         ) + codec.pixelFormat,
          "-colorspace",
          "bt709",
          "-color_primaries",
@@ -64,8 +111,10 @@ listArguments(const VideoEncoder& encoder, const VideoFrames& frames, const fs::
     );
     // The same bits wherever it runs: slices and versions would tell of the machine.
     add({"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
+    if (!encoder.format.timecode.empty())
+        add({"-timecode", encoder.format.timecode});
     // The protocol in front, or a name with a colon would be taken for one.
-    add({"-movflags", "+faststart", "-f", "mp4", "file:" + target.string()});
+    add({"-movflags", "+faststart", "-f", container, "file:" + target.string()});
     return words;
 }
 
@@ -83,14 +132,15 @@ std::optional<fs::path> findMissingFrame(const VideoFrames& frames) {
 
 } // namespace
 
-core::Result<VideoEncoder> findVideoEncoder(const fs::path& named) {
+core::Result<VideoEncoder> findVideoEncoder(const fs::path& named, const VideoFormat& format) {
     VideoEncoder encoder;
+    encoder.format = format;
     encoder.program = named;
     if (named.empty()) {
         const auto found = findProgram("ffmpeg");
         if (!found)
             return core::makeError(
-                "an .mp4 needs the program ffmpeg, which is not on PATH: install the package "
+                "a film needs the program ffmpeg, which is not on PATH: install the package "
                 "ffmpeg, or name the program with --ffmpeg"
             );
         encoder.program = *found;
@@ -105,13 +155,20 @@ core::Result<VideoEncoder> findVideoEncoder(const fs::path& named) {
     const auto encoders = runProcess(encoder.program, {"-hide_banner", "-encoders"}, ".");
     if (!encoders)
         return encoders.error();
-    for (const char* codec : {"libx264", "mpeg4"})
-        if (encoders.value().output.find(fmt::format(" {} ", codec)) != std::string::npos) {
-            encoder.codec = codec;
+    std::string names;
+    for (const CodecRow& row : listCodecs()) {
+        if (!isOfFormat(row, format))
+            continue;
+        if (encoders.value().output.find(fmt::format(" {} ", row.name)) != std::string::npos) {
+            encoder.codec = row.name;
             return encoder;
         }
+        names += fmt::format("{}{}", names.empty() ? "" : " or ", row.name);
+    }
     return core::makeError(
-        "'{}' encodes neither with libx264 nor with mpeg4", encoder.program.string()
+        "'{}' does not encode with {}, which a film of this kind needs",
+        encoder.program.string(),
+        names
     );
 }
 
@@ -126,8 +183,9 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
     };
     if (const auto missing = findMissingFrame(frames))
         return fail(fmt::format("the frame '{}' is missing", missing->string()));
-    const auto run =
-        runProcess(encoder.program, listArguments(encoder, frames, target), frames.folder);
+    const auto run = runProcess(
+        encoder.program, listArguments(encoder, frames, findContainer(file), target), frames.folder
+    );
     if (!run)
         return fail(run.error().message);
     if (run.value().exitStatus != 0)

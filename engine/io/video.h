@@ -10,16 +10,31 @@
 
 namespace shutter::io {
 
+enum class VideoCodec : uint8_t {
+    H264,   ///< 4:2:0, in .mp4 or .mov
+    Av1,    ///< 4:2:0, in .mp4 or .mov
+    ProRes, ///< 422 HQ, of 10 bits, in .mov
+};
+
+/// What a film is encoded as.
+struct VideoFormat {
+    VideoCodec codec = VideoCodec::H264;
+    uint32_t bitDepth = 8; ///< bits of a channel, 8 or 10
+    std::string timecode;  ///< of the first frame, "HH:MM:SS:FF"; empty: the film carries none
+};
+
 /// An ffmpeg that was found, and what it encodes with.
 struct VideoEncoder {
     std::filesystem::path program;
-    std::string codec;   ///< libx264, or mpeg4 where ffmpeg is built without it
+    std::string codec;   ///< ffmpeg's name; for H264 of 8 bits, mpeg4 where libx264 is missing
     std::string version; ///< the first line that it says of itself
+    VideoFormat format;
 };
 
 /// \param named the program; empty: `ffmpeg` on PATH
-/// Error: there is none, or it cannot encode.
-[[nodiscard]] core::Result<VideoEncoder> findVideoEncoder(const std::filesystem::path& named);
+/// Error: there is none, or it cannot encode the format.
+[[nodiscard]] core::Result<VideoEncoder>
+findVideoEncoder(const std::filesystem::path& named, const VideoFormat& format = {});
 
 /// Numbered PNG files of one folder and size; width and height are even.
 struct VideoFrames {
@@ -29,8 +44,9 @@ struct VideoFrames {
     double framesPerSecond = 24.0; ///< above 0
 };
 
-/// Writes an .mp4: 4:2:0, BT.709, no metadata; the same frames give the same bits with the same
-/// ffmpeg. Renamed into place when it is complete. Error: ffmpeg's last line.
+/// Writes an .mp4, or a .mov where the file is called so: BT.709, no metadata except the time code;
+/// the same frames give the same bits with the same ffmpeg. Renamed into place when it is complete.
+/// Error: ffmpeg's last line.
 [[nodiscard]] core::Status encodeVideo(
     const VideoEncoder& encoder, const VideoFrames& frames, const std::filesystem::path& file
 );

@@ -144,6 +144,20 @@ TEST(ImageFile, APngRoundsToTheNearestOf256StepsAndClamps) {
     }
 }
 
+TEST(ImageFile, ADeepPngKeepsSixteenBits) {
+    const TempFolder folder;
+    image::Image image(4, 1, 1);
+    image.pixels = {-1.0f, 1.0f / 65535.0f, 40000.0f / 65535.0f, 7.0f};
+    const fs::path path = folder.path() / "deep.png";
+    ASSERT_TRUE(writeDeepPng(path, image));
+    const auto read = readStoredImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_TRUE(read.value().isDisplayEncoded);
+    const std::vector<float> expected = {0.0f, 1.0f / 65535.0f, 40000.0f / 65535.0f, 1.0f};
+    for (size_t i = 0; i < expected.size(); ++i)
+        EXPECT_FLOAT_EQ(read.value().image.pixels[i], expected[i]) << i;
+}
+
 TEST(ImageFile, APngOfFourChannelsStoresTheFirstThreeUnchanged) {
     const TempFolder folder;
     image::Image image(1, 1, 4);

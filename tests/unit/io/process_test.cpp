@@ -67,13 +67,13 @@ TEST(Video, WhatIsNoFfmpegIsRefused) {
 
 TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
     const TempFolder folder;
-    const auto pretend = [&](const std::string& encoders) {
+    const auto pretend = [&](const std::string& encoders, const VideoFormat& format = {}) {
         const auto program = folder.path() / "ffmpeg";
         std::ofstream(program) << "#!/bin/sh\nif [ \"$1\" = -version ]; then echo ffmpeg version 9"
                                   "; echo more; else echo '"
                                << encoders << "'; fi\n";
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-        return findVideoEncoder(program);
+        return findVideoEncoder(program, format);
     };
     const auto best = pretend(" V mpeg4 x\n V libx264 y");
     ASSERT_TRUE(best.ok()) << best.error().message;
@@ -83,6 +83,15 @@ TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
     ASSERT_TRUE(second.ok());
     EXPECT_EQ(second.value().codec, "mpeg4");
     EXPECT_FALSE(pretend(" V gif x").ok());
+    // What was wanted by name has no substitute.
+    const auto deep = pretend(" V mpeg4 x\n V libx264 y", {VideoCodec::H264, 10, ""});
+    ASSERT_TRUE(deep.ok()) << deep.error().message;
+    EXPECT_EQ(deep.value().codec, "libx264");
+    EXPECT_FALSE(pretend(" V mpeg4 x", {VideoCodec::H264, 10, ""}).ok());
+    const auto other = pretend(" V libx264 y", {VideoCodec::Av1, 8, ""});
+    ASSERT_FALSE(other.ok());
+    EXPECT_NE(other.error().message.find("libaom-av1"), std::string::npos);
+    EXPECT_FALSE(pretend(" V libx264 y", {VideoCodec::ProRes, 10, ""}).ok());
 }
 
 } // namespace
