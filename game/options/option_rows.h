@@ -181,7 +181,8 @@ template <auto member, const auto& words>
 
 /// The same for an optional enum, which stays empty unless it is typed.
 template <auto member, const auto& words>
-[[nodiscard]] constexpr auto makeOptionalWordRow(const char* name, const char* help) {
+[[nodiscard]] constexpr auto
+makeOptionalWordRow(const char* name, const char* help, Matters matters = Matters::ToPictures) {
     using Owner = typename MemberOf<decltype(member)>::Owner;
     using Value = typename MemberOf<decltype(member)>::Value::value_type;
     return OptionRow<Owner>{
@@ -204,7 +205,8 @@ template <auto member, const auto& words>
         [](const Owner& arguments) {
             const auto& value = arguments.*member;
             return value ? std::string(words[static_cast<size_t>(*value)]) : std::string("none");
-        }};
+        },
+        matters};
 }
 
 /// Adds the options that setting rows name; a switch is "on" or "off".

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <regex>
+#include <utility>
 
 namespace shutter::game {
 
@@ -20,6 +22,9 @@ using core::Status;
 /// Words of --rays, in the order of gpu::RayTier.
 constexpr std::string_view kTierWords[] = {"query", "pipeline", "none"};
 
+/// Words of --codec, in the order of io::VideoCodec.
+constexpr std::string_view kCodecWords[] = {"h264", "av1", "prores"};
+
 using O = OutputArguments;
 
 constexpr std::array kOutputRows = {
@@ -27,10 +32,25 @@ constexpr std::array kOutputRows = {
         "--restart", "draw frames again even if they are complete on disk", Matters::ToNoPicture
     ),
     makeRow<&O::ffmpeg>(
-        "--ffmpeg", "program that encodes .mp4; default: the one on PATH", Matters::ToNoPicture
+        "--ffmpeg", "program that encodes films; default: the one on PATH", Matters::ToNoPicture
     ),
     makeRow<&O::keepFrames>(
         "--keep-frames", "keep FILE.mp4.frames after the film is made", Matters::ToNoPicture
+    ),
+    makeOptionalWordRow<&O::codec, kCodecWords>(
+        "--codec",
+        "codec of the film: h264 (default), av1 or prores (FILE.mov, 10 bits)",
+        Matters::ToNoPicture
+    ),
+    makeRow<&O::bitDepth>(
+        "--bit-depth",
+        "bits of a film's channel, 8 (default) or 10",
+        Matters::ToNoPicture // it counts as it is resolved
+    ),
+    makeRow<&O::timecode>(
+        "--timecode",
+        "time code of the film's first frame, HH:MM:SS:FF, or frame: that of its number",
+        Matters::ToNoPicture
     ),
     makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),
     makeRow<&O::stats>("--stats", "write times and counters to a JSON file", Matters::ToNoPicture),
@@ -54,7 +74,7 @@ bool isFilm(const std::filesystem::path& out) {
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
         return char(std::tolower(c));
     });
-    return extension == ".mp4";
+    return extension == ".mp4" || extension == ".mov";
 }
 
 Status
@@ -79,13 +99,43 @@ interpretAovs(const OutputArguments& arguments, const MethodInfo& method, Output
     return {};
 }
 
+core::Result<io::VideoFormat> interpretFormat(const OutputArguments& arguments) {
+    io::VideoFormat format;
+    format.codec = arguments.codec.value_or(io::VideoCodec::H264);
+    const bool isProRes = format.codec == io::VideoCodec::ProRes;
+    format.bitDepth = arguments.bitDepth.value_or(isProRes ? 10 : 8);
+    if (format.bitDepth != 8 && format.bitDepth != 10)
+        return makeError("--bit-depth {} must be 8 or 10", format.bitDepth);
+    if (isProRes && format.bitDepth == 8)
+        return makeError("--bit-depth 8: --codec prores has 10 bits");
+    if (isProRes && !arguments.out.ends_with(".mov"))
+        return makeError("--codec prores needs --out FILE.mov");
+    static const std::regex kTimecode("[0-9]{2}:[0-5][0-9]:[0-5][0-9]:[0-9]{2}");
+    format.timecode = arguments.timecode;
+    if (!format.timecode.empty() && format.timecode != kTimecodeOfFrame &&
+        !std::regex_match(format.timecode, kTimecode))
+        return makeError("--timecode '{}' is not HH:MM:SS:FF, nor frame", format.timecode);
+    return format;
+}
+
+/// An option about films that was typed; null: none was.
+const char* findFilmOption(const OutputArguments& arguments) {
+    if (arguments.keepFrames)
+        return "--keep-frames";
+    if (!arguments.ffmpeg.empty())
+        return "--ffmpeg";
+    if (arguments.codec)
+        return "--codec";
+    if (arguments.bitDepth)
+        return "--bit-depth";
+    return arguments.timecode.empty() ? nullptr : "--timecode";
+}
+
 Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, OutputOptions& options) {
     const OutputArguments& arguments = all.output;
     if (!isFilm(arguments.out)) {
-        if (!arguments.ffmpeg.empty() || arguments.keepFrames)
-            return makeError(
-                "{} needs --out FILE.mp4", arguments.keepFrames ? "--keep-frames" : "--ffmpeg"
-            );
+        if (const char* option = findFilmOption(arguments))
+            return makeError("{} needs --out FILE.mp4", option);
         return {};
     }
     if (!shot.isSequence)
@@ -93,9 +143,11 @@ Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, Output
     if (!options.aovs.empty())
         return makeError("--aov needs --out of pictures: '{}' is a film", arguments.out);
     if (shot.width % 2 != 0 || shot.height % 2 != 0)
-        return makeError(
-            "--size {}x{}: the sides of an .mp4 must be even", shot.width, shot.height
-        );
+        return makeError("--size {}x{}: the sides of a film must be even", shot.width, shot.height);
+    auto format = interpretFormat(arguments);
+    if (!format)
+        return format.error();
+    options.video = std::move(format).value();
     options.film = arguments.out;
     options.out = filmFrames(options.film);
     options.ffmpeg = arguments.ffmpeg;
@@ -106,7 +158,7 @@ Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, Output
 Status interpretOut(const RenderArguments& all, const ShotOptions& shot, OutputOptions& options) {
     options.out = all.output.out;
     SHUTTER_TRY(interpretFilm(all, shot, options));
-    auto display = io::isDisplayFormat(options.out, ".exr, .png, .jpg or .mp4");
+    auto display = io::isDisplayFormat(options.out, ".exr, .png, .jpg, .mp4 or .mov");
     if (!display)
         return makeError("--out: {}", display.error().message);
     options.displayOut = display.value();
@@ -159,7 +211,7 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
         .add_option(
             "--out",
             a.output.out,
-            "output: .exr (linear), .png or .jpg; %04d for sequences; .mp4 (needs ffmpeg)"
+            "output: .exr (linear), .png or .jpg; %04d for sequences; .mp4 or .mov (needs ffmpeg)"
         )
         ->required();
     defineShotOptions(command, a.shot);
@@ -219,6 +271,8 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
         describeRows(OptionRows<O>(kOutputRows), arguments.output),
         kTierWords[static_cast<size_t>(options.device.bestTier)]
     );
+    if (options.output.isDeep())
+        options.fingerprint += " --bit-depth=10";
     return options;
 }
 

@@ -8,6 +8,7 @@
 #include "game/output/render_options.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace shutter::game {
@@ -16,6 +17,9 @@ struct OutputArguments {
     std::string out;
     std::string ffmpeg;
     bool keepFrames = false;
+    std::optional<io::VideoCodec> codec; ///< else H.264
+    std::optional<uint32_t> bitDepth;    ///< else 8, of ProRes 10
+    std::string timecode;                ///< "HH:MM:SS:FF" or "frame"; empty: none
     bool restart = false;
     std::string aov; ///< names, comma-separated, or "all"
     std::string stats;

@@ -4,6 +4,9 @@
 #include "engine/io/image_file.h"
 #include "game/output/sequence.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -14,6 +17,28 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPattern = "frame_%06d.png";
+
+/// What the film is encoded as: the time code in numbers. Error: names --timecode.
+core::Result<io::VideoFormat> resolveFormat(const RenderOptions& options) {
+    io::VideoFormat format = options.output.video;
+    if (format.timecode.empty())
+        return format;
+    const long rate = std::max(1L, std::lround(options.shot.fps));
+    if (format.timecode == kTimecodeOfFrame) {
+        const long frame = options.shot.firstFrame;
+        const long second = frame / rate;
+        if (frame < 0 || second >= 100 * 3600)
+            return core::makeError("--timecode frame: frame {} has none", frame);
+        format.timecode = fmt::format(
+            "{:02}:{:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60, frame % rate
+        );
+    }
+    if (std::stol(format.timecode.substr(format.timecode.rfind(':') + 1)) >= rate)
+        return core::makeError(
+            "--timecode {}: a second has {} frames, numbered from 0", format.timecode, rate
+        );
+    return format;
+}
 
 } // namespace
 
@@ -36,7 +61,10 @@ core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options) {
             options.output.film.string(),
             folder.string()
         );
-    auto encoder = io::findVideoEncoder(options.output.ffmpeg);
+    const auto format = resolveFormat(options);
+    if (!format)
+        return format.error();
+    auto encoder = io::findVideoEncoder(options.output.ffmpeg, format.value());
     if (!encoder)
         return core::makeError(
             "{}: {}", options.output.ffmpeg.empty() ? "--out" : "--ffmpeg", encoder.error().message

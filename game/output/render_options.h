@@ -3,11 +3,13 @@
 #pragma once
 
 #include "engine/gpu/device.h"
+#include "engine/io/video.h"
 #include "game/shot/shot_options.h"
 
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace shutter::game {
 
@@ -16,6 +18,7 @@ struct OutputOptions {
     std::filesystem::path out;    ///< picture or %d pattern; for a film, the pattern of its frames
     std::filesystem::path film;   ///< .mp4 to make of the frames; empty: none
     std::filesystem::path ffmpeg; ///< empty: the one on PATH
+    io::VideoFormat video;        ///< of the film
     bool keepFrames = false;      ///< keep a film's frames when it is made
     bool restart = false;         ///< draw frames again that are complete on disk
     bool displayOut = false;      ///< .png or .jpg: tone-mapped; otherwise linear
@@ -25,7 +28,13 @@ struct OutputOptions {
     bool dumpGraph = false;
     bool explain = false; ///< print why each effect and pass ran or was skipped
     uint32_t repeat = 1;  ///< pictures that are timed
+
+    /// Whether a film's frames have 16 bits a channel, since 8 would not fill its own.
+    [[nodiscard]] bool isDeep() const { return !film.empty() && video.bitDepth > 8; }
 };
+
+/// In place of a time code: that of the number of the film's first frame.
+inline constexpr std::string_view kTimecodeOfFrame = "frame";
 
 struct RenderOptions {
     ShotOptions shot;

@@ -28,9 +28,15 @@ core::Result<std::vector<std::filesystem::path>>
 writePicture(const RenderOptions& options, size_t frame, const render::FrameResult& result) {
     const std::filesystem::path file = fileOfFrame(options, frame);
     std::vector<std::filesystem::path> files = {file};
-    const image::Image& drawn = options.output.displayOut ? result.display : result.color;
+    const bool isDisplay = options.output.displayOut && !options.output.isDeep();
+    const image::Image& drawn = isDisplay ? result.display : result.color;
     const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
-    SHUTTER_TRY(io::writeImage(file, picture));
+    if (options.output.isDeep()) // the device's display pictures have 8 bits
+        SHUTTER_TRY(
+            io::writeDeepPng(file, tonemap::computeDisplayImage(picture, options.shot.tonemap))
+        );
+    else
+        SHUTTER_TRY(io::writeImage(file, picture));
     for (const std::string& aov : options.output.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
@@ -168,8 +174,8 @@ class Sequence {
     core::Result<render::FrameResult> drawOnce(double seconds, core::Progress& progress) {
         PictureRequest request = makePicture(*mShot, mOptions.shot, mOptions.method, seconds);
         request.frame.intermediates = mOptions.output.aovs;
-        request.frame.wantColor = !mOptions.output.displayOut;
-        request.frame.wantDisplay = mOptions.output.displayOut;
+        request.frame.wantColor = !mOptions.output.displayOut || mOptions.output.isDeep();
+        request.frame.wantDisplay = !request.frame.wantColor;
         request.frame.wantDump = mOptions.output.dumpGraph;
         request.frame.wantTrace = !mOptions.output.hashPasses.empty();
         request.frame.wantReasons = mOptions.output.explain;
@@ -244,12 +250,13 @@ core::Result<SequenceJournal> openFilmJournal(
     return SequenceJournal::open(
         journalFile(options.output.film),
         io::computeContentHash(fmt::format(
-            "{} frames {} {} {} {}",
+            "{} frames {} {} {} {} {}",
             fingerprint,
             options.shot.firstFrame,
             options.shot.frameTimes.size(),
             encoder.version,
-            encoder.codec
+            encoder.codec,
+            encoder.format.timecode
         ))
     );
 }

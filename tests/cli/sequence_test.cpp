@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flythroughs and films as a person renders them: the same bits each time, stopped or not.
+#include "engine/io/image_file.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/drifting_scene.h"
 #include "tests/cli/folder_watch.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <sys/wait.h>
@@ -190,6 +192,45 @@ TEST_F(Sequence, AFilmHasEveryFrameAndIsTheSameEachTime) {
     EXPECT_NE(rest.out.find("5 of 6 frames are complete"), std::string::npos) << rest.out;
     EXPECT_TRUE(readFile("film.mp4") == bytes);
     EXPECT_FALSE(fs::exists(path("film.mp4.frames")));
+}
+
+TEST_F(Sequence, FilmsAreEncodedByTheCodecThatIsNamed) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe)
+    if (std::system("command -v ffmpeg ffprobe > /dev/null && ffmpeg -v quiet -encoders | "
+                    "grep -q ' libaom-av1 '") != 0)
+        GTEST_SKIP() << "ffmpeg with libaom-av1 is not installed";
+    const auto probe = [&](const std::string& file) {
+        const std::string command = "ffprobe -v error -select_streams v:0 -show_entries "
+                                    "stream=codec_name,pix_fmt:stream_tags=timecode -of csv=p=0 '" +
+                                    path(file) + "' > '" + path("probe.txt") + "'";
+        EXPECT_EQ(std::system(command.c_str()), 0); // NOLINT(concurrency-mt-unsafe)
+        return readFile("probe.txt");
+    };
+    const auto draw = [&](const std::string& file, const Arguments& more) {
+        Arguments arguments = {"--fps", "24", "--frames", "0:1", "--out", file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expectSuccess(fly(arguments));
+        return probe(file);
+    };
+    EXPECT_EQ(draw("eight.mp4", {"--codec", "av1"}), "av1,yuv420p\n");
+    EXPECT_EQ(
+        draw("ten.mp4", {"--bit-depth", "10", "--timecode", "01:02:03:01"}),
+        "h264,yuv420p10le,01:02:03:01\n"
+    );
+    EXPECT_EQ(
+        draw("prores.mov", {"--codec", "prores", "--timecode", "frame", "--keep-frames"}),
+        "prores,yuv422p10le,00:00:00:00\n"
+    );
+    // Frames of sixteen bits: those of eight would leave the lower half empty.
+    const auto frame = io::readImage(path("prores.mov.frames/frame_000001.png"));
+    ASSERT_TRUE(frame.ok()) << frame.error().message;
+    const auto& values = frame.value().pixels;
+    EXPECT_TRUE(std::any_of(values.begin(), values.end(), [](float value) {
+        return std::abs(value * 255.0f - std::round(value * 255.0f)) > 0.1f;
+    }));
+    const Outcome late = run(fly({"--out", "late.mp4", "--timecode", "00:00:00:04"}));
+    EXPECT_EQ(late.status, 1);
+    EXPECT_NE(late.err.find("a second has 4 frames"), std::string::npos) << late.err;
 }
 
 TEST_F(Sequence, AnFfmpegThatFailsLeavesNoFilm) {

@@ -226,7 +226,9 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--unlit", {"--unlit"}}};
     const std::map<std::string, Words> doesNot = {
         {"--advice", {"--advice"}},
+        {"--bit-depth", {}},                      // needs a film
         {"--allow-outside", {"--allow-outside"}}, // told by content
+        {"--codec", {}},                          // needs a film
         {"--device", {"--device", "llvmpipe"}},
         {"--dump-graph", {"--dump-graph"}},
         {"--environment", {"--environment", "e.hdr"}}, // told by content
@@ -241,6 +243,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--repeat", {"--repeat", "3"}},
         {"--restart", {"--restart"}},
         {"--stats", {"--stats", "s.json"}},
+        {"--timecode", {}}, // needs a film
         {"--validate", {"--validate"}}};
     std::set<std::string> fingerprints = {plain};
     for (const auto& [option, words] : matters)

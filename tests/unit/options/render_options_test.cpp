@@ -75,6 +75,33 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_TRUE(options.output.aovs.empty());
 }
 
+TEST_F(RenderOptionsTest, AFilmsCodecTellsItsDepthAndWhatItLiesIn) {
+    const auto film = [&](Words more, const std::string& file = "film.mp4") {
+        more.insert(more.begin(), {"--out=" + (mFolder / file).string(), "--frames=0:3"});
+        return more;
+    };
+    const auto plain = accept(film({}));
+    EXPECT_EQ(plain.output.video.codec, io::VideoCodec::H264);
+    EXPECT_EQ(plain.output.video.bitDepth, 8u);
+    EXPECT_FALSE(plain.output.isDeep());
+    const auto deep = accept(film({"--codec=av1", "--bit-depth=10", "--timecode=01:00:00:23"}));
+    EXPECT_EQ(deep.output.video.codec, io::VideoCodec::Av1);
+    EXPECT_TRUE(deep.output.isDeep());
+    EXPECT_EQ(deep.output.video.timecode, "01:00:00:23");
+    EXPECT_NE(deep.fingerprint, plain.fingerprint) << "its frames are other files";
+    const auto proRes = accept(film({"--codec=prores"}, "film.mov"));
+    EXPECT_EQ(proRes.output.video.bitDepth, 10u);
+    EXPECT_EQ(proRes.fingerprint, deep.fingerprint) << "its frames are the same files";
+    refuse("--codec", film({"--codec=vp9"}));
+    refuse("--codec prores needs", film({"--codec=prores"}));
+    refuse("--bit-depth 8", film({"--codec=prores", "--bit-depth=8"}, "film.mov"));
+    refuse("--bit-depth 12", film({"--bit-depth=12"}));
+    for (const char* wrong : {"1:00:00:00", "00:60:00:00", "00:00:00;00", "frames"})
+        refuse("--timecode", film({std::string("--timecode=") + wrong}));
+    for (const char* option : {"--codec=av1", "--bit-depth=10", "--timecode=frame"})
+        refuse("FILE.mp4", Words{option});
+}
+
 TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
     EXPECT_EQ(accept(Words{"--size=1x16384"}).shot.height, 16384u);
     for (const char* size :
@@ -124,7 +151,7 @@ TEST_F(RenderOptionsTest, BadFramesAreRefused) {
 
 TEST_F(RenderOptionsTest, ASequenceNeedsANumberInItsName) {
     refuse("--out", Words{"--frames=0:1"});
-    refuse(".png, .jpg or .mp4", Words{"--out=film.avi"});
+    refuse(".png, .jpg, .mp4 or .mov", Words{"--out=film.avi"});
     accept(Words{"--frames=3:3"});
     accept(Words{"--frames=0:1", "--out=" + (mFolder / "f%d.png").string()});
 }
