@@ -3,6 +3,7 @@
 #include "engine/gpu/vulkan.h"
 #include "game/bench/bench_run.h"
 #include "game/cli/commands.h"
+#include "game/film/film_command.h"
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
 #include "game/replay/replay_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
     });
     int exitStatus = game::kExitDone;
     game::addRenderCommand(app, exitStatus);
+    film::addFilmCommands(app, exitStatus);
     game::addCompareCommand(app, exitStatus);
     game::addInfoCommand(app, exitStatus);
     bench::addBenchCommand(app, exitStatus);

@@ -64,8 +64,12 @@ pid_t Cli::start(const Arguments& arguments) const {
 }
 
 Outcome Cli::run(const Arguments& arguments) const {
+    return finish(start(arguments));
+}
+
+Outcome Cli::finish(pid_t process) const {
     int status = 0;
-    waitpid(start(arguments), &status, 0);
+    waitpid(process, &status, 0);
     Outcome outcome;
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     outcome.out = readAll(mLogs / "out");

@@ -32,6 +32,9 @@ class Cli : public testing::Test {
     /// Starts the program and returns at once; whoever starts it waits for it.
     [[nodiscard]] pid_t start(const Arguments& arguments) const;
 
+    /// Waits for the process that start() started last.
+    [[nodiscard]] Outcome finish(pid_t process) const;
+
     /// `render` of the vase at 64x36 on lavapipe, then `more`.
     [[nodiscard]] Arguments renderVase(const Arguments& more) const;
 

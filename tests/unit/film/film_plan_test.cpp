@@ -66,9 +66,10 @@ TEST(FilmParts, CoverEachFrameOnceAndShareTheCost) {
         const bool isRoomy = std::all_of(parts.begin(), parts.end(), [](const FilmPart& part) {
             return part.count > 1;
         });
-        if (isRoomy)
+        if (isRoomy) {
             for (const FilmPart& part : parts)
                 EXPECT_LE(sumOf(costs, part), total / double(parts.size()) + dearest + 1.0e-9);
+        }
     }
 }
 
