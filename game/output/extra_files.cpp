@@ -116,8 +116,9 @@ core::Status writeStatistics(
     const gpu::DeviceInfo& device,
     const std::vector<PictureStatistics>& pictures
 ) {
+    const std::vector<double>& times = options.shot.frameTimes;
     const scene::ExposureInterval exposure =
-        computeExposure(options.shot, options.shot.shutter, options.shot.frameTimes.front());
+        computeExposure(options.shot, options.shot.shutter, times.empty() ? 0.0 : times.front());
     ordered_json root;
     root["device"] = device.name;
     root["driver"] = device.driver;
