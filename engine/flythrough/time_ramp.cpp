@@ -42,7 +42,7 @@ TimeRamp::TimeRamp(const Flythrough& flythrough) {
 double TimeRamp::scaleAt(double sceneSeconds) const {
     if (mKeys.empty())
         return 1.0;
-    const size_t at = findByScene(sceneSeconds);
+    const size_t at = findKey(&Key::scene, sceneSeconds);
     if (sceneSeconds <= mKeys[at].scene)
         return mKeys[at].scale;
     return mKeys[at].scale + slopeAfter(at) * (sceneSeconds - mKeys[at].scene);
@@ -51,9 +51,9 @@ double TimeRamp::scaleAt(double sceneSeconds) const {
 double TimeRamp::filmFromScene(double sceneSeconds) const {
     if (mKeys.empty())
         return sceneSeconds;
-    const size_t at = findByScene(sceneSeconds);
+    const size_t at = findKey(&Key::scene, sceneSeconds);
     const Key& key = mKeys[at];
-    // Before the first key the scale stays as there.
+    // Before the first key the scale stays the same.
     const double slope = sceneSeconds < key.scene ? 0.0 : slopeAfter(at);
     return key.film + filmOfSpan(key.scale, slope, sceneSeconds - key.scene);
 }
@@ -61,7 +61,7 @@ double TimeRamp::filmFromScene(double sceneSeconds) const {
 double TimeRamp::sceneFromFilm(double filmSeconds) const {
     if (mKeys.empty())
         return filmSeconds;
-    const size_t at = findByFilm(filmSeconds);
+    const size_t at = findKey(&Key::film, filmSeconds);
     const Key& key = mKeys[at];
     const double slope = filmSeconds < key.film ? 0.0 : slopeAfter(at);
     return key.scene + sceneOfSpan(key.scale, slope, filmSeconds - key.film);
@@ -84,19 +84,13 @@ scene::ExposureInterval TimeRamp::computeExposure(
     return exposure;
 }
 
-size_t TimeRamp::findByScene(double seconds) const {
-    const auto next =
-        std::upper_bound(mKeys.begin(), mKeys.end(), seconds, [](double wanted, const Key& key) {
-            return wanted < key.scene;
-        });
-    return next == mKeys.begin() ? 0 : size_t(next - mKeys.begin()) - 1;
-}
-
-size_t TimeRamp::findByFilm(double seconds) const {
-    const auto next =
-        std::upper_bound(mKeys.begin(), mKeys.end(), seconds, [](double wanted, const Key& key) {
-            return wanted < key.film;
-        });
+size_t TimeRamp::findKey(double Key::*time, double seconds) const {
+    const auto next = std::upper_bound(
+        mKeys.begin(),
+        mKeys.end(),
+        seconds,
+        [time](double wanted, const Key& key) { return wanted < key.*time; }
+    );
     return next == mKeys.begin() ? 0 : size_t(next - mKeys.begin()) - 1;
 }
 

@@ -9,10 +9,9 @@
 
 namespace shutter::flythrough {
 
-/// Film time and scene time, each in seconds, both 0 together. Between two keys that tell a time
-/// scale, it changes evenly over the scene's time; before the first such key and after the last it
-/// stays as there. A flythrough whose keys tell none has one of 1: both times are the same, to the
-/// bit.
+/// Film time and scene time, each in seconds; both are 0 at once. Between two keys that have a time
+/// scale, the scale changes evenly over the scene's time; before the first such key and after the
+/// last it stays the same. Without any such key it is 1, and both times are the same, to the bit.
 class TimeRamp {
   public:
     /// \param flythrough valid
@@ -23,11 +22,11 @@ class TimeRamp {
     [[nodiscard]] double filmFromScene(double sceneSeconds) const;
     [[nodiscard]] double sceneFromFilm(double filmSeconds) const;
 
-    /// The exposure of the frame at a time of the scene. The shutter is that of the film's camera,
-    /// which runs as fast as the film goes slow: what it leaves open for half of a frame lets in
-    /// half of the scene's time between two frames, and of exposures that follow one another
-    /// without a gap in the film none leaves one in the scene. \param filmFrameSeconds duration of
-    /// a frame of the film
+    /// The exposure of the frame at a time of the scene. Opening and closing times of the film are
+    /// brought to the scene, so that a shutter angle is a share of the scene's time between two
+    /// frames, and exposures without a gap in the film have none in the scene.
+    ///
+    /// \param filmFrameSeconds duration of a frame of the film
     [[nodiscard]] scene::ExposureInterval computeExposure(
         const scene::CameraShutter& shutter, double sceneSeconds, double filmFrameSeconds
     ) const;
@@ -40,8 +39,8 @@ class TimeRamp {
     };
 
     /// The key whose span a time lies in: the last one before it, or the first.
-    [[nodiscard]] size_t findByScene(double seconds) const;
-    [[nodiscard]] size_t findByFilm(double seconds) const;
+    /// \param time Key::scene or Key::film, whichever `seconds` counts
+    [[nodiscard]] size_t findKey(double Key::*time, double seconds) const;
     /// By how much the scale grows per second of the scene behind a key.
     [[nodiscard]] double slopeAfter(size_t key) const;
 
