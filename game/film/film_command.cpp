@@ -135,18 +135,25 @@ makeFilm(const FilmArguments& arguments, game::RenderOptions options) {
     return std::pair(std::move(film), std::move(shot).value());
 }
 
-core::Status drawHere(const FilmArguments& arguments, const Film& film) {
+core::Result<std::vector<uint32_t>> listPartsToDraw(const Film& film) {
     const auto unfinished = listUnfinishedParts(film);
     if (!unfinished)
         return unfinished.error();
     std::vector<uint32_t> parts;
     for (const UnfinishedPart& part : unfinished.value())
         parts.push_back(part.part);
+    return parts;
+}
+
+core::Status drawHere(const FilmArguments& arguments, const Film& film) {
+    const auto parts = listPartsToDraw(film);
+    if (!parts)
+        return parts.error();
     LocalJobs jobs;
     jobs.count = arguments.jobs;
     if (!arguments.devices.empty())
         jobs.devices = game::splitAt(arguments.devices, ',');
-    SHUTTER_TRY(drawParts(film, parts, jobs));
+    SHUTTER_TRY(drawParts(film, parts.value(), jobs));
     return finishFilm(film);
 }
 
@@ -159,18 +166,15 @@ core::Status drawBySlurm(const FilmArguments& arguments, const Film& film) {
         jobs = *queued.value();
         fmt::print("the jobs {} {} draw this film already\n", jobs.parts, jobs.finish);
     } else {
-        const auto unfinished = listUnfinishedParts(film);
-        if (!unfinished)
-            return unfinished.error();
-        std::vector<uint32_t> parts;
-        for (const UnfinishedPart& part : unfinished.value())
-            parts.push_back(part.part);
-        auto submitted = submitFilm(film, parts, {arguments.sbatch, arguments.sbatchPart});
+        const auto parts = listPartsToDraw(film);
+        if (!parts)
+            return parts.error();
+        auto submitted = submitFilm(film, parts.value(), {arguments.sbatch, arguments.sbatchPart});
         if (!submitted)
             return submitted.error();
         jobs = std::move(submitted).value();
         if (!jobs.parts.empty())
-            fmt::print("job {}: parts {}\n", jobs.parts, formatTasks(parts));
+            fmt::print("job {}: parts {}\n", jobs.parts, formatTasks(parts.value()));
         fmt::print("job {}: finishes the film\n", jobs.finish);
     }
     std::fflush(stdout); // whoever waits knows what to wait for
