@@ -60,7 +60,7 @@ std::vector<Integer> packIntegers(const image::Image& image, uint32_t channels) 
     return packed;
 }
 
-/// Of formats for display: 8 bits a channel, or 16.
+/// Bits per channel of the formats for display: 8 or 16.
 enum class DisplayDepth : uint8_t { Bytes, Deep };
 
 std::string encode(

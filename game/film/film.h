@@ -31,7 +31,7 @@ struct Film {
 [[nodiscard]] std::filesystem::path deviceFile(const std::filesystem::path& work);
 [[nodiscard]] std::filesystem::path jobsFile(const std::filesystem::path& work);
 [[nodiscard]] std::filesystem::path partLog(const std::filesystem::path& work, uint32_t part);
-/// Of the process that encodes.
+/// The log of the process that encodes.
 [[nodiscard]] std::filesystem::path finishLog(const std::filesystem::path& work);
 [[nodiscard]] std::filesystem::path partJournal(const game::OutputOptions& output, uint32_t part);
 

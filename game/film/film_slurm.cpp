@@ -266,7 +266,7 @@ core::Status followJobs(const Film& film, const SlurmJobs& jobs) {
         std::this_thread::sleep_for(kAsk);
         progress.look();
     }
-    // Of pictures nothing is left but them: the job that finishes removes the plan.
+    // A sequence of pictures has no film to look for: the job that finishes it removes the plan.
     std::error_code ignored;
     const bool isFinished = film.options.output.film.empty()
                                 ? !fs::exists(planFile(film.work), ignored)

@@ -108,7 +108,7 @@ class EmbeddedOverlay : public test::EmbeddedTest {
         return changed;
     }
 
-    /// Of a panel, at a share of its width, in its middle row.
+    /// A panel's colour in its middle row, at a share of its width.
     static glm::vec3 colorIn(const image::Image& picture, uint32_t panel, float share) {
         const glm::uvec2 origin = shader::panelOrigin(panel, {kWidth, kHeight});
         const auto x = origin.x + uint32_t(share * kWidth / 4.0f);

@@ -9,8 +9,8 @@
 
 namespace shutter::motion_blur {
 
-/// Of one frame: passes first add what they need, then the clearing pass is declared, then they are
-/// declared with what get() returns.
+/// Serves one frame. Passes first add what they need; then the clearing pass is declared; then they
+/// are declared with what get() returns.
 class Clears {
   public:
     /// To 0.

@@ -66,7 +66,7 @@ class MotionBlurPlugin : public render::PostEffect {
         bool standsIn = false;  ///< by Method::standIn
     };
 
-    /// Of the next frame.
+    /// The next frame is drawn with them.
     [[nodiscard]] const MotionBlurSettings& settings() const {
         return mStandIn ? *mStandIn : mBudget.current().settings;
     }

@@ -30,7 +30,7 @@ struct Content {
 
 /// A picture of the content with the options under test against one without them.
 struct Case {
-    const char* name; ///< what is asked for, and why nothing is to be done for it
+    const char* name; ///< the options under test, and why they make no work
     Content content;
     void (*ask)(game::ShotArguments&);
     bool isFirst = true; ///< its first frame is looked at; else the one after

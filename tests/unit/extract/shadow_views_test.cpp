@@ -109,7 +109,8 @@ TEST(ShadowViews, TurningTheCameraLeavesCascadesTheirSize) {
 }
 
 TEST(ShadowViews, CascadesFollowTheScalesOfScenes) {
-    // A centimetre and a kilometre are powers of two here, so the same but for the scale.
+    // Scales near a centimetre and a kilometre that are powers of two, so that nothing else
+    // differs.
     for (const double scale : {1.0 / 128.0, 1024.0}) {
         CameraSlice camera = makeCamera();
         const auto before = fitCascades(camera, kToSun, makeBox(16.0), 32.0, kSize);
