@@ -188,6 +188,25 @@ double measureTurn(const HostCameraKey& from, const HostCameraKey& to, const Che
     return seen.z > 0.0 ? glm::length(dvec2(seen) / seen.z - middle) : HUGE_VAL;
 }
 
+/// The sky where the camera has its near plane.
+void checkSkyEnd(const CheckFacts& facts, bool isReversed, std::vector<Finding>& findings) {
+    const float skyValue = facts.convention.depth.skyValue;
+    const bool isTold = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+        return finding.kind == CheckKind::DepthSky;
+    });
+    if (skyValue != (isReversed ? 1.0f : 0.0f) || isTold)
+        return;
+    findings.push_back(
+        {CheckKind::DepthSky,
+         fmt::format(
+             "convention.depth.skyValue is {}, but by cameras.clipFromView that is the near "
+             "plane: set depth.skyValue = {}",
+             skyValue,
+             isReversed ? 0 : 1
+         )}
+    );
+}
+
 } // namespace
 
 std::string describeCount(const CheckedFrame& frame, uint32_t index) {
@@ -268,29 +287,15 @@ bool checkDepthDirection(const CheckedFrame& now, std::vector<Finding>& findings
     const HostDepth& depth = facts.convention.depth;
     if (!depth.isRaw || !facts.convention.cameras.areGiven)
         return false;
-    const shader::PrepareTable table = makePrepareTable(facts.convention, facts.picture);
-    if ((table.flags & shader::kPreparePerspective) == 0)
-        return false; // its depth is linear: near and far are no different
-    // Which end is near.
-    shader::PrepareTable plain = table;
+    shader::PrepareTable plain = makePrepareTable(facts.convention, facts.picture);
     plain.skyValue = std::nanf("");
-    const float atZero = shader::metresOfDepth(plain, 0.0f);
-    const float atOne = shader::metresOfDepth(plain, 1.0f);
-    const bool isReversed = atOne < atZero;
-    const float near = std::min(atZero, atOne);
-    const bool isTold = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
-        return finding.kind == CheckKind::DepthSky;
-    });
-    if (depth.skyValue == (isReversed ? 1.0f : 0.0f) && !isTold)
-        findings.push_back(
-            {CheckKind::DepthSky,
-             fmt::format(
-                 "convention.depth.skyValue is {}, but by cameras.clipFromView that is the near "
-                 "plane: set depth.skyValue = {}",
-                 depth.skyValue,
-                 isReversed ? 0 : 1
-             )}
-        );
+    // By the sign of the slope of (x + y value) / (z + w value).
+    const glm::vec4& k = plain.depthFromValue;
+    const bool isReversed = k.y * k.z - k.x * k.w < 0.0f;
+    checkSkyEnd(facts, isReversed, findings);
+    if ((plain.flags & shader::kPreparePerspective) == 0)
+        return false; // its depth is linear: not much lies next to either end
+    const float near = shader::metresOfDepth(plain, isReversed ? 1.0f : 0.0f);
     uint32_t drawn = 0;
     uint32_t atNear = 0;
     uint32_t flippedAtNear = 0;

@@ -36,6 +36,7 @@ struct Reading {
     bool isSwapped = false;
     bool haveCamera = true;
     std::string sentence;
+    bool isAlternative = false; ///< told besides what explains as much
 
     [[nodiscard]] dvec2 motionOf(const CheckPoint& point) const {
         return scale * (isSwapped ? dvec2(point.motion.y, point.motion.x) : point.motion);
@@ -92,13 +93,13 @@ std::optional<double> takeMedian(std::vector<double>& values, size_t least) {
     return *middle;
 }
 
-/// What the motion along `from` must be multiplied by to be the camera's along `to`.
-std::optional<double> fitScale(const std::vector<CheckPoint>& points, int from, int to) {
+/// What the motion along an axis must be multiplied by to be the camera's.
+std::optional<double> fitScale(const std::vector<CheckPoint>& points, int axis) {
     std::vector<double> ratios;
     for (const CheckPoint& point : points)
-        if (!point.isSky && std::abs(point.camera[to]) > 1.0 &&
-            std::abs(point.motion[from]) > 1.0e-9)
-            ratios.push_back(point.camera[to] / point.motion[from]);
+        if (!point.isSky && std::abs(point.camera[axis]) > 1.0 &&
+            std::abs(point.motion[axis]) > 1.0e-9)
+            ratios.push_back(point.camera[axis] / point.motion[axis]);
     return takeMedian(ratios, kLeastTelling);
 }
 
@@ -145,9 +146,15 @@ class Guesses {
   private:
     void consider(const Reading& said, const Reading& guess) {
         const auto explained = judge(said, guess);
-        // The first of what explains as much: they come in the order of how often hosts do so.
-        if (!explained || (mBest && *explained <= *mBest + guess.points.size() / 33))
+        if (!explained)
             return;
+        // The first of what explains as much: they come in the order of how often hosts do so.
+        const size_t apart = guess.points.size() / 33;
+        if (mBest && *explained <= *mBest + apart) {
+            if (guess.isAlternative && *explained + apart >= *mBest)
+                mSentence += "; or " + guess.sentence;
+            return;
+        }
         mBest = explained;
         mSentence = guess.sentence;
     }
@@ -185,6 +192,20 @@ class Guesses {
     void tryUnits() {
         if (!mSaid.haveCamera)
             return;
+        forEachUnit([&](const Unit& unit, const dvec2& sign) {
+            considerScale(
+                sign * unit.pixels / dvec2(mFacts.convention.vectors.pixelsPerUnit),
+                fmt::format(
+                    ", as for {} that lead to {} with y {}",
+                    unit.name,
+                    sign.x < 0.0 ? "the frame before" : "this frame",
+                    sign.x == sign.y ? "down" : "up"
+                )
+            );
+        });
+    }
+
+    void forEachUnit(const std::function<void(const Unit&, const dvec2& sign)>& visit) const {
         const dvec2 size(mFacts.picture.width, mFacts.picture.height);
         for (const Unit& unit : std::initializer_list<Unit>{
                  {"pixels", dvec2(1.0)},
@@ -192,15 +213,7 @@ class Guesses {
                  {"normalised device coordinates", 0.5 * size}})
             for (const dvec2& sign :
                  {dvec2(1.0, 1.0), dvec2(-1.0, -1.0), dvec2(1.0, -1.0), dvec2(-1.0, 1.0)})
-                considerScale(
-                    sign * unit.pixels / dvec2(mFacts.convention.vectors.pixelsPerUnit),
-                    fmt::format(
-                        ", as for {} that lead to {} with y {}",
-                        unit.name,
-                        sign.x < 0.0 ? "the frame before" : "this frame",
-                        sign.x == sign.y ? "down" : "up"
-                    )
-                );
+                visit(unit, sign);
     }
 
     void considerScale(const dvec2& factors, const std::string& unit) {
@@ -247,28 +260,31 @@ class Guesses {
     /// Any factors. Much may pass for them, such as another frame's motion, so they come last, and
     /// not before there is another frame.
     void tryFactors() {
-        const auto x = fitScale(mSaid.points, 0, 0);
-        const auto y = fitScale(mSaid.points, 1, 1);
+        const auto x = fitScale(mSaid.points, 0);
+        const auto y = fitScale(mSaid.points, 1);
         if (mLast && mSaid.haveCamera && (x || y))
             considerScale(dvec2(x ? *x : *y, y ? *y : *x), {});
     }
 
     void trySwap() {
-        const auto x = fitScale(mSaid.points, 1, 0);
-        const auto y = fitScale(mSaid.points, 0, 1);
-        if (!x || !y || !mSaid.haveCamera)
+        if (!mSaid.haveCamera)
             return;
-        Reading guess = mSaid;
-        guess.isSwapped = true;
-        guess.scale = dvec2(*x, *y);
+        // Of units that hosts have: two free factors would fit an orthographic camera's motion,
+        // which is nearly the same everywhere, whatever is wrong.
         const dvec2 unit(mFacts.convention.vectors.pixelsPerUnit);
-        guess.sentence = fmt::format(
-            "vectors agree with the cameras after x and y are exchanged: write x to the first "
-            "channel and y to the second, with vectors.pixelsPerUnit = ({:.6g}, {:.6g})",
-            *x * unit.y,
-            *y * unit.x
-        );
-        consider(guess);
+        forEachUnit([&](const Unit& meant, const dvec2& sign) {
+            Reading guess = mSaid;
+            guess.isSwapped = true;
+            const dvec2 pixels = sign * meant.pixels;
+            guess.scale = pixels / dvec2(unit.y, unit.x);
+            guess.sentence = fmt::format(
+                "vectors agree with the cameras after x and y are exchanged: write x to the first "
+                "channel and y to the second, with vectors.pixelsPerUnit = ({:.6g}, {:.6g})",
+                pixels.x,
+                pixels.y
+            );
+            consider(guess);
+        });
     }
 
     /// Vectors, or cameras, of another frame.
@@ -324,12 +340,14 @@ class Guesses {
              {&facts.convention.cameras.clipFromView, &facts.convention.cameras.clipFromViewBefore})
             for (int column = 0; column < 4; ++column)
                 (*clip)[column].y = -(*clip)[column].y;
-        considerFacts(
-            facts,
+        // An orthographic camera moves all alike, so that this and vectors with y up are the same.
+        Reading guess = read(mNow, facts);
+        guess.isAlternative = true;
+        guess.sentence =
             "vectors agree with the cameras after the second row of cameras.clipFromView is "
             "negated: y = -1 must be the top of the picture; negate the row of clipFromViewBefore, "
-            "too"
-        );
+            "too";
+        consider(guess);
     }
 
     void tryDepth() {
