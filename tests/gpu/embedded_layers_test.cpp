@@ -2,8 +2,8 @@
 // Views in the layers of one image, such as a headset's eyes: each is blurred as if it were an
 // image of its own, and the other layers stay as they are.
 #include "engine/gpu/frame.h"
-#include "engine/gpu/vulkan.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/gpu/layered_image.h"
 #include "tests/support/picture.h"
 
 #include <array>
@@ -17,71 +17,11 @@ using test::kCopied;
 using test::kNothing;
 using test::kSampled;
 using test::kWritten;
+using test::TwoLayers;
 
 constexpr uint32_t kWidth = 48;
 constexpr uint32_t kHeight = 32;
-
-/// An image of two layers of the host's.
-class TwoLayers {
-  public:
-    TwoLayers(gpu::Device& device, VkFormat format) : mDevice(device.handle()) {
-        VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-        info.imageType = VK_IMAGE_TYPE_2D;
-        info.format = format;
-        info.extent = {kWidth, kHeight, 1};
-        info.mipLevels = 1;
-        info.arrayLayers = 2;
-        info.samples = VK_SAMPLE_COUNT_1_BIT;
-        info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-        gpu::require(vkCreateImage(mDevice, &info, nullptr, &image), "creating layers");
-        VkMemoryRequirements needs{};
-        vkGetImageMemoryRequirements(mDevice, image, &needs);
-        mMemory = gpu::MemoryBlock(device, needs.size, needs.memoryTypeBits);
-        gpu::require(vkBindImageMemory(mDevice, image, mMemory.handle(), 0), "binding layers");
-    }
-
-    ~TwoLayers() { vkDestroyImage(mDevice, image, nullptr); }
-
-    TwoLayers(const TwoLayers&) = delete;
-    TwoLayers& operator=(const TwoLayers&) = delete;
-
-    void move(
-        VkCommandBuffer commands,
-        uint32_t layer,
-        const graph::OutsideUse& before,
-        const graph::OutsideUse& after
-    ) const {
-        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = before.stages;
-        barrier.srcAccessMask = before.access;
-        barrier.dstStageMask = after.stages;
-        barrier.dstAccessMask = after.access;
-        barrier.oldLayout = before.layout;
-        barrier.newLayout = after.layout;
-        barrier.image = image;
-        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.imageMemoryBarrierCount = 1;
-        dependency.pImageMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-    }
-
-    /// The layer is as kWritten says afterwards.
-    void copyFrom(VkCommandBuffer commands, const gpu::Buffer& texels, uint32_t layer) const {
-        move(commands, layer, kNothing, kWritten);
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
-        region.imageExtent = {kWidth, kHeight, 1};
-        vkCmdCopyBufferToImage(commands, texels.handle(), image, kWritten.layout, 1, &region);
-    }
-
-    VkImage image = VK_NULL_HANDLE;
-
-  private:
-    VkDevice mDevice;
-    gpu::MemoryBlock mMemory;
-};
+constexpr VkExtent2D kExtent{kWidth, kHeight};
 
 template <class Texel, class Make> gpu::Buffer makeTexels(gpu::Device& device, const Make& make) {
     std::vector<Texel> texels;
@@ -98,9 +38,9 @@ class EmbeddedLayers : public test::EmbeddedTest {};
 TEST_F(EmbeddedLayers, AreBlurredLikeImagesOfTheirOwn) {
     const auto blur = create(describeHost());
     ASSERT_TRUE(blur);
-    const TwoLayers color(device(), VK_FORMAT_R16G16B16A16_SFLOAT);
-    const TwoLayers motion(device(), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const TwoLayers output(device(), VK_FORMAT_R16G16B16A16_SFLOAT);
+    const TwoLayers color(device(), VK_FORMAT_R16G16B16A16_SFLOAT, kExtent);
+    const TwoLayers motion(device(), VK_FORMAT_R32G32B32A32_SFLOAT, kExtent);
+    const TwoLayers output(device(), VK_FORMAT_R16G16B16A16_SFLOAT, kExtent);
     const auto colors = makeTexels<uint64_t>(device(), [](uint32_t x, uint32_t y) {
         return glm::packHalf4x16({float(x / 8 % 2), 0.5f * float(y / 8 % 2), 0.25f, 1.0f});
     });

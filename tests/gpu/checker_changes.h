@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Changes of what a host hands to the checker that several cases share.
+#pragma once
+
+#include "tests/gpu/checker_host.h"
+
+namespace shutter::test {
+
+/// To units in which vectors are so many times as long.
+void scaleVectors(GivenFrame& given, const glm::vec2& factor);
+
+/// Takes the camera's part out of the vectors.
+void keepObjectsOnly(GivenFrame& given);
+
+/// Stores depth with far at 1, at 200 m where the camera is perspective.
+void storeForwardDepth(GivenFrame& given);
+/// Gives cameras of that depth.
+void declareForwardDepth(GivenFrame& given);
+
+/// Stores depth along the view.
+void storeLinearDepth(GivenFrame& given, float unitsPerMetre);
+
+/// Another jitter in each frame.
+void declareJitter(GivenFrame& given, int frame);
+/// Draws with it, and leaves it in the vectors.
+void leaveJitter(GivenFrame& given, int frame);
+
+/// Turns the cameras of each frame away from those of the frame before.
+void turnAway(GivenFrame& given, int frame);
+
+/// Keeps part of the picture only, which the lens does not lie in the middle of.
+void cutOut(GivenFrame& given, const VkRect2D& part);
+
+} // namespace shutter::test

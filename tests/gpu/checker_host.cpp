@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "tests/gpu/checker_host.h"
+
+#include "assets/generator/scenes.h"
+#include "engine/extract/frame_view.h"
+#include "engine/flythrough/flythrough.h"
+#include "engine/scene/exposure_motion.h"
+#include "tests/gpu/checker_images.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <ostream>
+#include <unistd.h>
+#include <utility>
+
+namespace shutter::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using math::dmat4;
+using math::dvec2;
+
+constexpr uint32_t kWidth = kCheckedWidth;
+constexpr uint32_t kHeight = kCheckedHeight;
+constexpr double kFrameSeconds = 1.0 / 30.0;
+constexpr int kFrames = 3;
+
+bool isPerspective(const dmat4& clip) {
+    return clip[3].w == 0.0;
+}
+
+std::string makeKeys(const char* first, const char* second, const char* third) {
+    return fmt::format(
+        R"({{"version": 1, "name": "checked", "fps": 30, "keys": [)"
+        R"({{"time": 0, {}, "fieldOfView": 40}}, {{"time": 0.0333, {}, "fieldOfView": 40}},)"
+        R"({{"time": 0.1, {}, "fieldOfView": 40}}]}})",
+        first,
+        second,
+        third
+    );
+}
+
+/// Rows whose vectors are not the camera's: those of the animated parts.
+std::vector<uint32_t> findMovers(const CheckedDrawing& drawn) {
+    std::map<uint32_t, std::pair<int, int>> rows;
+    for (size_t i = 0; i < kCheckedPixels; ++i) {
+        if (drawn.metres[i] >= kNoDepth || drawn.ids[i] >= drawn.rowCount)
+            continue;
+        const dvec2 then =
+            seeFrom(drawn, i, drawn.cameras.viewFromWorldBefore, drawn.cameras.clipFromViewBefore);
+        auto& [moves, stands] = rows[drawn.ids[i]];
+        (glm::length(placeOf(i) - then - dvec2(drawn.motion[i])) > 0.25 ? moves : stands) += 1;
+    }
+    std::vector<uint32_t> movers;
+    for (const auto& [row, counts] : rows)
+        if (counts.first > counts.second)
+            movers.push_back(row);
+    return movers;
+}
+
+} // namespace
+
+void PrintTo(const CheckScene& scene, std::ostream* stream) {
+    *stream << scene.name;
+}
+
+std::vector<CheckScene> listCheckScenes() {
+    const std::string vase = makeKeys(
+        R"("position": [-0.45, 1.3, 2.2], "lookAt": [-0.1, 0.87, 0])",
+        R"("position": [-0.42, 1.28, 2.17], "lookAt": [-0.05, 0.84, 0])",
+        R"("position": [0.1, 1.1, 1.8], "lookAt": [0.6, 0.5, 0])"
+    );
+    const std::string courtyard = makeKeys(
+        R"("position": [0.5, 1.7, 7.0], "lookAt": [0, 1.5, 0])",
+        R"("position": [0.56, 1.75, 6.9], "lookAt": [0.12, 1.6, 0])",
+        R"("position": [1.6, 2.3, 5.3], "lookAt": [2.2, 2.5, 0])"
+    );
+    return {
+        {"vase", &generator::buildVaseScene, {}, vase},
+        {"courtyard", &generator::buildCourtyardScene, {}, courtyard},
+        {"pink_room",
+         nullptr,
+         "pink-room/pink_room_lite_animated.glb",
+         makeKeys(
+             R"("position": [0.0, 1.5, 3.0], "lookAt": [0, 1.2, 0])",
+             R"("position": [0.03, 1.52, 2.96], "lookAt": [0.05, 1.25, 0])",
+             R"("position": [0.5, 1.8, 2.2], "lookAt": [0.9, 1.8, 0])"
+         )},
+        {"orthographic_vase", &generator::buildVaseScene, {}, vase, 0.8},
+        {"orthographic_courtyard", &generator::buildCourtyardScene, {}, courtyard, 2.5}};
+}
+
+dvec2 placeOf(size_t pixel) {
+    return {double(pixel % kWidth) + 0.5, double(pixel / kWidth) + 0.5};
+}
+
+dvec2 seeFrom(const CheckedDrawing& drawn, size_t pixel, const dmat4& view, const dmat4& clip) {
+    const dvec2 ndc = placeOf(pixel) / dvec2(kWidth, kHeight) * 2.0 - 1.0;
+    const double metres = drawn.metres[pixel];
+    const dmat4& own = drawn.cameras.clipFromView;
+    const double spread = isPerspective(own) ? metres : 1.0;
+    const glm::dvec4 eye(ndc.x * spread / own[0].x, ndc.y * spread / own[1].y, -metres, 1.0);
+    const glm::dvec4 seen = clip * (view * (glm::inverse(drawn.cameras.viewFromWorld) * eye));
+    return (dvec2(seen) / seen.w + 1.0) * 0.5 * dvec2(kWidth, kHeight);
+}
+
+float storeDepth(const dmat4& clip, float metres) {
+    if (metres >= kNoDepth)
+        return 0.0f;
+    const glm::dvec4 seen = clip * glm::dvec4(0.0, 0.0, -double(metres), 1.0);
+    return float(seen.z / seen.w);
+}
+
+void CheckerHost::SetUp() {
+    EmbeddedTest::SetUp();
+    if (IsSkipped() || HasFatalFailure())
+        return;
+    const CheckScene& scene = GetParam();
+    fs::path file = fs::path(SHUTTER_SHARED_DIR) / "scenes" / scene.path;
+    if (!scene.build && !fs::exists(file))
+        GTEST_SKIP() << "the shared scenes are not there";
+    if (scene.build) {
+        file = fs::temp_directory_path() / fmt::format("checker_{}_{}.glb", scene.name, ::getpid());
+        ASSERT_EQ(scene.build().write(file), "");
+    }
+    load(file.string());
+    if (scene.build)
+        fs::remove(file);
+    if (HasFatalFailure())
+        return;
+    render::Renderer renderer(device(), mShot->world.assets);
+    for (int frame = 0; frame < 2 * kFrames; ++frame)
+        draw(renderer, frame);
+    uint32_t rowCount = 0;
+    for (const CheckedDrawing& drawn : mDrawn)
+        rowCount = std::max(rowCount, drawn.rowCount);
+    for (CheckedDrawing& drawn : mDrawn)
+        drawn.rowCount = rowCount;
+}
+
+void CheckerHost::load(const std::string& file) {
+    game::ShotArguments arguments;
+    arguments.scene = file;
+    arguments.unlit = true;
+    arguments.shutter = game::makeShutterArguments(kFrameSeconds, "end");
+    arguments.size = {kWidth, kHeight};
+    auto options = game::interpret(arguments);
+    ASSERT_TRUE(options.ok()) << options.error().message;
+    mOptions = std::move(options).value();
+    auto shot = game::loadShot(mOptions);
+    ASSERT_TRUE(shot.ok()) << shot.error().message;
+    mShot.emplace(std::move(shot).value());
+    const auto flight = flythrough::parseFlythrough(GetParam().keys, "keys");
+    ASSERT_TRUE(flight.ok()) << flight.error().message;
+    auto& registry = mShot->world.registry;
+    const auto shutter = registry.get<scene::CameraShutter>(mShot->camera);
+    mShot->camera = flythrough::addFlythroughCamera(mShot->world, flight.value());
+    registry.add(mShot->camera, scene::CameraShutter(shutter));
+    if (GetParam().orthographicYMag == 0.0)
+        return;
+    auto& camera = registry.get<scene::Camera>(mShot->camera);
+    camera.kind = scene::CameraKind::Orthographic;
+    camera.yMag = GetParam().orthographicYMag;
+    camera.far = 100.0;
+    if (registry.has<scene::LensMotion>(mShot->camera))
+        registry.remove<scene::LensMotion>(mShot->camera);
+}
+
+void CheckerHost::draw(render::Renderer& renderer, int frame) {
+    render::FrameRequest request;
+    request.view = game::makeView(*mShot, mOptions, frame * kFrameSeconds / 2.0 + 0.03);
+    request.intermediates = {"motion", "mesh_id"};
+    const auto result = renderer.renderFrame(mShot->world, request, {});
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    CheckedDrawing& drawn = mDrawn.emplace_back();
+    const image::Image& motion = result.value().intermediates.at("motion");
+    const image::Image& ids = result.value().intermediates.at("mesh_id");
+    for (size_t i = 0; i < kCheckedPixels; ++i) {
+        std::memcpy(&drawn.color[i], &result.value().color.pixels[4 * i], sizeof(glm::vec4));
+        drawn.motion[i] = {motion.pixels[4 * i], motion.pixels[4 * i + 1]};
+        drawn.metres[i] = motion.pixels[4 * i + 2];
+        const float id = ids.pixels[ids.channels * i];
+        drawn.ids[i] = id < 0.0f ? 0xFFFFFFFFu : uint32_t(id);
+        if (drawn.ids[i] != 0xFFFFFFFFu)
+            drawn.rowCount = std::max(drawn.rowCount, drawn.ids[i] + 1);
+    }
+    tellCamera(request.view, drawn);
+}
+
+void CheckerHost::tellCamera(const extract::ViewRequest& view, CheckedDrawing& drawn) {
+    const scene::ExposureMotion moves(mShot->world, view.camera, view.exposure);
+    const auto& camera = mShot->world.registry.get<scene::Camera>(view.camera);
+    const auto viewAt = [&](double s) {
+        return glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s)));
+    };
+    const auto clipAt = [&](double s) {
+        return extract::makeProjection(camera, moves.cameraYFov(s), double(kWidth) / kHeight);
+    };
+    drawn.cameras.areGiven = true;
+    drawn.cameras.viewFromWorld = viewAt(1.0);
+    drawn.cameras.clipFromView = clipAt(1.0);
+    drawn.cameras.viewFromWorldBefore = viewAt(0.0);
+    drawn.cameras.clipFromViewBefore = clipAt(0.0);
+}
+
+GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) const {
+    const int last = int(mDrawn.size()) - 1;
+    const int at = 2 * frame + int(view);
+    GivenFrame given;
+    static_cast<CheckedDrawing&>(given) = mDrawn[one.isStill ? 0 : size_t(at)];
+    if (one.isStill)
+        given.cameras.viewFromWorldBefore = given.cameras.viewFromWorld;
+    given.movers = findMovers(given);
+    for (const float metres : given.metres)
+        given.depth.push_back(storeDepth(given.cameras.clipFromView, metres));
+    given.inputs.width = kWidth;
+    given.inputs.height = kHeight;
+    given.inputs.motion.view = view;
+    motion_blur::HostConvention& convention = given.inputs.convention;
+    convention.scales.exposureShare = 0.4f;
+    for (const uint32_t row : given.movers)
+        given.listed.push_back({row, {}});
+    const CheckedDrawing& before = mDrawn[size_t(std::max(at - 2, 0))];
+    const CheckedDrawing& after = mDrawn[size_t(std::min(at + 2, last))];
+    one.change(given, frame, before, after);
+    convention.cameras = given.cameras;
+    convention.cameras.jitterPx = given.jitterPx;
+    convention.cameras.jitterPxBefore = given.jitterPxBefore;
+    return given;
+}
+
+std::vector<std::string> CheckerHost::check(const CheckCase& one) {
+    std::vector<std::string> told;
+    motion_blur::HostDevice host = describeHost();
+    host.framesInFlight = 2 * one.viewCount;
+    host.checksInputs = true;
+    host.message = [&](std::string_view sentence) { told.emplace_back(sentence); };
+    auto blur = create(host);
+    for (uint32_t frame = 0; frame < kFrames; ++frame)
+        for (uint32_t view = 0; view < one.viewCount; ++view) {
+            GivenFrame given = give(int(frame), one, view);
+            record(*blur, frame % 2 * one.viewCount + view, given);
+        }
+    blur.reset(); // tells of the last ones
+    return told;
+}
+
+void CheckerHost::record(
+    motion_blur::EmbeddedMotionBlur& blur, uint32_t number, GivenFrame& given, const Picture* output
+) {
+    CheckedImages images(device(), given);
+    images.describe(given);
+    motion_blur::MotionBlurSettings settings = gather();
+    const motion_blur::HostCameraKey key{
+        1.0, given.cameras.viewFromWorld, given.cameras.clipFromView};
+    if (given.isResolved) {
+        settings.method = &motion_blur::getMethod("resolved");
+        settings.sampleCount = 3;
+        given.inputs.motion.keys = {&key, 1};
+        if (!given.keys.empty())
+            given.inputs.motion.keys = given.keys;
+        given.inputs.motion.movers = given.listed;
+        given.inputs.motion.rowCount = given.rowCount;
+    }
+    gpu::Frame commands(device());
+    commands.begin();
+    images.record(commands.commands());
+    const core::Status done = blur.record(commands.commands(), number, given.inputs, settings);
+    ASSERT_TRUE(done.ok()) << done.error().message;
+    if (output)
+        output->recordReadback(commands.commands());
+    commands.submit();
+    commands.wait();
+}
+
+} // namespace shutter::test
