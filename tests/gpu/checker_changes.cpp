@@ -25,12 +25,17 @@ void scaleVectors(GivenFrame& given, const glm::vec2& factor) {
 }
 
 void keepObjectsOnly(GivenFrame& given) {
+    const motion_blur::HostCameras& cameras = given.cameras;
     std::vector<bool> moves(given.rowCount);
     for (const uint32_t row : given.movers)
         moves[row] = true;
-    for (size_t i = 0; i < kCheckedPixels; ++i)
-        if (given.ids[i] >= given.rowCount || !moves[given.ids[i]])
-            given.motion[i] = {};
+    for (size_t i = 0; i < kCheckedPixels; ++i) {
+        const bool isMover = given.ids[i] < given.rowCount && moves[given.ids[i]];
+        const glm::dvec2 then =
+            seeFrom(given, i, cameras.viewFromWorldBefore, cameras.clipFromViewBefore);
+        const glm::vec2 camera(placeOf(i) - then);
+        given.motion[i] = isMover ? given.motion[i] - camera : glm::vec2(0.0f);
+    }
 }
 
 void storeForwardDepth(GivenFrame& given) {
