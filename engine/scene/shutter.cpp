@@ -2,6 +2,7 @@
 #include "engine/scene/shutter.h"
 
 #include "engine/core/check.h"
+#include "engine/math/response.h"
 #include "shaders/common/shutter_response.glsl"
 
 #include <algorithm>
@@ -14,13 +15,8 @@ namespace {
 /// Shortest flank and top of a trapezoid: shorter ones have no length in single precision.
 constexpr double kShortestShare = 1.0e-6;
 
-/// A corner of the piecewise linear response.
-struct Knot {
-    double s = 0.0;
-    double height = 0.0;
-};
-
-std::vector<Knot> listKnots(const ShutterResponse& response) {
+/// Corners of the piecewise linear response.
+std::vector<math::ResponsePoint> listPoints(const ShutterResponse& response) {
     switch (response.shape) {
     case ResponseShape::Box:
         break;
@@ -31,26 +27,24 @@ std::vector<Knot> listKnots(const ShutterResponse& response) {
         const bool closes = response.closeShare > kShortestShare;
         const double from = opens ? response.openShare : 0.0;
         const double to = closes ? 1.0 - response.closeShare : 1.0;
-        std::vector<Knot> knots;
+        std::vector<math::ResponsePoint> points;
         if (opens)
-            knots.push_back({0.0, 0.0});
-        knots.push_back({from, 1.0});
+            points.push_back({0.0, 0.0});
+        points.push_back({from, 1.0});
         if (to > from + kShortestShare)
-            knots.push_back({to, 1.0});
+            points.push_back({to, 1.0});
         if (closes)
-            knots.push_back({1.0, 0.0});
+            points.push_back({1.0, 0.0});
         else
-            knots.back().s = 1.0;
-        return knots;
+            points.back().s = 1.0;
+        return points;
     }
     case ResponseShape::Sampled: {
-        // Relative to the largest, so that no sum overflows.
-        const double largest = *std::max_element(response.samples.begin(), response.samples.end());
         const double intervals = double(response.samples.size() - 1);
-        std::vector<Knot> knots;
+        std::vector<math::ResponsePoint> points;
         for (const double sample : response.samples)
-            knots.push_back({double(knots.size()) / intervals, sample / largest});
-        return knots;
+            points.push_back({double(points.size()) / intervals, sample});
+        return points;
     }
     }
     return {{0.0, 1.0}, {1.0, 1.0}};
@@ -146,28 +140,7 @@ core::Status validateResponse(const ShutterResponse& response) {
 std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse& response) {
     const core::Status valid = validateResponse(response);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
-    const std::vector<Knot> knots = listKnots(response);
-    const bool isConstant = std::all_of(knots.begin(), knots.end(), [&](const Knot& knot) {
-        return knot.height == knots.front().height;
-    });
-    if (isConstant)
-        return std::nullopt;
-    std::vector<double> taken{0.0};
-    for (size_t i = 1; i < knots.size(); ++i)
-        taken.push_back(
-            taken.back() +
-            (knots[i].s - knots[i - 1].s) * 0.5 * (knots[i].height + knots[i - 1].height)
-        );
-    shader::ResponseTable table{};
-    table.knotCount = static_cast<uint32_t>(knots.size());
-    for (size_t i = 0; i < knots.size(); ++i)
-        table.knots[i] = {
-            static_cast<float>(knots[i].s),
-            static_cast<float>(knots[i].height / taken.back()),
-            static_cast<float>(taken[i] / taken.back()),
-            0.0f};
-    shader::fillFirstKnots(table);
-    return table;
+    return math::makeResponseTable(listPoints(response));
 }
 
 double invertResponse(const ShutterResponse& response, double u) {
