@@ -39,6 +39,10 @@ struct InputsForC {
         inputs.rasterTime = given.rasterTime;
         inputs.frameNumber = given.frameNumber;
         takeMotion(given.motion);
+        for (const math::ResponsePoint& point : given.responsePoints)
+            mResponse.push_back({point.s, point.sensitivity});
+        inputs.responsePoints = mResponse.data();
+        inputs.responsePointCount = static_cast<uint32_t>(mResponse.size());
         if (given.reveal.record) {
             inputs.revealUser = this;
             inputs.recordReveal = [](void* self, const ShutterBlurRevealTask* task) {
@@ -103,6 +107,7 @@ struct InputsForC {
     const motion_blur::HostInputs& mGiven;
     std::vector<ShutterBlurCameraKey> mKeys;
     std::vector<ShutterBlurMover> mMovers;
+    std::vector<ShutterBlurResponsePoint> mResponse;
 };
 
 } // namespace shutter::test

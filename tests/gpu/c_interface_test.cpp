@@ -193,6 +193,15 @@ TEST_F(CInterface, WhatIsWrongIsNamed) {
     refuse([](I& in) { in.structBytes = 4; }, "inputs.structBytes is 4");
     refuse([](I& in) { in.structBytes += 8; }, "or less of an older header");
     refuse([](I& in) { in.width = 0; }, "the size is 0 x 48");
+    refuse([](I& in) { in.responsePointCount = 2; }, "responsePoints is null");
+    static const ShutterBlurResponsePoint kLate[2] = {{0.5, 1.0}, {1.0, 1.0}};
+    refuse(
+        [](I& in) {
+            in.responsePointCount = 2;
+            in.responsePoints = kLate;
+        },
+        "responsePoints[0].s is 0.5"
+    );
     refuse([](I& in) { in.color.format = VK_FORMAT_R8G8B8A8_UNORM; }, "color.format is R8G8B8A8");
     refuse([](I& in) { in.color.usage = VK_IMAGE_USAGE_SAMPLED_BIT; }, "color.usage lacks");
     refuse(
@@ -294,6 +303,13 @@ TEST_F(CInterface, OlderStructuresAreTaken) {
     // A header that ended before the fields of "resolved".
     inputs.structBytes = offsetof(ShutterBlurInputs, entityId);
     inputs.keyCount = 77; // behind its end
+    EXPECT_EQ(record(inputs), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
+    // One that ended before the response, with rubbish in its padding and behind it.
+    inputs = makeInputs();
+    inputs.structBytes = offsetof(ShutterBlurInputs, responsePoints);
+    constexpr size_t kEnd = offsetof(ShutterBlurInputs, showsInputs) + sizeof(VkBool32);
+    static_assert(kEnd < offsetof(ShutterBlurInputs, responsePoints), "there was padding");
+    std::memset(reinterpret_cast<std::byte*>(&inputs) + kEnd, 0x5A, sizeof(inputs) - kEnd);
     EXPECT_EQ(record(inputs), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
 }
 

@@ -108,6 +108,7 @@ class EmbeddedDump : public test::EmbeddedTest {
         if (mHasVectors)
             inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
+        inputs.responsePoints = mResponse;
         return inputs;
     }
 
@@ -166,6 +167,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     std::deque<HostTexels> mTexels;
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
+    std::vector<math::ResponsePoint> mResponse;
     bool mHasVectors = true;
 };
 
@@ -173,6 +175,16 @@ TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
     ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
     const image::Image picture = draw(0, test::gather());
     EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({picture});
+}
+
+TEST_F(EmbeddedDump, ReplayHasTheResponseOfTheShutter) {
+    const image::Image box = draw(0, test::gather());
+    mResponse = {{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    const image::Image picture = draw(0, test::gather());
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    EXPECT_FALSE(test::sameBits(picture, box));
     expectReplayed({picture});
 }
 

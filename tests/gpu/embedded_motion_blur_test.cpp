@@ -47,7 +47,7 @@ void build(test::SceneBuilder& scene) {
 class EmbeddedPictures : public test::EmbeddedTest {
   protected:
     /// Draws a frame with the host's blur before the plugin's, which must be the same.
-    /// \param shape with a box, the C interface draws the same, too
+    /// Without rays, the C interface draws the same, too.
     static void expectSameAsPlugin(
         HostDevice host,
         std::span<const Method* const> methods,
@@ -77,8 +77,10 @@ class EmbeddedPictures : public test::EmbeddedTest {
             MotionBlurSettings settings;
             settings.method = method;
             HostOfTheGBuffer foreign(device(), *blur, settings, {kWidth, kHeight});
-            if (shape == scene::ResponseShape::Box)
+            if (method->rays == motion_blur::RayNeed::None)
                 foreign.blurOfC = c.blur;
+            if (shape == scene::ResponseShape::Triangle)
+                foreign.responseForC = test::triangleResponse();
             motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), settings);
             const std::array<render::PostEffect*, 2> effects{&foreign, &plugin};
             const auto drawn = renderer.renderFrame(scene.world, request, effects);
@@ -107,7 +109,8 @@ TEST_F(EmbeddedPictures, EachMethodWithoutRaysGivesTheBitsOfThePlugin) {
 
 TEST_F(EmbeddedPictures, ThePluginAndBothInterfacesGiveTheSameBits) {
     const std::array methods{&getMethod("gather"), &getMethod("guertin2014")};
-    expectSameAsPlugin(describeHost(), methods, scene::ResponseShape::Box);
+    for (const auto shape : {scene::ResponseShape::Box, scene::ResponseShape::Triangle})
+        expectSameAsPlugin(describeHost(), methods, shape);
 }
 
 TEST_F(EmbeddedPictures, HybridGivesTheBitsOfThePlugin) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace shutter {
 namespace {
@@ -92,6 +93,33 @@ TEST_F(EmbeddedRefusals, EachBadInputIsNamed) {
         [&] { inputs.motionDepth.image = inputs.color.image; }, "motionDepth.image is color.image"
     );
     inputs = good;
+    EXPECT_TRUE(record().ok());
+}
+
+TEST_F(EmbeddedRefusals, EachBadResponseIsNamed) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    using Points = std::vector<math::ResponsePoint>;
+    const auto refuse = [&](const Points& points, const std::string& part) {
+        inputs.responsePoints = points;
+        expectRefusal(record(), part);
+    };
+    refuse({{0, 1}}, "responsePoints holds 1, it must be 2 to 64");
+    refuse(Points(65), "responsePoints holds 65");
+    refuse({{0.1, 1}, {1, 0}}, "responsePoints[0].s is 0.1, times must rise from 0 to 1");
+    refuse({{0, 1}, {0.9, 0}}, "responsePoints[1].s is 0.9");
+    refuse({{0, 1}, {0.5, 0}, {0.5, 1}, {1, 1}}, "responsePoints[2].s is 0.5");
+    refuse({{0, 1}, {0.5, 0}, {0.5 + 1e-9, 1}, {1, 1}}, "responsePoints[2].s is 0.5");
+    refuse({{0, 1}, {kNan, 0}, {1, 1}}, "responsePoints[1].s is nan");
+    refuse({{0, 1}, {2, 0}, {1, 1}}, "responsePoints[1].s is 2");
+    refuse({{0, 1}, {1, -1}}, "responsePoints[1].sensitivity is -1");
+    refuse({{0, kInfinity}, {1, 1}}, "responsePoints[0].sensitivity is inf");
+    refuse({{0, kNan}, {1, 1}}, "responsePoints[0].sensitivity is nan");
+    refuse({{0, 0}, {1, 0}}, "no light is taken");
+    const Points good{{0, 0}, {1, 1e300}};
+    inputs.response = 16;
+    refuse(good, "response is not 0, although there are responsePoints");
+    inputs.response = 0;
     EXPECT_TRUE(record().ok());
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace shutter::test {
 
@@ -43,6 +44,11 @@ class BlurOfC {
     ShutterBlur* blur = nullptr;
 };
 
+/// What scene::ResponseShape::Triangle is.
+[[nodiscard]] inline std::vector<math::ResponsePoint> triangleResponse() {
+    return {{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}};
+}
+
 /// Takes the engine's G-buffer as a host would give its own: raw handles of images in the layouts
 /// they happen to have. Blurs it into another picture (view 0) and, a copy of it, in place (view
 /// 1); the frame goes on with what it was.
@@ -62,6 +68,8 @@ class HostOfTheGBuffer : public render::PostEffect {
     /// With it the C interface draws the same picture once more, under its number 0.
     ShutterBlur* blurOfC = nullptr;
     Picture byC;
+    /// The response of the frame as C has it, which takes no address of a table.
+    std::vector<math::ResponsePoint> responseForC;
     int64_t frameNumber = 0;
     /// Says how things move in the frame. What it points to must last until the frame is recorded.
     std::function<void(const render::PostContext&, motion_blur::HostMotion&)> describeMotion;
@@ -171,6 +179,7 @@ class HostOfTheGBuffer : public render::PostEffect {
     void recordByC(VkCommandBuffer commands, const motion_blur::HostInputs& inputs) {
         motion_blur::HostInputs given = inputs;
         given.output = {byC.handle(), kNothing, kCopied};
+        given.responsePoints = responseForC;
         const InputsForC told(given);
         ShutterBlurSettings settings = shutterBlurDefaultSettings();
         settings.method = mSettings.method->name;

@@ -221,6 +221,12 @@ typedef struct ShutterBlurMover {
     const double* worldFromObject;
 } ShutterBlurMover;
 
+/* The sensor's sensitivity at a shutter time, relative to that at others. */
+typedef struct ShutterBlurResponsePoint {
+    double time; /* shutter time, [0, 1]: 0 open, 1 close */
+    double sensitivity;
+} ShutterBlurResponsePoint;
+
 typedef struct ShutterBlurRevealTarget {
     VkImage image;
     VkImageView view;
@@ -365,6 +371,9 @@ typedef struct ShutterBlurInputs {
 
     /* For debugging: panels over the blurred picture show what the effect reads. */
     VkBool32 showsInputs;
+    /* The shutter's response: times rise from 0 to 1, and it is straight between them. */
+    const ShutterBlurResponsePoint* responsePoints;
+    uint32_t responsePointCount; /* 2 to 64; 0: light is taken evenly over the exposure */
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {

@@ -85,7 +85,10 @@ core::Status checkArray(const char* name, const void* array, const char* count, 
 
 core::Status checkArrays(const ShutterBlurInputs& given) {
     SHUTTER_TRY(checkArray("keys", given.keys, "keyCount", given.keyCount));
-    return checkArray("movers", given.movers, "moverCount", given.moverCount);
+    SHUTTER_TRY(checkArray("movers", given.movers, "moverCount", given.moverCount));
+    return checkArray(
+        "responsePoints", given.responsePoints, "responsePointCount", given.responsePointCount
+    );
 }
 
 HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
@@ -295,6 +298,12 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
     inputs.entityId = convert(wanted.entityId);
     inputs.noEntity = wanted.noEntity;
     inputs.rasterTime = wanted.rasterTime;
+    arrays.response.clear();
+    for (uint32_t i = 0; i < wanted.responsePointCount; ++i)
+        arrays.response.push_back(
+            {wanted.responsePoints[i].time, wanted.responsePoints[i].sensitivity}
+        );
+    inputs.responsePoints = arrays.response;
     inputs.frameNumber = wanted.frameNumber;
     inputs.motion = convertMotion(wanted, arrays);
     inputs.normal = convert(wanted.normal);

@@ -12,7 +12,9 @@
 
 namespace shutter::motion_blur {
 
-/// A structure of this header or of an older one, whose missing fields are as in `defaults`.
+/// A structure of this header or of an older one, whose missing fields are as in `defaults`. New
+/// fields come last and never where an older structure had padding, which holds anything: a field
+/// of 4 bytes behind another one goes behind a larger one.
 template <class T>
 [[nodiscard]] core::Result<T> takeStructure(const char* name, const T* given, const T& defaults) {
     if (!given)
@@ -46,6 +48,7 @@ struct InputArrays {
     std::vector<HostCameraKey> keys;
     std::vector<HostMover> movers;
     std::vector<glm::dmat4> matrices;
+    std::vector<math::ResponsePoint> response;
 };
 
 /// \param arrays must outlive the result

@@ -93,8 +93,9 @@ ordered_json describeSettings(const MotionBlurSettings& settings) {
 
 } // namespace
 
-ordered_json
-describeInputs(const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked) {
+ordered_json describeInputs(
+    const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked, bool hasResponse
+) {
     const Method& method = *settings.method;
     ordered_json root = ordered_json::object();
     root["format"] = "shutter motion blur dump";
@@ -112,7 +113,7 @@ describeInputs(const HostInputs& inputs, const MotionBlurSettings& settings, boo
     root["motion"] = method.readsInstantMotions ? describeMotion(inputs.motion) : ordered_json();
     const bool asks = method.rays == RayNeed::Any;
     root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
-    root["response"] = inputs.response == 0 ? "box" : inputs.motion.response ? "file" : "address";
+    root["response"] = hasResponse ? "file" : inputs.response == 0 ? "box" : "address";
     return root;
 }
 

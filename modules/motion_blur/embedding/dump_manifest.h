@@ -10,7 +10,9 @@
 namespace shutter::motion_blur {
 
 /// \param isPacked HostInputs::motionDepth counts, not the convention
-[[nodiscard]] nlohmann::ordered_json
-describeInputs(const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked);
+/// \param hasResponse the dump holds the table of the shutter's response
+[[nodiscard]] nlohmann::ordered_json describeInputs(
+    const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked, bool hasResponse
+);
 
 } // namespace shutter::motion_blur

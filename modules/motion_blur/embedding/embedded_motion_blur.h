@@ -131,6 +131,8 @@ class EmbeddedMotionBlur {
     core::Status record(Frame& frame, View& view, VkCommandBuffer commands);
     /// Declares the whole of a frame.
     void declare(Frame& frame, View& view);
+    /// Where shaders find the shutter's response; 0: it is a box.
+    [[nodiscard]] VkDeviceAddress giveResponse(Frame& frame) const;
     /// Imports the images, and declares what makes the effect's inputs of them.
     [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
     [[nodiscard]] graph::ImageHandle prepareMotion(Frame& frame) const;

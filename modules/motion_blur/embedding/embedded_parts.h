@@ -32,6 +32,7 @@ struct EmbeddedMotionBlur::Slot {
     gpu::Buffer instants;    ///< math::InstantLayers, for the methods that read them
     gpu::Buffer convention;  ///< shader::PrepareTable, where motion and depth are made
     gpu::Buffer overlay;     ///< shader::OverlayTable, where inputs are shown
+    gpu::Buffer response;    ///< shader::ResponseTable, where points of it are given
     uint64_t handedOver = 0; ///< timeline value of what was recorded last
     uint32_t recordings = 0; ///< what the GPU marks once it has run the last of them
     bool isToldDone = true;  ///< by markDone(), or there is none
@@ -71,10 +72,17 @@ struct EmbeddedMotionBlur::Frame {
     /// Handles are of nothing: the graph is compiled and never run.
     bool isImagined = false;
 
-    bool isHosts = false;        ///< the host will submit it: it may be checked and dumped
-    OwnReveal dumpedReveal{};    ///< the host's, whose answer is dumped
+    bool isHosts = false;     ///< the host will submit it: it may be checked and dumped
+    OwnReveal dumpedReveal{}; ///< the host's, whose answer is dumped
+    /// Of HostInputs::responsePoints, unless they are a box.
+    std::optional<shader::ResponseTable> responseTable{};
     ImportedInputs images{};     ///< the host's own
     graph::ImageHandle output{}; ///< the same; in place: invalid
+
+    /// In main memory; null: there is none, or its address alone is known.
+    [[nodiscard]] const shader::ResponseTable* response() const {
+        return responseTable ? &*responseTable : inputs.motion.response;
+    }
 
     /// Invalid where there is no image.
     [[nodiscard]] graph::ImageHandle import(

@@ -54,8 +54,9 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     else if (lent)
         view.history.forget();
     const HostRaster* last = inputs.motion.followsLast && view.last ? &*view.last : nullptr;
-    HostInstants made =
-        computeHostInstants(inputs.motion, describeFrame(inputs, frame.settings), last);
+    HostMotion motion = inputs.motion;
+    motion.response = frame.response();
+    HostInstants made = computeHostInstants(motion, describeFrame(inputs, frame.settings), last);
     InstantMotions motions;
     motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
     motions.instantCount = countInstants(frame.settings);
@@ -120,6 +121,15 @@ std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     return lent;
 }
 
+VkDeviceAddress EmbeddedMotionBlur::giveResponse(Frame& frame) const {
+    if (frame.inputs.responsePoints.empty())
+        return frame.inputs.response;
+    frame.responseTable = math::makeResponseTable(frame.inputs.responsePoints);
+    if (!frame.responseTable)
+        return 0; // a box
+    return writeTable(*mDevice, frame.slot.response, "shutter response", *frame.responseTable);
+}
+
 MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     const HostInputs& inputs = frame.inputs;
     const VkExtent2D picture = pictureOf(inputs);
@@ -129,7 +139,7 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     own.slot = frame.number;
     own.wantsCounters = frame.wantsCounters;
     own.rasterTime = inputs.rasterTime;
-    own.response = gpu::splitAddress(inputs.response);
+    own.response = gpu::splitAddress(giveResponse(frame));
     own.frameNumber = inputs.frameNumber;
     frame.images.color = frame.import(device, "color", inputs.color, colorRule(inputs));
     frame.output = frame.import(device, "output", inputs.output, outputRule(inputs));
@@ -189,7 +199,9 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
     if (isDumped && mDump->startsView(inputs.motion.view))
         view.forget();
     if (isDumped) {
-        mDump->add(frame.graph, frame.number, inputs, frame.images, frame.settings);
+        mDump->add(
+            frame.graph, frame.number, inputs, frame.images, frame.settings, frame.response()
+        );
         frame.dumpedReveal = mDump->wrapReveal(inputs, frame.number, *frame.slot.frame);
     }
     if (method.rays == RayNeed::Query)

@@ -219,7 +219,8 @@ void HostDump::add(
     uint32_t frame,
     const HostInputs& inputs,
     const ImportedInputs& images,
-    const MotionBlurSettings& settings
+    const MotionBlurSettings& settings,
+    const shader::ResponseTable* response
 ) {
     Slot& slot = *mSlots[frame];
     slot.planes.clear();
@@ -233,11 +234,12 @@ void HostDump::add(
     --mLeft;
     mHasView[inputs.motion.view] = true;
 
-    slot.manifest = describeInputs(inputs, settings, images.motionDepth.isValid());
+    slot.manifest =
+        describeInputs(inputs, settings, images.motionDepth.isValid(), response != nullptr);
     slot.manifest["device"] = mDevice.info().name;
     slot.manifest["driver"] = mDevice.info().driver;
-    if (inputs.response != 0 && inputs.motion.response) {
-        const auto bytes = std::as_bytes(std::span(inputs.motion.response, 1));
+    if (response) {
+        const auto bytes = std::as_bytes(std::span(response, 1));
         slot.response.assign(bytes.begin(), bytes.end());
     }
 

@@ -39,12 +39,14 @@ class HostDump {
     [[nodiscard]] bool startsView(uint32_t view) const;
 
     /// Declares the passes that read the inputs of a recording under a frame's number.
+    /// \param response the shutter's, in main memory; null: a box, or its address alone is known
     void
     add(graph::Graph& graph,
         uint32_t frame,
         const HostInputs& inputs,
         const ImportedInputs& images,
-        const MotionBlurSettings& settings);
+        const MotionBlurSettings& settings,
+        const shader::ResponseTable* response);
     /// The same for the blurred picture, after add().
     void addPicture(graph::Graph& graph, uint32_t frame, graph::ImageHandle picture);
     /// The host's reveal, which is read as well; it refers to this, `inputs` and `recorder`.

@@ -2,6 +2,7 @@
 #include "modules/motion_blur/embedding/host_input_check.h"
 
 #include "engine/gpu/vulkan.h"
+#include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/own_samples_shared.h"
 
 #include <algorithm>
@@ -207,6 +208,43 @@ core::Status checkMethod(
     return readsTables || method.readsCamera ? checkTables(inputs, method) : core::Status();
 }
 
+core::Status checkResponsePoints(const HostInputs& inputs) {
+    const auto points = inputs.responsePoints;
+    if (points.empty())
+        return {};
+    if (!points.data())
+        return makeError("motion blur: responsePoints is null, its length {}", points.size());
+    if (inputs.response != 0)
+        return makeError("motion blur: response is not 0, although there are responsePoints");
+    if (points.size() < 2 || points.size() > shader::kMaxResponseKnots)
+        return makeError(
+            "motion blur: responsePoints holds {}, it must be 2 to {}",
+            points.size(),
+            shader::kMaxResponseKnots
+        );
+    bool takesLight = false;
+    for (size_t i = 0; i < points.size(); ++i) {
+        const auto [s, sensitivity] = points[i];
+        // Shaders have floats, in which times must differ as well.
+        const bool rises = i == 0 ? s == 0.0 : float(s) > float(points[i - 1].s);
+        if (!rises || !(s <= 1.0) || (i + 1 == points.size() && s != 1.0))
+            return makeError(
+                "motion blur: responsePoints[{}].s is {}, times must rise from 0 to 1", i, s
+            );
+        if (!(sensitivity >= 0.0 && std::isfinite(sensitivity)))
+            return makeError(
+                "motion blur: responsePoints[{}].sensitivity is {}, it must be finite and 0 or "
+                "more",
+                i,
+                sensitivity
+            );
+        takesLight = takesLight || sensitivity > 0.0;
+    }
+    if (!takesLight)
+        return makeError("motion blur: all responsePoints have sensitivity 0: no light is taken");
+    return {};
+}
+
 core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     const VkExtent2D picture = pictureOf(inputs);
     SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
@@ -281,6 +319,7 @@ core::Status checkInputs(
         );
     if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
         return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);
+    SHUTTER_TRY(checkResponsePoints(inputs));
     SHUTTER_TRY(checkImages(inputs, host));
     if (inputs.motion.view >= host.framesInFlight)
         return makeError(

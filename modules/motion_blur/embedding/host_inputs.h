@@ -6,6 +6,7 @@
 #include "engine/gpu/device_select.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/graph.h"
+#include "engine/math/response.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_image.h"
@@ -18,6 +19,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -95,9 +97,14 @@ struct HostInputs {
     /// RGBA16F, RGBA32F or B10G11R11; storage; of the own format and size: transfer target, too.
     /// Null: in place, the blurred picture replaces `color`.
     HostImage output;
-    double rasterTime = 1.0;      ///< s of the raster instant: 0 start, 0.5 centre, 1 end
-    VkDeviceAddress response = 0; ///< shader::ResponseTable (shutter_response_shared.h); 0: box
-    HostRays rays;                ///< for methods of RayNeed::Any, unless `reveal.record` is there
+    double rasterTime = 1.0; ///< s of the raster instant: 0 start, 0.5 centre, 1 end
+    /// The sensor's sensitivity over the exposure, straight between the points: 2 to 64, s rising
+    /// from 0 to 1. Read within record() only. Empty: a box, unless there is `response`.
+    std::span<const math::ResponsePoint> responsePoints;
+    /// In place of the points, a shader::ResponseTable (shutter_response_shared.h) that the host
+    /// keeps itself, and HostMotion::response of it; 0: none.
+    VkDeviceAddress response = 0;
+    HostRays rays;           ///< for methods of RayNeed::Any, unless `reveal.record` is there
     OwnReveal reveal;        ///< in place of `rays`: needs no tables and no HostDevice::rayTier
     OwnSamples samples;      ///< for methods of RayNeed::Query, with settings.raysPerPixel
     int64_t frameNumber = 0; ///< for InstantNoise::Turning; the next frame has the next number
