@@ -63,23 +63,30 @@ std::vector<Integer> packIntegers(const image::Image& image, uint32_t channels) 
 /// Bits per channel of the formats for display: 8 or 16.
 enum class DisplayDepth : uint8_t { Bytes, Deep };
 
+/// What a format leaves open.
+struct Encoding {
+    SampleType type = SampleType::Float;
+    DisplayDepth depth = DisplayDepth::Bytes;
+    int jpegQuality = kJpegQuality;
+    std::span<const PictureText> texts{};
+};
+
 std::string encode(
     const fs::path& path,
     const image::Image& image,
-    SampleType type,
-    std::span<const PictureText> texts,
-    std::vector<uint8_t>& out,
-    DisplayDepth depth = DisplayDepth::Bytes
+    const Encoding& encoding,
+    std::vector<uint8_t>& out
 ) {
     oiio::EncodeRequest request;
-    for (const PictureText& one : texts)
+    for (const PictureText& one : encoding.texts)
         request.texts.emplace_back(one.key, one.text);
+    request.jpegQuality = encoding.jpegQuality;
     request.extension = lowerExtension(path);
     request.width = image.width;
     request.height = image.height;
     if (isDisplayFormat(path).value()) {
         request.channels = image.channels >= 3 ? 3 : 1;
-        if (depth == DisplayDepth::Deep) {
+        if (encoding.depth == DisplayDepth::Deep) {
             request.storage = oiio::Storage::Short;
             const auto deep = packIntegers<uint16_t>(image, request.channels);
             request.pixels = deep.data();
@@ -92,14 +99,15 @@ std::string encode(
     }
     request.channels = image.channels;
     request.channelNames = image.channelNames;
-    if (type == SampleType::Uint) {
+    if (encoding.type == SampleType::Uint) {
         request.storage = oiio::Storage::Uint;
         std::vector<uint32_t> integers(image.pixels.size());
         std::transform(image.pixels.begin(), image.pixels.end(), integers.begin(), toUint);
         request.pixels = integers.data();
         return oiio::encode(request, out);
     }
-    request.storage = type == SampleType::Half ? oiio::Storage::Half : oiio::Storage::Float;
+    request.storage =
+        encoding.type == SampleType::Half ? oiio::Storage::Half : oiio::Storage::Float;
     request.pixels = image.pixels.data();
     return oiio::encode(request, out);
 }
@@ -193,42 +201,50 @@ core::Status checkWritable(const fs::path& path) {
 
 namespace {
 
-core::Status write(
-    const fs::path& path,
-    const image::Image& image,
-    SampleType type,
-    std::span<const PictureText> texts,
-    DisplayDepth depth = DisplayDepth::Bytes
-) {
+core::Result<std::vector<uint8_t>>
+encode(const fs::path& path, const image::Image& image, const Encoding& encoding) {
+    if (image.width == 0 || image.height == 0 || image.channels == 0)
+        return core::makeError("cannot write '{}': the picture has no pixels", path.string());
+    std::vector<uint8_t> bytes;
+    const std::string why = encode(path, image, encoding, bytes);
+    if (!why.empty())
+        return core::makeError("cannot write '{}': {}", path.string(), why);
+    return bytes;
+}
+
+core::Status write(const fs::path& path, const image::Image& image, const Encoding& encoding) {
     checkImage(image);
     if (const core::Status writable = checkWritable(path); !writable)
         return writable;
-    if (image.width == 0 || image.height == 0 || image.channels == 0) {
-        return core::makeError("cannot write '{}': the picture has no pixels", path.string());
-    }
-    std::vector<uint8_t> bytes;
-    const std::string why = encode(path, image, type, texts, bytes, depth);
-    if (!why.empty())
-        return core::makeError("cannot write '{}': {}", path.string(), why);
-    return writeFileBytes(path, bytes);
+    const auto bytes = encode(path, image, encoding);
+    return bytes ? writeFileBytes(path, bytes.value()) : core::Status(bytes.error());
 }
 
 } // namespace
 
 core::Status writeImage(const fs::path& path, const image::Image& image, SampleType type) {
-    return write(path, image, type, {});
+    return write(path, image, {.type = type});
+}
+
+core::Result<std::vector<uint8_t>>
+encodeImage(const fs::path& fileName, const image::Image& image, SampleType type, int jpegQuality) {
+    checkImage(image);
+    SHUTTER_CHECK(jpegQuality >= 1 && jpegQuality <= 100, "{}", jpegQuality);
+    if (const auto known = isDisplayFormat(fileName); !known)
+        return known.error();
+    return encode(fileName, image, {.type = type, .jpegQuality = jpegQuality});
 }
 
 core::Status writeDeepPng(const fs::path& path, const image::Image& image) {
     SHUTTER_CHECK(lowerExtension(path) == ".png", "'{}' is no PNG", path.string());
-    return write(path, image, SampleType::Float, {}, DisplayDepth::Deep);
+    return write(path, image, {.depth = DisplayDepth::Deep});
 }
 
 core::Status writePngWithTexts(
     const fs::path& path, const image::Image& image, std::span<const PictureText> texts
 ) {
     SHUTTER_CHECK(lowerExtension(path) == ".png", "'{}' is no PNG", path.string());
-    return write(path, image, SampleType::Float, texts);
+    return write(path, image, {.texts = texts});
 }
 
 core::Result<scene::TextureImage>

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shutter::io {
 
@@ -39,13 +40,26 @@ isDisplayFormat(const std::filesystem::path& path, std::string_view known = ".ex
 /// How EXR channels are stored.
 enum class SampleType : uint8_t { Half, Float, Uint };
 
-/// Writes .exr (as `type`), .png (8 bit) or .jpg (8 bit, quality 95). Written to a temporary file
+/// Quality of a JPEG where nobody asks for another, of 100.
+inline constexpr int kJpegQuality = 95;
+
+/// Writes .exr (as `type`), .png (8 bit) or .jpg (8 bit, kJpegQuality). Written to a temporary file
 /// beside and renamed, so that an interrupted write never leaves a half picture under this name.
 /// PNG and JPEG take the first three channels (or one) and clamp to [0, 1].
 [[nodiscard]] core::Status writeImage(
     const std::filesystem::path& path,
     const image::Image& image,
     SampleType type = SampleType::Float
+);
+
+/// The bytes of the file that writeImage() would write.
+/// \param fileName its extension says the format
+/// \param jpegQuality 1 to 100; other formats do not use it
+[[nodiscard]] core::Result<std::vector<uint8_t>> encodeImage(
+    const std::filesystem::path& fileName,
+    const image::Image& image,
+    SampleType type = SampleType::Float,
+    int jpegQuality = kJpegQuality
 );
 
 /// writeImage() of a .png (CHECKed) of 16 bits a channel.

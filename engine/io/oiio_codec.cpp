@@ -226,8 +226,8 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
     spec.z_channel = -1;
     if (request.storage == Storage::Byte || request.storage == Storage::Short) {
         spec.attribute("oiio:ColorSpace", "sRGB");
-        spec.attribute("Compression", "jpeg:95");
-        spec.attribute("CompressionQuality", 95);
+        spec.attribute("Compression", "jpeg:" + std::to_string(request.jpegQuality));
+        spec.attribute("CompressionQuality", request.jpegQuality);
         for (const auto& [key, text] : request.texts)
             spec.attribute(key, text);
     } else {

@@ -40,6 +40,7 @@ struct EncodeRequest {
     Storage storage = Storage::Float;
     const void* pixels = nullptr;
     std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
+    int jpegQuality = 95;                                   ///< 1 to 100
 };
 
 /// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty

@@ -183,6 +183,32 @@ TEST(ImageFile, AJpegComesBackNearly) {
     EXPECT_NEAR(read.value().at(8, 8, 1), 0.5f, 0.01f);
 }
 
+TEST(ImageFile, EncodedBytesAreThoseOfTheFile) {
+    const TempFolder folder;
+    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+        const image::Image image = makeRamp(16, 16, 3);
+        ASSERT_TRUE(writeImage(folder.path() / name, image, SampleType::Half)) << name;
+        const auto bytes = encodeImage(name, image, SampleType::Half);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        EXPECT_EQ(bytes.value(), readAll(folder.path() / name)) << name;
+    }
+    EXPECT_FALSE(encodeImage("a.bmp", makeRamp(1, 1, 3)));
+    EXPECT_FALSE(encodeImage("a.png", image::Image(0, 0, 3)));
+}
+
+TEST(ImageFile, AJpegOfLowerQualityIsSmaller) {
+    image::Image image = makeNoise(64, 64, 3);
+    for (float& value : image.pixels)
+        value /= float(1 << 24);
+    size_t before = SIZE_MAX;
+    for (int quality : {95, 80, 40, 10}) {
+        const auto bytes = encodeImage("a.jpg", image, SampleType::Float, quality);
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        EXPECT_LT(bytes.value().size(), before * 9 / 10) << quality;
+        before = bytes.value().size();
+    }
+}
+
 TEST(ImageFile, WritingLeavesNothingButThePicture) {
     const TempFolder folder;
     ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
