@@ -6,7 +6,7 @@
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
-#include "game/bench/truth_cache.h"
+#include "game/bench/linear_picture.h"
 #include "game/options/render_arguments.h"
 #include "game/shot/surroundings.h"
 
@@ -105,39 +105,57 @@ Status CaseStage::load() {
 }
 
 Status CaseStage::provideTruth() {
-    mTruthImage = fmt::format("images/{}.truth.png", mCase.name);
-    const fs::path file = mOptions.folder / mTruthImage;
-    const fs::path cached =
-        mOptions.truthCache.empty() ? fs::path() : mOptions.truthCache / (mTruthHash + ".png");
+    const std::string name = fmt::format("{}.truth", mCase.name);
+    const TruthFiles files = nameTruthFiles(mOptions.folder / "images", name);
+    const TruthFiles cached = nameTruthFiles(mOptions.truthCache, mTruthHash);
+    mTruthImage = fmt::format("images/{}.png", name);
+    mTruthLinear = fmt::format("images/{}.exr", name);
     if (auto kept = readCachedTruth(cached, mShotOptions.width, mShotOptions.height)) {
         mProgress.advance(mOptions.truthSamples);
-        mTruth = std::move(*kept);
-        return io::writeImage(file, mTruth);
+        SHUTTER_TRY(writeTruth(files, *kept));
+        mTruth = std::move(kept->display);
+        return {};
     }
-    SHUTTER_TRY(drawTruth(file));
+    auto drawn = drawTruth();
+    if (!drawn)
+        return drawn.error();
+    SHUTTER_TRY(writeTruth(files, drawn.value()));
+    if (!cached.display.empty())
+        SHUTTER_TRY(writeTruth(cached, drawn.value()));
     // What is compared is what the file holds: 8 bits a channel.
-    auto read = io::readImage(file);
+    auto read = io::readImage(files.display);
     if (!read)
         return read.error();
     mTruth = std::move(read.value());
-    return cached.empty() ? Status() : io::writeImage(cached, mTruth);
+    return {};
 }
 
-Status CaseStage::drawTruth(const fs::path& file) {
+core::Result<TruthPictures> CaseStage::drawTruth() {
     DrawnPoint truth{{game::findMethod("accumulate").value(), mOptions.truthSamples, true}};
-    auto drawn = draw(truth);
-    return drawn ? io::writeImage(file, drawn.value().display) : Status(drawn.error());
+    auto drawn = drawPicture(truth, {}, true);
+    if (!drawn)
+        return drawn.error();
+    return TruthPictures{std::move(drawn.value().display), packLinearPicture(drawn.value().color)};
 }
 
 core::Result<render::FrameResult>
 CaseStage::draw(DrawnPoint& drawn, const game::Checkpoints& checkpoints) {
+    // Reading the linear picture back takes time, and the report looks only into those of defaults,
+    // of which one lies on the way of a progressive method.
+    const bool isKept = mJournal.find(makeKey(drawn.point)).hasPicture;
+    const bool wantsLinear = !checkpoints.rays.empty() || (drawn.point.isDefault && !isKept);
+    return drawPicture(drawn, checkpoints, wantsLinear && mOptions.comparePictures);
+}
+
+core::Result<render::FrameResult>
+CaseStage::drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, bool wantsLinear) {
     SHUTTER_TRY(game::checkPixel(mShotOptions, *drawn.point.method));
     if (!drawn.drawer)
         drawn.drawer = std::make_unique<game::PictureDrawer>(mDevice, *mRenderer);
     game::PictureRequest picture = game::makePicture(
         mShot, mShotOptions, makeMethodOptions(drawn.point), mShotOptions.frameTimes.front()
     );
-    picture.frame.wantColor = false;
+    picture.frame.wantColor = wantsLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&*mTonemap};
     return drawn.drawer->draw(
@@ -169,6 +187,14 @@ Status CaseStage::keepPicture(const SamplePoint& point, const render::FrameResul
         {"flip", flip.mean}};
     const fs::path map = mOptions.folder / facts.errorMap;
     SHUTTER_TRY(io::writeImage(map, image::colorWithMagma(flip.errorMap)));
+    if (point.isDefault && drawn.color.width > 0) {
+        facts.linear = fs::path(facts.image).replace_extension(".exr").string();
+        SHUTTER_TRY(io::writeImage(
+            mOptions.folder / facts.linear,
+            packLinearPicture(drawn.color, flip.errorMap),
+            io::SampleType::Half
+        ));
+    }
     facts.counters = drawn.statistics.counters;
     return mJournal.setPicture(key, std::move(facts));
 }

@@ -13,6 +13,7 @@
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
+#include "game/bench/truth_cache.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
@@ -74,6 +75,8 @@ class CaseStage {
 
     [[nodiscard]] const std::string& truthImage() const { return mTruthImage; }
 
+    [[nodiscard]] const std::string& truthLinear() const { return mTruthLinear; }
+
     [[nodiscard]] const std::string& truthHash() const { return mTruthHash; }
 
   private:
@@ -86,7 +89,9 @@ class CaseStage {
         const std::string& hash
     );
     core::Status load();
-    core::Status drawTruth(const std::filesystem::path& file);
+    [[nodiscard]] core::Result<TruthPictures> drawTruth();
+    [[nodiscard]] core::Result<render::FrameResult>
+    drawPicture(DrawnPoint& drawn, const game::Checkpoints& checkpoints, bool wantsLinear);
     [[nodiscard]] core::Result<image::Image> readDefault(std::string_view method) const;
 
     gpu::Device& mDevice;
@@ -95,7 +100,8 @@ class CaseStage {
     core::Progress& mProgress;
     std::filesystem::path mScene;
     std::string mTruthHash;
-    std::string mTruthImage; ///< empty until there is one
+    std::string mTruthImage;  ///< empty until there is one
+    std::string mTruthLinear; ///< likewise
     Journal mJournal;
     game::ShotOptions mShotOptions;
     game::Shot mShot;

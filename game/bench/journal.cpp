@@ -43,6 +43,8 @@ nlohmann::json packRecord(const Record& record) {
             {"image", record.picture.image},
             {"errorMap", record.picture.errorMap},
             {"counters", record.picture.counters}};
+        if (!record.picture.linear.empty())
+            packed["picture"]["linear"] = record.picture.linear;
     }
     return packed;
 }
@@ -83,12 +85,15 @@ std::string readPicturePath(const json::JsonNode& node, const std::filesystem::p
 }
 
 PictureFacts readPicture(const json::JsonNode& node, const std::filesystem::path& folder) {
-    const json::JsonObject object = node.readObject({"metrics", "image", "errorMap", "counters"});
+    const json::JsonObject object =
+        node.readObject({"metrics", "image", "errorMap", "linear", "counters"});
     PictureFacts picture;
     for (const auto& [id, value] : object.require("metrics").readFields())
         picture.metrics[id] = readMetric(value);
     picture.image = readPicturePath(object.require("image"), folder);
     picture.errorMap = readPicturePath(object.require("errorMap"), folder);
+    if (const auto linear = object.find("linear"))
+        picture.linear = readPicturePath(*linear, folder);
     for (const auto& [name, value] : object.require("counters").readFields())
         picture.counters[name] = uint64_t(value.readInteger(0));
     return picture;

@@ -256,7 +256,8 @@ core::Result<CaseResult> measureCase(
     if (options.comparePictures)
         SHUTTER_TRY(stage.provideTruth());
     SHUTTER_TRY(Rounds(device, stage, sweep, options, progress, stop).run());
-    CaseResult result{stage.truthImage(), stage.truthHash(), stage.journal().records(), {}};
+    CaseResult result{
+        stage.truthImage(), stage.truthLinear(), stage.truthHash(), stage.journal().records(), {}};
     if (options.comparePictures && !stop()) {
         auto crops = stage.chooseCrops();
         if (!crops)

@@ -31,8 +31,9 @@ struct MeasureOptions {
 
 /// Everything known of a case.
 struct CaseResult {
-    std::string truthImage; ///< relative to the report's folder; empty where nothing was compared
-    std::string truthHash;  ///< of everything the truth depends on
+    std::string truthImage;  ///< relative to the report's folder; empty where nothing was compared
+    std::string truthLinear; ///< likewise, the linear picture
+    std::string truthHash;   ///< of everything the truth depends on
     std::map<std::string, Record> records; ///< by makeKey()
     std::vector<Crop> crops;
 };

@@ -79,6 +79,8 @@ json describeMeasurement(const SamplePoint& point, const Record& record) {
     if (point.isDefault) {
         row["image"] = record.picture.image;
         row["errorMap"] = record.picture.errorMap;
+        if (!record.picture.linear.empty())
+            row["linear"] = record.picture.linear;
     }
     return row;
 }
@@ -106,6 +108,15 @@ double findExposure(const game::ShotArguments& shot) {
                          options.value().shutter, options.value().frameSeconds
                      )
                    : 0.0;
+}
+
+/// What turns a linear picture of the case into the one that is compared.
+json describeDisplay(const game::ShotArguments& shot) {
+    const auto settings = game::interpretTonemap(shot);
+    const tonemap::TonemapSettings shown = settings ? settings.value() : tonemap::TonemapSettings();
+    return {
+        {"operator", shown.op == tonemap::Operator::Neutral ? "neutral" : "none"},
+        {"exposureValue", shown.exposureValue}};
 }
 
 bool holdAll(const stability::Measurements& checks) {
@@ -172,6 +183,7 @@ json describeCase(
              core::getRow(scene::listShutterRows(), "phase"), shot.shot.shutter.shutter
          )},
         {"camera", shot.shot.camera},
+        {"display", describeDisplay(shot.shot)},
         {"measurements", json::array()},
         {"skipped", json::array()},
         {"crops", json::array()}};
@@ -180,6 +192,8 @@ json describeCase(
         {"samples", options.truthSamples},
         {"image", result.truthImage},
         {"hash", result.truthHash}};
+    if (!result.truthLinear.empty())
+        described["truth"]["linear"] = result.truthLinear;
     for (const Crop& crop : result.crops)
         described["crops"].push_back(
             {{"x", crop.x},

@@ -9,8 +9,10 @@
 
 namespace shutter::bench {
 
+namespace {
+
 std::optional<image::Image>
-readCachedTruth(const std::filesystem::path& file, uint32_t width, uint32_t height) {
+readPart(const std::filesystem::path& file, uint32_t width, uint32_t height) {
     constexpr uint32_t kChannels = 3;
     std::error_code ignored;
     if (file.empty() || !std::filesystem::exists(file, ignored))
@@ -34,6 +36,27 @@ readCachedTruth(const std::filesystem::path& file, uint32_t width, uint32_t heig
         kChannels
     );
     return std::nullopt;
+}
+
+} // namespace
+
+TruthFiles nameTruthFiles(const std::filesystem::path& folder, const std::string& name) {
+    return folder.empty() ? TruthFiles()
+                          : TruthFiles{folder / (name + ".png"), folder / (name + ".exr")};
+}
+
+std::optional<TruthPictures>
+readCachedTruth(const TruthFiles& files, uint32_t width, uint32_t height) {
+    auto display = readPart(files.display, width, height);
+    auto linear = display ? readPart(files.linear, width, height) : std::nullopt;
+    if (!linear)
+        return std::nullopt;
+    return TruthPictures{std::move(*display), std::move(*linear)};
+}
+
+core::Status writeTruth(const TruthFiles& files, const TruthPictures& truth) {
+    SHUTTER_TRY(io::writeImage(files.display, truth.display));
+    return io::writeImage(files.linear, truth.linear, io::SampleType::Half);
 }
 
 } // namespace shutter::bench

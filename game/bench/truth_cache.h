@@ -2,18 +2,38 @@
 // Truth pictures that `shutter bench` keeps from one run to the next.
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/image/image.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace shutter::bench {
 
-/// The picture that `file` keeps; nothing where there is none. One that cannot be read, or of
-/// another size or kind than the truth of a case has, counts as none, with a warning: the truth is
-/// drawn anew and replaces it.
-[[nodiscard]] std::optional<image::Image>
-readCachedTruth(const std::filesystem::path& file, uint32_t width, uint32_t height);
+/// The truth of a case on disk.
+struct TruthFiles {
+    std::filesystem::path display; ///< PNG: what pictures are compared with
+    std::filesystem::path linear;  ///< EXR of half floats: R, G, B
+};
+
+/// The files of a folder that are called so. Both are empty where the folder is.
+[[nodiscard]] TruthFiles
+nameTruthFiles(const std::filesystem::path& folder, const std::string& name);
+
+struct TruthPictures {
+    image::Image display; ///< 8 bits a channel, as the file holds them
+    image::Image linear;
+};
+
+/// The pictures that the files keep; nothing where one of them is absent. One that cannot be read,
+/// or of another size or kind than the truth of a case has, counts as absent, with a warning: the
+/// truth is drawn anew and replaces it.
+[[nodiscard]] std::optional<TruthPictures>
+readCachedTruth(const TruthFiles& files, uint32_t width, uint32_t height);
+
+/// Error: a file cannot be written.
+[[nodiscard]] core::Status writeTruth(const TruthFiles& files, const TruthPictures& truth);
 
 } // namespace shutter::bench

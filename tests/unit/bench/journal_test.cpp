@@ -39,6 +39,7 @@ TEST_F(JournalFile, WhatWasMeasuredIsThereAgain) {
         PictureFacts facts;
         facts.metrics = {{"psnr", std::numeric_limits<double>::infinity()}, {"flip", 0.25}};
         facts.image = "images/x.png";
+        facts.linear = "images/x.exr";
         facts.counters = {{"rays traced", 7}};
         ASSERT_TRUE(journal.setPicture("hybrid/15", facts).ok());
         ASSERT_TRUE(journal.skip("truth/256", "too long").ok());
@@ -52,6 +53,7 @@ TEST_F(JournalFile, WhatWasMeasuredIsThereAgain) {
     ASSERT_TRUE(record.hasPicture);
     EXPECT_TRUE(std::isinf(record.picture.metrics.at("psnr")));
     EXPECT_EQ(record.picture.metrics.at("flip"), 0.25);
+    EXPECT_EQ(record.picture.linear, "images/x.exr");
     EXPECT_EQ(record.picture.counters.at("rays traced"), 7u);
     EXPECT_EQ(again.find("truth/256").skipped, "too long");
     EXPECT_FALSE(again.find("truth/256").hasPicture);
@@ -82,6 +84,7 @@ TEST_F(JournalFile, WhatDoesNotFitStartsAnewAndNamesTheField) {
     PictureFacts facts;
     facts.image = "images/x.png";
     facts.errorMap = "images/x.flip.png";
+    facts.linear = "images/x.exr";
     facts.counters = {{"rays traced", 7}};
     {
         Journal journal(mFile, "a");
@@ -108,6 +111,7 @@ TEST_F(JournalFile, WhatDoesNotFitStartsAnewAndNamesTheField) {
     expectAnew("\"rays traced\": 7", "\"rays traced\": -1", "counters.rays traced");
     expectAnew("images/x.png", "/etc/hostname", "leaves the report's folder");
     expectAnew("images/x.flip.png", "../../../../x.png", "leaves the report's folder");
+    expectAnew("images/x.exr", "../../../x.exr", "leaves the report's folder");
     expectAnew("\"gather\"", "\"gather\", 2", "must have 3 elements");
     expectAnew("\"samples\"", "\"more\": 1, \"samples\"", "is not a field");
     expectAnew("\"wall\": 3.0", "\"wall\": []", "wall");

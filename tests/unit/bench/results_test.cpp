@@ -28,6 +28,7 @@ Record makeRecord(double gatherMs, double psnr) {
     record.picture.metrics = {{"psnr", psnr}, {"ssim", 0.5}, {"flip", 0.1}};
     record.picture.image = "images/a.png";
     record.picture.errorMap = "images/a.flip.png";
+    record.picture.linear = "images/a.exr";
     return record;
 }
 
@@ -87,7 +88,19 @@ TEST(Results, EqualTimeTakesTheSampleCountThatIsNearestInTime) {
 TEST(Results, OnlyDefaultsCarryPictures) {
     const nlohmann::json described = describeThree();
     for (const nlohmann::json& row : described.at("measurements"))
-        EXPECT_EQ(row.contains("image"), row.at("isDefault").get<bool>()) << row.at("samples");
+        for (const char* picture : {"image", "errorMap", "linear"})
+            EXPECT_EQ(row.contains(picture), row.at("isDefault").get<bool>()) << row.at("samples");
+}
+
+TEST(Results, ACaseSaysHowItsLinearPicturesAreShown) {
+    Case shot;
+    shot.shot.scene = "a.glb";
+    EXPECT_EQ(
+        describeCase(shot, {}, {}, {}).at("display"),
+        nlohmann::json({{"operator", "neutral"}, {"exposureValue", 0.0}})
+    );
+    shot.shot.exposureValue = -1.5;
+    EXPECT_EQ(describeCase(shot, {}, {}, {}).at("display").at("exposureValue"), -1.5);
 }
 
 TEST(Results, AMethodWithoutSamplesHasNull) {
