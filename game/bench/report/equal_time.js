@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What each rival reaches in the time that the reference method takes.
 
+/** By what makeViewport() paints a crop of a default's picture; null where that is not shown. */
+function makeExact(theCase, image) {
+    const picture = picturesOf(theCase).find((shown) => shown.image === image);
+    return picture ? {picture, theCase, mode: "picture"} : null;
+}
+
 function makeEqualTimeRow(theCase, reference, row, base) {
     const crop = theCase.crops?.[0];
     const isReference = row.method === reference.method && row.samples === reference.samples;
@@ -21,7 +27,8 @@ function makeEqualTimeRow(theCase, reference, row, base) {
         {content: formatRatio(row.milliseconds / reference.milliseconds), class: "n soft"},
         ...cells,
         {content: row.image && crop
-            ? makeViewport(row.image, crop, `${row.method}, ${crop.label}`) : "", class: "thumb"},
+            ? makeViewport(row.image, crop, `${row.method}, ${crop.label}`,
+                makeExact(theCase, row.image)) : "", class: "thumb"},
     ];
 }
 

@@ -76,6 +76,12 @@ function byId(id) {
     return document.getElementById(id);
 }
 
+/** Says at the top of the page what went wrong after the page was drawn. */
+function tellFailure(message) {
+    byId("failure").hidden = false;
+    byId("failure").textContent = `This page could not be drawn in full: ${message}.`;
+}
+
 /** Shows a section that has something to say. */
 function reveal(id) {
     byId(id).hidden = false;

@@ -11,6 +11,7 @@ function picturesOf(theCase) {
             method: null,
             label: `the truth (${nameMeasurement(truth.method, truth.samples)})`,
             image: truth.image,
+            linear: truth.linear,
             measurement: null,
         });
     }
@@ -23,28 +24,54 @@ function picturesOf(theCase) {
             label,
             image: measurement.image,
             errorMap: measurement.errorMap,
+            linear: measurement.linear,
             measurement,
         });
     }
     return list;
 }
 
+/** A file's part in this page, with `uri` or `exr`, that is or holds a region. */
+function findPart(file, {x, y, width, height}) {
+    return (pictureFiles.parts[file] ?? []).find((part) => part.x <= x && part.y <= y &&
+        part.x + part.width >= x + width && part.y + part.height >= y + height);
+}
+
+/** A region of a picture, or of its error map, from its floats. */
+function makeExactCrop(picture, region, description, {theCase, mode}) {
+    const canvas = el("canvas", {
+        width: region.width, height: region.height, role: "img", "aria-label": description});
+    const look = {...makeLook(theCase, mode), isExactOnly: true};
+    loadLayers(picture).then((layers) => {
+        canvas.getContext("2d").putImageData(
+            paintLayers(layers, null, look), -region.x, -region.y);
+        canvas.dataset.drawn = "true";
+    }).catch((error) => tellFailure(`${description}: ${error.message}`));
+    return el("div", {class: "viewport crop"}, canvas);
+}
+
 /**
  * A box that shows `region` ({x, y, width, height} in pixels; null: all) of a picture file.
- * Enlarged pixels stay squares.
+ * Enlarged pixels stay squares. `exact`: {picture, theCase, mode}, by which a region is painted
+ * from floats where the file itself is in this page as a JPEG.
  */
-function makeViewport(file, region, description) {
+function makeViewport(file, region, description, exact = null) {
+    const part = region ? findPart(file, region) : null;
+    const isCompressed = pictureFiles.detail.jpegQuality !== null;
+    if (region && exact && isCompressed && findPart(exact.picture.linear, region))
+        return makeExactCrop(exact.picture, region, description, exact);
     const image = el("img", {alt: description, draggable: "false"});
     const box = el("div", {class: region ? "viewport crop" : "viewport"}, image);
     if (region) {
+        const from = part ? {x: region.x - part.x, y: region.y - part.y} : region;
         box.style.aspectRatio = `${region.width} / ${region.height}`;
         image.addEventListener("load", () => {
             image.style.width = `${(image.naturalWidth / region.width) * 100}%`;
-            image.style.left = `${(-region.x / region.width) * 100}%`;
-            image.style.top = `${(-region.y / region.height) * 100}%`;
+            image.style.left = `${(-from.x / region.width) * 100}%`;
+            image.style.top = `${(-from.y / region.height) * 100}%`;
         });
     }
-    image.src = pictureFiles[file];
+    image.src = part?.uri ?? pictureFiles.whole[file];
     return box;
 }
 
