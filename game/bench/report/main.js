@@ -37,6 +37,7 @@ function drawChosen() {
     drawMatrix();
     drawPictures();
     drawSlider();
+    drawViewer();
     drawEqualTime();
     drawScaling();
     fillContents();
