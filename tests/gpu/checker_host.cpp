@@ -91,7 +91,17 @@ std::vector<CheckScene> listCheckScenes() {
              R"("position": [0.5, 1.8, 2.2], "lookAt": [0.9, 1.8, 0])"
          )},
         {"orthographic_vase", &generator::buildVaseScene, {}, vase, 0.8},
-        {"orthographic_courtyard", &generator::buildCourtyardScene, {}, courtyard, 2.5}};
+        {"orthographic_courtyard", &generator::buildCourtyardScene, {}, courtyard, 2.5},
+        {"morph", // a cube that grows: its vectors are linear in the place, as a camera's may be
+         nullptr,
+         "gltf-samples/AnimatedMorphCube/AnimatedMorphCube.glb",
+         makeKeys(
+             R"("position": [-2.3626, 1.8983, 1.1308], "lookAt": [0, 0, -0.003])",
+             R"("position": [-2.3194, 1.8914, 1.1743], "lookAt": [0.0347, 0.0247, -0.0528])",
+             R"("position": [-2.233, 1.8774, 1.2613], "lookAt": [0.1041, 0.074, -0.1525])"
+         ),
+         0.0,
+         true}};
 }
 
 dvec2 placeOf(size_t pixel) {

@@ -73,6 +73,8 @@ struct CheckScene {
     std::string path;                 ///< of that
     std::string keys;                 ///< of a flythrough
     double orthographicYMag = 0.0;    ///< half height of what is seen, metres; 0: perspective
+    /// Too much moves by itself for mistakes to be seen.
+    bool hidesMistakes = false;
 };
 
 /// Named for gtest's sake.

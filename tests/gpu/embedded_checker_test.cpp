@@ -47,6 +47,8 @@ TEST_P(EmbeddedChecker, CostsNothingWhenOffAndChangesNoBit) {
 }
 
 TEST_P(EmbeddedChecker, NamesEachMistake) {
+    if (GetParam().hidesMistakes)
+        return;
     for (const test::CheckCase& one : test::listMistakes()) {
         SCOPED_TRACE(one.name);
         if (one.name == "a mover that is not listed" && give(0, one).movers.empty())

@@ -125,6 +125,35 @@ std::string describeFactors(const dvec2& factors) {
     return hasX ? describe("x", factors.x) : describe("y", factors.y);
 }
 
+/// Cameras of motionDepth are over a frame, and its vectors over an exposure that nobody tells.
+void scaleToExposure(std::vector<CheckPoint>& points) {
+    std::vector<double> shares;
+    for (const CheckPoint& point : points) {
+        const double square = glm::dot(point.camera, point.camera);
+        if (!point.isSky && square > 1.0)
+            shares.push_back(glm::dot(point.motion, point.camera) / square);
+    }
+    const auto share = takeMedian(shares, kLeastTelling);
+    if (share && std::abs(*share) > 0.02 && std::abs(*share) < 1.05)
+        for (CheckPoint& point : points)
+            point.camera *= std::abs(*share);
+}
+
+Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
+    Reading reading;
+    reading.points = makePoints(frame, facts);
+    reading.haveCamera = facts.isNative || facts.convention.vectors.haveCamera;
+    return reading;
+}
+
+/// The frame as the host said.
+Reading readSaid(const CheckedFrame& frame) {
+    Reading said = read(frame, frame.facts);
+    if (frame.facts.isNative && !frame.facts.hasExposureCameras)
+        scaleToExposure(said.points);
+    return said;
+}
+
 /// Collects what the host might have meant.
 class Guesses {
   public:
@@ -257,13 +286,20 @@ class Guesses {
         consider(guess);
     }
 
-    /// Any factors. Much may pass for them, such as another frame's motion, so they come last, and
-    /// not before there is another frame.
+    /// Any factors. Much may pass for them, such as another frame's motion, so they come last. What
+    /// fits one frame by chance, as the vectors of a shape that grows do, does not fit the one
+    /// before by the same factors.
     void tryFactors() {
         const auto x = fitScale(mSaid.points, 0);
         const auto y = fitScale(mSaid.points, 1);
-        if (mLast && mSaid.haveCamera && (x || y))
-            considerScale(dvec2(x ? *x : *y, y ? *y : *x), {});
+        if (!mLast || !mSaid.haveCamera || !(x || y))
+            return;
+        const dvec2 factors(x ? *x : *y, y ? *y : *x);
+        const Reading before = readSaid(*mLast);
+        Reading guess = before;
+        guess.scale = factors;
+        if (judge(before, guess))
+            considerScale(factors, {});
     }
 
     void trySwap() {
@@ -399,13 +435,6 @@ class Guesses {
         consider(guess);
     }
 
-    static Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
-        Reading reading;
-        reading.points = makePoints(frame, facts);
-        reading.haveCamera = facts.isNative || facts.convention.vectors.haveCamera;
-        return reading;
-    }
-
     const CheckedFrame& mNow;
     const CheckedFrame* mLast;
     const CheckFacts& mFacts;
@@ -413,20 +442,6 @@ class Guesses {
     std::optional<size_t> mBest;
     std::string mSentence;
 };
-
-/// Cameras of motionDepth are over a frame, and its vectors over an exposure that nobody tells.
-void scaleToExposure(std::vector<CheckPoint>& points) {
-    std::vector<double> shares;
-    for (const CheckPoint& point : points) {
-        const double square = glm::dot(point.camera, point.camera);
-        if (!point.isSky && square > 1.0)
-            shares.push_back(glm::dot(point.motion, point.camera) / square);
-    }
-    const auto share = takeMedian(shares, kLeastTelling);
-    if (share && std::abs(*share) > 0.02 && std::abs(*share) < 1.05)
-        for (CheckPoint& point : points)
-            point.camera *= std::abs(*share);
-}
 
 /// What is the same at nearly all that stands still, beyond the camera's part.
 std::optional<dvec2> findOffset(const Reading& said) {
@@ -522,11 +537,7 @@ void checkOffset(
 } // namespace
 
 void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings) {
-    Reading said;
-    said.points = makePoints(now, now.facts);
-    said.haveCamera = now.facts.isNative || now.facts.convention.vectors.haveCamera;
-    if (now.facts.isNative && !now.facts.hasExposureCameras)
-        scaleToExposure(said.points);
+    const Reading said = readSaid(now);
     if (const auto mistake = Guesses(now, last, said).findMistake())
         findings.push_back({CheckKind::Vectors, *mistake});
     else
