@@ -2,9 +2,8 @@
 // Motion vectors against what the cameras imply where things stand still. What a host may have got
 // wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
 // do not now. What moves by itself agrees with neither, and so decides nothing.
-#include "engine/math/math.h"
 #include "modules/motion_blur/embedding/host_camera.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/host_check_reading.h"
 
 #include <fmt/format.h>
 
@@ -24,37 +23,7 @@ namespace {
 
 using math::dvec2;
 
-constexpr size_t kLeastPoints = 96;      ///< fewer tell nothing
-constexpr size_t kLeastTelling = 48;     ///< points at which a mistake would show
-constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
-constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
-
-/// What vectors and cameras would be if the host had meant something else.
-struct Reading {
-    std::vector<CheckPoint> points;
-    dvec2 scale{1.0}; ///< of the motion
-    bool isSwapped = false;
-    bool haveCamera = true;
-    std::string sentence;
-    bool isAlternative = false; ///< told besides what explains as much
-
-    [[nodiscard]] dvec2 motionOf(const CheckPoint& point) const {
-        return scale * (isSwapped ? dvec2(point.motion.y, point.motion.x) : point.motion);
-    }
-
-    [[nodiscard]] dvec2 cameraOf(const CheckPoint& point) const {
-        return haveCamera ? point.camera : dvec2(0.0);
-    }
-
-    [[nodiscard]] dvec2 differenceOf(const CheckPoint& point) const {
-        return motionOf(point) - cameraOf(point);
-    }
-
-    [[nodiscard]] bool agreesAt(const CheckPoint& point) const {
-        const double tolerance = kTolerancePx + kToleranceShare * glm::length(cameraOf(point));
-        return glm::length(differenceOf(point)) <= tolerance;
-    }
-};
+constexpr size_t kLeastTelling = 48; ///< points at which a mistake would show
 
 /// How many points the guess explains; nothing where it is no better than what the host said.
 std::optional<size_t> judge(const Reading& said, const Reading& guess) {
@@ -83,14 +52,6 @@ std::optional<size_t> judge(const Reading& said, const Reading& guess) {
                           10 * tellingGuess >= 6 * telling && 10 * tellingSaid <= telling &&
                           2 * explained >= count;
     return isBetter ? std::optional(explained) : std::nullopt;
-}
-
-std::optional<double> takeMedian(std::vector<double>& values, size_t least) {
-    if (values.size() < least)
-        return std::nullopt;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// What the motion along an axis must be multiplied by to be the camera's.
@@ -443,98 +404,15 @@ class Guesses {
     std::string mSentence;
 };
 
-/// What is the same at nearly all that stands still, beyond the camera's part.
-std::optional<dvec2> findOffset(const Reading& said) {
-    std::vector<double> xs;
-    std::vector<double> ys;
-    size_t count = 0;
-    for (const CheckPoint& point : said.points) {
-        const dvec2 off = said.differenceOf(point);
-        // Half floats hold longer vectors too coarsely.
-        if (point.isSky || glm::length(said.cameraOf(point)) > 48.0)
-            continue;
-        ++count;
-        if (glm::length(off) < 2.5) {
-            xs.push_back(off.x);
-            ys.push_back(off.y);
-        }
-    }
-    const size_t least = std::max(kLeastPoints, count * 6 / 10);
-    const auto x = takeMedian(xs, least);
-    const auto y = takeMedian(ys, least);
-    if (!x || !y)
-        return std::nullopt;
-    const dvec2 offset(*x, *y);
-    const double tolerance = 0.02 + 0.12 * glm::length(offset);
-    size_t near = 0;
-    for (const CheckPoint& point : said.points)
-        near += !point.isSky && glm::length(said.cameraOf(point)) <= 48.0 &&
-                glm::length(said.differenceOf(point) - offset) <= tolerance;
-    return 10 * near >= 6 * count ? std::optional(offset) : std::nullopt;
-}
-
-bool isOffsetNear(const dvec2& offset, const dvec2& wanted) {
-    return glm::length(offset - wanted) <= 0.03 + 0.15 * glm::length(wanted);
-}
-
-void checkOffset(
-    CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
-) {
-    const auto found = findOffset(said);
-    if (!found)
-        return;
-    now.offsetPx = *found;
-    now.hasOffset = true;
-    const dvec2 offset = *found;
-    if (glm::length(offset) < 0.1)
-        return;
-    const HostConvention& convention = now.facts.convention;
-    const HostCameras& cameras = convention.cameras;
-    // By how much jitter that is left in the vectors makes them longer.
-    const dvec2 jitter = cameras.jitterPxBefore - cameras.jitterPx;
-    const bool isDeclared = glm::length(jitter) >= 0.1;
-    const dvec2 signY(1.0, -1.0);
-    const auto tell = [&](std::string sentence) {
-        findings.push_back({CheckKind::VectorOffset, std::move(sentence)});
-    };
-    const std::string what = fmt::format(
-        "what stands still has ({:.2f}, {:.2f}) px more than the cameras imply", offset.x, offset.y
-    );
-    if (!now.facts.isNative && isDeclared && !convention.vectors.haveJitter &&
-        isOffsetNear(offset, jitter))
-        return tell(
-            what + ", the change of cameras.jitterPx: jitter is left in the vectors, set "
-                   "vectors.haveJitter = true"
-        );
-    if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
-        isOffsetNear(offset, -jitter))
-        return tell(
-            what + ", the change of cameras.jitterPx: the vectors have no jitter, set "
-                   "vectors.haveJitter = false"
-        );
-    if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
-        (isOffsetNear(offset, (signY - 1.0) * jitter) ||
-         isOffsetNear(offset, (-signY - 1.0) * jitter) || isOffsetNear(offset, -2.0 * jitter)))
-        return tell(
-            what + ": cameras.jitterPx and jitterPxBefore have the wrong sign (by how much samples "
-                   "lie right and down of the pixels' centres)"
-        );
-    if (isDeclared && isOffsetNear(offset, -jitter))
-        return tell(
-            what + ", the change of cameras.jitterPx: the jitter is in cameras.clipFromView, which "
-                   "must be without"
-        );
-    // Jitter that was not declared differs from frame to frame; what moves evenly does not.
-    if (last && last->hasOffset && glm::length(offset - last->offsetPx) > 0.1 &&
-        glm::length(last->offsetPx) < 2.5)
-        tell(
-            what + ", and another offset in the frame before: is temporal jitter left in the "
-                   "vectors? Project both ends without it, or set vectors.haveJitter and "
-                   "cameras.jitterPx"
-        );
-}
-
 } // namespace
+
+std::optional<double> takeMedian(std::vector<double>& values, size_t least) {
+    if (values.size() < least)
+        return std::nullopt;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
 
 void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings) {
     const Reading said = readSaid(now);

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Motion vectors and cameras as a host said, or as it might have meant; the checks' own files alone
+// include this.
+#pragma once
+
+#include "engine/math/math.h"
+#include "modules/motion_blur/embedding/host_check.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+inline constexpr size_t kLeastPoints = 96;      ///< fewer tell nothing
+inline constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
+inline constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
+
+/// What vectors and cameras would be if the host had meant something else.
+struct Reading {
+    std::vector<CheckPoint> points;
+    math::dvec2 scale{1.0}; ///< of the motion
+    bool isSwapped = false;
+    bool haveCamera = true;
+    std::string sentence;
+    bool isAlternative = false; ///< told besides what explains as much
+
+    [[nodiscard]] math::dvec2 motionOf(const CheckPoint& point) const {
+        return scale * (isSwapped ? math::dvec2(point.motion.y, point.motion.x) : point.motion);
+    }
+
+    [[nodiscard]] math::dvec2 cameraOf(const CheckPoint& point) const {
+        return haveCamera ? point.camera : math::dvec2(0.0);
+    }
+
+    [[nodiscard]] math::dvec2 differenceOf(const CheckPoint& point) const {
+        return motionOf(point) - cameraOf(point);
+    }
+
+    [[nodiscard]] bool agreesAt(const CheckPoint& point) const {
+        const double tolerance = kTolerancePx + kToleranceShare * glm::length(cameraOf(point));
+        return glm::length(differenceOf(point)) <= tolerance;
+    }
+};
+
+/// Nothing: there are fewer than `least`. Changes their order.
+[[nodiscard]] std::optional<double> takeMedian(std::vector<double>& values, size_t least);
+
+/// What is the same at all that stands still, beyond the camera's part: jitter.
+void checkOffset(
+    CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
+);
+
+} // namespace shutter::motion_blur
