@@ -47,7 +47,9 @@ const std::vector<CheckCase>& listMistakes() {
          }},
         {"pixels of a smaller picture",
          "pixelsPerUnit = (1.5, 1.5)",
-         [](Given& g, int, Drawn, Drawn) { scaleVectors(g, {1.0f / 1.5f, 1.0f / 1.5f}); }},
+         [](Given& g, int, Drawn, Drawn) {
+             scaleVectors(g, {1.0f / 1.5f, 1.0f / 1.5f});
+         }},
         {"axes exchanged",
          "after x and y are exchanged",
          [](Given& g, int, Drawn, Drawn) {
