@@ -101,6 +101,16 @@ std::vector<CheckScene> listCheckScenes() {
              R"("position": [-2.233, 1.8774, 1.2613], "lookAt": [0.1041, 0.074, -0.1525])"
          ),
          0.0,
+         true},
+        {"walker", // he fills the picture, under a camera that hardly moves
+         nullptr,
+         "gltf-samples/CesiumMan/CesiumMan.glb",
+         makeKeys(
+             R"("position": [-0.87134, 0.85725, 0.9604], "lookAt": [-0.04211, 0.74433, -0.0072])",
+             R"("position": [-0.87139, 0.85844, 0.9587], "lookAt": [-0.04313, 0.74661, -0.00419])",
+             R"("position": [-0.8715, 0.86083, 0.95529], "lookAt": [-0.04517, 0.75116, 0.00181])"
+         ),
+         0.0,
          true}};
 }
 

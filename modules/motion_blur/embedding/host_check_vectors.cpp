@@ -42,7 +42,9 @@ std::optional<size_t> judge(const Reading& said, const Reading& guess) {
         const double motion = std::max(
             glm::length(guess.cameraOf(point)), glm::length(said.cameraOf(said.points[i]))
         );
-        if (glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
+        // Where the camera hardly moves, vectors of what moves by itself agree with it once they
+        // are made short enough.
+        if (motion < 1.0 || glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
             continue;
         ++telling;
         tellingGuess += guess.agreesAt(point);
