@@ -12,17 +12,17 @@ namespace shutter::gltf {
 
 namespace {
 
-constexpr const char* kName = "EXT_lights_image_based";
+constexpr const char* kExtension = "EXT_lights_image_based";
 
 /// The light that the default scene names; nothing where it names none.
 std::optional<uint32_t> findSceneLight(const tinygltf::Model& model) {
     if (model.scenes.empty())
         return std::nullopt;
     const size_t scene = size_t(std::max(model.defaultScene, 0));
-    const auto* extension = findExtension(model.scenes[scene].extensions, kName);
+    const auto* extension = findExtension(model.scenes[scene].extensions, kExtension);
     if (!extension)
         return std::nullopt;
-    const std::string path = fmt::format("scenes[{}].extensions.{}", scene, kName);
+    const std::string path = fmt::format("scenes[{}].extensions.{}", scene, kExtension);
     const auto index = findIndex(*extension, "light", path);
     if (!index)
         failGltf("{}.light is missing", path);
@@ -100,12 +100,13 @@ void loadEnvironment(GltfContext& context, scene::Assets& assets) {
     const std::optional<uint32_t> index = findSceneLight(context.model);
     if (!index)
         return;
-    const auto* root = findExtension(context.model.extensions, kName);
-    const std::string path = fmt::format("{}.lights[{}]", kName, *index);
+    const auto* root = findExtension(context.model.extensions, kExtension);
+    const std::string path = fmt::format("{}.lights[{}]", kExtension, *index);
     if (!root || !root->Has("lights"))
-        failGltf("{}.lights is missing", kName);
-    const tinygltf::Value& light =
-        itemOf(root->Get("lights"), *index, size_t(*index) + 1, fmt::format("{}.lights", kName));
+        failGltf("{}.lights is missing", kExtension);
+    const tinygltf::Value& light = itemOf(
+        root->Get("lights"), *index, size_t(*index) + 1, fmt::format("{}.lights", kExtension)
+    );
     if (!light.IsObject())
         failGltf("{} is not an object", path);
     const std::array<image::Image, 6> sides = readSides(context, light, path);

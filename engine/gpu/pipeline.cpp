@@ -15,9 +15,9 @@ namespace shutter::gpu {
 namespace {
 
 /// A shader module that lives while a pipeline is made.
-class Module {
+class LoadedShader {
   public:
-    Module(Device& device, std::span<const uint32_t> own, const std::string& name)
+    LoadedShader(Device& device, std::span<const uint32_t> own, const std::string& name)
         : mDevice(device) {
         const std::span<const uint32_t> spirv = findShader(own);
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -29,10 +29,10 @@ class Module {
         );
     }
 
-    ~Module() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
+    ~LoadedShader() { vkDestroyShaderModule(mDevice.handle(), mModule, nullptr); }
 
-    Module(const Module&) = delete;
-    Module& operator=(const Module&) = delete;
+    LoadedShader(const LoadedShader&) = delete;
+    LoadedShader& operator=(const LoadedShader&) = delete;
 
     [[nodiscard]] VkShaderModule handle() const { return mModule; }
 
@@ -133,7 +133,7 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     : Pipeline(device, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, desc.name) {
     createLayout(desc.interface);
     addShader(desc.spirv, VK_SHADER_STAGE_COMPUTE_BIT, desc.interface);
-    const Module module(device, desc.spirv, desc.name);
+    const LoadedShader module(device, desc.spirv, desc.name);
     const Specialization constants(desc.specialization);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = makeStage(VK_SHADER_STAGE_COMPUTE_BIT, module.handle(), constants);
@@ -157,8 +157,8 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     createLayout(desc.interface);
     addShader(desc.vertexSpirv, VK_SHADER_STAGE_VERTEX_BIT, desc.interface);
     addShader(desc.fragmentSpirv, VK_SHADER_STAGE_FRAGMENT_BIT, desc.interface);
-    const Module vertex(device, desc.vertexSpirv, desc.name);
-    const Module fragment(device, desc.fragmentSpirv, desc.name);
+    const LoadedShader vertex(device, desc.vertexSpirv, desc.name);
+    const LoadedShader fragment(device, desc.fragmentSpirv, desc.name);
     const Specialization constants(desc.specialization);
     const std::array stages{
         makeStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.handle(), constants),
@@ -236,10 +236,10 @@ Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
     addShader(desc.missSpirv, VK_SHADER_STAGE_MISS_BIT_KHR, desc.interface);
     addShader(desc.closestHitSpirv, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, desc.interface);
     addShader(desc.anyHitSpirv, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, desc.interface);
-    const Module raygen(device, desc.raygenSpirv, desc.name);
-    const Module miss(device, desc.missSpirv, desc.name);
-    const Module closestHit(device, desc.closestHitSpirv, desc.name);
-    const Module anyHit(device, desc.anyHitSpirv, desc.name);
+    const LoadedShader raygen(device, desc.raygenSpirv, desc.name);
+    const LoadedShader miss(device, desc.missSpirv, desc.name);
+    const LoadedShader closestHit(device, desc.closestHitSpirv, desc.name);
+    const LoadedShader anyHit(device, desc.anyHitSpirv, desc.name);
     const Specialization constants(desc.specialization);
     const std::array stages{
         makeStage(VK_SHADER_STAGE_RAYGEN_BIT_KHR, raygen.handle(), constants),

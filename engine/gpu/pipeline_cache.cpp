@@ -14,11 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<uint8_t, 8> kMagic = {'S', 'h', 'u', 't', 'P', 'C', '0', '1'};
+constexpr std::array<uint8_t, 8> kFileMagic = {'S', 'h', 'u', 't', 'P', 'C', '0', '1'};
 
 /// Before the blob.
 struct FileHeader {
-    std::array<uint8_t, 8> magic = kMagic;
+    std::array<uint8_t, 8> magic = kFileMagic;
     uint64_t blobBytes = 0;
     uint64_t checksum = 0;
 };
@@ -90,7 +90,8 @@ core::Result<std::optional<std::span<const uint8_t>>>
 unpackPipelineCache(std::span<const uint8_t> file, const PipelineCacheOwner& owner) {
     using Blob = std::optional<std::span<const uint8_t>>;
     FileHeader header;
-    if (file.size() < sizeof(header) || !std::equal(kMagic.begin(), kMagic.end(), file.begin()))
+    if (file.size() < sizeof(header) ||
+        !std::equal(kFileMagic.begin(), kFileMagic.end(), file.begin()))
         return Blob();
     std::memcpy(&header, file.data(), sizeof(header));
     const std::span<const uint8_t> blob = file.subspan(sizeof(header));

@@ -13,7 +13,6 @@ namespace shutter::gpu {
 
 namespace {
 
-constexpr uint32_t kSpirvMagic = 0x07230203;
 constexpr size_t kSpirvHeaderWords = 5;
 
 struct Replacements {

@@ -12,7 +12,6 @@ namespace shutter::gpu {
 
 namespace {
 
-constexpr uint32_t kMagic = 0x07230203;
 constexpr size_t kHeaderWords = 5;
 
 enum Opcode : uint32_t {
@@ -207,7 +206,7 @@ const Type* Module::findHeld(uint32_t pointer) const {
 
 Module readModule(std::span<const uint32_t> spirv) {
     SHUTTER_CHECK(
-        spirv.size() >= kHeaderWords && spirv[0] == kMagic,
+        spirv.size() >= kHeaderWords && spirv[0] == kSpirvMagic,
         "{} words that are no SPIR-V",
         spirv.size()
     );

@@ -14,6 +14,9 @@
 
 namespace shutter::gpu {
 
+/// First word of every module.
+inline constexpr uint32_t kSpirvMagic = 0x07230203;
+
 /// A variable of a module that is bound by a descriptor. Vulkan holds every one that a module lists
 /// in its interface to be used, whether an instruction touches it or not.
 struct ShaderBinding {

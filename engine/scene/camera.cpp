@@ -86,7 +86,7 @@ namespace {
 
 constexpr double kYFov = std::numbers::pi / 4.0;
 constexpr double kElevation = std::numbers::pi / 12.0; // the camera looks down by this angle
-constexpr double kMargin = 1.1;         // of the distance, so that nothing touches the border
+constexpr double kFramingMargin = 1.1;  // of the distance, so that nothing touches the border
 constexpr double kNearShare = 1e-3;     // of the distance; far below the margin
 constexpr double kSmallestExtent = 1.0; // metres, for an empty scene and a point
 
@@ -137,7 +137,7 @@ double computeDistance(const math::Bounds& subject, const dquat& rotation, doubl
         const double needed = std::max(std::abs(view.x) / slopeX, std::abs(view.y) / slopeY);
         distance = std::max(distance, view.z + needed);
     }
-    return distance * kMargin;
+    return distance * kFramingMargin;
 }
 
 } // namespace

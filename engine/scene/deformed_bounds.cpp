@@ -15,7 +15,8 @@ using math::dvec3;
 
 namespace {
 
-constexpr double kMargin = 1e-6; // of the largest coordinate; eight rounded weights miss 1 by less
+constexpr double kRoundingMargin =
+    1e-6; // of the largest coordinate; eight rounded weights miss 1 by less
 
 void addVertex(std::vector<Bounds>& joints, size_t joint, const dvec3& position) {
     if (joint >= joints.size())
@@ -119,7 +120,7 @@ Bounds computeDeformedBounds(const PoseReach& reach, const Deformation& deformat
     }
     if (result.isEmpty())
         return result;
-    const dvec3 margin = kMargin * glm::max(glm::abs(result.min), glm::abs(result.max));
+    const dvec3 margin = kRoundingMargin * glm::max(glm::abs(result.min), glm::abs(result.max));
     return {result.min - margin, result.max + margin};
 }
 

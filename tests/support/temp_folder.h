@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -44,5 +46,11 @@ class TempFolder {
   private:
     std::filesystem::path mPath;
 };
+
+[[nodiscard]] inline size_t countFiles(const std::filesystem::path& folder) {
+    return size_t(std::distance(
+        std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()
+    ));
+}
 
 } // namespace shutter::test

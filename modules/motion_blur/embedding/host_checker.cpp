@@ -37,14 +37,14 @@ struct PicturePush {
     uint32_t serial;
 };
 
-struct IdsPush {
+struct CheckIdsPush {
     glm::uvec2 sizePx;
     shader::PrepareArea area;
     uint32_t noneValue;
     uint32_t rowCount;
 };
 
-gpu::ComputePipelineDesc describe(
+gpu::ComputePipelineDesc describeCheck(
     const char* name, std::span<const uint32_t> spirv, uint32_t sampledCount, uint32_t pushBytes
 ) {
     gpu::ComputePipelineDesc desc;
@@ -210,9 +210,10 @@ void addReadback(graph::Graph& graph, graph::BufferHandle totals, const gpu::Buf
 HostChecker::HostChecker(gpu::Device& device, uint32_t frames, HostMessage message)
     : mDevice(device), mMessage(std::move(message)),
       mPicture(
-          device, describe("check picture", motion_blur_check_picture_comp, 3, sizeof(PicturePush))
+          device,
+          describeCheck("check picture", motion_blur_check_picture_comp, 3, sizeof(PicturePush))
       ),
-      mIds(device, describe("check ids", motion_blur_check_ids_comp, 1, sizeof(IdsPush))),
+      mIds(device, describeCheck("check ids", motion_blur_check_ids_comp, 1, sizeof(CheckIdsPush))),
       mSlots(frames), mLast(frames), mNumbers(frames), mNow(std::make_unique<CheckedFrame>()) {}
 
 void HostChecker::add(
@@ -297,7 +298,7 @@ void HostChecker::add(
             mIds,
             {images.entityId},
             totals,
-            IdsPush{
+            CheckIdsPush{
                 push.sizePx,
                 makeArea(inputs.entityId, facts.picture),
                 inputs.noEntity,

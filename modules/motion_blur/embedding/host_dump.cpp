@@ -36,7 +36,7 @@ using graph::Access;
 using nlohmann::ordered_json;
 
 // Push constants, as the shaders declare them.
-struct ImagePush {
+struct DumpImagePush {
     glm::uvec2 sizePx;
     glm::uvec2 target;
     uint32_t texels; ///< the picture's: the serial
@@ -49,7 +49,7 @@ struct RevealPush {
     glm::uvec2 entityId;
 };
 
-gpu::ComputePipelineDesc describe(
+gpu::ComputePipelineDesc describeDump(
     const char* name,
     std::span<const uint32_t> spirv,
     std::vector<VkDescriptorType> bindings,
@@ -157,16 +157,22 @@ HostDump::listInputs(const HostInputs& inputs, const ImportedInputs& images) {
 HostDump::HostDump(gpu::Device& device, uint32_t frames, HostMessage message)
     : mDevice(device), mMessage(std::move(message)),
       mImage(
-          device, describe("dump image", motion_blur_dump_image_comp, {kSampled}, sizeof(ImagePush))
+          device,
+          describeDump("dump image", motion_blur_dump_image_comp, {kSampled}, sizeof(DumpImagePush))
       ),
-      mIds(device, describe("dump ids", motion_blur_dump_ids_comp, {kSampled}, sizeof(ImagePush))),
+      mIds(
+          device,
+          describeDump("dump ids", motion_blur_dump_ids_comp, {kSampled}, sizeof(DumpImagePush))
+      ),
       mPicture(
           device,
-          describe("dump picture", motion_blur_dump_picture_comp, {kStorage}, sizeof(ImagePush))
+          describeDump(
+              "dump picture", motion_blur_dump_picture_comp, {kStorage}, sizeof(DumpImagePush)
+          )
       ),
       mReveal(
           device,
-          describe(
+          describeDump(
               "dump reveal",
               motion_blur_dump_reveal_comp,
               {kStorage, kStorage, kStorage},
@@ -301,7 +307,7 @@ void HostDump::addImagePass(
     const gpu::LazyPipeline& pipeline = isPicture                            ? mPicture
                                         : plane.texels == shader::kDumpUint1 ? mIds
                                                                              : mImage;
-    const ImagePush push{
+    const DumpImagePush push{
         {plane.extent.width, plane.extent.height},
         gpu::splitAddress(slot.buffer.address() + plane.offset),
         isPicture ? slot.serial : plane.texels};

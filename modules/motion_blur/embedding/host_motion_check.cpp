@@ -46,7 +46,7 @@ core::Status checkView(const std::string& name, const dmat4& viewFromWorld) {
     return {};
 }
 
-core::Status checkProjection(
+core::Status checkKeyProjection(
     const std::string& name,
     const HostCameraKey& key,
     const HostMotion& motion,
@@ -96,7 +96,7 @@ core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
         before = key.time;
         hasRaster = hasRaster || isRasterKey(key, frame.rasterTime);
         SHUTTER_TRY(checkView(name + ".viewFromWorld", key.viewFromWorld));
-        SHUTTER_TRY(checkProjection(name + ".clipFromView", key, motion, frame.sizePx));
+        SHUTTER_TRY(checkKeyProjection(name + ".clipFromView", key, motion, frame.sizePx));
     }
     if (!hasRaster)
         return makeError(

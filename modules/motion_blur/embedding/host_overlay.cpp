@@ -22,7 +22,7 @@ struct Push {
     glm::uvec2 table;
 };
 
-struct IdsPush {
+struct OverlayIdsPush {
     glm::uvec2 sizePx;
 };
 
@@ -76,7 +76,8 @@ HostOverlay::HostOverlay(gpu::Device& device)
     : mSampler(device.nearestSampler()),
       mPanels(device, describePixelPass("show inputs", motion_blur_overlay_comp, 2, sizeof(Push))),
       mIds(
-          device, describePixelPass("show ids", motion_blur_overlay_ids_comp, 1, sizeof(IdsPush))
+          device,
+          describePixelPass("show ids", motion_blur_overlay_ids_comp, 1, sizeof(OverlayIdsPush))
       ) {}
 
 graph::ImageHandle HostOverlay::add(
@@ -101,7 +102,7 @@ graph::ImageHandle HostOverlay::add(
     if (!own.entityId.isValid())
         return picture;
     return addPixelPass(
-        graph, mIds, "show ids", {own.entityId}, picture, IdsPush{sizePx}, mSampler
+        graph, mIds, "show ids", {own.entityId}, picture, OverlayIdsPush{sizePx}, mSampler
     );
 }
 

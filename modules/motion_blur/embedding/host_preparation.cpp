@@ -27,12 +27,12 @@ struct MotionPush {
     glm::uvec2 table;
 };
 
-struct ImagePush {
+struct PrepareImagePush {
     glm::uvec2 sizePx;
     shader::PrepareArea area;
 };
 
-struct IdsPush {
+struct PrepareIdsPush {
     glm::uvec2 sizePx;
     shader::PrepareArea area;
     uint32_t noneValue;
@@ -65,17 +65,18 @@ HostPreparation::HostPreparation(gpu::Device& device)
       mColor(
           device,
           describePixelPass(
-              "prepare colour", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {1}
+              "prepare colour", motion_blur_prepare_image_comp, 1, sizeof(PrepareImagePush), {1}
           )
       ),
       mNormal(
           device,
           describePixelPass(
-              "prepare normals", motion_blur_prepare_image_comp, 1, sizeof(ImagePush), {0}
+              "prepare normals", motion_blur_prepare_image_comp, 1, sizeof(PrepareImagePush), {0}
           )
       ),
       mIds(
-          device, describePixelPass("prepare ids", motion_blur_prepare_ids_comp, 1, sizeof(IdsPush))
+          device,
+          describePixelPass("prepare ids", motion_blur_prepare_ids_comp, 1, sizeof(PrepareIdsPush))
       ),
       mDeliverHalf(
           device,
@@ -118,7 +119,7 @@ graph::ImageHandle HostPreparation::addColor(
         "prepare colour",
         {image},
         createPicture(graph, "prepared colour", VK_FORMAT_R16G16B16A16_SFLOAT, picture),
-        ImagePush{sizeOf(picture), makeArea(given, picture)},
+        PrepareImagePush{sizeOf(picture), makeArea(given, picture)},
         mSampler
     );
 }
@@ -132,7 +133,7 @@ graph::ImageHandle HostPreparation::addNormal(
         "prepare normals",
         {image},
         createPicture(graph, "prepared normals", VK_FORMAT_R16G16B16A16_SFLOAT, picture),
-        ImagePush{sizeOf(picture), makeArea(given, picture)},
+        PrepareImagePush{sizeOf(picture), makeArea(given, picture)},
         mSampler
     );
 }
@@ -150,7 +151,7 @@ graph::ImageHandle HostPreparation::addIds(
         "prepare ids",
         {image},
         createPicture(graph, "prepared ids", VK_FORMAT_R32_UINT, picture),
-        IdsPush{sizeOf(picture), makeArea(given, picture), noneValue},
+        PrepareIdsPush{sizeOf(picture), makeArea(given, picture), noneValue},
         mSampler
     );
 }

@@ -21,7 +21,7 @@ namespace {
 using graph::Access;
 
 gpu::ComputePipelineDesc
-describe(const char* name, std::span<const uint32_t> spirv, size_t bufferCount) {
+describeSamples(const char* name, std::span<const uint32_t> spirv, size_t bufferCount) {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.insert(bindings.end(), bufferCount, kBuffer);
     gpu::ComputePipelineDesc desc = describePass(name, spirv, std::move(bindings));
@@ -60,8 +60,9 @@ struct OwnSamplesPass::Searching {
 };
 
 OwnSamplesPass::OwnSamplesPass(gpu::Device& device)
-    : mDevice(device), mList(device, describe("list samples", motion_blur_list_samples_comp, 5)),
-      mCollect(device, describe("collect samples", motion_blur_collect_samples_comp, 4)) {}
+    : mDevice(device),
+      mList(device, describeSamples("list samples", motion_blur_list_samples_comp, 5)),
+      mCollect(device, describeSamples("collect samples", motion_blur_collect_samples_comp, 4)) {}
 
 void OwnSamplesPass::add(
     graph::Graph& graph, const OwnSamples& own, LookUpOutputs& found, const PassParams& params

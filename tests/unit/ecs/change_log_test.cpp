@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/ecs/commands.h"
 #include "engine/ecs/registry.h"
+#include "tests/unit/ecs/components.h"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +9,6 @@
 
 namespace shutter::ecs {
 namespace {
-
-struct Position {
-    double x = 0.0;
-};
-
-struct Health {
-    int points = 100;
-};
 
 std::vector<Entity> list(const Changes& changes) {
     EXPECT_FALSE(changes.all);

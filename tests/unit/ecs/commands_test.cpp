@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/ecs/commands.h"
+#include "tests/unit/ecs/components.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,6 @@
 
 namespace shutter::ecs {
 namespace {
-
-struct Health {
-    int points = 100;
-};
 
 struct Name {
     char letter = '?';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/ecs/registry.h"
+#include "tests/unit/ecs/components.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +11,6 @@
 
 namespace shutter::ecs {
 namespace {
-
-struct Position {
-    double x = 0.0;
-};
-
-struct Health {
-    int points = 100;
-};
 
 struct Tag {};
 

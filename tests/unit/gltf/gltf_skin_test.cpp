@@ -17,15 +17,16 @@ using math::dmat4;
 using math::dvec3;
 
 /// Nodes 0: drawn with skin 0; 1: a joint with the joint 2 below. All in the scene.
-const std::string kNodes = R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0,"name":"body"},
+const std::string kSkinNodes =
+    R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0,"name":"body"},
     {"children":[2],"translation":[1,0,0]},{"translation":[0,2,0]}],)";
 const std::string kTwoJoints = R"("skins":[{"name":"rig","joints":[1,2]}])";
 
-std::string mesh(const std::string& attributes) {
+std::string skinnedMesh(const std::string& attributes) {
     return R"("meshes":[{"primitives":[{"attributes":{"POSITION":0)" + attributes + "}}]}],";
 }
 
-const std::string kMesh = mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2)");
+const std::string kMesh = skinnedMesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2)");
 
 /// Accessor 0: a triangle; 1: joints; 2: weights, four of each a vertex.
 template <class Joint, class Weight>
@@ -56,7 +57,7 @@ ecs::Entity findSkinned(const scene::World& world) {
 }
 
 TEST(GltfSkin, ASkinnedNodeKnowsItsJointsAndItsMeshItsInfluences) {
-    const LoadedScene scene = expectLoads(makeSkinned().load(kMesh + kNodes + kTwoJoints));
+    const LoadedScene scene = expectLoads(makeSkinned().load(kMesh + kSkinNodes + kTwoJoints));
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
     const scene::World& world = scene.world;
     ASSERT_EQ(world.assets.skins.size(), 1u);
@@ -86,7 +87,7 @@ TEST(GltfSkin, JointsAndWeightsComeInEveryTypeAndWeightsSumToOne) {
          {makeSkinned(joints, kUnsignedShort, bytes, kUnsignedByte),
           makeSkinned(kJoints, kUnsignedByte, shorts, kUnsignedShort),
           makeSkinned(kJoints, kUnsignedByte, floats, kFloat)}) {
-        const LoadedScene scene = expectLoads(file.load(kMesh + kNodes + kTwoJoints));
+        const LoadedScene scene = expectLoads(file.load(kMesh + kSkinNodes + kTwoJoints));
         EXPECT_TRUE(scene.warnings.empty());
         const std::vector<float>& weights = primitiveOf(scene).weights;
         ASSERT_EQ(weights.size(), 12u);
@@ -104,7 +105,8 @@ TEST(GltfSkin, TwoSetsMakeEightInfluencesOfAVertex) {
     file.add(std::vector<uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, kUnsignedByte, "VEC4");
     file.add(std::vector<float>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3}, kFloat, "VEC4");
     const LoadedScene scene = expectLoads(file.load(
-        mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4)") + kNodes + kTwoJoints
+        skinnedMesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4)") + kSkinNodes +
+        kTwoJoints
     ));
     const scene::Primitive& primitive = primitiveOf(scene);
     EXPECT_EQ(primitive.influenceCount, 8u);
@@ -115,9 +117,10 @@ TEST(GltfSkin, TwoSetsMakeEightInfluencesOfAVertex) {
     EXPECT_FLOAT_EQ(primitive.weights[23], 0.75f);
     EXPECT_EQ(primitive.joints[4], 1u);
     const LoadedScene more = expectLoads(file.load(
-        mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4,"JOINTS_2":3,"WEIGHTS_2":4)"
+        skinnedMesh(
+            R"(,"JOINTS_0":1,"WEIGHTS_0":2,"JOINTS_1":3,"WEIGHTS_1":4,"JOINTS_2":3,"WEIGHTS_2":4)"
         ) +
-        kNodes + kTwoJoints
+        kSkinNodes + kTwoJoints
     ));
     EXPECT_EQ(primitiveOf(more).influenceCount, 8u);
     EXPECT_TRUE(hasWarning(more, "more than eight joints"));
@@ -128,7 +131,7 @@ TEST(GltfSkin, WeightsThatMeanNothingAreZeroAndAVertexWithoutAnyFollowsItsFirstJ
     const float infinity = std::numeric_limits<float>::infinity();
     const std::vector<float> weights = {-1, 0.5f, 0, 0, nan, 0, infinity, 0, 0, 0, 0, 0};
     const LoadedScene scene = expectLoads(
-        makeSkinned(kJoints, kUnsignedByte, weights, kFloat).load(kMesh + kNodes + kTwoJoints)
+        makeSkinned(kJoints, kUnsignedByte, weights, kFloat).load(kMesh + kSkinNodes + kTwoJoints)
     );
     EXPECT_EQ(primitiveOf(scene).weights, (std::vector<float>{0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
     EXPECT_TRUE(hasWarning(scene, "WEIGHTS_0 holds values that are below 0 or not finite"));
@@ -138,7 +141,7 @@ TEST(GltfSkin, WeightsThatMeanNothingAreZeroAndAVertexWithoutAnyFollowsItsFirstJ
 TEST(GltfSkin, AMeshWithoutInfluencesFollowsTheFirstJoint) {
     for (const char* attributes : {"", R"(,"JOINTS_0":1)", R"(,"WEIGHTS_0":2)"}) {
         const LoadedScene scene =
-            expectLoads(makeSkinned().load(mesh(attributes) + kNodes + kTwoJoints));
+            expectLoads(makeSkinned().load(skinnedMesh(attributes) + kSkinNodes + kTwoJoints));
         EXPECT_TRUE(hasWarning(scene, "that follows the first joint"));
         EXPECT_EQ(hasWarning(scene, "_0 without "), *attributes != '\0');
         const scene::Primitive& primitive = primitiveOf(scene);
@@ -188,7 +191,7 @@ TEST(GltfSkin, InverseBindMatricesAreReadColumnByColumn) {
     matrices[31] = 1.0000001f; // an exporter's rounding
     file.add(matrices, kFloat, "MAT4");
     const LoadedScene scene = expectLoads(
-        file.load(kMesh + kNodes + R"("skins":[{"joints":[1,2],"inverseBindMatrices":3}])")
+        file.load(kMesh + kSkinNodes + R"("skins":[{"joints":[1,2],"inverseBindMatrices":3}])")
     );
     const scene::Skin& skin = scene.world.assets.skins.at(0);
     ASSERT_EQ(skin.jointFromBind.size(), 2u) << "the third belongs to no joint";
@@ -204,7 +207,7 @@ TEST(GltfSkin, InverseBindMatricesThatFitNoJointAreRefused) {
     const auto load = [&](const std::vector<float>& matrices) {
         GltfFile file = makeSkinned();
         file.add(matrices, kFloat, "MAT4");
-        return file.load(kMesh + kNodes + skins);
+        return file.load(kMesh + kSkinNodes + skins);
     };
     expectRefused(load(identity), "skins[0].inverseBindMatrices has 1 elements for 2 joints");
     std::vector<float> two = identity;
@@ -220,7 +223,9 @@ TEST(GltfSkin, InverseBindMatricesThatFitNoJointAreRefused) {
     expectRefused(load(projective), "inverseBindMatrices[0] does not have 0 0 0 1");
     GltfFile vectors = makeSkinned();
     vectors.add(std::vector<float>(8), kFloat, "VEC4");
-    expectRefused(vectors.load(kMesh + kNodes + skins), "inverseBindMatrices: accessors[3].type");
+    expectRefused(
+        vectors.load(kMesh + kSkinNodes + skins), "inverseBindMatrices: accessors[3].type"
+    );
 }
 
 TEST(GltfSkin, InverseBindMatricesWithoutABufferViewAreZeros) {
@@ -230,34 +235,35 @@ TEST(GltfSkin, InverseBindMatricesWithoutABufferViewAreZeros) {
     const std::string unskinned = R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},
         {"children":[2]},{}],)";
     expectLoads(file.load(kMesh + unskinned + skin)); // of a skin that no node uses
-    const LoadedScene scene = expectLoads(file.load(kMesh + kNodes + skin));
+    const LoadedScene scene = expectLoads(file.load(kMesh + kSkinNodes + skin));
     EXPECT_TRUE(hasWarning(scene, "skins[0].inverseBindMatrices has no bufferView"));
     dmat4 collapsed(0.0);
     collapsed[3][3] = 1.0;
     EXPECT_EQ(scene.world.assets.skins.at(0).jointFromBind.at(1), collapsed);
     GltfFile given = makeSkinned();
     given.add(std::vector<float>(32, 0.0f), kFloat, "MAT4");
-    expectRefused(given.load(kMesh + kNodes + skin), "does not have 0 0 0 1");
+    expectRefused(given.load(kMesh + kSkinNodes + skin), "does not have 0 0 0 1");
 }
 
 TEST(GltfSkin, DamagedInfluencesAreRefused) {
     const GltfFile file = makeSkinned();
     expectRefused(
-        file.load(kMesh + kNodes + R"("skins":[{"joints":[1]}])"),
+        file.load(kMesh + kSkinNodes + R"("skins":[{"joints":[1]}])"),
         "names joint 1, but skins[0] has 1"
     );
-    expectRefused(file.load(kMesh + kNodes + R"("skins":[{"joints":[]}])"), "joints is empty");
+    expectRefused(file.load(kMesh + kSkinNodes + R"("skins":[{"joints":[]}])"), "joints is empty");
     expectRefused(
-        file.load(mesh(R"(,"JOINTS_0":2,"WEIGHTS_0":2)") + kNodes + kTwoJoints),
+        file.load(skinnedMesh(R"(,"JOINTS_0":2,"WEIGHTS_0":2)") + kSkinNodes + kTwoJoints),
         "componentType 5126"
     );
     expectRefused(
-        file.load(mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":1)") + kNodes + kTwoJoints), "not normalized"
+        file.load(skinnedMesh(R"(,"JOINTS_0":1,"WEIGHTS_0":1)") + kSkinNodes + kTwoJoints),
+        "not normalized"
     );
     GltfFile shorter = makeSkinned();
     shorter.add(std::vector<float>(8), kFloat, "VEC4");
     expectRefused(
-        shorter.load(mesh(R"(,"JOINTS_0":1,"WEIGHTS_0":3)") + kNodes + kTwoJoints),
+        shorter.load(skinnedMesh(R"(,"JOINTS_0":1,"WEIGHTS_0":3)") + kSkinNodes + kTwoJoints),
         "meshes[0].primitives[0] WEIGHTS_0 has 2 elements, POSITION has 3"
     );
 }

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "engine/image/metrics.h"
 #include "tests/unit/image/flip_pictures.h"
+#include "tests/unit/image/test_images.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 using namespace shutter::image;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// What FLIP's authors' own tool says: github.com/NVlabs/flip, commit 1eb247c (after version 1.6),
 /// FLIP::evaluate of src/cpp/FLIP.h on the CPU, built with g++ 12.2 -O2, LDR, default parameters,
@@ -50,13 +47,7 @@ Image toImage(const BytePicture& picture) {
     return image;
 }
 
-Image makeConstant(uint32_t width, uint32_t height, uint32_t channels, float value) {
-    Image image(width, height, channels);
-    std::fill(image.pixels.begin(), image.pixels.end(), value);
-    return image;
-}
-
-Image makeNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
+Image makeHashedNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
     Image image(width, height, channels);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x)
@@ -97,21 +88,22 @@ TEST(Flip, TheDefaultDisplayHas67PixelsPerDegree) {
 }
 
 TEST(Flip, EqualPicturesDifferNowhere) {
-    const Image image = makeNoise(50, 40, 3, 1);
+    const Image image = makeHashedNoise(50, 40, 3, 1);
     const FlipResult flip = computeFlip(image, image);
     EXPECT_EQ(flip.mean, 0.0);
     EXPECT_EQ(largestOf(flip.errorMap), 0.0f);
 }
 
 TEST(Flip, IsSymmetric) {
-    const Image a = makeNoise(37, 29, 3, 1);
-    const Image b = makeNoise(37, 29, 3, 2);
+    const Image a = makeHashedNoise(37, 29, 3, 1);
+    const Image b = makeHashedNoise(37, 29, 3, 2);
     EXPECT_EQ(computeFlip(a, b).mean, computeFlip(b, a).mean);
     EXPECT_EQ(computeFlip(a, b).errorMap.pixels, computeFlip(b, a).errorMap.pixels);
 }
 
 TEST(Flip, TheMapHasOneErrorAPixelInTheUnitRangeAndTheMeanIsItsMean) {
-    const FlipResult flip = computeFlip(makeNoise(37, 29, 3, 1), makeNoise(37, 29, 3, 2));
+    const FlipResult flip =
+        computeFlip(makeHashedNoise(37, 29, 3, 1), makeHashedNoise(37, 29, 3, 2));
     ASSERT_EQ(flip.errorMap.width, 37u);
     ASSERT_EQ(flip.errorMap.height, 29u);
     ASSERT_EQ(flip.errorMap.channels, 1u);
@@ -146,8 +138,8 @@ TEST(Flip, MirroringBothMirrorsTheMap) {
                     result.at(image.width - 1 - x, image.height - 1 - y, c) = image.at(x, y, c);
         return result;
     };
-    const Image a = makeNoise(31, 23, 3, 7);
-    const Image b = makeNoise(31, 23, 3, 8);
+    const Image a = makeHashedNoise(31, 23, 3, 7);
+    const Image b = makeHashedNoise(31, 23, 3, 8);
     const Image mirrored = mirror(computeFlip(mirror(a), mirror(b)).errorMap);
     const Image straight = computeFlip(a, b).errorMap;
     // Differences of features are roots of differences, so rounding shows in the fourth digit.
@@ -156,8 +148,8 @@ TEST(Flip, MirroringBothMirrorsTheMap) {
 }
 
 TEST(Flip, OneChannelIsGreyAndAlphaIsNotCompared) {
-    const Image greyA = makeNoise(24, 20, 1, 3);
-    const Image greyB = makeNoise(24, 20, 1, 4);
+    const Image greyA = makeHashedNoise(24, 20, 1, 3);
+    const Image greyB = makeHashedNoise(24, 20, 1, 4);
     const auto widen = [](const Image& grey, float alpha) {
         Image image(grey.width, grey.height, 4);
         for (size_t i = 0; i < grey.pixels.size(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/image/metrics.h"
+#include "tests/unit/image/test_images.h"
 
 #include <gtest/gtest.h>
 
@@ -7,30 +8,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 using namespace shutter::image;
 
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Image makeConstant(uint32_t width, uint32_t height, uint32_t channels, float value) {
-    Image image(width, height, channels);
-    std::fill(image.pixels.begin(), image.pixels.end(), value);
-    return image;
-}
-
-/// Steps of 1/255 without a pattern, so that the same picture can be written in eight bits.
-Image makeNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
-    Image image(width, height, channels);
-    std::mt19937 random(seed);
-    for (float& value : image.pixels)
-        value = float(random() % 256u) / 255.0f;
-    return image;
-}
 
 double luminanceOf(const Image& image, uint32_t x, uint32_t y) {
     if (image.channels < 3)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Our metrics against tools that we did not write. Each test skips where its tool is not installed.
 #include "engine/image/metrics.h"
+#include "tests/unit/image/test_images.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <random>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -19,15 +19,6 @@
 using namespace shutter::image;
 
 namespace {
-
-/// Steps of 1/255 without a pattern, so that the same picture can be written in eight bits.
-Image makeNoise(uint32_t width, uint32_t height, uint32_t channels, uint32_t seed) {
-    Image image(width, height, channels);
-    std::mt19937 random(seed);
-    for (float& value : image.pixels)
-        value = float(random() % 256u) / 255.0f;
-    return image;
-}
 
 /// Each third value scaled, the rest as it was.
 Image disturb(const Image& image) {

@@ -31,10 +31,6 @@ std::string readText(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-size_t countFiles(const fs::path& folder) {
-    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 } // namespace
 
 TEST(FileBytes, AWrittenFileHoldsTheBytesAndNothingElseIsLeft) {
@@ -44,7 +40,7 @@ TEST(FileBytes, AWrittenFileHoldsTheBytesAndNothingElseIsLeft) {
         const core::Status written = writeFileBytes(path, toBytes(text));
         ASSERT_TRUE(written) << written.error().message;
         EXPECT_EQ(readText(path), text);
-        EXPECT_EQ(countFiles(folder.path()), 1u);
+        EXPECT_EQ(test::countFiles(folder.path()), 1u);
     }
 }
 
@@ -64,7 +60,7 @@ TEST(FileBytes, AWriteThatFailsNamesTheFileAndLeavesTheOldOne) {
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
     EXPECT_EQ(readText(path), "old");
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(FileBytes, AFolderIsNeitherWrittenNorReplaced) {
@@ -77,7 +73,7 @@ TEST(FileBytes, AFolderIsNeitherWrittenNorReplaced) {
         EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
     }
     EXPECT_TRUE(fs::is_directory(inner));
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(FileBytes, APipeIsWrittenToAndStaysAPipe) {
@@ -91,7 +87,7 @@ TEST(FileBytes, APipeIsWrittenToAndStaysAPipe) {
     EXPECT_TRUE(written);
     EXPECT_EQ(received, "through the pipe");
     EXPECT_TRUE(fs::is_fifo(path));
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(ContentHash, IsThirtyTwoDigitsAndChangesWithEachByte) {

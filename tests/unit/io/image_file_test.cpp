@@ -45,10 +45,6 @@ std::vector<uint8_t> readAll(const fs::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-size_t countFiles(const fs::path& folder) {
-    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 TEST(ImageFile, AFloatExrComesBackExactlyWithItsChannelNames) {
     const TempFolder folder;
     image::Image image = makeRamp(5, 3, 2);
@@ -212,7 +208,7 @@ TEST(ImageFile, AJpegOfLowerQualityIsSmaller) {
 TEST(ImageFile, WritingLeavesNothingButThePicture) {
     const TempFolder folder;
     ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(ImageFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
@@ -222,7 +218,7 @@ TEST(ImageFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("cannot write '" + path.string()), std::string::npos);
     EXPECT_EQ(readAll(path).size(), 3u);
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(ImageFile, AWriteThatFailsOnTheDiskLeavesNoTemporary) {
@@ -238,7 +234,7 @@ TEST(ImageFile, AWriteThatFailsOnTheDiskLeavesNoTemporary) {
     std::signal(SIGXFSZ, handler);
     ASSERT_FALSE(written);
     EXPECT_EQ(readAll(path).size(), 3u);
-    EXPECT_EQ(countFiles(folder.path()), 1u);
+    EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
 TEST(ImageFile, AFolderInThePlaceOfThePictureIsNamed) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/animation.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace shutter::scene {
@@ -15,11 +15,9 @@ using math::dvec3;
 using math::dvec4;
 using math::vec4;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTolerance = 1e-6; // keys are single precision
 
-void expectNear(const dvec4& actual, const dvec4& expected) {
+void expectNearKey(const dvec4& actual, const dvec4& expected) {
     for (int i = 0; i < 4; ++i)
         EXPECT_NEAR(actual[i], expected[i], kTolerance) << "component " << i;
 }
@@ -48,16 +46,16 @@ AnimationChannel makeTurn(const vec4& from, const vec4& to) {
 
 TEST(SampleChannel, LinearMixesTheKeysAroundTheTime) {
     const AnimationChannel channel = makeMove(Interpolation::Linear);
-    expectNear(sampleChannel(channel, 1.25), {2.5, 0.0, 0.0, 0.0});
-    expectNear(sampleChannel(channel, 3.5), {10.0, 6.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 1.25), {2.5, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 3.5), {10.0, 6.0, 0.0, 0.0});
 }
 
 TEST(SampleChannel, StepHoldsTheLastKeyUntilTheNext) {
     const AnimationChannel channel = makeMove(Interpolation::Step);
-    expectNear(sampleChannel(channel, 1.999), {0.0, 0.0, 0.0, 0.0});
-    expectNear(sampleChannel(channel, 2.0), {10.0, 0.0, 0.0, 0.0});
-    expectNear(sampleChannel(channel, 3.999), {10.0, 0.0, 0.0, 0.0});
-    expectNear(sampleChannel(channel, 4.0), {10.0, 8.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 1.999), {0.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 2.0), {10.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 3.999), {10.0, 0.0, 0.0, 0.0});
+    expectNearKey(sampleChannel(channel, 4.0), {10.0, 8.0, 0.0, 0.0});
 }
 
 TEST(SampleChannel, AKeyIsMetAtItsOwnTime) {
@@ -102,11 +100,11 @@ TEST(SampleChannel, CubicSplineScalesTangentsByTheKeyInterval) {
     };
     // s = 1/4, interval 2: h00 = 27/32, h10 = 9/64, h01 = 5/32, h11 = -3/64, so
     // 27/32 * 1 + 9/64 * 2 * 4 + 5/32 * 5 - 3/64 * 2 * -2 = 0.84375 + 1.125 + 0.78125 + 0.1875.
-    expectNear(sampleChannel(channel, 1.5), dvec4(2.9375));
-    expectNear(sampleChannel(channel, 1.0), dvec4(1.0));
-    expectNear(sampleChannel(channel, 3.0), dvec4(5.0));
-    expectNear(sampleChannel(channel, 0.0), dvec4(1.0));
-    expectNear(sampleChannel(channel, 9.0), dvec4(5.0));
+    expectNearKey(sampleChannel(channel, 1.5), dvec4(2.9375));
+    expectNearKey(sampleChannel(channel, 1.0), dvec4(1.0));
+    expectNearKey(sampleChannel(channel, 3.0), dvec4(5.0));
+    expectNearKey(sampleChannel(channel, 0.0), dvec4(1.0));
+    expectNearKey(sampleChannel(channel, 9.0), dvec4(5.0));
 }
 
 TEST(SampleChannel, CubicSplineRotationsHaveUnitLength) {
@@ -114,14 +112,14 @@ TEST(SampleChannel, CubicSplineRotationsHaveUnitLength) {
     channel.interpolation = Interpolation::CubicSpline;
     channel.values = {vec4(0.0f), turnZ(0), vec4(0.0f), vec4(0.0f), turnZ(90), vec4(0.0f)};
     // Without tangents the middle is the mean of the two, 45 degrees once normalised.
-    expectNear(sampleChannel(channel, 0.5), dvec4(turnZ(45)));
+    expectNearKey(sampleChannel(channel, 0.5), dvec4(turnZ(45)));
     EXPECT_NEAR(glm::length(sampleChannel(channel, 0.3)), 1.0, 1e-12);
 }
 
 TEST(SampleChannel, LinearRotationsTurnAtConstantSpeed) {
     const AnimationChannel channel = makeTurn(turnZ(0), turnZ(120));
-    expectNear(sampleChannel(channel, 0.25), dvec4(turnZ(30)));
-    expectNear(sampleChannel(channel, 0.75), dvec4(turnZ(90)));
+    expectNearKey(sampleChannel(channel, 0.25), dvec4(turnZ(30)));
+    expectNearKey(sampleChannel(channel, 0.75), dvec4(turnZ(90)));
 }
 
 TEST(SampleChannel, LinearRotationsTakeTheShorterArcWhenTheSignFlips) {
@@ -135,15 +133,15 @@ TEST(SampleChannel, LinearRotationsTakeTheShorterArcWhenTheSignFlips) {
 
 TEST(SampleChannel, EqualRotationsStayEqual) {
     const AnimationChannel channel = makeTurn(turnZ(33), turnZ(33));
-    expectNear(sampleChannel(channel, 0.4), dvec4(turnZ(33)));
+    expectNearKey(sampleChannel(channel, 0.4), dvec4(turnZ(33)));
 }
 
 TEST(SampleChannel, RotationKeysAreNormalisedAndZeroIsTheIdentity) {
     const AnimationChannel doubled = makeTurn(2.0f * turnZ(0), 3.0f * turnZ(90));
-    expectNear(sampleChannel(doubled, 0.0), dvec4(turnZ(0)));
-    expectNear(sampleChannel(doubled, 0.5), dvec4(turnZ(45)));
-    expectNear(sampleChannel(doubled, 1.0), dvec4(turnZ(90)));
-    expectNear(sampleChannel(makeTurn(vec4(0.0f), vec4(0.0f)), 0.5), {0.0, 0.0, 0.0, 1.0});
+    expectNearKey(sampleChannel(doubled, 0.0), dvec4(turnZ(0)));
+    expectNearKey(sampleChannel(doubled, 0.5), dvec4(turnZ(45)));
+    expectNearKey(sampleChannel(doubled, 1.0), dvec4(turnZ(90)));
+    expectNearKey(sampleChannel(makeTurn(vec4(0.0f), vec4(0.0f)), 0.5), {0.0, 0.0, 0.0, 1.0});
 }
 
 TEST(SampleChannelDeathTest, AChannelWithoutKeysOrWithMissingValuesIsRefused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -17,10 +18,9 @@ using math::dvec3;
 using math::dvec4;
 using math::vec4;
 
-const dvec3 kUnitZ(0.0, 0.0, 1.0);
 constexpr double kQuarter = std::numbers::pi / 2.0;
 
-void expectNear(const dvec3& actual, const dvec3& expected, double tolerance = 1e-12) {
+void expectSame(const dvec3& actual, const dvec3& expected, double tolerance = 1e-12) {
     for (int i = 0; i < 3; ++i)
         EXPECT_NEAR(actual[i], expected[i], tolerance) << "axis " << i;
 }
@@ -92,9 +92,9 @@ TEST_F(SkinChain, BendsAboutItsJoint) {
     EXPECT_FALSE(mayObjectMove(mWorld, mBody)) << "the first joint stands";
     for (const double seconds : {0.0, 0.25, 0.5, 1.0}) {
         const double angle = kQuarter * seconds;
-        expectNear(pointAt(0, {0.5, 2.0, 0.0}, seconds), {0.5, 2.0, 0.0});
+        expectSame(pointAt(0, {0.5, 2.0, 0.0}, seconds), {0.5, 2.0, 0.0});
         // (0, 1) above the joint, turned; slerp keeps the angle in step with time.
-        expectNear(
+        expectSame(
             pointAt(1, {0.0, 2.0, 0.0}, seconds),
             {-std::sin(angle), 1.0 + std::cos(angle), 0.0},
             1e-7
@@ -106,10 +106,10 @@ TEST_F(SkinChain, FollowsItsJointsAndNotItsOwnTransform) {
     mWorld.registry.add(mBody, LocalTransform{{dvec3(100.0), {1.0, 0.0, 0.0, 0.0}, dvec3(7.0)}});
     mWorld.registry.add(mBody, LinearVelocity{dvec3(50.0)});
     EXPECT_FALSE(mayObjectMove(mWorld, mBody));
-    expectNear(pointAt(1, {0.0, 2.0, 0.0}, 1.0), {0.0, 2.0, 0.0});
+    expectSame(pointAt(1, {0.0, 2.0, 0.0}, 1.0), {0.0, 2.0, 0.0});
     mWorld.registry.add(mRoot, LinearVelocity{{3.0, 0.0, 0.0}});
     EXPECT_TRUE(mayObjectMove(mWorld, mBody));
-    expectNear(pointAt(1, {0.0, 2.0, 0.0}, 2.0), {6.0, 2.0, 0.0});
+    expectSame(pointAt(1, {0.0, 2.0, 0.0}, 2.0), {6.0, 2.0, 0.0});
 }
 
 TEST_F(SkinChain, HasItsOriginAtTheFirstJointWithTheAxesOfTheWorld) {
@@ -126,7 +126,7 @@ TEST_F(SkinChain, AFirstJointThatIsNowhereLeavesTheOthersWhereTheyAre) {
     math::Transform nowhere;
     nowhere.translation.x = std::numeric_limits<double>::quiet_NaN();
     mWorld.registry.add(mBody, Skinned{0, {add(nowhere), mTip}});
-    expectNear(pointAt(1, {0.0, 1.0, 0.0}, 0.0), {0.0, 1.0, 0.0});
+    expectSame(pointAt(1, {0.0, 1.0, 0.0}, 0.0), {0.0, 1.0, 0.0});
 }
 
 TEST_F(SkinChain, KeepsItsNumbersSmallFarFromTheOrigin) {
@@ -137,7 +137,7 @@ TEST_F(SkinChain, KeepsItsNumbersSmallFarFromTheOrigin) {
     for (size_t joint = 0; joint < 2; ++joint) {
         for (int column = 0; column < 4; ++column) {
             // Doubles near 1e6 are 1.2e-10 apart; floats 0.06.
-            expectNear(
+            expectSame(
                 dvec3(far.objectFromBind[joint][column]),
                 dvec3(near.objectFromBind[joint][column]),
                 1e-9

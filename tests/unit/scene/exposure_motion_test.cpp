@@ -13,7 +13,7 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-void expectNear(const dmat4& actual, const dmat4& expected) {
+void expectNearMatrix(const dmat4& actual, const dmat4& expected) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             EXPECT_NEAR(actual[column][row], expected[column][row], 1e-9) << column << row;
@@ -84,7 +84,7 @@ TEST_F(Artist, TheCamerasTurningAndDisplacementScaleApart) {
             const double away = now.exposure().at(s) - kRaster;
             dmat4 expected = world(mCamera, kRaster + turning * away);
             expected[3] = world(mCamera, kRaster + displacement * away)[3];
-            expectNear(now.worldFromCamera(s), expected);
+            expectNearMatrix(now.worldFromCamera(s), expected);
         }
         EXPECT_EQ(now.worldFromCamera(0.5), world(mCamera, kRaster));
     }
@@ -97,9 +97,9 @@ TEST_F(Artist, ObjectsScaleWithoutTheCamera) {
         const ExposureMotion now = motion();
         for (const double s : {0.0, 0.3, 1.0}) {
             const double away = now.exposure().at(s) - kRaster;
-            expectNear(now.worldFromEntity(mover, s), world(mover, kRaster + scale * away));
-            expectNear(now.worldFromObject(mover, s), world(mover, kRaster + scale * away));
-            expectNear(now.worldFromCamera(s), world(mCamera, now.exposure().at(s)));
+            expectNearMatrix(now.worldFromEntity(mover, s), world(mover, kRaster + scale * away));
+            expectNearMatrix(now.worldFromObject(mover, s), world(mover, kRaster + scale * away));
+            expectNearMatrix(now.worldFromCamera(s), world(mCamera, now.exposure().at(s)));
         }
         EXPECT_EQ(now.mayMove(mover), scale != 0.0);
         EXPECT_EQ(now.mayObjectMove(mover), scale != 0.0);
@@ -116,7 +116,7 @@ TEST_F(Artist, AnEntitysScaleIsOfItsWayAcrossTheView) {
                 const double away = now.exposure().at(s) - kRaster;
                 const double seen = kRaster + scale * away;
                 // The same in the view as it would be at the other time.
-                expectNear(
+                expectNearMatrix(
                     glm::inverse(math::removeScale(now.worldFromCamera(s))) *
                         now.worldFromObject(entity, s),
                     glm::inverse(view(seen)) * world(entity, seen)
@@ -140,7 +140,7 @@ TEST_F(Artist, ScalesMultiply) {
     };
     for (const double s : {0.0, 0.4, 1.0}) {
         const double away = now.exposure().at(s) - kRaster;
-        expectNear(
+        expectNearMatrix(
             glm::inverse(camera(away)) * now.worldFromObject(mover, s),
             glm::inverse(camera(0.5 * away)) * world(mover, kRaster + 0.8 * 0.5 * away)
         );
@@ -154,7 +154,7 @@ TEST_F(Artist, AnExcludedEntityRidesWithTheCamera) {
         EXPECT_TRUE(now.mayObjectMove(entity));
         EXPECT_FALSE(now.mayDeform(entity));
         for (const double s : {0.0, 0.3, 1.0})
-            expectNear(
+            expectNearMatrix(
                 glm::inverse(math::removeScale(now.worldFromCamera(s))) *
                     now.worldFromObject(entity, s),
                 glm::inverse(view(kRaster)) * world(entity, kRaster)
@@ -195,7 +195,7 @@ TEST_F(Artist, LightsFollowTheObjectScaleAlone) {
     mShutter.objectScale = 0.5;
     const ExposureMotion now = motion();
     const double away = now.exposure().at(0.0) - kRaster;
-    expectNear(now.worldFromEntity(lamp, 0.0), world(lamp, kRaster + 0.5 * away));
+    expectNearMatrix(now.worldFromEntity(lamp, 0.0), world(lamp, kRaster + 0.5 * away));
 }
 
 TEST_F(Artist, DeformationIsTakenAtTheScaledTime) {

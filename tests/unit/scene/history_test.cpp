@@ -2,10 +2,10 @@
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "engine/scene/path.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
 namespace shutter::scene {
@@ -14,14 +14,6 @@ namespace {
 using math::dmat4;
 using math::dquat;
 using math::dvec3;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const dvec3 kUp(0.0, 1.0, 0.0);
-
-void expectNear(const dvec3& actual, const dvec3& expected) {
-    for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(actual[i], expected[i], 1e-9) << "axis " << i;
-}
 
 /// Frames of 0.1 s at t = 1, exposed over their last half.
 class History : public testing::Test {

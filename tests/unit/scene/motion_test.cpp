@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/math/transform.h"
 #include "engine/scene/motion.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +19,6 @@ using math::vec4;
 
 constexpr double kPi = std::numbers::pi;
 const dvec3 kUnitX(1.0, 0.0, 0.0);
-const dvec3 kUnitZ(0.0, 0.0, 1.0);
-
-void expectNear(const dvec3& actual, const dvec3& expected) {
-    for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(actual[i], expected[i], 1e-9) << "axis " << i;
-}
 
 class WorldFromEntity : public testing::Test {
   protected:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/motion.h"
 #include "engine/scene/path.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,6 @@ namespace {
 
 using math::dquat;
 using math::dvec3;
-
-const dvec3 kUp(0.0, 1.0, 0.0);
-
-void expectNear(const dvec3& actual, const dvec3& expected, double tolerance = 1e-9) {
-    for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(actual[i], expected[i], tolerance) << "axis " << i;
-}
 
 PathKey key(double seconds, const dvec3& position) {
     PathKey made;

@@ -2,6 +2,7 @@
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/path.h"
 #include "engine/scene/recorded_motion.h"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,6 @@ using math::Transform;
 
 constexpr double kStep = 1.0 / 120.0;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const dvec3 kUp(0.0, 1.0, 0.0);
 
 Transform at(const dvec3& place, double radians = 0.0) {
     return {place, glm::angleAxis(radians, kUp)};

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/shutter.h"
 #include "shaders/common/shutter_response.glsl"
+#include "tests/unit/scene/near.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
 namespace shutter::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 CameraShutter makeShutter(ShutterMode mode) {
     CameraShutter shutter;
