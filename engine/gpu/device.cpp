@@ -5,6 +5,7 @@
 #include "engine/core/log.h"
 #include "engine/core/platform.h"
 #include "engine/gpu/device_features.h"
+#include "engine/gpu/kept_pipelines.h"
 #include "engine/gpu/pipeline_cache.h"
 
 #include <algorithm>
@@ -65,6 +66,7 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->mMakesPipelinesAhead =
             options.pipelinesAhead == PipelinesAhead::Always ||
             (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
+        device->mKeptPipelines = std::make_unique<KeptPipelines>(options.keptPipelines);
         device->mBeforePipelineAhead = options.beforePipelineAhead;
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
@@ -78,11 +80,15 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     return device;
 }
 
+// Here, where KeptPipelines is complete.
+Device::Device() = default;
+
 Device::~Device() {
     if (mDevice) {
         if (!mIsAdopted)
             vkDeviceWaitIdle(mDevice);
         destroyRetired();
+        destroyKept();
         savePipelineCache();
         if (mOwnsPipelineCache)
             vkDestroyPipelineCache(mDevice, mPipelineCache, nullptr);

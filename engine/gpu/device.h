@@ -10,6 +10,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -45,6 +46,10 @@ struct DeviceOptions {
     /// Called before a pipeline is made ahead, with its name and on the thread that makes it, so
     /// that tests can hold it up; empty: nothing is called.
     std::function<void(const std::string& name)> beforePipelineAhead;
+    /// How many pipelines that nobody uses any more are kept for whoever wants the same
+    /// (kept_pipelines.h); 0: none. Scene layouts of pipelines (PipelineInterface) must then live
+    /// as long as the device, as those of textureLayout do.
+    uint32_t keptPipelines = 0;
     /// Nothing: checked where Vulkan is validated. Released programs trust their shaders, whose
     /// lists are as long as their buffers, and what lies behind addresses is checked on no device.
     std::optional<Bounds> bounds;
@@ -54,6 +59,22 @@ struct DeviceOptions {
     /// choice, which leaves out devices that cannot. Empty: any device will do.
     std::function<core::Result<VkSurfaceKHR>(VkInstance)> makeSurface;
 };
+
+class KeptPipelines;
+
+/// What makes up a pipeline.
+struct PipelineObjects {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE; ///< set 0
+
+    bool operator==(const PipelineObjects&) const = default;
+};
+
+/// Stages that may use set 1 of a pipeline's layout.
+inline constexpr VkShaderStageFlags kSceneStages =
+    VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_RAYGEN_BIT_KHR |
+    VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
 
 /// Semaphores of one submission; null: none.
 struct SubmitSemaphores {
@@ -186,6 +207,17 @@ class Device {
 
     [[nodiscard]] VkSampler linearSampler() const { return mLinearSampler; } ///< clamp to edge
 
+    /// Layout of a set whose binding 0 holds `count` textures, for all who want as many. It lives
+    /// as long as the device.
+    [[nodiscard]] VkDescriptorSetLayout textureLayout(uint32_t count);
+
+    /// DeviceOptions::keptPipelines is not 0.
+    [[nodiscard]] bool keepsPipelines() const;
+    /// One that was given up under this key; on any thread. See kept_pipelines.h.
+    [[nodiscard]] std::optional<PipelineObjects> takePipeline(const std::string& key);
+    /// Keeps it or, where it keeps none and for an empty key, destroys it once it is not in use.
+    void giveUpPipeline(std::string key, const PipelineObjects& objects);
+
     /// DeviceOptions::validate.
     [[nodiscard]] bool isValidated() const { return mMessenger != VK_NULL_HANDLE; }
 
@@ -232,7 +264,7 @@ class Device {
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;
 
   private:
-    Device() = default;
+    Device();
     core::Status adoptHost(const HostDevice& host);
     core::Status createInstance(const DeviceOptions& options);
     /// Notes what is chosen in mInfo, and says what is passed over.
@@ -241,6 +273,7 @@ class Device {
     void loadFunctions();
     void loadLimits();
     void destroyRetired();
+    void destroyKept();
     void createSamplers();
     /// A cache a kind of device: one would drop the other's.
     [[nodiscard]] std::string cacheFileName() const;
@@ -267,6 +300,8 @@ class Device {
     VkSampler mNearestSampler = VK_NULL_HANDLE;
     VkSampler mLinearSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
+    std::unique_ptr<KeptPipelines> mKeptPipelines;
+    std::map<uint32_t, VkDescriptorSetLayout> mTextureLayouts; ///< by count
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;

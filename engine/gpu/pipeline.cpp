@@ -2,6 +2,7 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
+#include "engine/gpu/kept_pipelines.h"
 #include "engine/gpu/replaced_shader.h"
 #include "engine/gpu/shader_reflection.h"
 
@@ -93,7 +94,6 @@ std::vector<VkPipelineColorBlendAttachmentState> makeBlend(size_t targets, bool 
 
 void Pipeline::createLayout(const PipelineInterface& interface) {
     SHUTTER_CHECK(interface.pushConstantBytes <= 128, "{}", interface.pushConstantBytes);
-    mBindingCount = interface.bindings.size();
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (uint32_t i = 0; i < interface.bindings.size(); ++i)
         bindings.push_back({i, interface.bindings[i], 1, mStages, nullptr});
@@ -101,10 +101,10 @@ void Pipeline::createLayout(const PipelineInterface& interface) {
     set.bindingCount = static_cast<uint32_t>(bindings.size());
     set.pBindings = bindings.data();
     require(
-        vkCreateDescriptorSetLayout(mDevice->handle(), &set, nullptr, &mSetLayout),
+        vkCreateDescriptorSetLayout(mDevice->handle(), &set, nullptr, &mObjects.setLayout),
         "creating a descriptor layout"
     );
-    const std::array layouts{mSetLayout, interface.sceneLayout};
+    const std::array layouts{mObjects.setLayout, interface.sceneLayout};
     const VkPushConstantRange range{mStages, 0, interface.pushConstantBytes};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     info.setLayoutCount = interface.sceneLayout ? 2 : 1;
@@ -112,9 +112,20 @@ void Pipeline::createLayout(const PipelineInterface& interface) {
     info.pushConstantRangeCount = interface.pushConstantBytes > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
     require(
-        vkCreatePipelineLayout(mDevice->handle(), &info, nullptr, &mLayout),
+        vkCreatePipelineLayout(mDevice->handle(), &info, nullptr, &mObjects.layout),
         "creating a pipeline layout"
     );
+}
+
+template <typename Desc> bool Pipeline::takeKept(const Desc& desc) {
+    mBindingCount = desc.interface.bindings.size();
+    if (!mDevice->keepsPipelines())
+        return false;
+    std::string key = makePipelineKey(desc);
+    if (const auto kept = mDevice->takePipeline(key))
+        mObjects = *kept;
+    mKey = std::move(key);
+    return mObjects.pipeline != VK_NULL_HANDLE;
 }
 
 void Pipeline::
@@ -131,20 +142,24 @@ void Pipeline::
 
 Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
     : Pipeline(device, VK_PIPELINE_BIND_POINT_COMPUTE, VK_SHADER_STAGE_COMPUTE_BIT, desc.name) {
-    createLayout(desc.interface);
     addShader(desc.spirv, VK_SHADER_STAGE_COMPUTE_BIT, desc.interface);
+    if (takeKept(desc))
+        return;
+    createLayout(desc.interface);
     const LoadedShader module(device, desc.spirv, desc.name);
     const Specialization constants(desc.specialization);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = makeStage(VK_SHADER_STAGE_COMPUTE_BIT, module.handle(), constants);
-    info.layout = mLayout;
+    info.layout = mObjects.layout;
     require(
         vkCreateComputePipelines(
-            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mPipeline
+            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mObjects.pipeline
         ),
         fmt::format("creating the pipeline '{}'", desc.name)
     );
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mObjects.pipeline), desc.name
+    );
 }
 
 Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
@@ -154,9 +169,11 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
           VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
           desc.name
       ) {
-    createLayout(desc.interface);
     addShader(desc.vertexSpirv, VK_SHADER_STAGE_VERTEX_BIT, desc.interface);
     addShader(desc.fragmentSpirv, VK_SHADER_STAGE_FRAGMENT_BIT, desc.interface);
+    if (takeKept(desc))
+        return;
+    createLayout(desc.interface);
     const LoadedShader vertex(device, desc.vertexSpirv, desc.name);
     const LoadedShader fragment(device, desc.fragmentSpirv, desc.name);
     const Specialization constants(desc.specialization);
@@ -213,14 +230,16 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     info.pDepthStencilState = &depth;
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
-    info.layout = mLayout;
+    info.layout = mObjects.layout;
     require(
         vkCreateGraphicsPipelines(
-            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mPipeline
+            device.handle(), device.pipelineCache(), 1, &info, nullptr, &mObjects.pipeline
         ),
         fmt::format("creating the pipeline '{}'", desc.name)
     );
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mObjects.pipeline), desc.name
+    );
 }
 
 Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
@@ -231,11 +250,13 @@ Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
               VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR,
           desc.name
       ) {
-    createLayout(desc.interface);
     addShader(desc.raygenSpirv, VK_SHADER_STAGE_RAYGEN_BIT_KHR, desc.interface);
     addShader(desc.missSpirv, VK_SHADER_STAGE_MISS_BIT_KHR, desc.interface);
     addShader(desc.closestHitSpirv, VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, desc.interface);
     addShader(desc.anyHitSpirv, VK_SHADER_STAGE_ANY_HIT_BIT_KHR, desc.interface);
+    if (takeKept(desc))
+        return;
+    createLayout(desc.interface);
     const LoadedShader raygen(device, desc.raygenSpirv, desc.name);
     const LoadedShader miss(device, desc.missSpirv, desc.name);
     const LoadedShader closestHit(device, desc.closestHitSpirv, desc.name);
@@ -265,14 +286,22 @@ Pipeline::Pipeline(Device& device, const RayPipelineDesc& desc)
     info.groupCount = groups.size();
     info.pGroups = groups.data();
     info.maxPipelineRayRecursionDepth = 1;
-    info.layout = mLayout;
+    info.layout = mObjects.layout;
     require(
         device.functions().createRayTracingPipelines(
-            device.handle(), VK_NULL_HANDLE, device.pipelineCache(), 1, &info, nullptr, &mPipeline
+            device.handle(),
+            VK_NULL_HANDLE,
+            device.pipelineCache(),
+            1,
+            &info,
+            nullptr,
+            &mObjects.pipeline
         ),
         fmt::format("creating the pipeline '{}'", desc.name)
     );
-    device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mPipeline), desc.name);
+    device.setName(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(mObjects.pipeline), desc.name
+    );
 }
 
 Pipeline::~Pipeline() {
@@ -288,9 +317,8 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
         return *this;
     release();
     mDevice = std::exchange(other.mDevice, nullptr);
-    mPipeline = std::exchange(other.mPipeline, VK_NULL_HANDLE);
-    mLayout = std::exchange(other.mLayout, VK_NULL_HANDLE);
-    mSetLayout = std::exchange(other.mSetLayout, VK_NULL_HANDLE);
+    mObjects = std::exchange(other.mObjects, {});
+    mKey = std::move(other.mKey);
     mBindPoint = other.mBindPoint;
     mStages = other.mStages;
     mBindingCount = other.mBindingCount;
@@ -302,13 +330,8 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
 void Pipeline::release() {
     if (!mDevice)
         return;
-    mDevice->retire(
-        [device = mDevice->handle(), pipeline = mPipeline, layout = mLayout, set = mSetLayout] {
-            vkDestroyPipeline(device, pipeline, nullptr);
-            vkDestroyPipelineLayout(device, layout, nullptr);
-            vkDestroyDescriptorSetLayout(device, set, nullptr);
-        }
-    );
+    // One that failed half-way is of no use to anybody.
+    mDevice->giveUpPipeline(mObjects.pipeline ? std::move(mKey) : std::string(), mObjects);
     mDevice = nullptr;
 }
 

@@ -14,11 +14,6 @@
 
 namespace shutter::gpu {
 
-/// Stages that may use set 1 of a pipeline's layout.
-inline constexpr VkShaderStageFlags kSceneStages =
-    VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_RAYGEN_BIT_KHR |
-    VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
-
 /// What a pipeline binds. Set 0 belongs to the pass and is bound anew each frame; set 1, where
 /// given, belongs to the scene (bindless textures) and is long-lived.
 struct PipelineInterface {
@@ -71,11 +66,11 @@ class Pipeline {
     Pipeline(Pipeline&& other) noexcept;
     Pipeline& operator=(Pipeline&& other) noexcept;
 
-    [[nodiscard]] VkPipeline handle() const { return mPipeline; }
+    [[nodiscard]] VkPipeline handle() const { return mObjects.pipeline; }
 
-    [[nodiscard]] VkPipelineLayout layout() const { return mLayout; }
+    [[nodiscard]] VkPipelineLayout layout() const { return mObjects.layout; }
 
-    [[nodiscard]] VkDescriptorSetLayout setLayout() const { return mSetLayout; }
+    [[nodiscard]] VkDescriptorSetLayout setLayout() const { return mObjects.setLayout; }
 
     [[nodiscard]] VkPipelineBindPoint bindPoint() const { return mBindPoint; }
 
@@ -104,12 +99,13 @@ class Pipeline {
     /// layout does not bind (CHECKed).
     void
     addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface);
+    /// Takes over what an equal pipeline left to the device. \return false: it must be made
+    template <typename Desc> bool takeKept(const Desc& desc);
     void release();
 
     Device* mDevice = nullptr;
-    VkPipeline mPipeline = VK_NULL_HANDLE;
-    VkPipelineLayout mLayout = VK_NULL_HANDLE;
-    VkDescriptorSetLayout mSetLayout = VK_NULL_HANDLE;
+    PipelineObjects mObjects;
+    std::string mKey; ///< under which the device may keep it; empty: it is destroyed
     VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags mStages = 0;
     size_t mBindingCount = 0;

@@ -120,9 +120,8 @@ void TextureTable::addDirections(
 }
 
 TextureTable::~TextureTable() {
-    mDevice.retire([device = &mDevice, layout = mLayout, pool = mPool, samplers = mSamplers] {
+    mDevice.retire([device = &mDevice, pool = mPool, samplers = mSamplers] {
         vkDestroyDescriptorPool(device->handle(), pool, nullptr);
-        vkDestroyDescriptorSetLayout(device->handle(), layout, nullptr);
         for (const KnownSampler& known : samplers)
             vkDestroySampler(device->handle(), known.sampler, nullptr);
         device->living().samplers -= static_cast<uint32_t>(samplers.size());
@@ -183,25 +182,7 @@ VkSampler TextureTable::findSampler(const scene::Texture& texture) {
 }
 
 void TextureTable::createSet(uint32_t count) {
-    VkDescriptorSetLayoutBinding binding{};
-    binding.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    binding.descriptorCount = count;
-    binding.stageFlags = gpu::kSceneStages;
-    if (mDevice.info().rayTier != gpu::RayTier::Pipeline)
-        binding.stageFlags &= VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
-    const VkDescriptorBindingFlags flags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT;
-    VkDescriptorSetLayoutBindingFlagsCreateInfo bindingFlags{
-        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
-    bindingFlags.bindingCount = 1;
-    bindingFlags.pBindingFlags = &flags;
-    VkDescriptorSetLayoutCreateInfo layout{
-        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &bindingFlags};
-    layout.bindingCount = 1;
-    layout.pBindings = &binding;
-    gpu::require(
-        vkCreateDescriptorSetLayout(mDevice.handle(), &layout, nullptr, &mLayout),
-        "creating the texture table"
-    );
+    mLayout = mDevice.textureLayout(count);
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool.maxSets = 1;

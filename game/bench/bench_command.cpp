@@ -157,6 +157,7 @@ Status measureSuite(
 ) {
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
+    deviceOptions.keptPipelines = 256; // each case has renderers of its own
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
         return device.error();

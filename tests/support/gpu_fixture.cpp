@@ -20,6 +20,7 @@ struct SharedDevice {
 SharedDevice openDevice() {
     gpu::DeviceOptions options;
     options.validate = true;
+    options.keptPipelines = 512; // programs that make the same effects over and over
     auto opened = gpu::Device::create(options);
     if (!opened)
         return {nullptr, opened.error().message};

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Pipelines that nobody uses any more, kept for whoever wants the same. Drivers keep compiled code
+// in a cache, but some, lavapipe for one, translate the whole shader anew before they look it up:
+// 80 ms for a large one. A program that makes the same effect many times, as tests and benchmarks
+// do, spends most of its time there.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/vulkan.h"
+
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shutter::gpu {
+
+/// All that a pipeline is made of, as bytes: equal for two descriptions exactly where one pipeline
+/// serves both. Shaders count as they are now (replaced_shader.h). Scene layouts count by handle,
+/// so they must live as long as the pipelines are kept.
+[[nodiscard]] std::string makePipelineKey(const ComputePipelineDesc& desc);
+[[nodiscard]] std::string makePipelineKey(const GraphicsPipelineDesc& desc);
+[[nodiscard]] std::string makePipelineKey(const RayPipelineDesc& desc);
+
+/// Calls nothing of Vulkan: whoever owns it destroys what it hands out. Thread-safe, since
+/// pipelines may be made on several threads.
+class KeptPipelines {
+  public:
+    /// \param most how many are kept; 0: none
+    explicit KeptPipelines(size_t most) : mMost(most) {}
+
+    [[nodiscard]] size_t most() const { return mMost; }
+
+    /// Hands over one that was kept under this key.
+    [[nodiscard]] std::optional<PipelineObjects> take(const std::string& key);
+    /// \return the one that is not kept any more, if any: the oldest, for which there is no room
+    [[nodiscard]] std::optional<PipelineObjects> keep(std::string key, PipelineObjects objects);
+    /// Hands over all.
+    [[nodiscard]] std::vector<PipelineObjects> takeAll();
+
+  private:
+    struct Kept {
+        std::string key;
+        PipelineObjects objects;
+    };
+
+    size_t mMost;
+    std::mutex mMutex;
+    std::deque<Kept> mKept; ///< the oldest first
+};
+
+} // namespace shutter::gpu
