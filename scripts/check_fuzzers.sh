@@ -35,18 +35,6 @@ FUZZ_BUILD_JOBS is the number of files compiled at a time.
 TEXT
 }
 
-# Prints a clang++ that has libFuzzer; nothing where there is none.
-find_clang() {
-    local clang empty='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'
-    for clang in clang++ "clang++-$llvm_version"; do # the preset's first
-        if command -v "$clang" >/dev/null &&
-            "$clang" -x c++ -fsanitize=fuzzer,address - -o /dev/null <<<"$empty" 2>/dev/null; then
-            printf '%s\n' "$clang"
-            return
-        fi
-    done
-}
-
 # Copies what reader $1 begins with to folder $2: the seeds of the tree and, where they lie beside it,
 # damaged scenes with the files that they name.
 gather_seeds() {
@@ -114,7 +102,7 @@ main() {
     for reader in "$@"; do
         [[ -e $root/tests/fuzz/${reader}_fuzz.cpp ]] || die_of_usage "there is no reader '$reader'"
     done
-    clang=$(find_clang)
+    clang=$(find_fuzzing_clang)
     if [[ -z $clang ]]; then
         say "skipped: there is no clang++ with libFuzzer;" \
             "Debian has it in clang-$llvm_version and libclang-rt-$llvm_version-dev" >&2

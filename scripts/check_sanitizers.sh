@@ -10,6 +10,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/lib/messages.sh"
 # shellcheck source=scripts/lib/lavapipe.sh
 source "$root/scripts/lib/lavapipe.sh"
+# shellcheck source=scripts/lib/llvm_tools.sh
+source "$root/scripts/lib/llvm_tools.sh"
 
 # Those of SHUTTER_SANITIZED_LABELS in tests/CMakeLists.txt.
 labels='^(unit|graph|robustness)$'
@@ -29,7 +31,8 @@ Builds and runs tests with sanitizers:
   (nothing)  those that need no device, with the address and undefined-behaviour sanitizers, in
              build/asan: an hour on two cores
   --short    only the programs of the rooms that read files, keep memory or sort passes: some five
-             minutes
+             minutes; where there is a clang++ with libFuzzer, in build/fuzz, which
+             scripts/check_fuzzers.sh builds too, otherwise in build/asan
   --drawing  those that draw, on lavapipe, with the same sanitizers: hours. What leaks is told at the
              end of each program, except for what tests/sanitizers/leaks.txt explains; not of
              those that run the program (cli)
@@ -49,11 +52,19 @@ run_tests() {
 
 # Each program as a whole: a process for each of its cases would take minutes to start them.
 run_short() {
-    local program
-    cmake --build --preset asan --target "${short[@]}"
+    local program clang preset=asan
+    clang=$(find_fuzzing_clang)
+    if [[ -n $clang ]]; then
+        # What the programs and the fuzzers share is then compiled once.
+        preset=fuzz
+        cmake --preset fuzz -DCMAKE_CXX_COMPILER="$clang" >/dev/null
+    else
+        cmake --preset asan
+    fi
+    cmake --build "build/$preset" --target "${short[@]}"
     for program in "${short[@]}"; do
         say "$program"
-        (cd build/asan && "./$program" --gtest_brief=1)
+        (cd "build/$preset" && "./$program" --gtest_brief=1)
     done
     say "${#short[@]} test programs pass with the sanitizers"
 }
@@ -80,9 +91,12 @@ main() {
         say "the tests that need no device pass with the thread sanitizer"
         return
     fi
+    if [[ $mode == --short ]]; then
+        run_short
+        return
+    fi
     cmake --preset asan
     case $mode in
-    --short) run_short ;;
     --drawing)
         force_lavapipe
         # For the tests alone: what the build runs has no sanitizer, and needs none.

@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT
-# Finds clang-format and clang-tidy in the one version that judges this tree: other versions format
-# differently and know other checks. Needs messages.sh.
+# Finds LLVM's tools: clang-format and clang-tidy in the one version that judges this tree, since
+# other versions format differently and know other checks, and any clang++ that can fuzz. Needs
+# messages.sh.
 
 llvm_version=14
 
@@ -23,6 +24,18 @@ require_llvm_tool() {
     done
     say "skipped: the tree is held to $name $llvm_version; here $name $found" >&2
     exit "$not_checked"
+}
+
+# Prints a clang++ that has libFuzzer and the sanitizers; nothing where there is none.
+find_fuzzing_clang() {
+    local clang empty='extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }'
+    for clang in clang++ "clang++-$llvm_version"; do # the preset's first
+        if command -v "$clang" >/dev/null &&
+            "$clang" -x c++ -fsanitize=fuzzer,address - -o /dev/null <<<"$empty" 2>/dev/null; then
+            printf '%s\n' "$clang"
+            return
+        fi
+    done
 }
 
 # Prints the C++ files of the repository, one per line: those that git knows or would take up.
