@@ -10,11 +10,11 @@ namespace shutter::taa {
 
 namespace {
 
-gpu::ImageDesc describeImage(uint32_t width, uint32_t height) {
+gpu::ImageDesc describeImage(const render::ViewFacts& facts, VkFormat format) {
     gpu::ImageDesc desc;
-    desc.width = width;
-    desc.height = height;
-    desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    desc.width = facts.width;
+    desc.height = facts.height;
+    desc.format = format;
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT; // for those who want to see it
     return desc;
@@ -30,16 +30,20 @@ LastPicture::Frame LastPicture::turn(const render::PostContext& context) {
     Frame frame;
     frame.isPerspective = reprojection.isPerspective;
     if (reprojection.last) {
-        frame.last = &mPictures.at(mNewest);
+        frame.last = &mImages.at(mNewest);
         frame.places = writePlaces(*reprojection.last, mBuffers.at(context.slot));
         if (context.facts.exposureSeconds > 0.0)
             frame.motionScale = float(reprojection.ageSeconds / context.facts.exposureSeconds);
     }
     mNewest = 1 - mNewest;
-    gpu::Image& kept = mPictures.at(mNewest);
-    const gpu::ImageDesc desc = describeImage(context.facts.width, context.facts.height);
-    if (!kept.handle() || !(kept.desc() == desc))
-        kept = gpu::Image(mDevice, "anti-aliased picture", desc);
+    Images& kept = mImages.at(mNewest);
+    const auto make = [&](gpu::Image& image, const char* name, VkFormat format) {
+        const gpu::ImageDesc desc = describeImage(context.facts, format);
+        if (!image.handle() || !(image.desc() == desc))
+            image = gpu::Image(mDevice, name, desc);
+    };
+    make(kept.picture, "anti-aliased picture", VK_FORMAT_R16G16B16A16_SFLOAT);
+    make(kept.depth, "depth of the anti-aliased picture", VK_FORMAT_R32_SFLOAT);
     frame.kept = &kept;
     return frame;
 }
@@ -69,7 +73,7 @@ LastPicture::writePlaces(const math::LayerTables& tables, gpu::Buffer& buffer) c
 
 void LastPicture::forget() {
     mRecord.reset();
-    mPictures = {};
+    mImages = {};
     mBuffers = {};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A view's anti-aliased picture, kept for the frame after, and where this frame's surfaces are in
-// it.
+// A view's anti-aliased picture and the depth of the raster that it was drawn from, kept for the
+// frame after, and where this frame's surfaces are in them.
 #pragma once
 
 #include "engine/extract/reprojection.h"
@@ -17,12 +17,17 @@ namespace shutter::taa {
 
 class LastPicture {
   public:
+    struct Images {
+        gpu::Image picture; ///< rgb linear colour, a count of frames
+        gpu::Image depth;   ///< metres along the view direction, where the raster's samples lay
+    };
+
     /// A frame's own share of it.
     struct Frame {
-        const gpu::Image* last = nullptr; ///< null: nothing is known of the frame before
-        const gpu::Image* kept = nullptr; ///< for this frame's picture
-        shader::LayerMotion places{};     ///< of this frame's surfaces in `last`
-        float motionScale = 0.0f;         ///< time since `last` in exposures
+        const Images* last = nullptr; ///< null: nothing is known of the frame before
+        const Images* kept = nullptr; ///< for this frame's
+        shader::LayerMotion places{}; ///< of this frame's surfaces in `last`
+        float motionScale = 0.0f;     ///< time since `last` in exposures
         bool isPerspective = true;
     };
 
@@ -39,8 +44,8 @@ class LastPicture {
     writePlaces(const math::LayerTables& tables, gpu::Buffer& buffer) const;
 
     gpu::Device& mDevice;
-    std::array<gpu::Image, 2> mPictures; ///< in turns: one is read while the other is written
-    uint32_t mNewest = 0;                ///< of mPictures
+    std::array<Images, 2> mImages; ///< in turns: one is read while the other is written
+    uint32_t mNewest = 0;          ///< of mImages
     std::optional<extract::RasterRecord> mRecord; ///< of the newest
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;
 };

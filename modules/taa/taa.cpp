@@ -31,6 +31,8 @@ gpu::ComputePipelineDesc describePipeline() {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+        VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::TaaParams);
     return desc;
@@ -41,16 +43,34 @@ struct Data {
     graph::ImageHandle motionDepth;
     graph::ImageHandle entityId;
     graph::ImageHandle last; ///< invalid: there is none
+    graph::ImageHandle lastDepth;
     graph::ImageHandle picture;
     graph::ImageHandle kept;
+    graph::ImageHandle keptDepth;
 };
+
+graph::ImageHandle readLast(
+    graph::PassBuilder& builder, graph::Graph& graph, const char* name, const gpu::Image& image
+) {
+    return builder.read(
+        graph.importImage(name, image, kKeptLayout, kKeptLayout), Access::SampledCompute
+    );
+}
+
+graph::ImageHandle writeKept(
+    graph::PassBuilder& builder, graph::Graph& graph, const char* name, const gpu::Image& image
+) {
+    return builder.write(
+        graph.importImage(name, image, VK_IMAGE_LAYOUT_UNDEFINED, kKeptLayout), Access::StorageWrite
+    );
+}
 
 shader::TaaParams makeParams(const render::PostContext& context, const LastPicture::Frame& frame) {
     shader::TaaParams params{};
     params.sizePx = {context.facts.width, context.facts.height};
     params.jitterPx = math::vec2(context.view.jitterPx);
     params.last = frame.places;
-    params.leastShare = 1.0f / float(kPlaceCount);
+    params.leastShare = 1.0f / float(kMostFrames);
     params.motionScale = frame.motionScale;
     params.hasLast = frame.last ? 1 : 0;
     params.isPerspective = frame.isPerspective ? 1 : 0;
@@ -92,32 +112,31 @@ void Taa::declare(render::PostContext& context) {
             data.color = builder.read(context.color, Access::SampledCompute);
             data.motionDepth = builder.read(context.gbuffer.motionDepth, Access::SampledCompute);
             data.entityId = builder.read(context.gbuffer.entityId, Access::SampledCompute);
-            if (frame.last)
-                data.last = builder.read(
-                    graph.importImage("last picture", *frame.last, kKeptLayout, kKeptLayout),
-                    Access::SampledCompute
-                );
+            if (frame.last) {
+                data.last = readLast(builder, graph, "last picture", frame.last->picture);
+                data.lastDepth = readLast(builder, graph, "last depth", frame.last->depth);
+            }
             data.picture = builder.write(
                 graph.createImage("picture", {params.sizePx.x, params.sizePx.y, kFormat}),
                 Access::StorageWrite
             );
-            data.kept = builder.write(
-                graph.importImage(
-                    "kept picture", *frame.kept, VK_IMAGE_LAYOUT_UNDEFINED, kKeptLayout
-                ),
-                Access::StorageWrite
-            );
+            data.kept = writeKept(builder, graph, "kept picture", frame.kept->picture);
+            data.keptDepth = writeKept(builder, graph, "kept depth", frame.kept->depth);
         },
         [this, params](const Data& data, graph::PassContext& recording) {
             const graph::PassResources& resources = recording.resources;
             // A binding that the shader does not use is something all the same.
-            const graph::ImageHandle last = data.last.isValid() ? data.last : data.color;
+            const bool hasLast = data.last.isValid();
+            const graph::ImageHandle last = hasLast ? data.last : data.color;
+            const graph::ImageHandle lastDepth = hasLast ? data.lastDepth : data.motionDepth;
             gpu::BindingList bindings;
             for (const graph::ImageHandle image : {data.color, data.motionDepth, data.entityId})
                 bindings.sampled(resources.view(image), mDevice.nearestSampler());
             bindings.sampled(resources.view(last), mDevice.linearSampler())
                 .storage(resources.image(data.picture))
-                .storage(resources.image(data.kept));
+                .storage(resources.image(data.kept))
+                .sampled(resources.view(lastDepth), mDevice.nearestSampler())
+                .storage(resources.image(data.keptDepth));
             recording.frame.bind(mPipeline.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(
                 recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
@@ -125,6 +144,7 @@ void Taa::declare(render::PostContext& context) {
         }
     );
     graph.markOutput(pass.kept);
+    graph.markOutput(pass.keptDepth);
     context.color = pass.picture;
     context.colorJitterPx = math::dvec2(0.0);
 }

@@ -17,6 +17,9 @@ namespace shutter::taa {
 /// Places in the pixel, one frame behind the other; then they begin anew. A picture holds about as
 /// many samples a pixel where it can.
 inline constexpr uint32_t kPlaceCount = 16;
+/// Most frames that a picture is the mean of: with two rounds of the places, those of the newest
+/// frames weigh little more than the others. Half floats would not keep smaller shares.
+inline constexpr uint32_t kMostFrames = 2 * kPlaceCount;
 /// Frames before a picture that settle what it shows, where none was drawn.
 inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 
@@ -31,11 +34,14 @@ inline constexpr uint32_t kSettlingFrames = kPlaceCount - 1;
 makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 
 /// After Karis 2014 ("High Quality Temporal Supersampling") and Salvi 2016 ("An Excursion in
-/// Temporal Supersampling"): history by the motion of the nearest surface, Catmull-Rom between its
-/// texels, clipped to the variance of the neighbourhood in YCoCg. A pixel with as many frames
-/// behind it as kPlaceCount is a mean of that many; before, the plain mean of all. Runs on the
-/// linear picture before the motion blur. The view must be one of makeJittered(); its colour has
-/// no jitter afterwards (PostContext::colorJitterPx), the other images of the raster keep theirs.
+/// Temporal Supersampling"): history by the surface's own motion, Catmull-Rom between its texels,
+/// clipped to the variance of the neighbourhood in YCoCg. History counts where the last frame's
+/// depth says that it is of the same surface, or of one across an edge that moves along; elsewhere
+/// the pixel is filtered from the samples around it. A pixel is the plain mean of the frames behind
+/// it up to kMostFrames, then each new one has an equal share. Runs on the linear picture before
+/// the motion blur. The view must be one of makeJittered(); its colour has no jitter afterwards
+/// (PostContext::colorJitterPx), the other images of the raster keep theirs. Keeps 24 bytes a
+/// pixel: colour and depth, of this frame and the last one.
 class Taa : public render::PostEffect {
   public:
     explicit Taa(gpu::Device& device);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of the last picture in this frame's pixel. Colours are compared and mixed by
-// brightness as it is seen, so that a single bright sample does not outweigh all others (Karis 2014,
-// "High Quality Temporal Supersampling").
+// brightness as it is seen, so that a single bright sample does not outweigh all others (Karis
+// 2014, "High Quality Temporal Supersampling").
 #ifndef SHUTTER_TAA_GLSL
 #define SHUTTER_TAA_GLSL
 
@@ -11,23 +11,34 @@ SHUTTER_SHADER_BEGIN
 
 /// Half the width of the box that the last picture's colour must lie in, in standard deviations of
 /// the pixel's neighbourhood (Salvi 2016, "An Excursion in Temporal Supersampling").
-SHUTTER_CONST float kClipDeviations = 1.0f;
+SHUTTER_CONST float kClipDeviations = 2.0f;
 
-/// Colours in [0, 1): c / (1 + max(c)), channel by channel the same factor.
+/// By how much two depths of one surface differ at most between neighbouring texels and frames, as
+/// a share of the farther one.
+SHUTTER_CONST float kSameDepthShare = 0.02f;
+
+/// How far two surfaces that move alike get apart between two frames, pixels.
+SHUTTER_CONST float kApartPx = 0.5f;
+
+/// Colours that a display shows are as they are; what is brighter is brought to below 2, channel by
+/// channel by the same factor.
 SHUTTER_INLINE vec3 compress(vec3 color) {
-    return color / (1.0f + max(max(color.x, color.y), color.z));
+    float peak = max(max(color.x, color.y), color.z);
+    return peak > 1.0f ? color * ((2.0f - 1.0f / peak) / peak) : color;
 }
 
 /// Inverse of compress() up to kMaxColor.
 SHUTTER_INLINE vec3 expand(vec3 color) {
-    return color / max(1.0f - max(max(color.x, color.y), color.z), 1.0f / (1.0f + kMaxColor));
+    float peak = max(max(color.x, color.y), color.z);
+    return peak > 1.0f ? color / (peak * max(2.0f - peak, 1.0f / kMaxColor)) : color;
 }
 
 /// Luma and two differences of colour: boxes along these axes fit colours of neighbours better
 /// than boxes along red, green and blue.
 SHUTTER_INLINE vec3 ycocgFromRgb(vec3 c) {
     return vec3(
-        0.25f * c.x + 0.5f * c.y + 0.25f * c.z, 0.5f * c.x - 0.5f * c.z,
+        0.25f * c.x + 0.5f * c.y + 0.25f * c.z,
+        0.5f * c.x - 0.5f * c.z,
         -0.25f * c.x + 0.5f * c.y - 0.25f * c.z
     );
 }
@@ -56,8 +67,8 @@ struct Clipped {
     float beyond; // distance from the box's middle in half its widths; above 1: it was clipped
 };
 
-/// The colour itself, if it lies in the box around the neighbourhood's mean, else where the way from
-/// it to the mean enters the box.
+/// The colour itself, if it lies in the box around the neighbourhood's mean, else where the way
+/// from it to the mean enters the box.
 SHUTTER_INLINE Clipped clipToVariance(vec3 color, ColorMoments moments) {
     vec3 mean = moments.sum / moments.count;
     vec3 variance = max(moments.squares / moments.count - mean * mean, vec3(0.0f));
@@ -100,6 +111,41 @@ SHUTTER_INLINE CubicTaps findCubicTaps(vec2 at) {
     return taps;
 }
 
+/// Weights of samples one pixel apart in what is seen at the pixel's middle, by the quadratic
+/// B-spline: they add up to 1 wherever the samples lie.
+/// \param offset of the middle sample from the pixel's middle, pixels, [-0.5, 0.5]
+SHUTTER_INLINE vec3 findMiddleWeights(float offset) {
+    float before = 0.5f - offset;
+    float after = 0.5f + offset;
+    return vec3(0.5f * after * after, 0.75f - offset * offset, 0.5f * before * before);
+}
+
+/// Whether something at a depth is clearly nearer than what lies at another one, and hides it.
+/// Metres.
+SHUTTER_INLINE bool hides(float depth, float other) {
+    return depth < other * (1.0f - kSameDepthShare);
+}
+
+/// Whether what is seen at a pixel's edge has moved as the pixel has. If so, samples of either may
+/// fall into the pixel, in this frame as in the last one. \param displacement of the pixel, and of
+/// the edge, since the last frame, pixels
+SHUTTER_INLINE bool movesAlong(vec2 displacement, vec2 edge) {
+    vec2 apart = edge - displacement;
+    return dot(apart, apart) < kApartPx * kApartPx;
+}
+
+/// Depths at which the last frame may have seen what a pixel shows, metres.
+struct DepthRange {
+    float least;
+    float most;
+};
+
+/// Whether the last frame's sample was of what the pixel shows: nothing was in front of it then,
+/// and it was there.
+SHUTTER_INLINE bool wasSeen(DepthRange depths, float sampled) {
+    return !hides(sampled, depths.least) && !hides(depths.most, sampled);
+}
+
 /// What a pixel keeps for the frames after.
 struct Kept {
     vec3 color;  // linear
@@ -115,7 +161,8 @@ SHUTTER_INLINE Kept mixWithLast(vec3 current, ColorMoments moments, Kept last, f
     Kept kept;
     kept.color = current;
     kept.count = 1.0f;
-    if (!isUsable) return kept;
+    if (!isUsable)
+        return kept;
     vec3 now = ycocgFromRgb(compress(current));
     vec3 before = ycocgFromRgb(compress(max(last.color, vec3(0.0f))));
     Clipped clipped = clipToVariance(before, moments);

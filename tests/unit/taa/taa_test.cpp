@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of the last picture in a pixel, and where frames sample the pixel.
 #include "modules/taa/taa.h"
+#include "shaders/render/scene_shared.h"
 #include "shaders/taa/taa.glsl"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ using math::vec3;
 using shader::ColorMoments;
 using shader::Kept;
 
-constexpr float kLeastShare = 1.0f / float(kPlaceCount);
+constexpr float kLeastShare = 1.0f / float(kMostFrames);
 
 /// Moments of a neighbourhood that spreads evenly around a grey.
 ColorMoments makeMoments(float middle, float spread) {
@@ -65,18 +66,33 @@ TEST(TaaColor, EncodingsComeBack) {
     }
 }
 
+TEST(TaaColor, WhatADisplayShowsStaysLinearAndABrightSampleDoesNotOutweighIt) {
+    const vec3 seen(0.25f, 1.0f, 0.0f);
+    EXPECT_EQ(shader::compress(seen), seen);
+    EXPECT_EQ(shader::expand(seen), seen);
+    EXPECT_LT(shader::compress(vec3(60000.0f)).x, 2.0f);
+    EXPECT_GT(shader::compress(vec3(3.0f)).x, shader::compress(vec3(2.0f)).x);
+    // What rounding has brought to the limit, or past it.
+    for (const float limit : {2.0f, 2.0001f}) {
+        const float expanded = shader::expand(vec3(limit)).x;
+        EXPECT_GT(expanded, 0.9f * shader::kMaxColor) << limit;
+        EXPECT_LT(expanded, 1.1f * shader::kMaxColor) << limit;
+    }
+}
+
 TEST(TaaHistory, FirstFramesAreThePlainMeanAndThenEachHasTheLeastShare) {
     const ColorMoments moments = makeMoments(0.5f, 0.4f);
-    // Means are of what is seen: compressed, the two are 0.2 and 1/3.
     Kept kept{vec3(0.25f), 1.0f};
     kept = shader::mixWithLast(vec3(0.5f), moments, kept, kLeastShare);
     EXPECT_EQ(kept.count, 2.0f);
-    const float mean = 0.5f * (0.2f + 1.0f / 3.0f);
-    EXPECT_NEAR(kept.color.x, mean / (1.0f - mean), 1e-4f);
+    EXPECT_NEAR(kept.color.x, 0.375f, 1e-5f);
+    kept = shader::mixWithLast(vec3(0.5f), moments, kept, kLeastShare);
+    EXPECT_EQ(kept.count, 3.0f);
+    EXPECT_NEAR(kept.color.x, (0.25f + 0.5f + 0.5f) / 3.0f, 1e-5f);
     for (int i = 0; i < 100; ++i)
         kept = shader::mixWithLast(vec3(0.5f), moments, kept, kLeastShare);
-    EXPECT_EQ(kept.count, float(kPlaceCount));
-    EXPECT_NEAR(kept.color.x, 0.5f, 1e-3f);
+    EXPECT_EQ(kept.count, float(kMostFrames));
+    EXPECT_NEAR(kept.color.x, 0.5f, 1e-2f);
 }
 
 TEST(TaaHistory, WhatNoNeighbourLooksLikeIsClippedAndTrustedLess) {
@@ -109,6 +125,47 @@ TEST(TaaHistory, ALastPictureBelowBlackIsBlack) {
         shader::mixWithLast(vec3(0.0f), makeMoments(0.0f, 0.0f), {vec3(-0.9f), 8.0f}, kLeastShare);
     EXPECT_TRUE(std::isfinite(kept.color.x));
     EXPECT_NEAR(kept.color.x, 0.0f, 1e-3f);
+}
+
+TEST(TaaDepth, OnlyWhatIsClearlyNearerHides) {
+    for (const float depth : {0.01f, 1.0f, 4000.0f, shader::kSkyDepth}) {
+        EXPECT_TRUE(shader::hides(0.9f * depth, depth)) << depth;
+        EXPECT_FALSE(shader::hides(0.99f * depth, depth)) << depth; // the same, rounded
+        EXPECT_FALSE(shader::hides(depth, depth)) << depth;
+        EXPECT_FALSE(shader::hides(2.0f * depth, depth)) << depth;
+    }
+}
+
+TEST(TaaDepth, ASampleOfWhatLiesBeforeOrBehindIsOfSomethingElse) {
+    const shader::DepthRange alone{4.0f, 4.0f};
+    EXPECT_TRUE(shader::wasSeen(alone, 4.0f));
+    EXPECT_FALSE(shader::wasSeen(alone, 3.0f));
+    EXPECT_FALSE(shader::wasSeen(alone, 5.0f));
+    const shader::DepthRange atAnEdge{3.0f, 5.0f};
+    for (const float sampled : {3.0f, 4.0f, 5.0f})
+        EXPECT_TRUE(shader::wasSeen(atAnEdge, sampled)) << sampled;
+    EXPECT_FALSE(shader::wasSeen(atAnEdge, 2.0f));
+    EXPECT_FALSE(shader::wasSeen(atAnEdge, 6.0f));
+    EXPECT_TRUE(shader::wasSeen({shader::kSkyDepth, shader::kSkyDepth}, shader::kSkyDepth));
+}
+
+TEST(TaaDepth, WhatGetsAFractionOfAPixelApartMovesAlong) {
+    EXPECT_TRUE(shader::movesAlong(vec2(7.0f, -2.0f), vec2(7.3f, -2.3f)));
+    EXPECT_FALSE(shader::movesAlong(vec2(7.0f, -2.0f), vec2(7.6f, -2.0f)));
+    EXPECT_FALSE(shader::movesAlong(vec2(7.0f, -2.0f), vec2(7.0f, -3.0f)));
+    EXPECT_FALSE(shader::movesAlong(vec2(0.0f), vec2(std::numeric_limits<float>::quiet_NaN())));
+}
+
+TEST(TaaMiddle, IsOfSamplesWhereverTheyLie) {
+    for (const float offset : {-0.5f, -0.2f, 0.0f, 0.4f, 0.5f}) {
+        const vec3 weights = shader::findMiddleWeights(offset);
+        for (int i = 0; i < 3; ++i)
+            EXPECT_GE(weights[i], 0.0f);
+        EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0f, 1e-6f);
+        // The samples' mean place is the pixel's middle.
+        const vec3 places(offset - 1.0f, offset, offset + 1.0f);
+        EXPECT_NEAR(glm::dot(weights, places), 0.0f, 1e-6f);
+    }
 }
 
 TEST(TaaTaps, AreCatmullRomsCubic) {
