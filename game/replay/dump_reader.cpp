@@ -238,8 +238,8 @@ void readImages(const JsonNode& node, DumpFrame& frame) {
         frame.images[name] = readImage(value, *row, frame);
     }
     // Without vectors nothing moves but the camera.
-    std::vector<std::string_view> needed{
-        "color", "picture", frame.hasConvention ? "depth" : "motionDepth"};
+    const bool isMade = frame.hasConvention && !frame.find("motionDepth");
+    std::vector<std::string_view> needed{"color", "picture", isMade ? "depth" : "motionDepth"};
     if (frame.reveal == DumpedReveal::Own)
         needed.insert(needed.end(), {"revealColor", "revealMotionDepth", "revealEntityId"});
     for (const std::string_view name : needed)

@@ -53,8 +53,14 @@ image::Image unpackPicture(const uint8_t* bytes, uint32_t width, uint32_t height
 core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& settings) {
     const motion_blur::Method& method = *settings.method;
     const std::string_view dumped = frame.settings.method->name;
-    if (!method.readsRaster || method.rays == motion_blur::RayNeed::Query || method.readsCamera)
+    if (!method.readsRaster || method.rays == motion_blur::RayNeed::Query)
         return makeError("--method {} needs the scene, which no dump holds", method.name);
+    if (method.readsCamera && !frame.convention.cameras.areGiven)
+        return makeError(
+            "'{}' cannot be replayed by {}: the dump holds no cameras, since the host gave none",
+            frame.name,
+            method.name
+        );
     if (method.rays == motion_blur::RayNeed::Any && frame.reveal != DumpedReveal::Own)
         return makeError(
             "'{}' cannot be replayed by {}: the dump holds nothing of what lies behind, since the "
@@ -301,8 +307,8 @@ class Player {
             frame.view,
             settings.method->name,
             yes(settings.method != frame.settings.method, ", which the host did not run"),
-            frame.hasConvention ? ", motion and depth made of the host's own"
-                                : ", motion and depth as the host gave them",
+            frame.find("motionDepth") ? ", motion and depth as the host gave them"
+                                      : ", motion and depth made of the host's own",
             yes(frame.motion.followsLast && settings.history &&
                     settings.method->readsInstantMotions,
                 ", looks up the frame before")

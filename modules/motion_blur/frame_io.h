@@ -53,6 +53,8 @@ struct InstantMotions {
 struct MotionBlurInputs {
     graph::ImageHandle color;       ///< RGBA16F
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
+    /// Its motion is the camera's own alone; Method::readsCamera needs no frame constants then.
+    bool motionIsCameras = false;
     graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for Method::readsNormal
     graph::ImageHandle entityId;    ///< R32_UINT; for Method::readsEntityId
     double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close

@@ -74,7 +74,8 @@ struct Method {
     bool readsRaster = true;
     bool readsNormal = false;   ///< MotionBlurInputs::normal is an input
     bool readsEntityId = false; ///< MotionBlurInputs::entityId is an input
-    /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced.
+    /// MotionBlurInputs::rays->frameConstants is an input even though no ray is traced, unless
+    /// MotionBlurInputs::motionIsCameras.
     bool readsCamera = false;
     bool readsInstantMotions = false; ///< MotionBlurInputs::instantMotions is an input
     bool blursObjects = true;         ///< false: only the camera's own motion is blurred

@@ -58,8 +58,9 @@ MotionBlurOutputs MotionBlur::add(
         method.name
     );
     SHUTTER_CHECK(
-        !method.readsCamera || (inputs.rays && inputs.rays->frameConstants != 0),
-        "the method {} needs frame constants",
+        !method.readsCamera || inputs.motionIsCameras ||
+            (inputs.rays && inputs.rays->frameConstants != 0),
+        "the method {} needs frame constants, or the camera's motion",
         method.name
     );
     SHUTTER_CHECK(

@@ -31,7 +31,8 @@ void main() {
     vec2 vector = vec2(0.0f);
     if (prepareHas(table, kPrepareHasVectors))
         vector = textureLod(uVectors, placeInArea(table.vectors, place), 0.0f).xy;
-    float value = textureLod(uDepth, placeInArea(table.depth, place), 0.0f).x;
+    vec4 texel = textureLod(uDepth, placeInArea(table.depth, place), 0.0f);
+    float value = prepareHas(table, kPrepareDepthIsThird) ? texel.z : texel.x;
     float blurScale = 1.0f;
     if (prepareHas(table, kPrepareHasBlurScale))
         blurScale = saturate(textureLod(uBlurScale, placeInArea(table.blurScale, place), 0.0f).x);

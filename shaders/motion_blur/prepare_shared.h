@@ -20,6 +20,7 @@ SHUTTER_CONST uint kPrepareVectorsHaveCamera = 4u; // the camera's own motion is
 SHUTTER_CONST uint kPrepareSkyBeyond = 8u;     // sky: a value of skyValue and more, not it alone
 SHUTTER_CONST uint kPrepareHasBlurScale = 16u; // the image of scales counts
 SHUTTER_CONST uint kPrepareHasVectors = 32u;   // the image of vectors counts; else they are 0
+SHUTTER_CONST uint kPrepareDepthIsThird = 64u; // depth is the third channel of its image
 
 struct PrepareTable {
     /// Rows of the affine map from picture space (instant_motion_shared.h) now to that of the frame

@@ -39,6 +39,7 @@ struct InputsForC {
         inputs.rasterTime = given.rasterTime;
         inputs.frameNumber = given.frameNumber;
         takeMotion(given.motion);
+        takeCameras(given.convention);
         for (const math::ResponsePoint& point : given.responsePoints)
             mResponse.push_back({point.s, point.sensitivity});
         inputs.responsePoints = mResponse.data();
@@ -80,6 +81,22 @@ struct InputsForC {
         inputs.rowIds = motion.rowIds.empty() ? nullptr : motion.rowIds.data();
         inputs.followsLast = motion.followsLast ? VK_TRUE : VK_FALSE;
         inputs.cameras.aheadIsPlusZ = motion.aheadIsPlusZ ? VK_TRUE : VK_FALSE;
+    }
+
+    void takeCameras(const motion_blur::HostConvention& convention) {
+        const motion_blur::HostCameras& cameras = convention.cameras;
+        ShutterBlurCameras& made = inputs.cameras;
+        const auto copy = [](double* to, const glm::dmat4& from) {
+            std::memcpy(to, &from, sizeof(from));
+        };
+        made.areGiven = cameras.areGiven ? VK_TRUE : VK_FALSE;
+        copy(made.viewFromWorld, cameras.viewFromWorld);
+        copy(made.clipFromView, cameras.clipFromView);
+        copy(made.viewFromWorldBefore, cameras.viewFromWorldBefore);
+        copy(made.clipFromViewBefore, cameras.clipFromViewBefore);
+        inputs.exposureShare = convention.scales.exposureShare;
+        inputs.cameraScale = convention.scales.camera;
+        inputs.objectScale = convention.scales.object;
     }
 
     void record(const ShutterBlurRevealTask& task) const {

@@ -142,6 +142,9 @@ TEST_F(CInterface, EachMethodGivesTheBitsOfTheCppInterface) {
             inputs.motion.keys = {&key, 1};
             inputs.motion.movers = {&mover, 1};
             inputs.motion.rowCount = 4;
+            inputs.convention.cameras.areGiven = true;
+            inputs.convention.cameras.clipFromView = projection;
+            inputs.convention.cameras.clipFromViewBefore = projection;
             recordIds(commands, ids);
             return reference->record(commands, 0, inputs, own);
         });
@@ -156,6 +159,12 @@ TEST_F(CInterface, EachMethodGivesTheBitsOfTheCppInterface) {
             const glm::dmat4 unit(1.0);
             std::memcpy(key.viewFromWorld, &unit, sizeof(unit));
             std::memcpy(key.clipFromView, &projection, sizeof(projection));
+            ShutterBlurCameras& cameras = inputs.cameras;
+            cameras.areGiven = VK_TRUE;
+            for (double* view : {cameras.viewFromWorld, cameras.viewFromWorldBefore})
+                std::memcpy(view, &unit, sizeof(unit));
+            for (double* clip : {cameras.clipFromView, cameras.clipFromViewBefore})
+                std::memcpy(clip, &projection, sizeof(projection));
             const ShutterBlurMover mover{0, nullptr};
             inputs.keyCount = inputs.moverCount = 1;
             inputs.keys = &key;
@@ -177,6 +186,7 @@ TEST_F(CInterface, EachMethodGivesTheBitsOfTheCppInterface) {
     }
     EXPECT_TRUE(names.contains("gather") && names.contains("resolved"));
     EXPECT_TRUE(names.contains("hybrid") && names.contains("adaptive"));
+    EXPECT_TRUE(names.contains("rosado2007"));
     EXPECT_FALSE(names.contains("denoised"));
 }
 

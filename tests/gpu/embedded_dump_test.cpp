@@ -109,6 +109,12 @@ class EmbeddedDump : public test::EmbeddedTest {
             inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
         inputs.responsePoints = mResponse;
+        if (mIsPacked) {
+            std::vector<glm::vec4> packed;
+            for (uint32_t i = 0; i < kPixels; ++i)
+                packed.emplace_back(3.0f, 1.0f, i / kWidth < 6 ? 1.0e9f : 4.0f, 0.0f);
+            inputs.motionDepth = make(VK_FORMAT_R32G32B32A32_SFLOAT, packed);
+        }
         return inputs;
     }
 
@@ -169,6 +175,7 @@ class EmbeddedDump : public test::EmbeddedTest {
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
     std::vector<math::ResponsePoint> mResponse;
     bool mHasVectors = true;
+    bool mIsPacked = false; ///< vectors and depth are one image
 };
 
 TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
@@ -215,6 +222,19 @@ TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     };
     EXPECT_TRUE(sameRow(kHeight / 2));
     EXPECT_FALSE(sameRow(kHeight / 8));
+}
+
+TEST_F(EmbeddedDump, ReplayFollowsTheCameraAlone) {
+    motion_blur::MotionBlurSettings settings;
+    settings.method = &motion_blur::getMethod("rosado2007");
+    for (const bool isPacked : {false, true}) {
+        mIsPacked = isPacked;
+        std::filesystem::remove_all(mFolder);
+        ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+        const image::Image picture = draw(0, settings);
+        EXPECT_TRUE(mTold.empty()) << mTold.front();
+        expectReplayed({picture});
+    }
 }
 
 TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {

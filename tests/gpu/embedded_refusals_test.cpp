@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a host hands in wrongly is refused by one sentence that names it.
 #include "engine/gpu/frame.h"
+#include "engine/math/transform.h"
 #include "engine/render/renderer.h"
 #include "tests/gpu/embedding_host.h"
 #include "tests/kit/scene_builder.h"
@@ -134,6 +135,25 @@ TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
     settings.method = &getMethod("adaptive");
     settings.raysPerPixel = 0.0f;
     expectRefusal(record(), "adaptive needs rays with times of their own");
+}
+
+TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
+    settings.method = &getMethod("rosado2007");
+    expectRefusal(record(), "convention.cameras are not given, which the method rosado2007 needs");
+    inputs.convention.cameras.areGiven = true;
+    inputs.convention.cameras.clipFromView = glm::dmat4(0.0);
+    expectRefusal(record(), "convention.cameras.clipFromView is neither");
+    settings = gather();
+    expectRefusal(record(), "convention.cameras.clipFromView"); // checkers and dumps read them
+    inputs.convention.cameras.areGiven = false;
+    EXPECT_TRUE(record().ok());
+    settings.method = &getMethod("rosado2007");
+    const glm::dmat4 clip = math::clipFromViewPerspective(1.0, 1.5, 0.1);
+    inputs.convention.cameras.areGiven = true;
+    inputs.convention.cameras.clipFromView = inputs.convention.cameras.clipFromViewBefore = clip;
+    EXPECT_TRUE(record().ok());
+    inputs.convention.scales.exposureShare = -1.0f;
+    expectRefusal(record(), "convention.scales.exposureShare is -1");
 }
 
 TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {

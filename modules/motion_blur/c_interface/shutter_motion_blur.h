@@ -323,7 +323,7 @@ typedef struct ShutterBlurInputs {
     float skyValue;             /* of the depth where nothing is; linear: that and all beyond it */
     ShutterBlurCameras cameras;
     /* Exposure over the time between the frames, [0, 16]: 0.5 is a shutter of 180 degrees. With
-     * motionDepth it does not count. */
+     * motionDepth it counts for "rosado2007" alone, which follows `cameras`. */
     float exposureShare;
     float cameraScale; /* share of the camera's motion that is blurred, [0, 16] */
     float objectScale; /* the same of what objects move by themselves */

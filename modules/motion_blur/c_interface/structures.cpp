@@ -200,7 +200,7 @@ core::Status apply(const ShutterBlurValue& given, MotionBlurSettings& settings) 
 } // namespace
 
 bool isForHosts(const Method& method) {
-    return method.readsRaster && !method.readsCamera;
+    return method.readsRaster;
 }
 
 core::Result<HostDevice> convert(const ShutterBlurDevice* given) {

@@ -136,6 +136,9 @@ class EmbeddedMotionBlur {
     /// Imports the images, and declares what makes the effect's inputs of them.
     [[nodiscard]] MotionBlurInputs prepare(Frame& frame) const;
     [[nodiscard]] graph::ImageHandle prepareMotion(Frame& frame) const;
+    /// The camera's part of the motion, over the exposure, whatever the vectors hold.
+    [[nodiscard]] graph::ImageHandle
+    prepareCameraMotion(Frame& frame, graph::ImageHandle depth) const;
     [[nodiscard]] std::optional<LentRaster> prepareLast(Frame& frame) const;
     /// Draws HostInputs::showsInputs over the picture, and returns it.
     [[nodiscard]] graph::ImageHandle

@@ -84,6 +84,11 @@ struct EmbeddedMotionBlur::Frame {
         return responseTable ? &*responseTable : inputs.motion.response;
     }
 
+    /// The method follows the camera alone, by HostConvention::cameras.
+    [[nodiscard]] bool wantsCameraMotion() const {
+        return settings.method->readsCamera && inputs.rays.frameConstants == 0 && !inputs.isOff;
+    }
+
     /// Invalid where there is no image.
     [[nodiscard]] graph::ImageHandle import(
         gpu::Device& device, const char* name, const HostImage& given, const HostImageRule& rule

@@ -74,9 +74,12 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
 graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
     const HostInputs& inputs = frame.inputs;
     gpu::Device& device = *mDevice;
-    if (inputs.motionDepth.image)
-        return frame.images.motionDepth =
-                   frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
+    if (inputs.motionDepth.image) {
+        frame.images.motionDepth =
+            frame.import(device, "motion and depth", inputs.motionDepth, kMotionRule);
+        return frame.wantsCameraMotion() ? prepareCameraMotion(frame, frame.images.motionDepth)
+                                         : frame.images.motionDepth;
+    }
     const HostConvention& convention = inputs.convention;
     ImportedInputs& images = frame.images;
     images.vectors = frame.import(device, "motion vectors", convention.vectors.image, kVectorsRule);
@@ -85,11 +88,35 @@ graph::ImageHandle EmbeddedMotionBlur::prepareMotion(Frame& frame) const {
         frame.import(device, "blur scale", convention.scales.perPixel, kBlurScaleRule);
     if (inputs.isOff) // the convention was not checked
         return {};
+    if (frame.wantsCameraMotion())
+        return prepareCameraMotion(frame, images.depth);
     const VkExtent2D picture = pictureOf(inputs);
     const shader::PrepareTable table = makePrepareTable(convention, picture);
     const VkDeviceAddress address = writeTable(device, frame.slot.convention, "convention", table);
     return mPreparation.addMotionDepth(
         frame.graph, images.vectors, images.depth, images.blurScale, address, picture
+    );
+}
+
+graph::ImageHandle
+EmbeddedMotionBlur::prepareCameraMotion(Frame& frame, graph::ImageHandle depth) const {
+    const HostInputs& inputs = frame.inputs;
+    const VkExtent2D picture = pictureOf(inputs);
+    const bool isPacked = inputs.motionDepth.image != VK_NULL_HANDLE;
+    HostConvention convention = inputs.convention;
+    if (isPacked) {
+        convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
+        convention.scales = inputs.convention.scales;
+        convention.scales.perPixel = {};
+    }
+    convention.vectors = {};
+    shader::PrepareTable table = makePrepareTable(convention, picture);
+    if (isPacked)
+        table.flags |= shader::kPrepareDepthIsThird;
+    const VkDeviceAddress address =
+        writeTable(*mDevice, frame.slot.convention, "convention", table);
+    return mPreparation.addMotionDepth(
+        frame.graph, {}, depth, frame.images.blurScale, address, picture
     );
 }
 
@@ -154,6 +181,7 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
         own.target = frame.images.color;
     // Those the method does not read are imported as well: they go over to their next use.
     own.motionDepth = prepareMotion(frame);
+    own.motionIsCameras = frame.wantsCameraMotion();
     own.normal = frame.images.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
     if (own.normal.isValid() && !isOwn(inputs.normal, kHostColorFormat, picture))
         own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
@@ -208,7 +236,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         own.samples = &inputs.samples;
     if (method.rays == RayNeed::Any && inputs.reveal.record) {
         own.reveal = isDumped ? &frame.dumpedReveal : &inputs.reveal;
-    } else if (method.rays == RayNeed::Any || method.readsCamera) {
+    } else if (method.rays == RayNeed::Any || (method.readsCamera && !own.motionIsCameras)) {
         graph::RayScene rays{.frameConstants = inputs.rays.frameConstants};
         if (method.rays == RayNeed::Any && inputs.rays.tlas) {
             rays.tlasBuffer = frame.graph.importBuffer("TLAS", inputs.rays.tlasBuffer, 0);

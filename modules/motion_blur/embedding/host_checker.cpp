@@ -101,19 +101,6 @@ void describeMotion(const HostInputs& inputs, CheckFacts& facts) {
     facts.close = makePair(raster, motion.keys.back(), motion.aheadIsPlusZ);
 }
 
-/// What is said of motionDepth by its own convention.
-void describeNative(const HostInputs& inputs, HostConvention& convention) {
-    const HostCameras cameras = convention.cameras;
-    const bool isCut = convention.scales.isCut;
-    convention = {};
-    convention.cameras = cameras;
-    convention.scales.isCut = isCut;
-    convention.vectors.image = inputs.motionDepth;
-    convention.depth.image = inputs.motionDepth;
-    convention.depth.isRaw = false;
-    convention.depth.skyValue = shader::kSkyDepth;
-}
-
 void clearTotals(graph::PassContext& context, graph::BufferHandle totals) {
     const VkBuffer buffer = context.resources.buffer(totals);
     constexpr VkDeviceSize kLeast = offsetof(shader::CheckTotals, depthLeast);
@@ -236,7 +223,7 @@ void HostChecker::add(
     facts.isNative = images.motionDepth.isValid();
     facts.hasVectors = facts.isNative || images.vectors.isValid();
     if (facts.isNative)
-        describeNative(inputs, facts.convention);
+        facts.convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
     facts.rasterTime = inputs.rasterTime;
     facts.hasIds = images.entityId.isValid();
     facts.readsMotion = readsMotion;

@@ -4,6 +4,7 @@
 #include "engine/math/layer_tables.h"
 #include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_camera.h"
+#include "shaders/render/scene_shared.h"
 
 #include <array>
 #include <cmath>
@@ -115,16 +116,6 @@ const char* findNeedForCameras(const HostConvention& convention) {
     return nullptr;
 }
 
-core::Status checkScales(const HostScales& scales, VkExtent2D picture) {
-    SHUTTER_TRY(checkScale("exposureShare", scales.exposureShare, 0.0f));
-    SHUTTER_TRY(checkScale("camera", scales.camera, 0.0f));
-    SHUTTER_TRY(checkScale("object", scales.object, 0.0f));
-    SHUTTER_TRY(checkScale("displayedPerRendered", scales.displayedPerRendered, 1.0f));
-    if (scales.perPixel.image)
-        SHUTTER_TRY(checkImage(scales.perPixel, kBlurScaleRule, picture));
-    return {};
-}
-
 /// (x + y value) / (z + w value) of a raw depth buffer.
 glm::vec4 depthFromRaw(const HostCamera& camera) {
     // Clip z is a - b * metres, and its divisor is the metres (perspective) or 1.
@@ -164,6 +155,16 @@ core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
     return {};
 }
 
+core::Status checkScales(const HostScales& scales, VkExtent2D picture) {
+    SHUTTER_TRY(checkScale("exposureShare", scales.exposureShare, 0.0f));
+    SHUTTER_TRY(checkScale("camera", scales.camera, 0.0f));
+    SHUTTER_TRY(checkScale("object", scales.object, 0.0f));
+    SHUTTER_TRY(checkScale("displayedPerRendered", scales.displayedPerRendered, 1.0f));
+    if (scales.perPixel.image)
+        SHUTTER_TRY(checkImage(scales.perPixel, kBlurScaleRule, picture));
+    return {};
+}
+
 core::Status checkConvention(const HostConvention& convention, VkExtent2D picture) {
     const HostVectors& vectors = convention.vectors;
     const HostDepth& depth = convention.depth;
@@ -192,6 +193,15 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
             need
         );
     return {};
+}
+
+HostConvention describeMotionDepth(const HostImage& motionDepth, const HostConvention& given) {
+    HostConvention convention;
+    convention.vectors.image = motionDepth;
+    convention.depth = {motionDepth, false, 1.0f, shader::kSkyDepth};
+    convention.cameras = given.cameras;
+    convention.scales.isCut = given.scales.isCut;
+    return convention;
 }
 
 shader::PrepareArea makeArea(const HostImage& image, VkExtent2D picture) {

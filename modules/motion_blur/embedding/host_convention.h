@@ -94,8 +94,13 @@ extern const HostImageRule kBlurScaleRule; ///< HostScales::perPixel
 
 /// One sentence that names the field which is wrong. Cameras that are not given are not looked at.
 [[nodiscard]] core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture);
+[[nodiscard]] core::Status checkScales(const HostScales& scales, VkExtent2D picture);
 /// The same for all of a convention.
 [[nodiscard]] core::Status checkConvention(const HostConvention& convention, VkExtent2D picture);
+
+/// HostInputs::motionDepth in the words of a convention, with the cameras and the cut of another.
+[[nodiscard]] HostConvention
+describeMotionDepth(const HostImage& motionDepth, const HostConvention& given);
 
 /// Where a picture's places are in an image.
 [[nodiscard]] shader::PrepareArea makeArea(const HostImage& image, VkExtent2D picture);

@@ -165,6 +165,19 @@ core::Status checkTables(const HostInputs& inputs, const Method& method) {
     return {};
 }
 
+/// The camera's motion is told by frame constants, or by cameras.
+core::Status checkCamera(const HostInputs& inputs, const Method& method) {
+    if (inputs.rays.frameConstants != 0)
+        return {};
+    if (!inputs.convention.cameras.areGiven)
+        return makeError(
+            "motion blur: convention.cameras are not given, which the method {} needs", method.name
+        );
+    const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(checkHostCameras(inputs.convention.cameras, picture));
+    return checkScales(inputs.convention.scales, picture);
+}
+
 /// Vectors say in which pixels a mover's motion is seen.
 core::Status checkMoversHaveVectors(const HostInputs& inputs) {
     const bool hasVectors = inputs.motionDepth.image || inputs.convention.vectors.image.image;
@@ -204,8 +217,10 @@ core::Status checkMethod(
         SHUTTER_TRY(checkMoversHaveVectors(inputs));
         SHUTTER_TRY(checkLast(inputs, host));
     }
+    if (method.readsCamera)
+        return checkCamera(inputs, method);
     const bool readsTables = method.rays == RayNeed::Any && !inputs.reveal.record;
-    return readsTables || method.readsCamera ? checkTables(inputs, method) : core::Status();
+    return readsTables ? checkTables(inputs, method) : core::Status();
 }
 
 core::Status checkResponsePoints(const HostInputs& inputs) {
@@ -254,7 +269,8 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
         SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture));
     else if (!inputs.isOff)
         SHUTTER_TRY(checkMadeMotion(inputs, host));
-    if (inputs.showsInputs)
+    // The checker and dumps read them, too, whatever the method.
+    if (inputs.showsInputs || (inputs.convention.cameras.areGiven && !inputs.isOff))
         SHUTTER_TRY(checkHostCameras(inputs.convention.cameras, picture));
     return checkDistinct(inputs);
 }

@@ -89,8 +89,10 @@ struct HostInputs {
     HostImage color;
     /// RGBA32F: motion.xy, depth; every value finite; sampled. Null: made of `convention`.
     HostImage motionDepth;
-    HostConvention convention; ///< where motionDepth.image is null
-    HostImage normal;          ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
+    /// Where motionDepth.image is null. Its `cameras` and `scales` also for Method::readsCamera,
+    /// unless rays.frameConstants tells the camera's motion.
+    HostConvention convention;
+    HostImage normal; ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
     /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId
     HostImage entityId;
     uint32_t noEntity = 0xFFFFFFFF; ///< value of entityId where nothing is

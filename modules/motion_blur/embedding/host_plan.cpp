@@ -68,8 +68,10 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), make(plan.entityIdFormat)};
     inputs.reveal.record = [](const RevealTask&) {};
     inputs.samples.record = [](const SampleTask&) {};
-    inputs.rays.frameConstants = 1;
     imagineMotion(plan, imagined);
+    HostCameras& cameras = inputs.convention.cameras;
+    cameras.areGiven = true;
+    cameras.clipFromView = cameras.clipFromViewBefore = imagined.keys.front().clipFromView;
 }
 
 } // namespace shutter::motion_blur

@@ -34,9 +34,11 @@ class RosadoPasses : public MethodPasses {
         const PassParams& resolved,
         SharedPasses& shared) override {
         PassParams params = resolved;
-        params.setMethod(gpu::splitAddress(inputs.rays->frameConstants));
         MotionBlurInputs own = inputs;
-        own.motionDepth = mCameraMotion.add(graph, std::array{inputs.motionDepth}, params);
+        if (!inputs.motionIsCameras) {
+            params.setMethod(gpu::splitAddress(inputs.rays->frameConstants));
+            own.motionDepth = mCameraMotion.add(graph, std::array{inputs.motionDepth}, params);
+        }
         params.setMethod(shader::OwnVelocityParams{0});
         return mFilter->add(graph, own, settings, params, shared);
     }
