@@ -55,10 +55,10 @@ struct MotionBlurInputs {
     graph::ImageHandle motionDepth; ///< RGBA32F: motion.xy, depth; every value finite
     /// Its motion is the camera's own alone; Method::readsCamera needs no frame constants then.
     bool motionIsCameras = false;
-    graph::ImageHandle normal;      ///< RGBA16F: xyz unit; for Method::readsNormal
-    graph::ImageHandle entityId;    ///< R32_UINT; for Method::readsEntityId
-    double rasterTime = 1.0;        ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
-    glm::uvec2 response{0u};        ///< address of shader::ResponseTable; 0: a box
+    graph::ImageHandle normal;   ///< RGBA16F: xyz unit; for Method::readsNormal
+    graph::ImageHandle entityId; ///< R32_UINT; for Method::readsEntityId
+    double rasterTime = 1.0;     ///< raster instant in the exposure: 0 open, 0.5 centre, 1 close
+    glm::uvec2 response{0u};     ///< address of shader::ResponseTable; 0: a box
     /// For methods of RayNeed::Any (CHECKed), unless `reveal` is there. Without a TLAS nothing but
     /// sky lies behind what moves and no ray is traced; `frameConstants` alone counts then.
     std::optional<graph::RayScene> rays;
