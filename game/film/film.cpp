@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/film/film.h"
 
-#include "engine/io/file_bytes.h"
 #include "game/options/render_arguments.h"
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_device.h"
 
 #include <CLI/CLI.hpp>
 
@@ -36,22 +36,6 @@ fs::path findWorkFolder(const game::OutputOptions& output) {
 
 fs::path planFile(const fs::path& work) {
     return work / "plan.json";
-}
-
-fs::path deviceFile(const fs::path& work) {
-    return work / "device.json";
-}
-
-fs::path jobsFile(const fs::path& work) {
-    return work / "jobs.json";
-}
-
-fs::path partLog(const fs::path& work, uint32_t part) {
-    return work / fmt::format("part_{}.log", part);
-}
-
-fs::path finishLog(const fs::path& work) {
-    return work / "finish.log";
 }
 
 fs::path partJournal(const game::OutputOptions& output, uint32_t part) {
@@ -117,7 +101,7 @@ core::Result<game::Shot> loadPlannedShot(Film& film) {
 }
 
 core::Result<std::optional<std::string>> findDrawnFingerprint(const Film& film) {
-    const auto device = readDevice(deviceFile(film.work));
+    const auto device = parts::readDevice(parts::deviceFile(film.work));
     if (!device)
         return device.error();
     std::optional<std::string> fingerprint;
@@ -165,19 +149,11 @@ core::Result<std::vector<UnfinishedPart>> listUnfinishedParts(const Film& film) 
 
 void removeWorkFiles(const Film& film) {
     std::error_code ignored;
-    for (uint32_t part = 0; part < film.plan.parts.size(); ++part) {
+    const auto partCount = uint32_t(film.plan.parts.size());
+    for (uint32_t part = 0; part < partCount; ++part)
         fs::remove(partJournal(film.options.output, part), ignored);
-        fs::remove(partLog(film.work, part), ignored);
-    }
-    for (const fs::path& file :
-         {deviceFile(film.work), jobsFile(film.work), finishLog(film.work), planFile(film.work)})
-        fs::remove(file, ignored);
-    std::vector<fs::path> left; // of parts that were killed
-    for (const auto& entry : fs::directory_iterator(film.work, ignored))
-        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
-            left.push_back(entry.path());
-    for (const fs::path& file : left)
-        fs::remove(file, ignored);
+    fs::remove(planFile(film.work), ignored);
+    parts::removePartFiles(film.work, partCount);
 }
 
 } // namespace shutter::film

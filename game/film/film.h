@@ -6,9 +6,9 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "game/film/film_device.h"
 #include "game/film/film_plan.h"
 #include "game/output/render_options.h"
+#include "game/parts/part_work.h"
 #include "game/shot/shot.h"
 
 #include <cstdint>
@@ -28,11 +28,6 @@ struct Film {
 [[nodiscard]] std::filesystem::path findWorkFolder(const game::OutputOptions& output);
 
 [[nodiscard]] std::filesystem::path planFile(const std::filesystem::path& work);
-[[nodiscard]] std::filesystem::path deviceFile(const std::filesystem::path& work);
-[[nodiscard]] std::filesystem::path jobsFile(const std::filesystem::path& work);
-[[nodiscard]] std::filesystem::path partLog(const std::filesystem::path& work, uint32_t part);
-/// The log of the process that encodes.
-[[nodiscard]] std::filesystem::path finishLog(const std::filesystem::path& work);
 [[nodiscard]] std::filesystem::path partJournal(const game::OutputOptions& output, uint32_t part);
 
 /// What arguments of `shutter render` mean; the flythrough is read. Error: names the option.

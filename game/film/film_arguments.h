@@ -4,6 +4,7 @@
 
 #include "engine/core/result.h"
 #include "game/options/render_arguments.h"
+#include "game/parts/job_options.h"
 
 #include <cstdint>
 #include <string>
@@ -20,14 +21,9 @@ inline constexpr uint32_t kSlurmParts = 16;
 
 struct FilmArguments {
     game::RenderArguments render;
-    uint32_t jobs = 1;
+    shutter::parts::JobOptions jobs;
     std::optional<uint32_t> parts; ///< else as many as there are jobs, or kSlurmParts
-    std::string devices;           ///< names or indices, comma-separated
     bool estimate = true;
-    bool slurm = false;
-    std::vector<std::string> sbatch;     ///< options of both jobs
-    std::vector<std::string> sbatchPart; ///< options of the array alone
-    bool wait = false;
 
     /// Those of `shutter render`: what the film's plan keeps of the command line.
     std::vector<const CLI::Option*> renderOptions;

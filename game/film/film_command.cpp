@@ -5,17 +5,16 @@
 #include "game/film/film.h"
 #include "game/film/film_arguments.h"
 #include "game/film/film_estimate.h"
-#include "game/film/film_local.h"
 #include "game/film/film_part.h"
-#include "game/film/film_slurm.h"
 #include "game/options/program.h"
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_processes.h"
+#include "game/parts/part_slurm.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -135,50 +134,9 @@ makeFilm(const FilmArguments& arguments, game::RenderOptions options) {
     return std::pair(std::move(film), std::move(shot).value());
 }
 
-core::Result<std::vector<uint32_t>> listPartsToDraw(const Film& film) {
-    const auto unfinished = listUnfinishedParts(film);
-    if (!unfinished)
-        return unfinished.error();
-    std::vector<uint32_t> parts;
-    for (const UnfinishedPart& part : unfinished.value())
-        parts.push_back(part.part);
-    return parts;
-}
-
 core::Status drawHere(const FilmArguments& arguments, const Film& film) {
-    const auto parts = listPartsToDraw(film);
-    if (!parts)
-        return parts.error();
-    LocalJobs jobs;
-    jobs.count = arguments.jobs;
-    if (!arguments.devices.empty())
-        jobs.devices = game::splitAt(arguments.devices, ',');
-    SHUTTER_TRY(drawParts(film, parts.value(), jobs));
+    SHUTTER_TRY(parts::runHere(describeWork(film), arguments.jobs));
     return finishFilm(film);
-}
-
-core::Status drawBySlurm(const FilmArguments& arguments, const Film& film) {
-    auto queued = findQueuedJobs(film);
-    if (!queued)
-        return queued.error();
-    SlurmJobs jobs;
-    if (queued.value()) {
-        jobs = *queued.value();
-        fmt::print("the jobs {} {} draw this film already\n", jobs.parts, jobs.finish);
-    } else {
-        const auto parts = listPartsToDraw(film);
-        if (!parts)
-            return parts.error();
-        auto submitted = submitFilm(film, parts.value(), {arguments.sbatch, arguments.sbatchPart});
-        if (!submitted)
-            return submitted.error();
-        jobs = std::move(submitted).value();
-        if (!jobs.parts.empty())
-            fmt::print("job {}: parts {}\n", jobs.parts, formatTasks(parts.value()));
-        fmt::print("job {}: finishes the film\n", jobs.finish);
-    }
-    std::fflush(stdout); // whoever waits knows what to wait for
-    return arguments.wait ? followJobs(film, jobs) : core::Status();
 }
 
 int runFilm(const FilmArguments& arguments) {
@@ -207,8 +165,9 @@ int runFilm(const FilmArguments& arguments) {
         if (core::Status planned = planFilm(arguments, film, shot); !planned)
             return fail(game::kExitFailed, planned.error());
     }
-    const core::Status drawn =
-        arguments.slurm ? drawBySlurm(arguments, film) : drawHere(arguments, film);
+    const core::Status drawn = arguments.jobs.slurm
+                                   ? parts::runBySlurm(describeWork(film), arguments.jobs)
+                                   : drawHere(arguments, film);
     return drawn ? game::kExitDone : fail(game::kExitFailed, drawn.error());
 }
 
@@ -251,14 +210,14 @@ void addFilmCommands(CLI::App& app, int& exitStatus) {
     command->callback([arguments, &exitStatus] { exitStatus = runFilm(*arguments); });
 
     auto part = std::make_shared<PartArguments>();
-    CLI::App& draw = addHiddenCommand(app, "film-part", "draw a part of a planned film", *part);
+    CLI::App& draw = addHiddenCommand(app, kPartCommand, "draw a part of a planned film", *part);
     draw.add_option("part", part->part, "index of the part")->required();
     draw.add_option("--device", part->device, "in place of the film's --device");
     draw.callback([part, &exitStatus] { exitStatus = runPart(*part); });
 
     auto whole = std::make_shared<PartArguments>();
     CLI::App& finish =
-        addHiddenCommand(app, "film-finish", "encode a film whose parts are drawn", *whole);
+        addHiddenCommand(app, kFinishCommand, "encode a film whose parts are drawn", *whole);
     finish.callback([whole, &exitStatus] { exitStatus = runFinish(*whole); });
 }
 

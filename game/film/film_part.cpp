@@ -7,6 +7,7 @@
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_device.h"
 
 #include <system_error>
 #include <utility>
@@ -18,6 +19,8 @@ namespace fs = std::filesystem;
 using core::makeError;
 
 namespace {
+
+constexpr const char* kNoun = "film";
 
 /// Tells of no device: the film is known to be finished on machines that cannot draw it.
 std::string computeFilmFingerprint(const Film& film) {
@@ -90,7 +93,7 @@ core::Status drawPart(Film film, uint32_t part, const std::string& deviceName) {
     if (!device)
         return device.error();
     const gpu::DeviceInfo& info = device.value()->info();
-    SHUTTER_TRY(settleDevice(deviceFile(film.work), {info.name, info.driver}));
+    SHUTTER_TRY(parts::settleDevice(parts::deviceFile(film.work), {info.name, info.driver}, kNoun));
     const FilmPart& frames = film.plan.parts[part];
     SHUTTER_TRY(game::drawFrames(
         film.options,
@@ -136,6 +139,37 @@ core::Status finishFilm(Film film) {
         SHUTTER_TRY(recordFrames(film));
     removeWork(film);
     return {};
+}
+
+parts::PartWork describeWork(const Film& film) {
+    const fs::path& file = film.options.output.film;
+    parts::PartWork work;
+    work.noun = kNoun;
+    work.verb = "rendering";
+    work.name = (file.empty() ? film.options.output.out : file).filename().string();
+    work.folder = film.work;
+    work.start = film.plan.folder;
+    work.partCommand = kPartCommand;
+    work.finishCommand = kFinishCommand;
+    work.stepCount = film.plan.frameCount();
+    work.countDone = [&film] { return countDrawnFrames(film); };
+    work.isFinished = [&film] {
+        // A sequence of pictures has no film to look for: the job that finishes it removes the
+        // plan.
+        std::error_code ignored;
+        return film.options.output.film.empty() ? !fs::exists(planFile(film.work), ignored)
+                                                : isFilmFinished(film);
+    };
+    work.listUnfinished = [&film]() -> core::Result<std::vector<uint32_t>> {
+        const auto unfinished = listUnfinishedParts(film);
+        if (!unfinished)
+            return unfinished.error();
+        std::vector<uint32_t> parts;
+        for (const UnfinishedPart& part : unfinished.value())
+            parts.push_back(part.part);
+        return parts;
+    };
+    return work;
 }
 
 void removeWork(const Film& film) {

@@ -10,6 +10,10 @@
 
 namespace shutter::film {
 
+/// The hidden commands of the processes that draw and that finish.
+inline constexpr const char* kPartCommand = "film-part";
+inline constexpr const char* kFinishCommand = "film-finish";
+
 /// Draws what is missing of a part. What was drawn before a stop is kept.
 /// \param part index in the plan; another is an error
 /// \param device takes the place of the plan's --device; empty: the plan's
@@ -24,6 +28,10 @@ namespace shutter::film {
 /// that stay are recorded as `shutter render` records them.
 /// Error: names a part that lacks a frame, or says why the film cannot be encoded.
 [[nodiscard]] core::Status finishFilm(Film film);
+
+/// What game/parts needs to know of the film.
+/// \param film outlives the answer
+[[nodiscard]] parts::PartWork describeWork(const Film& film);
 
 /// Removes the working folder of a film that is finished, its frames included unless they are to be
 /// kept. A folder that holds other files stays.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/film/film.h"
 #include "game/film/film_arguments.h"
-#include "game/film/film_progress.h"
-#include "game/film/film_slurm.h"
 #include "tests/unit/options/command_words.h"
 
 #include <gtest/gtest.h>
@@ -99,8 +97,6 @@ TEST(FilmArgumentsTest, WhatDependsOnTheSplitIsRefused) {
     expectRefused({"--explain"}, "--explain");
     expectRefused({"--repeat", "2"}, "--repeat");
     expectRefused({"--wait"}, "--wait needs --slurm");
-    expectRefused({"--sbatch", "partition=x"}, "--sbatch needs --slurm");
-    expectRefused({"--sbatch-part", "gres=gpu:1"}, "--sbatch-part needs --slurm");
     expectRefused({"--slurm", "--jobs", "2"}, "--jobs and --slurm");
     const core::Status single = Typed({"--out", "f.png"}).check();
     ASSERT_FALSE(single.ok());
@@ -117,19 +113,6 @@ TEST(FilmArgumentsTest, PartsAreAsManyAsProcessesUnlessTyped) {
     EXPECT_EQ(count({"--jobs", "3"}), 3u);
     EXPECT_EQ(count({"--jobs", "3", "--parts", "7"}), 7u);
     EXPECT_EQ(count({"--slurm"}), kSlurmParts);
-}
-
-TEST(SlurmTasks, AreRangesAndSingles) {
-    const auto format = [](const std::vector<uint32_t>& tasks) { return formatTasks(tasks); };
-    EXPECT_EQ(format({0, 1, 2, 3}), "0-3");
-    EXPECT_EQ(format({2}), "2");
-    EXPECT_EQ(format({0, 2, 3, 7}), "0,2-3,7");
-}
-
-TEST(LastSentence, IsTheLastLineThatHoldsAnything) {
-    EXPECT_EQ(findLastSentence("first\nshutter: no room\n\n"), "no room");
-    EXPECT_EQ(findLastSentence("slurmstepd: error"), "slurmstepd: error");
-    EXPECT_EQ(findLastSentence(" \n"), "");
 }
 
 } // namespace shutter::film

@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: MIT
-#include "game/film/film_slurm.h"
+#include "game/parts/part_slurm.h"
 
 #include "engine/io/file_bytes.h"
 #include "engine/io/process.h"
 #include "engine/json/json_file.h"
-#include "game/film/film_part.h"
-#include "game/film/film_progress.h"
+#include "game/parts/part_progress.h"
 
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cstdio>
+#include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
+#include <vector>
 
-namespace shutter::film {
+namespace shutter::parts {
 
 namespace fs = std::filesystem;
 
 using core::makeError;
 
 namespace {
+
+/// Ids of jobs, as sbatch tells them.
+struct SlurmJobs {
+    std::string parts; ///< of the array; empty: every part was complete
+    std::string finish;
+};
 
 /// Between two questions to the controller, which serves a whole cluster.
 constexpr std::chrono::seconds kAsk(2);
@@ -75,51 +84,50 @@ core::Result<std::string> submit(const std::vector<std::string>& words) {
 }
 
 /// What sbatch is told of both jobs.
-std::vector<std::string> listCommonWords(const Film& film) {
-    const game::OutputOptions& output = film.options.output;
-    const fs::path& name = output.film.empty() ? output.out : output.film;
+std::vector<std::string> listCommonWords(const PartWork& work) {
     return {
         "--parsable",
-        "--job-name=" + name.filename().string(),
-        "--chdir=" + film.plan.folder.string(),
+        "--job-name=" + work.name,
+        "--chdir=" + work.start.string(),
         "--requeue",
         "--open-mode=append"};
 }
 
 std::vector<std::string> listPartWords(
-    const Film& film,
+    const PartWork& work,
     const std::string& program,
     const std::vector<uint32_t>& parts,
-    const SlurmOptions& options
+    const JobOptions& options
 ) {
-    std::vector<std::string> words = listCommonWords(film);
+    std::vector<std::string> words = listCommonWords(work);
     words.push_back("--array=" + formatTasks(parts));
-    words.push_back("--output=" + escapeName(film.work.string()) + "/part_%a.log");
-    addTyped(words, options.all);
-    addTyped(words, options.parts);
+    words.push_back("--output=" + escapeName(work.folder.string()) + "/part_%a.log");
+    addTyped(words, options.sbatch);
+    addTyped(words, options.sbatchPart);
     words.push_back(fmt::format(
-        "--wrap=exec {} film-part {} \"$SLURM_ARRAY_TASK_ID\"",
+        "--wrap=exec {} {} {} \"$SLURM_ARRAY_TASK_ID\"",
         quote(program),
-        quote(film.work.string())
+        work.partCommand,
+        quote(work.folder.string())
     ));
     return words;
 }
 
 /// \param parts id of the array that comes first; empty: none
 std::vector<std::string> listFinishWords(
-    const Film& film,
+    const PartWork& work,
     const std::string& program,
     const std::string& parts,
-    const SlurmOptions& options
+    const JobOptions& options
 ) {
-    std::vector<std::string> words = listCommonWords(film);
-    words.push_back("--output=" + escapeName(finishLog(film.work).string()));
+    std::vector<std::string> words = listCommonWords(work);
+    words.push_back("--output=" + escapeName(finishLog(work.folder).string()));
     if (!parts.empty()) // without the second option it would wait for ever where a part failed
         words.insert(words.end(), {"--dependency=afterok:" + parts, "--kill-on-invalid-dep=yes"});
-    addTyped(words, options.all);
-    words.push_back(
-        fmt::format("--wrap=exec {} film-finish {}", quote(program), quote(film.work.string()))
-    );
+    addTyped(words, options.sbatch);
+    words.push_back(fmt::format(
+        "--wrap=exec {} {} {}", quote(program), work.finishCommand, quote(work.folder.string())
+    ));
     return words;
 }
 
@@ -133,11 +141,11 @@ void cancel(const SlurmJobs& jobs) {
         (void)runSlurm("scancel", submitted);
 }
 
-core::Status writeJobs(const Film& film, const SlurmJobs& jobs) {
+core::Status writeJobs(const PartWork& work, const SlurmJobs& jobs) {
     nlohmann::ordered_json root;
     root["parts"] = jobs.parts;
     root["finish"] = jobs.finish;
-    return json::writeJsonFile(jobsFile(film.work), root);
+    return json::writeJsonFile(jobsFile(work.folder), root);
 }
 
 core::Result<SlurmJobs> readJobs(const fs::path& file) {
@@ -179,22 +187,86 @@ std::string readLastSentence(const fs::path& log) {
     );
 }
 
-core::Error describeUnfinished(const Film& film) {
-    const auto unfinished = listUnfinishedParts(film);
+core::Error describeUnfinished(const PartWork& work) {
+    const auto unfinished = work.listUnfinished();
     if (!unfinished)
         return unfinished.error();
     std::string who = "the job that finishes it";
-    fs::path log = finishLog(film.work);
+    fs::path log = finishLog(work.folder);
     if (!unfinished.value().empty()) {
-        who = fmt::format("part {}", unfinished.value().front().part);
-        log = partLog(film.work, unfinished.value().front().part);
+        const uint32_t part = unfinished.value().front();
+        who = fmt::format("part {}", part);
+        log = partLog(work.folder, part);
     }
     const std::string said = readLastSentence(log);
     return makeError(
-        "the film is not finished: {} {}; the same command goes on where it stopped",
+        "the {} is not finished: {} {}; the same command goes on where it stopped",
+        work.noun,
         who,
         said.empty() ? "was ended and said nothing" : "says: " + said
     );
+}
+
+/// Submits the parts and the job that finishes, and records their ids in the working folder.
+/// Error: sbatch's own words; then nothing stays submitted.
+core::Result<SlurmJobs>
+submitWork(const PartWork& work, const std::vector<uint32_t>& parts, const JobOptions& options) {
+    std::error_code failure;
+    const std::string program = fs::read_symlink("/proc/self/exe", failure).string();
+    if (failure)
+        return makeError("cannot tell where this program lies: {}", failure.message());
+    SlurmJobs jobs;
+    if (!parts.empty()) {
+        auto id = submit(listPartWords(work, program, parts, options));
+        if (!id)
+            return id.error();
+        jobs.parts = id.value();
+    }
+    auto id = submit(listFinishWords(work, program, jobs.parts, options));
+    if (!id) {
+        cancel(jobs);
+        return id.error();
+    }
+    jobs.finish = id.value();
+    if (core::Status recorded = writeJobs(work, jobs); !recorded) {
+        cancel(jobs);
+        return recorded.error();
+    }
+    return jobs;
+}
+
+/// The work's jobs that were submitted before and are in the queue still, if any.
+/// Error: squeue's own words, or the record is damaged.
+core::Result<std::optional<SlurmJobs>> findQueuedJobs(const PartWork& work) {
+    std::error_code ignored;
+    const fs::path file = jobsFile(work.folder);
+    if (!fs::exists(file, ignored))
+        return std::optional<SlurmJobs>();
+    const auto jobs = readJobs(file);
+    if (!jobs)
+        return jobs.error();
+    const auto queued = areQueued(jobs.value());
+    if (!queued)
+        return queued.error();
+    return queued.value() ? std::optional<SlurmJobs>(jobs.value()) : std::optional<SlurmJobs>();
+}
+
+/// Waits until the jobs have left the queue, with a bar of their progress on stderr.
+/// Error: the work is not finished then; says what the first part that is not complete said last.
+core::Status followJobs(const PartWork& work, const SlurmJobs& jobs) {
+    PartProgress progress(work);
+    int failures = 0;
+    while (true) {
+        const auto queued = areQueued(jobs);
+        if (queued && !queued.value())
+            break;
+        failures = queued ? 0 : failures + 1;
+        if (failures > kMostFailures)
+            return queued.error();
+        std::this_thread::sleep_for(kAsk);
+        progress.look();
+    }
+    return work.isFinished() ? core::Status() : core::Status(describeUnfinished(work));
 }
 
 } // namespace
@@ -213,65 +285,28 @@ std::string formatTasks(std::span<const uint32_t> tasks) {
     return text;
 }
 
-core::Result<SlurmJobs>
-submitFilm(const Film& film, const std::vector<uint32_t>& parts, const SlurmOptions& options) {
-    std::error_code failure;
-    const std::string program = fs::read_symlink("/proc/self/exe", failure).string();
-    if (failure)
-        return makeError("cannot tell where this program lies: {}", failure.message());
-    SlurmJobs jobs;
-    if (!parts.empty()) {
-        auto id = submit(listPartWords(film, program, parts, options));
-        if (!id)
-            return id.error();
-        jobs.parts = id.value();
-    }
-    auto id = submit(listFinishWords(film, program, jobs.parts, options));
-    if (!id) {
-        cancel(jobs);
-        return id.error();
-    }
-    jobs.finish = id.value();
-    if (core::Status recorded = writeJobs(film, jobs); !recorded) {
-        cancel(jobs);
-        return recorded.error();
-    }
-    return jobs;
-}
-
-core::Result<std::optional<SlurmJobs>> findQueuedJobs(const Film& film) {
-    std::error_code ignored;
-    const fs::path file = jobsFile(film.work);
-    if (!fs::exists(file, ignored))
-        return std::optional<SlurmJobs>();
-    const auto jobs = readJobs(file);
-    if (!jobs)
-        return jobs.error();
-    const auto queued = areQueued(jobs.value());
+core::Status runBySlurm(const PartWork& work, const JobOptions& options) {
+    auto queued = findQueuedJobs(work);
     if (!queued)
         return queued.error();
-    return queued.value() ? std::optional<SlurmJobs>(jobs.value()) : std::optional<SlurmJobs>();
-}
-
-core::Status followJobs(const Film& film, const SlurmJobs& jobs) {
-    FrameProgress progress(film);
-    int failures = 0;
-    while (true) {
-        const auto queued = areQueued(jobs);
-        if (queued && !queued.value())
-            break;
-        failures = queued ? 0 : failures + 1;
-        if (failures > kMostFailures)
-            return queued.error();
-        std::this_thread::sleep_for(kAsk);
-        progress.look();
+    SlurmJobs jobs;
+    if (queued.value()) {
+        jobs = *queued.value();
+        fmt::print("the jobs {} {} draw this {} already\n", jobs.parts, jobs.finish, work.noun);
+    } else {
+        const auto parts = work.listUnfinished();
+        if (!parts)
+            return parts.error();
+        auto submitted = submitWork(work, parts.value(), options);
+        if (!submitted)
+            return submitted.error();
+        jobs = std::move(submitted).value();
+        if (!jobs.parts.empty())
+            fmt::print("job {}: parts {}\n", jobs.parts, formatTasks(parts.value()));
+        fmt::print("job {}: finishes the {}\n", jobs.finish, work.noun);
     }
-    // A sequence of pictures has no film to look for: the job that finishes it removes the plan.
-    std::error_code ignored;
-    const bool isFinished = film.options.output.film.empty()
-                                ? !fs::exists(planFile(film.work), ignored)
-                                : isFilmFinished(film);
-    return isFinished ? core::Status() : core::Status(describeUnfinished(film));
+    std::fflush(stdout); // whoever waits knows what to wait for
+    return options.wait ? followJobs(work, jobs) : core::Status();
 }
 
-} // namespace shutter::film
+} // namespace shutter::parts

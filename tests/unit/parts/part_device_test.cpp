@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/film/film_device.h"
+#include "game/parts/part_device.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace shutter::film {
+namespace shutter::parts {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,17 +37,18 @@ class DeviceFile : public testing::Test {
 
 } // namespace
 
-TEST_F(DeviceFile, TheFirstDeviceIsTheFilmsAndOthersAreNamedAndRefused) {
+TEST_F(DeviceFile, TheFirstDeviceIsTheWorksAndOthersAreNamedAndRefused) {
     const auto none = readDevice(mFile);
     ASSERT_TRUE(none.ok());
     EXPECT_FALSE(none.value().has_value());
-    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}).ok());
-    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}).ok());
-    for (const FilmDevice& other : {FilmDevice{"card", "driver 2"}, FilmDevice{"c", "driver 1"}}) {
-        const core::Status refused = settleDevice(mFile, other);
+    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}, "film").ok());
+    EXPECT_TRUE(settleDevice(mFile, {"card", "driver 1"}, "film").ok());
+    for (const PartDevice& other : {PartDevice{"card", "driver 2"}, PartDevice{"c", "driver 1"}}) {
+        const core::Status refused = settleDevice(mFile, other, "film");
         ASSERT_FALSE(refused.ok());
         for (const std::string& word :
-             {std::string("'card'"),
+             {std::string("the film is drawn by"),
+              std::string("'card'"),
               std::string("'driver 1'"),
               "'" + other.name + "'",
               "'" + other.driver + "'"})
@@ -56,17 +57,17 @@ TEST_F(DeviceFile, TheFirstDeviceIsTheFilmsAndOthersAreNamedAndRefused) {
     }
     const auto settled = readDevice(mFile);
     ASSERT_TRUE(settled.ok());
-    EXPECT_EQ(*settled.value(), (FilmDevice{"card", "driver 1"}));
+    EXPECT_EQ(*settled.value(), (PartDevice{"card", "driver 1"}));
     EXPECT_EQ(countFiles(), 1u);
 }
 
-TEST_F(DeviceFile, OfDevicesThatTryAtOnceOneIsTheFilms) {
+TEST_F(DeviceFile, OfDevicesThatTryAtOnceOneIsTheWorks) {
     std::atomic<int> accepted = 0;
     {
         std::vector<std::jthread> threads;
         for (int i = 0; i < 8; ++i)
             threads.emplace_back([&, i] {
-                if (settleDevice(mFile, {"card", std::to_string(i)}).ok())
+                if (settleDevice(mFile, {"card", std::to_string(i)}, "film").ok())
                     ++accepted;
             });
     }
@@ -74,4 +75,4 @@ TEST_F(DeviceFile, OfDevicesThatTryAtOnceOneIsTheFilms) {
     EXPECT_EQ(countFiles(), 1u);
 }
 
-} // namespace shutter::film
+} // namespace shutter::parts

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/film/film_device.h"
+#include "game/parts/part_device.h"
 
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_file.h"
@@ -8,23 +8,23 @@
 
 #include <system_error>
 
-namespace shutter::film {
+namespace shutter::parts {
 
 namespace fs = std::filesystem;
 
-core::Result<std::optional<FilmDevice>> readDevice(const fs::path& file) {
+core::Result<std::optional<PartDevice>> readDevice(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored))
-        return std::optional<FilmDevice>();
+        return std::optional<PartDevice>();
     return json::readJsonFile(file, [](const json::JsonNode& root) {
         const auto object = root.readObject({"device", "driver"});
-        return std::optional<FilmDevice>(
+        return std::optional<PartDevice>(
             {object.require("device").readString(), object.require("driver").readString()}
         );
     });
 }
 
-core::Status settleDevice(const fs::path& file, const FilmDevice& device) {
+core::Status settleDevice(const fs::path& file, const PartDevice& device, const std::string& noun) {
     nlohmann::ordered_json root;
     root["device"] = device.name;
     root["driver"] = device.driver;
@@ -46,8 +46,9 @@ core::Status settleDevice(const fs::path& file, const FilmDevice& device) {
     if (*settled.value() == device)
         return {};
     return core::makeError(
-        "the film is drawn by '{}' with driver '{}', and this is '{}' with driver '{}', whose "
+        "the {} is drawn by '{}' with driver '{}', and this is '{}' with driver '{}', whose "
         "pictures may differ",
+        noun,
         settled.value()->name,
         settled.value()->driver,
         device.name,
@@ -55,4 +56,4 @@ core::Status settleDevice(const fs::path& file, const FilmDevice& device) {
     );
 }
 
-} // namespace shutter::film
+} // namespace shutter::parts

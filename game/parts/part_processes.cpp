@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: MIT
-#include "game/film/film_local.h"
+#include "game/parts/part_processes.h"
 
-#include "engine/core/progress.h"
 #include "engine/io/process.h"
-#include "game/film/film_progress.h"
+#include "game/options/option_rows.h"
+#include "game/parts/part_progress.h"
 
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <system_error>
 #include <thread>
 
-namespace shutter::film {
-
-namespace fs = std::filesystem;
+namespace shutter::parts {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook(500); ///< from one look at the journals to the next
+constexpr std::chrono::milliseconds kLook(500); ///< from one look at what is done to the next
 
 /// What the processes have left to do, shared by the threads that wait for them.
 class Queue {
@@ -68,12 +65,12 @@ class Queue {
     std::optional<core::Error> mError;
 };
 
-/// Waits for a process that draws the part.
-core::Status runPart(const Film& film, uint32_t part, const std::string& device) {
-    std::vector<std::string> words = {"film-part", film.work.string(), std::to_string(part)};
+/// Waits for a process that does the part.
+core::Status runPart(const PartWork& work, uint32_t part, const std::string& device) {
+    std::vector<std::string> words = {work.partCommand, work.folder.string(), std::to_string(part)};
     if (!device.empty())
         words.insert(words.end(), {"--device", device});
-    const auto run = io::runProcess("/proc/self/exe", words, film.plan.folder);
+    const auto run = io::runProcess("/proc/self/exe", words, work.start);
     if (!run)
         return run.error();
     if (run.value().exitStatus == 0)
@@ -88,28 +85,35 @@ core::Status runPart(const Film& film, uint32_t part, const std::string& device)
     return core::makeError("part {}: {}", part, said);
 }
 
+/// None where the work's own device is to be taken.
+std::vector<std::string> splitDevices(const std::string& text) {
+    return text.empty() ? std::vector<std::string>() : game::splitAt(text, ',');
+}
+
 } // namespace
 
-core::Status
-drawParts(const Film& film, const std::vector<uint32_t>& parts, const LocalJobs& jobs) {
-    Queue queue(parts);
-    const size_t count = std::min<size_t>(jobs.count, parts.size());
+core::Status runHere(const PartWork& work, const JobOptions& options) {
+    const auto parts = work.listUnfinished();
+    if (!parts)
+        return parts.error();
+    const std::vector<std::string> devices = splitDevices(options.devices);
+    Queue queue(parts.value());
+    const size_t count = std::min<size_t>(options.jobs, parts.value().size());
     std::vector<std::jthread> threads;
     for (size_t i = 0; i < count; ++i)
         threads.emplace_back([&, i] {
             // A process is killed when the thread that started it ends, so this one waits for it.
-            const std::string device =
-                jobs.devices.empty() ? "" : jobs.devices[i % jobs.devices.size()];
+            const std::string device = devices.empty() ? "" : devices[i % devices.size()];
             while (const auto part = queue.take())
-                if (core::Status drawn = runPart(film, *part, device); !drawn)
-                    queue.fail(drawn.error());
+                if (core::Status done = runPart(work, *part, device); !done)
+                    queue.fail(done.error());
             queue.leave();
         });
-    FrameProgress progress(film);
+    PartProgress progress(work);
     while (!queue.waitFor(count))
         progress.look();
     threads.clear();
     return queue.status();
 }
 
-} // namespace shutter::film
+} // namespace shutter::parts
