@@ -89,7 +89,7 @@ std::optional<PipelineObjects> KeptPipelines::take(const std::string& key) {
 }
 
 std::optional<PipelineObjects> KeptPipelines::keep(std::string key, PipelineObjects objects) {
-    if (mMost == 0)
+    if (mMost == 0 || objects.pipeline == VK_NULL_HANDLE)
         return objects;
     const std::scoped_lock lock(mMutex);
     std::optional<PipelineObjects> leaves;

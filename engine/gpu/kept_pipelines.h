@@ -35,7 +35,8 @@ class KeptPipelines {
 
     /// Hands over one that was kept under this key.
     [[nodiscard]] std::optional<PipelineObjects> take(const std::string& key);
-    /// \return the one that is not kept any more, if any: the oldest, for which there is no room
+    /// \return the one that is not kept any more, if any: the oldest, for which there is no room,
+    /// or the given one, where its making failed half-way
     [[nodiscard]] std::optional<PipelineObjects> keep(std::string key, PipelineObjects objects);
     /// Hands over all.
     [[nodiscard]] std::vector<PipelineObjects> takeAll();

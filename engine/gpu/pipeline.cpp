@@ -330,8 +330,7 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
 void Pipeline::release() {
     if (!mDevice)
         return;
-    // One that failed half-way is of no use to anybody.
-    mDevice->giveUpPipeline(mObjects.pipeline ? std::move(mKey) : std::string(), mObjects);
+    mDevice->giveUpPipeline(std::move(mKey), mObjects);
     mDevice = nullptr;
 }
 

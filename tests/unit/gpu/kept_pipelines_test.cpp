@@ -47,6 +47,14 @@ TEST(KeptPipelines, WithoutRoomNothingIsKept) {
     EXPECT_EQ(kept.take("a"), std::nullopt);
 }
 
+TEST(KeptPipelines, OneThatFailedHalfWayIsNotKept) {
+    KeptPipelines kept(1);
+    PipelineObjects half = makeObjects(16);
+    half.pipeline = VK_NULL_HANDLE;
+    EXPECT_EQ(kept.keep("a", half), half);
+    EXPECT_EQ(kept.take("a"), std::nullopt);
+}
+
 const std::vector<uint32_t> kShader{1, 2, 3};
 const std::vector<uint32_t> kOtherShader{1, 2, 4};
 
