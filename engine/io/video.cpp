@@ -44,6 +44,8 @@ struct CodecRow {
 const std::vector<CodecRow>& listCodecs() {
     static const std::vector<std::string> kH264 = {"-preset", "medium", "-crf", "16"};
     static const std::vector<std::string> kAv1 = {"-crf", "20", "-b:v", "0", "-cpu-used", "6"};
+    // A picture that somebody steps to is at most eight frames from one that stands alone.
+    static const std::vector<std::string> kVp9 = {"-g", "8", "-deadline", "good", "-cpu-used", "4"};
     static const std::vector<CodecRow> kRows = {
         {VideoCodec::H264, 8, "libx264", "yuv420p", kH264},
         {VideoCodec::H264, 8, "mpeg4", "yuv420p", {"-q:v", "2"}},
@@ -51,6 +53,7 @@ const std::vector<CodecRow>& listCodecs() {
         {VideoCodec::Av1, 8, "libaom-av1", "yuv420p", kAv1},
         {VideoCodec::Av1, 10, "libaom-av1", "yuv420p10le", kAv1},
         {VideoCodec::ProRes, 10, "prores_ks", "yuv422p10le", {"-profile:v", "hq"}},
+        {VideoCodec::Vp9, 8, "libvpx-vp9", "yuv420p", kVp9},
     };
     return kRows;
 }
@@ -68,13 +71,23 @@ const CodecRow& findCodec(const VideoEncoder& encoder) {
     return *row;
 }
 
-/// By the file's name: .mov, else .mp4.
+/// By the file's name: .mov or .webm, else .mp4.
 const char* findContainer(const fs::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
         return char(std::tolower(c));
     });
+    if (extension == ".webm")
+        return "webm";
     return extension == ".mov" ? "mov" : "mp4";
+}
+
+/// Of libvpx. A largest rate alone does not bind: films of two seconds came out six times as large.
+std::vector<std::string> listRateArguments(uint32_t kilobits) {
+    if (kilobits == 0)
+        return {"-crf", "12", "-b:v", "0"};
+    const std::string rate = fmt::format("{}k", kilobits);
+    return {"-b:v", rate, "-minrate", rate, "-maxrate", rate, "-bufsize", rate};
 }
 
 std::vector<std::string> listArguments(
@@ -94,6 +107,8 @@ std::vector<std::string> listArguments(
     add({"-i", frames.pattern, "-frames:v", fmt::format("{}", frames.count), "-an"});
     add({"-c:v", codec.name});
     add(codec.options);
+    if (codec.codec == VideoCodec::Vp9)
+        add(listRateArguments(encoder.format.kilobits));
     // Players take the matrix of BT.709 for granted; swscale's own default is BT.601's.
     add(
         {"-vf",
@@ -114,7 +129,9 @@ std::vector<std::string> listArguments(
     if (!encoder.format.timecode.empty())
         add({"-timecode", encoder.format.timecode});
     // The protocol in front, or a name with a colon would be taken for one.
-    add({"-movflags", "+faststart", "-f", container, "file:" + target.string()});
+    if (container != std::string_view("webm"))
+        add({"-movflags", "+faststart"});
+    add({"-f", container, "file:" + target.string()});
     return words;
 }
 

@@ -14,6 +14,7 @@ enum class VideoCodec : uint8_t {
     H264,   ///< 4:2:0, in .mp4 or .mov
     Av1,    ///< 4:2:0, in .mp4 or .mov
     ProRes, ///< 422 HQ, of 10 bits, in .mov
+    Vp9,    ///< 4:2:0, of 8 bits, in .webm: every browser plays it
 };
 
 /// What a film is encoded as.
@@ -21,6 +22,9 @@ struct VideoFormat {
     VideoCodec codec = VideoCodec::H264;
     uint32_t bitDepth = 8; ///< bits of a channel, 8 or 10
     std::string timecode;  ///< of the first frame, "HH:MM:SS:FF"; empty: the film carries none
+    /// Vp9: kilobits of a second that the film keeps near, twice as many at most where frames are
+    /// few; 0: as many as its quality takes.
+    uint32_t kilobits = 0;
 };
 
 /// An ffmpeg that was found, and what it encodes with.
@@ -44,9 +48,9 @@ struct VideoFrames {
     double framesPerSecond = 24.0; ///< above 0
 };
 
-/// Writes an .mp4, or a .mov where the file is called so: BT.709, no metadata except the time code;
-/// the same frames give the same bits with the same ffmpeg. Renamed into place when it is complete.
-/// Error: ffmpeg's last line.
+/// Writes an .mp4, or a .mov or .webm where the file is called so: BT.709, no metadata except the
+/// time code; the same frames give the same bits with the same ffmpeg. Renamed into place when it
+/// is complete. Error: ffmpeg's last line.
 [[nodiscard]] core::Status encodeVideo(
     const VideoEncoder& encoder, const VideoFrames& frames, const std::filesystem::path& file
 );

@@ -22,7 +22,7 @@ using core::Status;
 /// Words of --rays, in the order of gpu::RayTier.
 constexpr std::string_view kTierWords[] = {"query", "pipeline", "none"};
 
-/// Words of --codec, in the order of io::VideoCodec.
+/// Words of --codec, in the order of io::VideoCodec, whose Vp9 is not for films on their own.
 constexpr std::string_view kCodecWords[] = {"h264", "av1", "prores"};
 
 using O = OutputArguments;
