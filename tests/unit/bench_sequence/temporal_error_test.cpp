@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/sequence/temporal_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace shutter::bench {
+namespace {
+
+using image::Image;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+Image makeFlat(float value, uint32_t width = 16, uint32_t height = 12) {
+    Image picture(width, height, 3);
+    std::fill(picture.pixels.begin(), picture.pixels.end(), value);
+    return picture;
+}
+
+/// `base` and a checkerboard of +-amplitude, of which every pixel changes its sign with `phase`.
+Image addCheckerboard(Image base, float amplitude, uint32_t phase = 0) {
+    for (uint32_t y = 0; y < base.height; ++y)
+        for (uint32_t x = 0; x < base.width; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                base.at(x, y, c) += (x + y + phase) % 2 == 0 ? amplitude : -amplitude;
+    return base;
+}
+
+Image addNoise(Image base, float amplitude, std::mt19937& random) {
+    std::uniform_real_distribution<float> noise(-amplitude, amplitude);
+    for (float& value : base.pixels)
+        value += noise(random);
+    return base;
+}
+
+TEST(Flicker, ChangesOfTheTruthAreNone) {
+    const Image dark = makeFlat(0.25f);
+    const Image bright = makeFlat(0.75f);
+    EXPECT_EQ(computeFlicker({dark, dark}, {dark, dark}), 0.0);
+    EXPECT_EQ(computeFlicker({dark, dark}, {bright, bright}), 0.0);
+}
+
+TEST(Flicker, AnErrorThatStaysIsNone) {
+    const Image dark = makeFlat(0.25f);
+    const Image bright = makeFlat(0.75f);
+    const Image darkError = addCheckerboard(dark, 0.125f);
+    const Image brightError = addCheckerboard(bright, 0.125f);
+    EXPECT_EQ(computeFlicker({darkError, dark}, {brightError, bright}), 0.0);
+}
+
+TEST(Flicker, IsTheMeanOfWhatTheTruthDoesNotDo) {
+    const Image truth = makeFlat(0.5f);
+    const Image up = addCheckerboard(truth, 0.125f, 0);
+    const Image down = addCheckerboard(truth, 0.125f, 1);
+    EXPECT_EQ(computeFlicker({up, truth}, {down, truth}), 0.25);
+    // A picture that stands still while the truth moves flickers as well.
+    EXPECT_EQ(computeFlicker({truth, up}, {truth, down}), 0.25);
+}
+
+TEST(Flicker, ANaNIsTheLargestChange) {
+    const Image truth = makeFlat(0.5f, 2, 1);
+    Image broken = truth;
+    broken.at(0, 0, 0) = kNaN;
+    EXPECT_EQ(computeFlicker({truth, truth}, {broken, truth}), 2.0 / 6.0);
+}
+
+TEST(FixedNoise, KeepsACheckerboardAndNoSlope) {
+    const Image truth = makeFlat(0.5f);
+    const Image fine = computeFineError(addCheckerboard(truth, 0.125f), truth);
+    EXPECT_EQ(fine.width, truth.width - 2);
+    for (const float value : fine.pixels)
+        EXPECT_EQ(std::abs(value), 0.125f);
+    Image slope = truth;
+    for (uint32_t y = 0; y < slope.height; ++y)
+        for (uint32_t x = 0; x < slope.width; ++x)
+            slope.at(x, y, 1) += 0.0625f + 0.015625f * float(x) - 0.0078125f * float(y);
+    for (const float value : computeFineError(slope, truth).pixels)
+        EXPECT_EQ(value, 0.0f);
+}
+
+TEST(FixedNoise, IsTheAmplitudeOfAPatternThatStays) {
+    // Over a truth that changes, as when a camera flies behind a dirty window.
+    const Image fine[] = {
+        computeFineError(addCheckerboard(makeFlat(0.25f), 0.125f), makeFlat(0.25f)),
+        computeFineError(addCheckerboard(makeFlat(0.75f), 0.125f), makeFlat(0.75f))};
+    const double powers[] = {computeFixedPower(fine[0], fine[1])};
+    EXPECT_EQ(computeFixedNoise(powers), 0.125);
+}
+
+TEST(FixedNoise, IsNoneWhereTheNoiseIsNewInEachFrame) {
+    std::mt19937 random(3);
+    const Image truth = makeFlat(0.5f, 128, 128);
+    const Image a = computeFineError(addNoise(truth, 0.125f, random), truth);
+    const Image b = computeFineError(addNoise(truth, 0.125f, random), truth);
+    const double own = computeFixedPower(a, a);
+    EXPECT_GT(own, 0.001);
+    EXPECT_LT(std::abs(computeFixedPower(a, b)), 0.02 * own);
+}
+
+TEST(FixedNoise, APatternThatChangesItsSignIsNone) {
+    const double powers[] = {-0.25, 0.125};
+    EXPECT_EQ(computeFixedNoise(powers), 0.0);
+    EXPECT_EQ(computeFixedNoise({}), 0.0);
+}
+
+TEST(FixedNoise, ANaNIsAnError) {
+    const Image truth = makeFlat(0.5f, 3, 3);
+    Image broken = truth;
+    broken.at(1, 1, 0) = kNaN;
+    EXPECT_EQ(computeFineError(broken, truth).at(0, 0, 0), 0.5f);
+    EXPECT_EQ(computeFineError(makeFlat(0.5f, 2, 9), makeFlat(0.5f, 2, 9)).pixels.size(), 0u);
+}
+
+TEST(FilmPsnr, AveragesTheSquaresAndNotTheDecibels) {
+    const double equal[] = {30.0, 30.0};
+    EXPECT_NEAR(computeFilmPsnr(equal), 30.0, 1e-12);
+    const double apart[] = {20.0, std::numeric_limits<double>::infinity()};
+    EXPECT_NEAR(computeFilmPsnr(apart), 10.0 * std::log10(200.0), 1e-12);
+    const double perfect[] = {std::numeric_limits<double>::infinity()};
+    EXPECT_TRUE(std::isinf(computeFilmPsnr(perfect)));
+}
+
+} // namespace
+} // namespace shutter::bench
