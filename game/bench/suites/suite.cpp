@@ -18,6 +18,7 @@ constexpr std::array kSuites = {
     SuiteRow{"scaling", makeScalingSuite},
     SuiteRow{"stability", makeStabilitySuite},
     SuiteRow{"demand", makeDemandSuite},
+    SuiteRow{"sequence", makeSequenceSuite},
 };
 
 } // namespace

@@ -44,12 +44,27 @@ struct ScalingAxis {
     std::vector<ScalingPoint> points;
 };
 
+/// A film whose frames are each compared with the truth of their own instant: a flight through a
+/// scene, or a demo that a script plays.
+struct SequenceCase {
+    std::string name; ///< unique in its suite; part of file names
+    std::string title;
+    std::string description;
+    game::ShotArguments shot; ///< of a flight; of a demo its shutter and size
+    /// Writes the scene to a file, for a demo called as the demo asks for it.
+    std::function<core::Status(const std::filesystem::path&)> writeScene;
+    std::string demo;        ///< of game::listDemos(); empty: a flight
+    std::string_view script; ///< text of the flythrough, or of the demo's input script
+    uint32_t firstFrame = 0; ///< of the flight or the script
+};
+
 struct Suite {
     std::string name;
     std::vector<Case> cases;                    ///< compared with the truth
     std::vector<ScalingAxis> axes;              ///< timed only
     std::vector<stability::HardCase> hardCases; ///< measured against bounds
     std::vector<demand::Claim> claims;          ///< about cost, measured against bounds
+    std::vector<SequenceCase> sequences;        ///< compared with the truth frame by frame
     game::PictureSize size{640, 360};           ///< of its pictures, unless --size says otherwise
     uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
     double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
@@ -76,5 +91,7 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeStabilitySuite();
 /// The cost of a frame against the demands of its scene.
 [[nodiscard]] Suite makeDemandSuite();
+/// Three flights and three played demos, judged in time.
+[[nodiscard]] Suite makeSequenceSuite();
 
 } // namespace shutter::bench

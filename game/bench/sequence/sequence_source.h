@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The frames of a sequence, one after another: of a flight through a scene, or of a demo played by
+// its script. What is drawn of a frame is the caller's.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/math/transform.h"
+#include "engine/scene/components.h"
+#include "engine/scene/world.h"
+#include "game/bench/suites/suite.h"
+#include "game/shot/shot_options.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace shutter::bench {
+
+/// Files of a sequence on disk, written by writeSequenceFiles().
+struct SequenceFiles {
+    std::filesystem::path scene;
+    std::filesystem::path script;
+};
+
+/// Writes scene and script into folder/scenes/. Error: a file cannot be written.
+[[nodiscard]] core::Result<SequenceFiles>
+writeSequenceFiles(const SequenceCase& film, const std::filesystem::path& folder);
+
+/// Where a camera is and what it sees, at one time.
+struct StandingView {
+    math::Transform pose; ///< in the world
+    scene::Camera lens;
+    scene::CameraShutter shutter;
+};
+
+class SequenceSource {
+  public:
+    SequenceSource() = default;
+    virtual ~SequenceSource() = default;
+    SequenceSource(const SequenceSource&) = delete;
+    SequenceSource& operator=(const SequenceSource&) = delete;
+
+    /// Loads the scene and stands before the first frame. Error: a file cannot be read.
+    /// \param frames of the film, at least 1
+    [[nodiscard]] static core::Result<std::unique_ptr<SequenceSource>>
+    open(const SequenceCase& film, const SequenceFiles& files, uint32_t frames);
+
+    /// Goes on by a frame; to be called before the first, too.
+    virtual void advance() = 0;
+
+    /// Of the frame that it stands at.
+    [[nodiscard]] extract::ViewRequest view() const;
+
+    [[nodiscard]] virtual const scene::World& world() const = 0;
+
+    /// Size, pixel model and tone map of the pictures.
+    [[nodiscard]] virtual const game::ShotOptions& options() const = 0;
+
+    /// Of the film.
+    [[nodiscard]] virtual double framesPerSecond() const = 0;
+
+    /// The camera's place at the frame that it stands at.
+    [[nodiscard]] StandingView standingView() const;
+
+    /// From now on frames are seen from there, by a camera at rest.
+    void stand(const StandingView& from);
+
+  protected:
+    /// The view of the sequence's own camera.
+    [[nodiscard]] virtual extract::ViewRequest ownView() const = 0;
+    [[nodiscard]] virtual scene::World& changeWorld() = 0;
+
+  private:
+    ecs::Entity mStanding{}; ///< null: the sequence's own camera
+};
+
+} // namespace shutter::bench
