@@ -8,13 +8,17 @@ by hand, `example_results.py SUITE FOLDER` writes results.json and its pictures 
 import json
 import math
 import pathlib
+import shutil
 import struct
+import subprocess
 import sys
+import tempfile
 import zlib
 
 WIDTH, HEIGHT = 160, 90
 
-SUITES = ("paper", "hard", "scaling", "stability", "demand", "soak")
+SUITES = ("paper", "hard", "scaling", "stability", "demand", "soak", "sequence")
+FRAMES = 24
 
 # name, title, publication, sample unit, default, rays, sample counts n, ms = a + b * n,
 # psnr = p + g * log2(n)
@@ -342,6 +346,63 @@ def soak():
              "curves": [curve("process", [(250, 300), (500, 301)], x=("frame", ""))]}]
 
 
+TEMPORAL = [("psnr", "PSNR", "dB", "higher"), ("ssim", "SSIM", "", "higher"),
+            ("flip", "FLIP", "", "lower"), ("flicker", "Flicker", "", "lower"),
+            ("standingFlicker", "Flicker, camera at rest", "", "lower"),
+            ("fixedNoise", "Fixed noise", "", "lower")]
+
+
+def gray_of(frame):
+    """Of a film's frame: so far from the next that no encoder confuses them."""
+    return 40 + 6 * frame
+
+
+def make_film(file, stripe):
+    """Frames that tell their number by their grey; a column of the film's own `stripe`."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        for i in range(FRAMES):
+            gray = (gray_of(i) / 255,) * 3
+            row = [stripe if 8 <= x < 24 else gray for x in range(WIDTH)]
+            (folder / f"frame_{i:06}.png").write_bytes(png([row] * HEIGHT))
+        subprocess.run(
+            ["ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-framerate", "24", "-i",
+             "frame_%06d.png", "-c:v", "libvpx-vp9", "-crf", "12", "-b:v", "0", "-g", "8",
+             "-pix_fmt", "yuv420p", file.resolve()], cwd=folder, check=True)
+
+
+def sequence(name, shift, has_films):
+    measurements = []
+    for method, samples, ms, psnr in (("sharp", None, 20, 24), ("gather", 15, 25, 30),
+                                      ("resolved", 15, 30, 42)):
+        curve = lambda value: [round(value + 0.1 * math.sin(i + shift), 4) for i in range(FRAMES)]
+        flicker = round(0.5 / psnr ** 2, 6)
+        measurements.append({
+            "method": method, "samples": samples,
+            "metrics": {"psnr": psnr + shift, "ssim": 0.9 + psnr / 1000, "flip": 0.5 / psnr,
+                        "flicker": flicker, "standingFlicker": flicker / 4,
+                        "fixedNoise": flicker / 2},
+            "milliseconds": {"frame": quartiles(ms), "effect": quartiles(ms - 20),
+                             "wall": quartiles(ms + 5)},
+            "curves": {"psnr": curve(psnr), "ssim": curve(0.9), "flip": curve(0.2),
+                       "flicker": [None] + curve(0.3)[1:]},
+            **({"film": f"films/{name}.{method}.webm"} if has_films else {})})
+    rows = lambda times: [{"method": m["method"], "samples": m["samples"] if time else None,
+                           "milliseconds": time, "psnr": m["metrics"]["psnr"]}
+                          for m, time in zip(measurements, times)]
+    return {
+        "name": name, "title": f"Title of {name}", "description": "A synthetic sequence.",
+        "kind": "flight", "frames": FRAMES, "framesPerSecond": 24, "standingFrames": 6,
+        "truth": {"method": "accumulate", "maxStepPx": 1, "mostInstants": 256,
+                  "instants": quartiles(20),
+                  **({"film": f"films/{name}.truth.webm"} if has_films else {})},
+        "measurements": measurements,
+        "equalError": [{"psnr": 35, "frames": [3, 9], "rows": rows([None, 28, 18])},
+                       {"psnr": 40, "frames": [3, 9], "rows": rows([None, None, 30])}],
+        "skipped": [],
+    }
+
+
 def make(suite):
     """Results of a suite: "paper" has one case with pictures, "hard" twelve, the others none."""
     methods = METHODS
@@ -384,6 +445,16 @@ def make(suite):
         results["demand"] = demand()
     if suite == "soak":
         results["soak"] = soak()
+    if suite == "sequence":
+        results["methods"].append(
+            {"name": "resolved", "title": "What the pixel saw", "publication": "",
+             "sampleUnit": "instants", "default": 15, "usesRays": False})
+        results["headline"] = {"method": "resolved", "baseline": "gather"}
+        results["temporalMetrics"] = [dict(zip(("id", "name", "unit", "better"), row))
+                                      for row in TEMPORAL]
+        has_films = shutil.which("ffmpeg") is not None
+        results["sequences"] = [sequence(name, i, has_films)
+                                for i, name in enumerate(("first", "second"))]
     return results
 
 
@@ -393,6 +464,11 @@ def write(suite, folder):
     (folder / "images").mkdir(parents=True, exist_ok=True)
     results = make(suite)
     (folder / "results.json").write_text(json.dumps(results), encoding="utf-8")
+    for number, film in enumerate(results.get("sequences", [])):
+        (folder / "films").mkdir(exist_ok=True)
+        for i, entry in enumerate([film["truth"], *film["measurements"]]):
+            if "film" in entry:
+                make_film(folder / entry["film"], (0.2 * i, 1 - 0.2 * i, 0.5 * number))
     for case in results["cases"]:
         if "image" in case["truth"]:
             truth = picture_rows(24, 0)

@@ -61,6 +61,7 @@ class PageCase(unittest.TestCase):
                 # The page has to stand alone.
                 (cls.folder / suite / "results.json").unlink()
                 shutil.rmtree(cls.folder / suite / "images")
+                shutil.rmtree(cls.folder / suite / "films", ignore_errors=True)
             cls.browser = start_browser(cls.folder / "profile")
             stack.callback(cls.browser.quit)
             cls.browser.execute_cdp_cmd("Network.enable", {})

@@ -2,6 +2,7 @@
 """The report page in headless Chromium: what it draws and says is what the results say."""
 
 import json
+import shutil
 import statistics
 import subprocess
 import unittest
@@ -119,6 +120,8 @@ class Page(PageCase):
             "stability": {"stability", "about"},
             "demand": {"demand", "about"},
             "soak": {"soak", "about"},
+            "sequence": {"sequences", "about"} |
+                        ({"player"} if shutil.which("ffmpeg") else set()),
         }
         for suite, sections in expected.items():
             self.open(suite)

@@ -3,6 +3,7 @@
 
 const results = JSON.parse(document.getElementById("results").textContent);
 const pictureFiles = JSON.parse(document.getElementById("picture-files").textContent);
+const filmFiles = JSON.parse(document.getElementById("film-files").textContent);
 
 const methodByName = new Map(results.methods.map((method) => [method.name, method]));
 const metricById = new Map(results.metrics.map((metric) => [metric.id, metric]));

@@ -125,7 +125,8 @@ function drawHeadline() {
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
     const headline = pairSentence ?? writeScalingSentence() ?? writeStabilitySentence() ??
-        writeDemandSentence() ?? writeSoakSentence() ?? writeCountSentence();
+        writeDemandSentence() ?? writeSoakSentence() ?? writeSequenceSentence() ??
+        writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
         `Shutter benchmark, suite ${results.suite}`,

@@ -49,12 +49,15 @@ drawTables();
 drawStability();
 drawClaims();
 drawAbout();
+startSequences();
+startPlayer();
 drawChosen();
 onChoice(drawChosen);
 onTheme(() => {
     drawTradeoff();
     drawScaling();
     drawClaimCharts();
+    drawSequenceCurves();
 });
 byId("save").addEventListener("click", saveResults);
 document.documentElement.dataset.ready = "true";

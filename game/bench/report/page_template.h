@@ -13,10 +13,10 @@
 
 namespace shutter::bench {
 
-/// HTML with the placeholders style, chart, results, pictures and scripts.
+/// HTML with the placeholders style, chart, results, pictures, films and scripts.
 [[nodiscard]] std::string_view getReportPage();
 
-[[nodiscard]] std::string_view getReportStyle();
+[[nodiscard]] std::string getReportStyle();
 
 /// Chart.js with its licence notice; empty where the program was built without it.
 [[nodiscard]] std::string_view getChartJs();

@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
+#include "game/bench/report/page_films.h"
 #include "game/bench/report/page_pictures.h"
 #include "game/bench/report/page_template.h"
 
@@ -64,8 +65,13 @@ core::Status writeReportPage(const json& results, const fs::path& folder, size_t
     SHUTTER_TRY(checkResults(results));
     const std::string resultsText = toScript(results);
     const std::string scripts = joinReportScripts();
-    const size_t textBytes = getReportPage().size() + getReportStyle().size() +
-                             getChartJs().size() + resultsText.size() + scripts.size();
+    const std::string style = getReportStyle();
+    const auto films = embedFilms(results, folder);
+    if (!films)
+        return films.error();
+    const std::string filmsText = toScript(films.value());
+    const size_t textBytes = getReportPage().size() + style.size() + getChartJs().size() +
+                             resultsText.size() + filmsText.size() + scripts.size();
     const size_t budgetBytes = maxPageBytes - std::min(maxPageBytes, textBytes + kSpareBytes);
     const auto pictures = encodePictures(results, folder, budgetBytes);
     if (!pictures)
@@ -78,10 +84,11 @@ core::Status writeReportPage(const json& results, const fs::path& folder, size_t
     const std::string picturesText = toScript(pictures.value().files);
     const auto page = fillPage(
         getReportPage(),
-        {{"style", getReportStyle()},
+        {{"style", style},
          {"chart", getChartJs()},
          {"results", resultsText},
          {"pictures", picturesText},
+         {"films", filmsText},
          {"scripts", scripts}}
     );
     if (!page)

@@ -18,11 +18,11 @@ inline constexpr size_t kMaxPageBytes = 20'000'000;
 /// Error: the program was built without Chart.js; names the package.
 [[nodiscard]] core::Status checkReportPageCanBeMade();
 
-/// Writes folder/index.html, atomically, with every picture that `results` names (files relative to
-/// `folder`) inside it, as exact as the size of the page allows (page_pictures.h). Error: no
-/// Chart.js, `results` is not of this schema and version, a picture is missing or not what its name
-/// says, or the page cannot be written. \param maxPageBytes of index.html; a page of the least
-/// detail may be larger, with a warning
+/// Writes folder/index.html, atomically, with every film and picture that `results` names (files
+/// relative to `folder`) inside it, pictures as exact as the size of the page allows
+/// (page_pictures.h). Error: no Chart.js, `results` is not of this schema and version, a file is
+/// missing or not what its name says, or the page cannot be written. \param maxPageBytes of
+/// index.html; a page of the least detail may be larger, with a warning
 [[nodiscard]] core::Status writeReportPage(
     const nlohmann::json& results,
     const std::filesystem::path& folder,

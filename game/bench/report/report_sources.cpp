@@ -16,7 +16,10 @@
 #include "game/bench/report/page_html.h"
 #include "game/bench/report/page_template.h"
 #include "game/bench/report/pictures_js.h"
+#include "game/bench/report/player_css.h"
+#include "game/bench/report/player_js.h"
 #include "game/bench/report/scaling_js.h"
+#include "game/bench/report/sequences_js.h"
 #include "game/bench/report/slider_js.h"
 #include "game/bench/report/stability_js.h"
 #include "game/bench/report/style_css.h"
@@ -41,8 +44,8 @@ std::string_view getReportPage() {
     return viewOf(kPageHtml);
 }
 
-std::string_view getReportStyle() {
-    return viewOf(kStyleCss);
+std::string getReportStyle() {
+    return std::string(viewOf(kStyleCss)) + std::string(viewOf(kPlayerCss));
 }
 
 std::string_view getChartJs() {
@@ -57,8 +60,8 @@ std::string joinReportScripts() {
         viewOf(k_matrix_js),    viewOf(k_viewport_js),   viewOf(k_pictures_js),
         viewOf(k_slider_js),    viewOf(k_viewer_js),     viewOf(k_viewer_input_js),
         viewOf(k_tables_js),    viewOf(k_equal_time_js), viewOf(k_scaling_js),
-        viewOf(k_stability_js), viewOf(k_claims_js),     viewOf(k_about_js),
-        viewOf(k_main_js),
+        viewOf(k_stability_js), viewOf(k_claims_js),     viewOf(k_sequences_js),
+        viewOf(k_player_js),    viewOf(k_about_js),      viewOf(k_main_js),
     };
     std::string joined;
     for (const std::string_view script : kScripts)
