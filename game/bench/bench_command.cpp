@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/log.h"
 #include "engine/gpu/device.h"
+#include "engine/io/video.h"
 #include "game/bench/bench_run.h"
 #include "game/bench/contenders.h"
 #include "game/bench/report/report_page.h"
@@ -35,7 +37,8 @@ struct BenchArguments {
     std::vector<std::string> cases;
     std::optional<uint32_t> repeats;
     std::optional<double> limitSeconds;
-    uint32_t truthSamples = 256;
+    std::optional<uint32_t> truthSamples;
+    uint32_t frames = 48;
     bool restart = false;
     bool reportOnly = false;
 };
@@ -75,6 +78,15 @@ Status keepCases(std::vector<T>& cases, const BenchArguments& arguments, std::st
     return {};
 }
 
+/// The colour of a film is of half its size.
+Status checkFilmSize(const game::PictureSize& size) {
+    if (size.width % 2 == 0 && size.height % 2 == 0)
+        return {};
+    return core::makeError(
+        "--size {}x{}: a film's width and height are even", size.width, size.height
+    );
+}
+
 /// Sets the size, too, if no option does.
 core::Result<Suite> chooseSuite(BenchArguments& arguments) {
     auto suite =
@@ -93,10 +105,16 @@ core::Result<Suite> chooseSuite(BenchArguments& arguments) {
         for (ScalingPoint& point : axis.points)
             applySize(point.shot);
     Suite& chosen = suite.value();
+    for (SequenceCase& film : chosen.sequences)
+        film.shot.size = arguments.shot.size;
+    if (!chosen.sequences.empty())
+        if (const Status even = checkFilmSize(arguments.shot.size); !even)
+            return even.error();
     const bool isHeld = !chosen.hardCases.empty() || !chosen.claims.empty();
-    Status kept = !chosen.hardCases.empty() ? keepCases(chosen.hardCases, arguments, chosen.name)
-                  : !chosen.claims.empty()  ? keepCases(chosen.claims, arguments, chosen.name)
-                                            : keepCases(chosen.cases, arguments, chosen.name);
+    Status kept = !chosen.hardCases.empty()   ? keepCases(chosen.hardCases, arguments, chosen.name)
+                  : !chosen.claims.empty()    ? keepCases(chosen.claims, arguments, chosen.name)
+                  : !chosen.sequences.empty() ? keepCases(chosen.sequences, arguments, chosen.name)
+                                              : keepCases(chosen.cases, arguments, chosen.name);
     if (!kept)
         return kept.error();
     if (isHeld && !arguments.methods.empty())
@@ -106,12 +124,16 @@ core::Result<Suite> chooseSuite(BenchArguments& arguments) {
     return suite;
 }
 
-/// All but the truth's own method, which is swept as well: at few instants it is a rival.
-core::Result<std::vector<const MethodInfo*>> chooseMethods(const BenchArguments& arguments) {
+/// All, the truth's own method included: at few instants it is a rival. For films `truth` is left
+/// out, whose rays take longer than all others together, and so are the publication's numbers.
+core::Result<std::vector<const MethodInfo*>>
+chooseMethods(const BenchArguments& arguments, bool areFilms) {
     std::vector<const MethodInfo*> methods;
     if (arguments.methods.empty()) {
         for (const MethodInfo& method : listContenders())
-            methods.push_back(&method);
+            if (!areFilms ||
+                (method.family != game::MethodFamily::Truth && game::findMethod(method.name)))
+                methods.push_back(&method);
         return methods;
     }
     for (const std::string& name : arguments.methods) {
@@ -127,7 +149,7 @@ Status makeFolders(const BenchArguments& arguments) {
     std::error_code failure;
     if (arguments.restart)
         fs::remove_all(arguments.out / "journal", failure);
-    for (const char* part : {"images", "journal", "scenes"}) {
+    for (const char* part : {"images", "journal", "scenes", "films"}) {
         fs::create_directories(arguments.out / part, failure);
         if (failure)
             return core::makeError(
@@ -147,6 +169,27 @@ fs::path makeTruthCache() {
     std::error_code failure;
     fs::create_directories(cache / "truth", failure);
     return failure ? fs::path() : cache / "truth";
+}
+
+/// Films that all fit into a page of 20 MB, in base64 beside all else. Without an encoder of such
+/// films there are none, and all is measured.
+SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const RunOptions& run) {
+    constexpr double kFilmBytes = 10.5e6;
+    constexpr double kFramesPerSecond = 24.0;
+    SequenceOptions options;
+    options.frames = arguments.frames;
+    options.truth.mostInstants = arguments.truthSamples.value_or(options.truth.mostInstants);
+    options.folder = arguments.out;
+    const auto films = double(run.suite.sequences.size() * (run.methods.size() + 1));
+    const double seconds = std::max(options.frames / kFramesPerSecond, 1.0);
+    const auto kilobits = uint32_t(kFilmBytes * 8.0 / 1000.0 / (films * seconds));
+    auto encoder =
+        io::findVideoEncoder({}, {io::VideoCodec::Vp9, 8, "", std::clamp(kilobits, 50u, 4000u)});
+    if (encoder)
+        options.encoder = std::move(encoder).value();
+    else
+        core::logWarning("the report has no films: {}", encoder.error().message);
+    return options;
 }
 
 Status measureSuite(
@@ -171,9 +214,11 @@ Status measureSuite(
     options.shot = std::move(shot);
     options.measure.repeats = arguments.repeats.value_or(options.suite.repeats);
     options.measure.limitSeconds = arguments.limitSeconds.value_or(options.suite.limitSeconds);
-    options.measure.truthSamples = arguments.truthSamples;
+    options.measure.truthSamples = arguments.truthSamples.value_or(options.measure.truthSamples);
     options.measure.folder = arguments.out;
     options.measure.truthCache = makeTruthCache();
+    if (!options.suite.sequences.empty())
+        options.sequence = makeSequenceOptions(arguments, options);
     Status done = runSuite(*device.value(), options, [] { return sStopped.load(); });
     if (done && device.value()->validationMessageCount() > 0)
         return core::makeError(
@@ -192,7 +237,7 @@ int runBench(BenchArguments& arguments) {
     auto suite = chooseSuite(arguments);
     if (!suite)
         return game::fail(game::kExitUsage, suite.error());
-    auto methods = chooseMethods(arguments);
+    auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
     if (!methods)
         return game::fail(game::kExitUsage, methods.error());
     // Wrong options of the shot are told before anything is made.
@@ -212,7 +257,7 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<BenchArguments>();
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
     command->add_option(
-        "--suite", arguments->suite, "suite: paper, hard, scaling, stability or demand"
+        "--suite", arguments->suite, "suite: paper, hard, scaling, stability, demand or sequence"
     );
     command->add_option("--out", arguments->out, "folder for results.json and index.html")
         ->required();
@@ -240,9 +285,13 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
         ->check(CLI::PositiveNumber);
     command
         ->add_option(
-            "--truth-samples", arguments->truthSamples, "instants of the truth; default 256"
+            "--truth-samples",
+            arguments->truthSamples,
+            "instants of the truth; default 256, of a sequence's at most 64"
         )
         ->check(CLI::Range(1u, 65536u));
+    command->add_option("--frames", arguments->frames, "frames of a sequence; default 48")
+        ->check(CLI::Range(2u, 1000u));
     command->add_flag("--restart", arguments->restart, "discard what an earlier run measured");
     command->add_flag(
         "--report-only", arguments->reportOnly, "only make the page from results.json"

@@ -5,6 +5,7 @@
 #include "engine/io/file_bytes.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
+#include "game/bench/sequence_results.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,7 +40,7 @@ class BenchRun {
         : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
           mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
-          mTimesOnly(mOptions) {
+          mTimesOnly(mOptions), mSequence(options.sequence) {
         mTimesOnly.comparePictures = false;
     }
 
@@ -61,6 +62,8 @@ class BenchRun {
         }
         for (const ScalingAxis& axis : mSuite.axes)
             SHUTTER_TRY(measureAxis(axis, progress));
+        for (const SequenceCase& film : mSuite.sequences)
+            SHUTTER_TRY(measureFilm(film, progress));
         for (const stability::HardCase& hard : mSuite.hardCases) {
             SHUTTER_TRY(measureHardCase(hard));
             progress.advance();
@@ -80,6 +83,9 @@ class BenchRun {
         uint64_t steps = mSuite.cases.size() * countSteps(mSweep, mOptions);
         for (const ScalingAxis& axis : mSuite.axes)
             steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
+        if (!mSuite.sequences.empty())
+            steps +=
+                mSuite.sequences.size() * countPictures(planSequence(mMethods, mSequence.frames));
         return steps + mSuite.hardCases.size() + mSuite.claims.size();
     }
 
@@ -119,6 +125,10 @@ class BenchRun {
             mRoot["stability"] = json::array();
         if (!mSuite.claims.empty())
             mRoot["demand"] = json::array();
+        if (!mSuite.sequences.empty()) {
+            mRoot["sequences"] = json::array();
+            mRoot["temporalMetrics"] = describeTemporalMetrics();
+        }
         if (mSuite.name == "paper")
             mRoot["paper"] = describePaperFigures();
     }
@@ -149,6 +159,16 @@ class BenchRun {
             measured.push_back({&point, std::move(result.value())});
         }
         mRoot["scaling"].push_back(describeAxis(axis, mScalingPoints, measured));
+        return writeResults();
+    }
+
+    Status measureFilm(const SequenceCase& film, core::Progress& progress) {
+        auto result = measureSequence(mDevice, film, mMethods, mSequence, progress, mStop);
+        if (!result)
+            return result.error();
+        if (mStop())
+            return stopEarly();
+        mRoot["sequences"].push_back(describeSequence(film, result.value(), mSequence));
         return writeResults();
     }
 
@@ -210,6 +230,7 @@ class BenchRun {
     std::vector<SamplePoint> mScalingPoints;
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
+    const SequenceOptions& mSequence;
     std::vector<std::string> mBroken; ///< hard cases and claims that left their bounds
     json mRoot;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/gpu/device.h"
 #include "game/bench/measure.h"
+#include "game/bench/sequence_run.h"
 #include "game/bench/suites/suite.h"
 #include "game/shot/shot_options.h"
 
@@ -19,6 +20,7 @@ struct RunOptions {
     std::vector<const game::MethodInfo*> methods;
     game::ShotOptions shot; ///< what the suite's cases leave open: size, tone map
     MeasureOptions measure;
+    SequenceOptions sequence; ///< for suites that have sequences
 };
 
 /// Measures a suite into results.json and index.html of the report's folder, whose parts exist.

@@ -112,6 +112,19 @@ std::vector<SamplePoint> makeScalingPoints(const std::vector<const game::MethodI
     return points;
 }
 
+std::vector<SamplePoint> makeSequencePoints(const std::vector<const game::MethodInfo*>& methods) {
+    std::vector<SamplePoint> points;
+    for (const game::MethodInfo* method : methods) {
+        SamplePoint point{method, method->defaultSamples, true};
+        if (method->family == game::MethodFamily::Accumulate)
+            point = {method, 8, false};
+        if (method->family == game::MethodFamily::Truth)
+            point = {method, 4, false};
+        points.push_back(point);
+    }
+    return points;
+}
+
 game::MethodOptions makeMethodOptions(const SamplePoint& point) {
     game::MethodOptions options;
     options.method = point.method;

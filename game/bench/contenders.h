@@ -36,6 +36,11 @@ makeSweep(const std::vector<const game::MethodInfo*>& methods, uint32_t maxRays)
 [[nodiscard]] std::vector<SamplePoint>
 makeScalingPoints(const std::vector<const game::MethodInfo*>& methods);
 
+/// The methods as a film is drawn with them: at their defaults, accumulate with 8 instants, truth
+/// with 4 rays.
+[[nodiscard]] std::vector<SamplePoint>
+makeSequencePoints(const std::vector<const game::MethodInfo*>& methods);
+
 /// \param point of a contender
 [[nodiscard]] game::MethodOptions makeMethodOptions(const SamplePoint& point);
 

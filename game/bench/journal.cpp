@@ -174,6 +174,12 @@ core::Status Journal::skip(const std::string& key, const std::string& reason) {
     return save();
 }
 
+core::Status Journal::setRecords(std::map<std::string, Record> records) {
+    for (auto& [key, record] : records)
+        mRecords[key] = std::move(record);
+    return save();
+}
+
 core::Status Journal::save() const {
     auto records = nlohmann::json::object();
     for (const auto& [key, record] : mRecords)

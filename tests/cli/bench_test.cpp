@@ -36,6 +36,25 @@ class BenchCommand : public Cli {
         return all;
     }
 
+    /// Two methods in a flight and in a played demo, so small that it takes seconds.
+    [[nodiscard]] Arguments benchSequence(const Arguments& more) const {
+        Arguments all = {
+            "bench",
+            "--suite",
+            "sequence",
+            "--out",
+            path("report"),
+            "--size",
+            "64x36",
+            "--methods",
+            "sharp,resolved",
+            "--truth-samples",
+            "4"};
+        all.insert(all.end(), kOnSoftware.begin(), kOnSoftware.end());
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
     [[nodiscard]] json readResults() const { return json::parse(readFile("report/results.json")); }
 };
 
@@ -65,6 +84,22 @@ TEST_F(BenchCommand, WrongNamesAreAnsweredWithTheKnownOnes) {
     );
     expectRefusal(
         {"bench", "--suite", "demand", "--methods", "gather", "--out", out}, 2, {"--methods"}
+    );
+}
+
+TEST_F(BenchCommand, AFilmHasEvenSides) {
+    expectRefusal(
+        {"bench", "--suite", "sequence", "--size", "64x35", "--out", path("x")},
+        2,
+        {"--size 64x35", "even"}
+    );
+    expectRefusal(
+        {"bench", "--suite", "sequence", "--case", "no", "--out", path("x")},
+        2,
+        {"--case", "vase-flight", "rally-play"}
+    );
+    expectRefusal(
+        {"bench", "--suite", "sequence", "--frames", "1", "--out", path("x")}, 2, {"--frames"}
     );
 }
 
@@ -130,6 +165,73 @@ TEST_F(BenchCommand, HoldsAHardCaseAgainstItsBounds) {
         EXPECT_EQ(row.at("notFinite"), 0) << row;
     }
     EXPECT_NE(readFile("report/index.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(BenchCommand, JudgesFlightsAndDemosInTime) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    expectSuccess(benchSequence(
+        {"--case", "courtyard-flight", "--case", "spin-play", "--frames", "4", "--validate"}
+    ));
+    const json results = readResults();
+    EXPECT_TRUE(results.at("complete"));
+    ASSERT_EQ(results.at("sequences").size(), 2u);
+    for (const json& film : results.at("sequences")) {
+        EXPECT_EQ(film.at("frames"), 4);
+        ASSERT_EQ(film.at("measurements").size(), 2u);
+        for (const json& row : film.at("measurements")) {
+            EXPECT_GT(row.at("milliseconds").at("frame").at("median"), 0.0);
+            EXPECT_GT(row.at("metrics").at("psnr"), 15.0);
+            EXPECT_GT(row.at("metrics").at("flicker"), 0.0);
+            EXPECT_TRUE(row.at("metrics").at("standingFlicker").is_number());
+            const json& flicker = row.at("curves").at("flicker");
+            ASSERT_EQ(flicker.size(), 4u);
+            EXPECT_TRUE(flicker.at(0).is_null()) << "there is no frame before the first";
+            EXPECT_GT(flicker.at(3), 0.0);
+            if (row.contains("film")) {
+                EXPECT_TRUE(fs::exists(path("report/" + row.at("film").get<std::string>())));
+            }
+        }
+        ASSERT_EQ(film.at("equalError").size(), 2u);
+        EXPECT_EQ(film.at("equalError").at(0).at("rows").size(), 2u);
+    }
+    EXPECT_FALSE(fs::exists(path("report/frames/courtyard-flight"))) << "frames go with their film";
+    EXPECT_NE(readFile("report/index.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(BenchCommand, ASequenceGoesOnWhereItWasStopped) {
+    requireDevice();
+    if (IsSkipped())
+        return;
+    const Arguments arguments = benchSequence({"--case", "spin-play", "--frames", "12"});
+    fs::create_directories(path("report/journal"));
+    const FolderWatch watch(path("report/journal"));
+    const pid_t process = start(arguments);
+    watch.waitFor(11, process); // every write is two events; frames are written one by one
+    kill(process, SIGINT);
+    int status = 0;
+    waitpid(process, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    const auto readRecords = [&] {
+        return json::parse(readFile("report/journal/spin-play.json")).at("records");
+    };
+    const json before = readRecords();
+    ASSERT_TRUE(before.contains("own/resolved/15/4"));
+    ASSERT_FALSE(before.contains("own/resolved/15/11"));
+    expectSuccess(arguments);
+    const json after = readRecords();
+    for (const auto& [key, record] : before.items())
+        EXPECT_EQ(after.at(key), record) << key;
+    // The first frame of the second run flickers against the last of the first one.
+    for (int frame = 1; frame < 12; ++frame) {
+        const std::string key = fmt::format("own/sharp/0/{}", frame);
+        EXPECT_TRUE(after.at(key).at("picture").at("metrics").contains("flicker")) << key;
+    }
+    const json once = readResults().at("sequences");
+    expectSuccess(arguments);
+    EXPECT_EQ(readResults().at("sequences"), once) << "a third run measures nothing";
 }
 
 TEST_F(BenchCommand, GoesOnWhereItWasStopped) {

@@ -70,6 +70,16 @@ class Measured(unittest.TestCase):
         self.assertTrue(all(c["held"] for c in results["stability"]))
         self.assertEqual(results["cases"], [])
 
+    def test_a_played_sequence(self):
+        results = self.measure("--suite", "sequence", "--case", "rally-play", "--frames", "3",
+                               "--methods", "sharp,gather,accumulate,truth", size="64x36")
+        self.validate(results)
+        [film] = results["sequences"]
+        self.assertEqual([(m["method"], m["samples"]) for m in film["measurements"]],
+                         [("sharp", None), ("gather", 15), ("accumulate", 8), ("truth", 4)])
+        self.assertEqual(len(film["measurements"][0]["curves"]["psnr"]), 3)
+        self.assertEqual(results["cases"], [])
+
     def test_the_claims_about_cost(self):
         # So small and once only, times say nothing: claims may break, but each is measured. Toggles
         # has a test of its own.

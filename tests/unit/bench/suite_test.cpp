@@ -31,6 +31,24 @@ TEST(Suites, TheHardOneHasTwelveCases) {
     EXPECT_EQ(findSuite("hard").value().cases.size(), 12u);
 }
 
+TEST(Suites, SequencesAreThreeFlightsAndThreePlayedDemos) {
+    const auto suite = findSuite("sequence");
+    ASSERT_TRUE(suite.ok());
+    std::set<std::string> names;
+    std::set<std::string> demos;
+    for (const SequenceCase& film : suite.value().sequences) {
+        EXPECT_TRUE(names.insert(film.name).second) << film.name;
+        EXPECT_EQ(film.name.find_first_of("/ "), std::string::npos) << film.name;
+        EXPECT_TRUE(film.description.ends_with('.')) << film.name;
+        EXPECT_TRUE(film.writeScene) << film.name;
+        EXPECT_TRUE(film.script.starts_with('{')) << film.name;
+        if (!film.demo.empty())
+            demos.insert(film.demo);
+    }
+    EXPECT_EQ(names.size(), 6u);
+    EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));
+}
+
 TEST(Suites, ClaimsAreToldApartAndSayWhatTheyCompare) {
     const auto suite = findSuite("demand");
     ASSERT_TRUE(suite.ok());

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace shutter::bench {
+
+/// Runs job(0) to job(count - 1) on as many threads as there are processors, in no order, and waits
+/// for all of them. Each may write to what no other looks at.
+void runParallelJobs(size_t count, const std::function<void(size_t)>& job);
+
+} // namespace shutter::bench

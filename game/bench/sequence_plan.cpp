@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/sequence_plan.h"
+
+#include "game/bench/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace shutter::bench {
+
+namespace {
+
+/// Frames in which other sample counts are drawn as well.
+constexpr uint32_t kSweepFrames = 4;
+/// Largest sample count of methods that count rays: more take seconds a frame.
+constexpr uint32_t kMostRays = 16;
+
+} // namespace
+
+bool SequencePlan::isSwept(uint32_t frame) const {
+    return std::find(sweepFrames.begin(), sweepFrames.end(), frame) != sweepFrames.end();
+}
+
+SequencePlan planSequence(const std::vector<const game::MethodInfo*>& methods, uint32_t frames) {
+    SequencePlan plan;
+    plan.points = makeSequencePoints(methods);
+    for (const SamplePoint& point : makeSweep(methods, kMostRays)) {
+        const auto isDrawn = [&](const SamplePoint& other) {
+            return makeKey(other) == makeKey(point);
+        };
+        if (std::none_of(plan.points.begin(), plan.points.end(), isDrawn))
+            plan.sweep.push_back(point);
+    }
+    plan.frames = frames;
+    plan.standingFrames = std::max(frames / 4, 2u);
+    plan.firstStanding = (frames - plan.standingFrames) / 2;
+    for (uint32_t i = 0; i < kSweepFrames; ++i) {
+        const uint32_t frame = frames * (2 * i + 1) / (2 * kSweepFrames);
+        if (plan.sweepFrames.empty() || plan.sweepFrames.back() != frame)
+            plan.sweepFrames.push_back(frame);
+    }
+    return plan;
+}
+
+uint64_t countPictures(const SequencePlan& plan) {
+    const uint64_t frames = uint64_t(plan.frames) + plan.standingFrames;
+    return frames * (plan.points.size() + 1) + plan.sweepFrames.size() * plan.sweep.size();
+}
+
+std::string makeFrameKey(SequenceCamera camera, const std::string& point, uint32_t frame) {
+    return fmt::format(
+        "{}/{}/{}", camera == SequenceCamera::Own ? "own" : "standing", point, frame
+    );
+}
+
+} // namespace shutter::bench
