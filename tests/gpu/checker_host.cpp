@@ -2,9 +2,6 @@
 #include "tests/gpu/checker_host.h"
 
 #include "assets/generator/scenes.h"
-#include "engine/extract/frame_view.h"
-#include "engine/flythrough/flythrough.h"
-#include "engine/scene/exposure_motion.h"
 #include "tests/gpu/checker_images.h"
 
 #include <fmt/format.h>
@@ -13,7 +10,6 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <unistd.h>
 #include <utility>
 
 namespace shutter::test {
@@ -140,19 +136,12 @@ void CheckerHost::SetUp() {
     if (IsSkipped() || HasFatalFailure())
         return;
     const CheckScene& scene = GetParam();
-    fs::path file = fs::path(SHUTTER_SHARED_DIR) / "scenes" / scene.path;
-    if (!scene.build && !fs::exists(file))
+    if (!scene.build && !fs::exists(fs::path(SHUTTER_SHARED_DIR) / "scenes" / scene.path))
         GTEST_SKIP() << "the shared scenes are not there";
-    if (scene.build) {
-        file = fs::temp_directory_path() / fmt::format("checker_{}_{}.glb", scene.name, ::getpid());
-        ASSERT_EQ(scene.build().write(file), "");
-    }
-    load(file.string());
-    if (scene.build)
-        fs::remove(file);
-    if (HasFatalFailure())
-        return;
-    render::Renderer renderer(device(), mShot->world.assets);
+    auto shot = loadCheckedShot(scene, {kWidth, kHeight}, kFrameSeconds);
+    ASSERT_TRUE(shot.ok()) << shot.error().message;
+    mShot.emplace(std::move(shot).value());
+    render::Renderer renderer(device(), mShot->shot.world.assets);
     for (int frame = 0; frame < 2 * kFrames; ++frame)
         draw(renderer, frame);
     uint32_t rowCount = 0;
@@ -162,39 +151,11 @@ void CheckerHost::SetUp() {
         drawn.rowCount = rowCount;
 }
 
-void CheckerHost::load(const std::string& file) {
-    game::ShotArguments arguments;
-    arguments.scene = file;
-    arguments.unlit = true;
-    arguments.shutter = game::makeShutterArguments(kFrameSeconds, "end");
-    arguments.size = {kWidth, kHeight};
-    auto options = game::interpret(arguments);
-    ASSERT_TRUE(options.ok()) << options.error().message;
-    mOptions = std::move(options).value();
-    auto shot = game::loadShot(mOptions);
-    ASSERT_TRUE(shot.ok()) << shot.error().message;
-    mShot.emplace(std::move(shot).value());
-    const auto flight = flythrough::parseFlythrough(GetParam().keys, "keys");
-    ASSERT_TRUE(flight.ok()) << flight.error().message;
-    auto& registry = mShot->world.registry;
-    const auto shutter = registry.get<scene::CameraShutter>(mShot->camera);
-    mShot->camera = flythrough::addFlythroughCamera(mShot->world, flight.value());
-    registry.add(mShot->camera, scene::CameraShutter(shutter));
-    if (GetParam().orthographicYMag == 0.0)
-        return;
-    auto& camera = registry.get<scene::Camera>(mShot->camera);
-    camera.kind = scene::CameraKind::Orthographic;
-    camera.yMag = GetParam().orthographicYMag;
-    camera.far = 100.0;
-    if (registry.has<scene::LensMotion>(mShot->camera))
-        registry.remove<scene::LensMotion>(mShot->camera);
-}
-
 void CheckerHost::draw(render::Renderer& renderer, int frame) {
     render::FrameRequest request;
-    request.view = game::makeView(*mShot, mOptions, frame * kFrameSeconds / 2.0 + 0.03);
+    request.view = game::makeView(mShot->shot, mShot->options, frame * kFrameSeconds / 2.0 + 0.03);
     request.intermediates = {"motion", "mesh_id"};
-    const auto result = renderer.renderFrame(mShot->world, request, {});
+    const auto result = renderer.renderFrame(mShot->shot.world, request, {});
     ASSERT_TRUE(result.ok()) << result.error().message;
     CheckedDrawing& drawn = mDrawn.emplace_back();
     const image::Image& motion = result.value().intermediates.at("motion");
@@ -208,23 +169,7 @@ void CheckerHost::draw(render::Renderer& renderer, int frame) {
         if (drawn.ids[i] != 0xFFFFFFFFu)
             drawn.rowCount = std::max(drawn.rowCount, drawn.ids[i] + 1);
     }
-    tellCamera(request.view, drawn);
-}
-
-void CheckerHost::tellCamera(const extract::ViewRequest& view, CheckedDrawing& drawn) {
-    const scene::ExposureMotion moves(mShot->world, view.camera, view.exposure);
-    const auto& camera = mShot->world.registry.get<scene::Camera>(view.camera);
-    const auto viewAt = [&](double s) {
-        return glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s)));
-    };
-    const auto clipAt = [&](double s) {
-        return extract::makeProjection(camera, moves.cameraYFov(s), double(kWidth) / kHeight);
-    };
-    drawn.cameras.areGiven = true;
-    drawn.cameras.viewFromWorld = viewAt(1.0);
-    drawn.cameras.clipFromView = clipAt(1.0);
-    drawn.cameras.viewFromWorldBefore = viewAt(0.0);
-    drawn.cameras.clipFromViewBefore = clipAt(0.0);
+    drawn.cameras = tellCameras(*mShot, request.view);
 }
 
 GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) const {

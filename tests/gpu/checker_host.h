@@ -3,10 +3,8 @@
 // convention and with the mistake that a case says.
 #pragma once
 
-#include "assets/generator/gltf_writer.h"
 #include "engine/render/renderer.h"
-#include "game/options/shot_arguments.h"
-#include "game/shot/shot.h"
+#include "tests/gpu/checked_shot.h"
 #include "tests/gpu/embedding_host.h"
 
 #include <deque>
@@ -67,16 +65,6 @@ struct CheckCase {
     std::string orthographicSentence{}; ///< in place of `sentence`; empty: that
 };
 
-struct CheckScene {
-    std::string name;
-    generator::GltfWriter (*build)(); ///< null: a file of the shared scenes
-    std::string path;                 ///< of that
-    std::string keys;                 ///< of a flythrough
-    double orthographicYMag = 0.0;    ///< half height of what is seen, metres; 0: perspective
-    /// Too much moves by itself for mistakes to be seen.
-    bool hidesMistakes = false;
-};
-
 /// Named for gtest's sake.
 void PrintTo(const CheckScene& scene, std::ostream* stream);
 
@@ -113,12 +101,9 @@ class CheckerHost : public EmbeddedTest, public testing::WithParamInterface<Chec
     );
 
   private:
-    void load(const std::string& file);
     void draw(render::Renderer& renderer, int frame);
-    void tellCamera(const extract::ViewRequest& view, CheckedDrawing& drawn);
 
-    game::ShotOptions mOptions;
-    std::optional<game::Shot> mShot;
+    std::optional<CheckedShot> mShot;
     std::deque<CheckedDrawing> mDrawn; ///< each half a frame after the one before
 };
 
