@@ -24,8 +24,8 @@ TEXT
 # Headers that do not depend on the system, away from those that do, and packages of them.
 make_packages() {
     local folder=$1 name
-    mkdir -p "$folder/include" "$folder/lib/cmake/fmt" "$folder/lib/cmake/glm"
-    for name in vulkan vk_video fmt glm; do
+    mkdir -p "$folder/include" "$folder/lib/cmake/"{fmt,glm,nlohmann_json}
+    for name in vulkan vk_video fmt glm nlohmann; do
         [[ -d /usr/include/$name ]] || die "/usr/include/$name is missing"
         ln -sfn "/usr/include/$name" "$folder/include/$name"
     done
@@ -37,6 +37,13 @@ if(NOT TARGET $name::$name)
 endif()
 TEXT
     done
+    cat >"$folder/lib/cmake/nlohmann_json/nlohmann_json-config.cmake" <<TEXT
+if(NOT TARGET nlohmann_json::nlohmann_json)
+    add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
+    set_target_properties(nlohmann_json::nlohmann_json PROPERTIES
+        INTERFACE_INCLUDE_DIRECTORIES "$folder/include")
+endif()
+TEXT
     printf '%s\n' 'set_property(TARGET fmt::fmt PROPERTY INTERFACE_COMPILE_DEFINITIONS FMT_HEADER_ONLY)' \
         >>"$folder/lib/cmake/fmt/fmt-config.cmake"
     # What hosts link to: the functions that the header declares are those of the loader's DLL. The

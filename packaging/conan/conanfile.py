@@ -33,6 +33,7 @@ class ShutterMotionBlur(ConanFile):
     def requirements(self):
         self.requires("fmt/[>=9 <12]", transitive_headers=True, transitive_libs=True)
         self.requires("glm/[>=0.9.9]", transitive_headers=True)
+        self.requires("nlohmann_json/[>=3.11]")
         self.requires("vulkan-headers/[>=1.3.239]", transitive_headers=True)
         self.requires("vulkan-loader/[>=1.3.239]")
 
