@@ -47,8 +47,8 @@ class BudgetLadder {
 /// That share of the samples, but as many as it takes to blur at all.
 [[nodiscard]] uint32_t shareOfSamples(uint32_t samples, double share);
 
-/// Levels of a method that looks samples up: no second raster, fewer instants, then `gather`, which
-/// sees no background where it was hidden. \param cost of the level before
+/// Levels of a method that looks samples up: no second raster, fewer instants, then each pixel's
+/// own motion alone. \param cost of the level before
 void addLookUpLevels(BudgetLadder& ladder, const MotionBlurSettings& wanted, double cost);
 
 /// Method::addBudgetLevels of a method that has nothing to give up but samples.

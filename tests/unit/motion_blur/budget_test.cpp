@@ -127,6 +127,18 @@ TEST(Budget, TheDenoisedMethodsLadderCountsTapsOnceItHasThem) {
     EXPECT_EQ(levels[4].gaveUp, "all rays, 3 of 15 samples");
 }
 
+TEST(Budget, TheLookUpsLadderGoesFromFewInstantsToEachPixelsOwnMotion) {
+    const auto levels = makeLevels(settingsOf(&getMethod("resolved"), 15));
+    ASSERT_EQ(levels.size(), 6u);
+    for (size_t i = 0; i < 4; ++i)
+        EXPECT_EQ(levels[i].settings.method, &getMethod("resolved")) << i;
+    EXPECT_EQ(levels[3].settings.sampleCount, 6u);
+    EXPECT_EQ(levels[3].gaveUp, "9 of 15 samples");
+    EXPECT_EQ(levels[4].settings.method, &getMethod("own_velocity"));
+    EXPECT_EQ(levels[4].settings.sampleCount, 8u);
+    EXPECT_EQ(levels[4].gaveUp, "the look of what comes over a pixel from beside it");
+}
+
 TEST(Budget, TheSecondRasterIsGivenUpFirst) {
     MotionBlurSettings settings = settingsOf(&getMethod("resolved"));
     settings.secondRaster = true;
