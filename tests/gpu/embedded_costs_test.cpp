@@ -36,6 +36,8 @@ constexpr double kExposureSeconds = 1.0 / 60.0;
 constexpr double kSeconds = 0.05; ///< of the raster instant
 constexpr uint32_t kTruthInstants = 128;
 constexpr float kNoDepth = 1.0e9f;
+constexpr double kExactDb = 0.05;
+constexpr double kRoundedDb = 0.15; ///< halves hold 1/2048 of a vector's length
 
 /// The raster of a shot; vectors and cameras are over its exposure.
 struct Raster {
@@ -202,9 +204,7 @@ class EmbeddedCosts : public test::EmbeddedTest {
 std::vector<EmbeddedCosts::Convention> EmbeddedCosts::listConventions() {
     const glm::vec2 size(mSize);
     constexpr VkFormat kHalves = VK_FORMAT_R16G16_SFLOAT;
-    constexpr double kExact = 0.05;
-    constexpr double kRounded = 0.15; // halves hold 1/2048 of a vector's length
-    const auto named = [&](std::string name, auto apply, double claimDb = kExact) {
+    const auto named = [&](std::string name, auto apply, double claimDb = kExactDb) {
         return Convention{std::move(name), apply, claimDb};
     };
     return {
@@ -213,19 +213,19 @@ std::vector<EmbeddedCosts::Convention> EmbeddedCosts::listConventions() {
         named(
             "RG16F pixels",
             [&](HostInputs& in) { useVectors(in, kHalves, glm::vec2(1.0f)); },
-            kRounded
+            kRoundedDb
         ),
         named(
             "RG16F texture coordinates",
             [&](HostInputs& in) { useVectors(in, kHalves, -size); },
-            kRounded
+            kRoundedDb
         ),
         named(
             "RG16F normalised coordinates, y up",
             [&](HostInputs& in) {
                 useVectors(in, kHalves, {-0.5f * size.x, 0.5f * size.y});
             },
-            kRounded
+            kRoundedDb
         ),
         named(
             "vectors over a frame of two exposures",
