@@ -14,7 +14,7 @@ const player = {
     split: 50,
 };
 const kLargestZoom = 16;
-const kLongestWaitMs = 200;
+const kLongestWaitMs = 1000;
 
 /** Films of the watched sequence: the truth's, then the methods'. */
 function listFilms() {
@@ -84,7 +84,10 @@ function noteFrame() {
     byId("player-frame").value = String(player.shown);
     byId("player-place").textContent = `frame ${player.shown} of ${frames}, ` +
         `${formatNumber(player.shown / framesPerSecond, 2)} s`;
-    byId("player-stage").dataset.shown = String(player.shown);
+    const stage = byId("player-stage");
+    stage.dataset.shown = String(player.shown);
+    // Whoever looks on does so now, before the next frame is sought.
+    stage.dispatchEvent(new Event("shown"));
 }
 
 function play(isPlaying) {
