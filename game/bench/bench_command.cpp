@@ -2,21 +2,29 @@
 #include "engine/core/log.h"
 #include "engine/gpu/device.h"
 #include "engine/io/video.h"
+#include "game/bench/bench_parts.h"
 #include "game/bench/bench_run.h"
 #include "game/bench/contenders.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/suites/suite.h"
 #include "game/options/program.h"
 #include "game/options/render_arguments.h"
+#include "game/parts/job_options.h"
+#include "game/parts/part_device.h"
+#include "game/parts/part_processes.h"
+#include "game/parts/part_slurm.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace shutter::bench {
@@ -41,6 +49,18 @@ struct BenchArguments {
     uint32_t frames = 48;
     bool restart = false;
     bool reportOnly = false;
+    parts::JobOptions jobs;
+
+    std::vector<CLI::Option*> shotOptions;        ///< which only a scene of one's own has
+    std::vector<const CLI::Option*> benchOptions; ///< all but those of `jobs`
+};
+
+/// What is to be measured.
+struct BenchTask {
+    Suite suite;
+    size_t sequenceCount = 0; ///< of the whole suite, of which a part has one
+    std::vector<const MethodInfo*> methods;
+    game::ShotOptions shot;
 };
 
 constexpr auto kSizeRow = game::makeRow<&BenchArguments::size>(
@@ -173,14 +193,14 @@ fs::path makeTruthCache() {
 
 /// Films that all fit into a page of 20 MB, in base64 beside all else. Without an encoder of such
 /// films there are none, and all is measured.
-SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const RunOptions& run) {
+SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const BenchTask& task) {
     constexpr double kFilmBytes = 10.5e6;
     constexpr double kFramesPerSecond = 24.0;
     SequenceOptions options;
     options.frames = arguments.frames;
     options.truth.mostInstants = arguments.truthSamples.value_or(options.truth.mostInstants);
     options.folder = arguments.out;
-    const auto films = double(run.suite.sequences.size() * (run.methods.size() + 1));
+    const auto films = double(task.sequenceCount * (task.methods.size() + 1));
     const double seconds = std::max(options.frames / kFramesPerSecond, 1.0);
     const auto kilobits = uint32_t(kFilmBytes * 8.0 / 1000.0 / (films * seconds));
     auto encoder =
@@ -192,11 +212,40 @@ SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const RunOp
     return options;
 }
 
-Status measureSuite(
+/// Error: names the option.
+core::Result<BenchTask> interpretBench(BenchArguments& arguments) {
+    for (const CLI::Option* option : arguments.shotOptions)
+        if (option->count() > 0 && arguments.shot.scene.empty())
+            return core::makeError(
+                "{} needs a SCENE: suites have shots of their own", option->get_name()
+            );
+    if (arguments.shot.scene.empty() == arguments.suite.empty())
+        return core::makeError("bench needs --suite or a SCENE, and not both");
+    SHUTTER_TRY(parts::checkJobs(arguments.jobs));
+    auto suite = chooseSuite(arguments);
+    if (!suite)
+        return suite.error();
+    auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
+    if (!methods)
+        return methods.error();
+    auto shot = game::interpret(arguments.shot);
+    if (!shot)
+        return shot.error();
+    const size_t sequenceCount = suite.value().sequences.size();
+    return BenchTask{
+        std::move(suite.value()),
+        sequenceCount,
+        std::move(methods.value()),
+        std::move(shot.value())};
+}
+
+/// \param workFolder of a run in parts; empty: it is none
+/// \param part of the run, where it is one
+Status measureTask(
     const BenchArguments& arguments,
-    Suite suite,
-    std::vector<const MethodInfo*> methods,
-    game::ShotOptions shot
+    BenchTask task,
+    const fs::path& workFolder = {},
+    uint32_t part = 0
 ) {
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
@@ -204,21 +253,28 @@ Status measureSuite(
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
         return device.error();
+    const gpu::DeviceInfo& info = device.value()->info();
+    RunOptions options;
+    if (!workFolder.empty()) {
+        SHUTTER_TRY(
+            parts::settleDevice(parts::deviceFile(workFolder), {info.name, info.driver}, kBenchNoun)
+        );
+        options.partFile = partResults(workFolder, part);
+    }
     SHUTTER_TRY(makeFolders(arguments));
     std::signal(SIGINT, stopOnInterrupt);
-    RunOptions options;
-    options.suite = std::move(suite);
+    if (!task.suite.sequences.empty())
+        options.sequence = makeSequenceOptions(arguments, task);
+    options.suite = std::move(task.suite);
     for (Case& one : options.suite.cases)
         one.shot.unlit = one.shot.unlit || arguments.shot.unlit;
-    options.methods = std::move(methods);
-    options.shot = std::move(shot);
+    options.methods = std::move(task.methods);
+    options.shot = std::move(task.shot);
     options.measure.repeats = arguments.repeats.value_or(options.suite.repeats);
     options.measure.limitSeconds = arguments.limitSeconds.value_or(options.suite.limitSeconds);
     options.measure.truthSamples = arguments.truthSamples.value_or(options.measure.truthSamples);
     options.measure.folder = arguments.out;
     options.measure.truthCache = makeTruthCache();
-    if (!options.suite.sequences.empty())
-        options.sequence = makeSequenceOptions(arguments, options);
     Status done = runSuite(*device.value(), options, [] { return sStopped.load(); });
     if (done && device.value()->validationMessageCount() > 0)
         return core::makeError(
@@ -227,34 +283,40 @@ Status measureSuite(
     return done;
 }
 
+Status measureInParts(const BenchArguments& arguments, const Suite& suite) {
+    constexpr std::array<std::string_view, 1> kLeft = {"--restart"};
+    auto plan = makeBenchPlan(
+        parts::listTypedWords(arguments.benchOptions, kLeft), listBenchParts(suite), arguments.jobs
+    );
+    if (!plan)
+        return plan.error();
+    SHUTTER_TRY(makeFolders(arguments));
+    const fs::path folder = findBenchFolder(arguments.out);
+    SHUTTER_TRY(keepBenchPlan(plan.value(), folder, arguments.restart));
+    const parts::PartWork work = describeBenchWork(plan.value(), folder);
+    if (arguments.jobs.slurm)
+        return parts::runBySlurm(work, arguments.jobs);
+    SHUTTER_TRY(parts::runHere(work, arguments.jobs));
+    return finishBench(plan.value(), folder);
+}
+
 int runBench(BenchArguments& arguments) {
     if (arguments.reportOnly) {
         const Status made = remakeReportPage(arguments.out);
         return made ? game::kExitDone : game::fail(game::kExitFailed, made.error());
     }
-    if (arguments.shot.scene.empty() == arguments.suite.empty())
-        return game::fail(game::kExitUsage, {"bench needs --suite or a SCENE, and not both"});
-    auto suite = chooseSuite(arguments);
-    if (!suite)
-        return game::fail(game::kExitUsage, suite.error());
-    auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
-    if (!methods)
-        return game::fail(game::kExitUsage, methods.error());
     // Wrong options of the shot are told before anything is made.
-    auto shot = game::interpret(arguments.shot);
-    if (!shot)
-        return game::fail(game::kExitUsage, shot.error());
-    const Status done = measureSuite(
-        arguments, std::move(suite.value()), std::move(methods.value()), std::move(shot.value())
-    );
+    auto task = interpretBench(arguments);
+    if (!task)
+        return game::fail(game::kExitUsage, task.error());
+    const parts::JobOptions& jobs = arguments.jobs;
+    const bool isInParts = jobs.jobs > 1 || jobs.slurm || !jobs.devices.empty();
+    const Status done = isInParts ? measureInParts(arguments, task.value().suite)
+                                  : measureTask(arguments, std::move(task.value()));
     return done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
 }
 
-} // namespace
-
-void addBenchCommand(CLI::App& app, int& exitStatus) {
-    CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
-    auto arguments = std::make_shared<BenchArguments>();
+void defineBenchOptions(CLI::App* command, const std::shared_ptr<BenchArguments>& arguments) {
     command->add_option("scene", arguments->shot.scene, "a scene of one's own, instead of --suite");
     command->add_option(
         "--suite", arguments->suite, "suite: paper, hard, scaling, stability, demand or sequence"
@@ -298,25 +360,106 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     );
     kSizeRow.define(*command, kSizeRow, *arguments);
     game::defineDeviceOptions(*command, arguments->device);
-    std::vector<CLI::Option*> shotOptions;
     const std::vector<CLI::Option*> before = command->get_options();
     game::defineShotOptions(*command, arguments->shot);
     for (CLI::Option* option : command->get_options())
         // How a suite's shots are lit is the only thing that is left open.
         if (option->get_name() != "--unlit" &&
             std::find(before.begin(), before.end(), option) == before.end())
-            shotOptions.push_back(option->group("Shot (with a SCENE)"));
-    command->callback([arguments, shotOptions, &exitStatus] {
-        for (const CLI::Option* option : shotOptions)
-            if (option->count() > 0 && arguments->shot.scene.empty()) {
-                game::printError({fmt::format(
-                    "{} needs a SCENE: suites have shots of their own", option->get_name()
-                )});
-                exitStatus = game::kExitUsage;
-                return;
-            }
-        exitStatus = runBench(*arguments);
+            arguments->shotOptions.push_back(option->group("Shot (with a SCENE)"));
+    for (const CLI::Option* option : command->get_options())
+        if (option->get_name() != "--help")
+            arguments->benchOptions.push_back(option);
+    parts::defineJobOptions(*command, arguments->jobs);
+}
+
+struct PartArguments {
+    fs::path folder;
+    uint32_t part = 0;
+    std::string device;
+};
+
+Status measurePart(const PartArguments& part) {
+    const fs::path folder = fs::absolute(part.folder).lexically_normal();
+    const auto plan = openBenchPlan(folder);
+    if (!plan)
+        return plan.error();
+    if (part.part >= plan.value().parts.size())
+        return core::makeError(
+            "part {} is none of the benchmark's: it has parts 0 to {}",
+            part.part,
+            plan.value().parts.size() - 1
+        );
+    CLI::App app;
+    const auto arguments = std::make_shared<BenchArguments>();
+    defineBenchOptions(&app, arguments);
+    std::vector<std::string> reversed(plan.value().words.rbegin(), plan.value().words.rend());
+    try {
+        app.parse(std::move(reversed)); // in the order that CLI11 takes
+    } catch (const CLI::ParseError& error) {
+        return core::makeError("{}: {}", benchPlanFile(folder).string(), error.what());
+    }
+    auto task = interpretBench(*arguments);
+    if (!task)
+        return task.error();
+    if (!part.device.empty())
+        arguments->device.wanted = part.device;
+    task.value().suite = keepBenchPart(std::move(task.value().suite), part.part);
+    return measureTask(*arguments, std::move(task.value()), folder, part.part);
+}
+
+Status finishPlanned(const PartArguments& part) {
+    const fs::path folder = fs::absolute(part.folder).lexically_normal();
+    const auto plan = openBenchPlan(folder);
+    return plan ? finishBench(plan.value(), folder) : Status(plan.error());
+}
+
+/// A command that `--help` does not list: the processes of a run in parts run it.
+CLI::App* addHiddenCommand(
+    CLI::App& app,
+    const char* name,
+    const char* help,
+    int& exitStatus,
+    const std::shared_ptr<PartArguments>& arguments,
+    Status (*run)(const PartArguments&)
+) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->group("");
+    command->add_option("folder", arguments->folder, "working folder of the benchmark")->required();
+    command->callback([arguments, run, &exitStatus] {
+        const Status done = run(*arguments);
+        exitStatus = done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
     });
+    return command;
+}
+
+} // namespace
+
+void addBenchCommand(CLI::App& app, int& exitStatus) {
+    CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
+    auto arguments = std::make_shared<BenchArguments>();
+    defineBenchOptions(command, arguments);
+    command->callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
+
+    auto part = std::make_shared<PartArguments>();
+    CLI::App* measure = addHiddenCommand(
+        app,
+        kBenchPartCommand,
+        "measure a part of a planned benchmark",
+        exitStatus,
+        part,
+        measurePart
+    );
+    measure->add_option("part", part->part, "index of the part")->required();
+    measure->add_option("--device", part->device, "in place of the benchmark's --device");
+    addHiddenCommand(
+        app,
+        kBenchFinishCommand,
+        "merge the parts of a benchmark",
+        exitStatus,
+        std::make_shared<PartArguments>(),
+        finishPlanned
+    );
 }
 
 } // namespace shutter::bench

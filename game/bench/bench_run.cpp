@@ -33,6 +33,12 @@ constexpr const char* kReferences[] = {"resolved", "hybrid"};
 /// What the headline compares it with.
 constexpr const char* kBaseline = "gather";
 
+constexpr const char* kResultsFile = "results.json";
+
+Status writeJson(const json& results, const std::filesystem::path& file) {
+    return io::writeFileText(file, results.dump(1) + "\n");
+}
+
 /// A run of one suite.
 class BenchRun {
   public:
@@ -40,14 +46,13 @@ class BenchRun {
         : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
           mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
-          mTimesOnly(mOptions), mSequence(options.sequence) {
+          mTimesOnly(mOptions), mSequence(options.sequence), mPartFile(options.partFile) {
         mTimesOnly.comparePictures = false;
     }
 
     Status run() {
         // Hours of measuring are worth their figures even without a page.
-        const Status page = checkReportPageCanBeMade();
-        if (!page)
+        if (const Status page = checkReportPageCanBeMade(); !page && mPartFile.empty())
             core::logWarning("{}; results.json is written alone", page.error().message);
         describeRun();
         core::Progress progress("measuring", countAllSteps());
@@ -73,9 +78,10 @@ class BenchRun {
             progress.advance();
         }
         mRoot["complete"] = true;
-        SHUTTER_TRY(writeResults());
-        SHUTTER_TRY(page ? writeReportPage(mRoot, mOptions.folder) : Status());
-        return judge();
+        if (!mPartFile.empty())
+            return writeJson(mRoot, mPartFile);
+        SHUTTER_TRY(writeReport(mRoot, mOptions.folder));
+        return judgeResults(mRoot);
     }
 
   private:
@@ -176,8 +182,6 @@ class BenchRun {
         const Clock::time_point start = Clock::now();
         HeldCase held{&hard, hard.measure(mDevice)};
         held.seconds = secondsSince(start);
-        if (!holds(held))
-            mBroken.push_back(hard.name);
         mRoot["stability"].push_back(describeHardCase(held));
         return mStop() ? stopEarly() : writeResults();
     }
@@ -191,32 +195,19 @@ class BenchRun {
         const Clock::time_point start = Clock::now();
         MeasuredClaim measured{&claim, claim.measure(mDevice, options)};
         measured.seconds = secondsSince(start);
-        if (!holds(measured))
-            mBroken.push_back(claim.name);
         mRoot["demand"].push_back(describeClaim(measured));
         return mStop() ? stopEarly() : writeResults();
     }
 
-    Status judge() const {
-        if (mBroken.empty())
-            return {};
-        const bool isClaims = !mSuite.claims.empty();
-        return core::makeError(
-            "{} of {} {} left their bounds: {}",
-            mBroken.size(),
-            isClaims ? mSuite.claims.size() : mSuite.hardCases.size(),
-            isClaims ? "claims" : "hard cases",
-            fmt::join(mBroken, ", ")
-        );
-    }
-
+    /// A part's file is there once all of it is measured.
     Status writeResults() const {
-        return io::writeFileText(mOptions.folder / "results.json", mRoot.dump(1) + "\n");
+        return mPartFile.empty() ? writeJson(mRoot, mOptions.folder / kResultsFile) : Status();
     }
 
-    /// Measurements are kept for the next run, except those of hard cases and claims.
+    /// Measurements are kept for the next run, except those of hard cases and claims: of these only
+    /// whole parts are.
     Status stopEarly() const {
-        if (!mSuite.hardCases.empty() || !mSuite.claims.empty())
+        if (mPartFile.empty() && (!mSuite.hardCases.empty() || !mSuite.claims.empty()))
             return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);
         return core::makeError("stopped; the same command goes on where it was");
     }
@@ -231,11 +222,37 @@ class BenchRun {
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
     const SequenceOptions& mSequence;
-    std::vector<std::string> mBroken; ///< hard cases and claims that left their bounds
+    std::filesystem::path mPartFile;
     json mRoot;
 };
 
 } // namespace
+
+Status judgeResults(const json& results) {
+    for (const auto& [list, noun] :
+         {std::pair("stability", "hard cases"), std::pair("demand", "claims")}) {
+        if (!results.contains(list))
+            continue;
+        std::vector<std::string> broken;
+        for (const json& entry : results.at(list))
+            if (!entry.at("held").get<bool>())
+                broken.push_back(entry.at("name"));
+        if (!broken.empty())
+            return core::makeError(
+                "{} of {} {} left their bounds: {}",
+                broken.size(),
+                results.at(list).size(),
+                noun,
+                fmt::join(broken, ", ")
+            );
+    }
+    return {};
+}
+
+Status writeReport(const json& results, const std::filesystem::path& folder) {
+    SHUTTER_TRY(writeJson(results, folder / kResultsFile));
+    return checkReportPageCanBeMade() ? writeReportPage(results, folder) : Status();
+}
 
 Status runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop) {
     return BenchRun(device, options, stop).run();

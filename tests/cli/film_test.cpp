@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // `shutter film`: drawn in parts, a film is the same bits as drawn by one process, stopped or not.
+#include "tests/cli/child_processes.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/drifting_scene.h"
+#include "tests/cli/fake_slurm.h"
 #include "tests/cli/folder_watch.h"
 
 #include <fmt/format.h>
@@ -20,17 +22,6 @@ namespace {
 
 /// Frames of the films: so many that a part is killed before it has drawn them all.
 constexpr int kFrames = 24;
-
-/// The processes that a process has started, and that run.
-std::vector<pid_t> listChildren(pid_t process) {
-    std::vector<pid_t> children;
-    for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process))) {
-        std::ifstream list(thread.path() / "children");
-        for (pid_t child = 0; list >> child;)
-            children.push_back(child);
-    }
-    return children;
-}
 
 class Film : public Cli {
   protected:
@@ -176,37 +167,15 @@ TEST_F(Film, TheProcessesOfPartsEndWithTheFilms) {
     EXPECT_GT(pictures, 0);
 }
 
-/// Programs of Slurm that write down what they are told.
 class FilmBySlurm : public Film {
   protected:
-    FilmBySlurm() {
-        const char* path = std::getenv("PATH"); // NOLINT(concurrency-mt-unsafe)
-        mPath = path ? path : "";
-        fs::create_directory(this->path("bin"));
-        setenv(
-            "PATH", (this->path("bin") + ":" + mPath).c_str(), 1
-        ); // NOLINT(concurrency-mt-unsafe)
-    }
-
-    ~FilmBySlurm() override {
-        setenv("PATH", mPath.c_str(), 1); // NOLINT(concurrency-mt-unsafe)
-    }
-
-    void writeProgram(const std::string& name, const std::string& body) const {
-        const std::string file = "bin/" + name;
-        writeFile(
-            file,
-            fmt::format("#!/bin/sh\nprintf '%s\\n' {} \"$@\" >> '{}'\n{}", name, path("said"), body)
-        );
-        fs::permissions(path(file), fs::perms::owner_all);
-    }
-
-  private:
-    std::string mPath;
+    FakeSlurm mSlurm{path("")};
 };
 
 TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsAreTold) {
-    writeProgram("sbatch", "case \"$*\" in *--array*) echo '7;cluster';; *) echo 8;; esac\n");
+    mSlurm.writeProgram(
+        "sbatch", "case \"$*\" in *--array*) echo '7;cluster';; *) echo 8;; esac\n"
+    );
     const Arguments film = draw(
         "film",
         "f_%d.exr",
@@ -245,12 +214,12 @@ TEST_F(FilmBySlurm, OptionsReachTheJobsAndTheirIdsAreTold) {
 }
 
 TEST_F(FilmBySlurm, PartsWhoseFilmCannotBeFinishedAreCancelled) {
-    writeProgram(
+    mSlurm.writeProgram(
         "sbatch",
         "case \"$*\" in *--array*) echo 7;; *) echo 'sbatch: error: no more jobs' >&2; exit 1;; "
         "esac\n"
     );
-    writeProgram("scancel", "");
+    mSlurm.writeProgram("scancel", "");
     const Outcome outcome =
         run(draw("film", "f_%d.exr", {"--slurm", "--parts", "3", "--estimate", "off"}));
     EXPECT_EQ(outcome.status, 1);

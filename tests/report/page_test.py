@@ -289,6 +289,14 @@ class Page(PageCase):
         self.open("paper")
         self.assertFalse(self.find("#incomplete").is_displayed())
 
+    def test_says_when_times_were_taken_beside_others(self):
+        self.open("paper")
+        self.assertFalse(self.find("#parallel").is_displayed())
+        self.make_page("parallel", lambda results: results.update(
+            parallel={"processes": 4, "slurm": True, "machines": ["CPU a", "CPU b"]}))
+        self.assertIn("by Slurm, by up to 4 processes at once on machines of 2 kinds: times are of "
+                      "shared machines", self.find("#parallel").text)
+
     def test_text_of_the_results_stays_text(self):
         self.open("paper")
         self.assertIn("no rays </script>", self.find("#about-body").text)

@@ -40,6 +40,13 @@ class Schema(unittest.TestCase):
         results["cases"][0]["measurements"][0]["metrics"]["psnr"] = None
         self.validator.validate(results)
 
+    def test_takes_results_of_several_processes_and_not_of_one(self):
+        results = example_results.make("paper")
+        results["parallel"] = {"processes": 2, "slurm": False, "machines": ["a CPU"]}
+        self.validator.validate(results)
+        results["parallel"]["processes"] = 1
+        self.assertFalse(self.validator.is_valid(results))
+
     def test_refuses_another_version(self):
         self.refuses(lambda r: r.update(version=1))
 
