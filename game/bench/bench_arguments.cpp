@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "game/bench/bench_arguments.h"
+
+#include "game/bench/contenders.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace shutter::bench {
+
+namespace {
+
+using core::Status;
+using game::MethodInfo;
+
+constexpr auto kSizeRow = game::makeRow<&BenchArguments::size>(
+    "--size", "picture size WxH; default 640x360, for demand 1280x720"
+);
+
+/// Leaves the cases that --case names, all where it names none. Error: the names there are.
+template <class T>
+Status keepCases(std::vector<T>& cases, const BenchArguments& arguments, std::string_view suite) {
+    if (arguments.cases.empty())
+        return {};
+    std::string names;
+    std::vector<T> kept;
+    for (const T& one : cases) {
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
+        if (std::count(arguments.cases.begin(), arguments.cases.end(), one.name) > 0)
+            kept.push_back(one);
+    }
+    if (kept.size() != arguments.cases.size())
+        return core::makeError(
+            "--case {}: the suite {} has {}",
+            fmt::join(arguments.cases, ", "),
+            suite,
+            names.empty() ? "no cases" : names
+        );
+    cases = std::move(kept);
+    return {};
+}
+
+/// The colour of a film is of half its size.
+Status checkFilmSize(const game::PictureSize& size) {
+    if (size.width % 2 == 0 && size.height % 2 == 0)
+        return {};
+    return core::makeError(
+        "--size {}x{}: a film's width and height are even", size.width, size.height
+    );
+}
+
+/// Sets the size, too, if no option does.
+core::Result<Suite> chooseSuite(BenchArguments& arguments) {
+    auto suite =
+        arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
+    if (!suite)
+        return suite;
+    arguments.shot.size = arguments.size.value_or(suite.value().size);
+    if (arguments.suite.empty())
+        return makeOwnSuite(arguments.shot);
+    const auto applySize = [&](Case& shot) {
+        shot.shot.size = shot.size.value_or(arguments.shot.size);
+    };
+    for (Case& shot : suite.value().cases)
+        applySize(shot);
+    for (ScalingAxis& axis : suite.value().axes)
+        for (ScalingPoint& point : axis.points)
+            applySize(point.shot);
+    Suite& chosen = suite.value();
+    for (SequenceCase& film : chosen.sequences)
+        film.shot.size = arguments.shot.size;
+    if (!chosen.sequences.empty())
+        if (const Status even = checkFilmSize(arguments.shot.size); !even)
+            return even.error();
+    const bool isHeld = !chosen.hardCases.empty() || !chosen.claims.empty();
+    Status kept = !chosen.hardCases.empty()   ? keepCases(chosen.hardCases, arguments, chosen.name)
+                  : !chosen.claims.empty()    ? keepCases(chosen.claims, arguments, chosen.name)
+                  : !chosen.sequences.empty() ? keepCases(chosen.sequences, arguments, chosen.name)
+                                              : keepCases(chosen.cases, arguments, chosen.name);
+    if (!kept)
+        return kept.error();
+    if (isHeld && !arguments.methods.empty())
+        return core::makeError(
+            "--methods has no meaning for the suite {}: its cases choose their own", chosen.name
+        );
+    return suite;
+}
+
+/// All, the truth's own method included: at few instants it is a rival. For films `truth` is left
+/// out, whose rays take longer than all others together, and so are the publication's numbers.
+core::Result<std::vector<const MethodInfo*>>
+chooseMethods(const BenchArguments& arguments, bool areFilms) {
+    std::vector<const MethodInfo*> methods;
+    if (arguments.methods.empty()) {
+        for (const MethodInfo& method : listContenders())
+            if (!areFilms ||
+                (method.family != game::MethodFamily::Truth && game::findMethod(method.name)))
+                methods.push_back(&method);
+        return methods;
+    }
+    for (const std::string& name : arguments.methods) {
+        auto method = findContender(name);
+        if (!method)
+            return core::makeError("--methods: {}", method.error().message);
+        methods.push_back(method.value());
+    }
+    return methods;
+}
+
+} // namespace
+
+core::Result<BenchTask> interpretBench(BenchArguments& arguments) {
+    for (const CLI::Option* option : arguments.shotOptions)
+        if (option->count() > 0 && arguments.shot.scene.empty())
+            return core::makeError(
+                "{} needs a SCENE: suites have shots of their own", option->get_name()
+            );
+    if (arguments.shot.scene.empty() == arguments.suite.empty())
+        return core::makeError("bench needs --suite or a SCENE, and not both");
+    SHUTTER_TRY(parts::checkJobs(arguments.jobs));
+    auto suite = chooseSuite(arguments);
+    if (!suite)
+        return suite.error();
+    auto methods = chooseMethods(arguments, !suite.value().sequences.empty());
+    if (!methods)
+        return methods.error();
+    auto shot = game::interpret(arguments.shot);
+    if (!shot)
+        return shot.error();
+    const size_t sequenceCount = suite.value().sequences.size();
+    return BenchTask{
+        std::move(suite.value()),
+        sequenceCount,
+        std::move(methods.value()),
+        std::move(shot.value())};
+}
+
+void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
+    command.add_option("scene", arguments.shot.scene, "a scene of one's own, instead of --suite");
+    command.add_option(
+        "--suite", arguments.suite, "suite: paper, hard, scaling, stability, demand or sequence"
+    );
+    command.add_option("--out", arguments.out, "folder for results.json and index.html")
+        ->required();
+    command
+        .add_option(
+            "--methods", arguments.methods, "methods to measure, comma-separated; default: all"
+        )
+        ->delimiter(',');
+    command.add_option(
+        "--case", arguments.cases, "case of the suite to run (repeatable); default: all"
+    );
+    command
+        .add_option(
+            "--repeats", arguments.repeats, "timed pictures per method and sample count; default: 7"
+        )
+        ->check(CLI::Range(1u, 1000u));
+    command
+        .add_option(
+            "--limit",
+            arguments.limitSeconds,
+            "skip sample counts whose picture takes longer, seconds; default: 60"
+        )
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option(
+            "--truth-samples",
+            arguments.truthSamples,
+            "instants of the truth; default 256, of a sequence's at most 64"
+        )
+        ->check(CLI::Range(1u, 65536u));
+    command.add_option("--frames", arguments.frames, "frames of a sequence; default 48")
+        ->check(CLI::Range(2u, 1000u));
+    command.add_flag("--restart", arguments.restart, "discard what an earlier run measured");
+    command.add_flag("--report-only", arguments.reportOnly, "only make the page from results.json");
+    kSizeRow.define(command, kSizeRow, arguments);
+    game::defineDeviceOptions(command, arguments.device);
+    const std::vector<CLI::Option*> before = command.get_options();
+    game::defineShotOptions(command, arguments.shot);
+    for (CLI::Option* option : command.get_options())
+        // How a suite's shots are lit is the only thing that is left open.
+        if (option->get_name() != "--unlit" &&
+            std::find(before.begin(), before.end(), option) == before.end())
+            arguments.shotOptions.push_back(option->group("Shot (with a SCENE)"));
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_name() != "--help")
+            arguments.benchOptions.push_back(option);
+    parts::defineJobOptions(command, arguments.jobs);
+}
+
+} // namespace shutter::bench

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// `shutter bench`'s options as a person types them, and what they mean.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/gpu/device.h"
+#include "game/bench/suites/suite.h"
+#include "game/options/render_arguments.h"
+#include "game/parts/job_options.h"
+#include "game/shot/methods.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shutter::bench {
+
+struct BenchArguments {
+    game::ShotArguments shot;
+    gpu::DeviceOptions device;
+    std::optional<game::PictureSize> size; ///< nothing: the suite's
+    std::string suite;
+    std::filesystem::path out;
+    std::vector<std::string> methods;
+    std::vector<std::string> cases;
+    std::optional<uint32_t> repeats;
+    std::optional<double> limitSeconds;
+    std::optional<uint32_t> truthSamples;
+    uint32_t frames = 48;
+    bool restart = false;
+    bool reportOnly = false;
+    parts::JobOptions jobs;
+
+    std::vector<CLI::Option*> shotOptions;        ///< which only a scene of one's own has
+    std::vector<const CLI::Option*> benchOptions; ///< all but those of `jobs`
+};
+
+/// What is to be measured.
+struct BenchTask {
+    Suite suite;
+    size_t sequenceCount = 0; ///< of the whole suite, of which a part has one
+    std::vector<const game::MethodInfo*> methods;
+    game::ShotOptions shot;
+};
+
+void defineBenchOptions(CLI::App& command, BenchArguments& arguments);
+
+/// Error: names the option.
+/// \param arguments gets the suite's size, if no option sets one
+[[nodiscard]] core::Result<BenchTask> interpretBench(BenchArguments& arguments);
+
+} // namespace shutter::bench
