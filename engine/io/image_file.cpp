@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -63,12 +64,24 @@ std::vector<Integer> packIntegers(const image::Image& image, uint32_t channels) 
 /// Bits per channel of the formats for display: 8 or 16.
 enum class DisplayDepth : uint8_t { Bytes, Deep };
 
+/// Two decimal digits, four bits each.
+uint32_t packDigits(uint32_t number) {
+    return number / 10 << 4 | number % 10;
+}
+
+/// A byte each, the frames in the lowest.
+uint32_t pack(const Timecode& timecode) {
+    return packDigits(timecode.hours) << 24 | packDigits(timecode.minutes) << 16 |
+           packDigits(timecode.seconds) << 8 | packDigits(timecode.frames);
+}
+
 /// What a format leaves open.
 struct Encoding {
     SampleType type = SampleType::Float;
     DisplayDepth depth = DisplayDepth::Bytes;
     int jpegQuality = kJpegQuality;
     std::span<const PictureText> texts{};
+    std::optional<Timecode> timecode{};
 };
 
 std::string encode(
@@ -97,6 +110,8 @@ std::string encode(
         request.pixels = bytes.data();
         return oiio::encode(request, out);
     }
+    if (encoding.timecode)
+        request.timecode = pack(*encoding.timecode);
     request.channels = image.channels;
     request.channelNames = image.channelNames;
     if (encoding.type == SampleType::Uint) {
@@ -245,6 +260,21 @@ core::Status writePngWithTexts(
 ) {
     SHUTTER_CHECK(lowerExtension(path) == ".png", "'{}' is no PNG", path.string());
     return write(path, image, {.texts = texts});
+}
+
+core::Status
+writeImageWithTimecode(const fs::path& path, const image::Image& image, const Timecode& timecode) {
+    SHUTTER_CHECK(lowerExtension(path) == ".exr", "'{}' is no EXR", path.string());
+    SHUTTER_CHECK(
+        timecode.hours < 24 && timecode.minutes < 60 && timecode.seconds < 60 &&
+            timecode.frames < kMaxTimecodeRate,
+        "{}:{}:{}:{}",
+        timecode.hours,
+        timecode.minutes,
+        timecode.seconds,
+        timecode.frames
+    );
+    return write(path, image, {.timecode = timecode});
 }
 
 core::Result<scene::TextureImage>

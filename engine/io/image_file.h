@@ -66,6 +66,25 @@ inline constexpr int kJpegQuality = 95;
 [[nodiscard]] core::Status
 writeDeepPng(const std::filesystem::path& path, const image::Image& image);
 
+/// Hours, minutes, seconds and frames of a picture in a sequence; no frame numbers are dropped.
+struct Timecode {
+    uint32_t hours = 0;   ///< below 24
+    uint32_t minutes = 0; ///< below 60
+    uint32_t seconds = 0; ///< below 60
+    uint32_t frames = 0;  ///< below kMaxTimecodeRate
+
+    bool operator==(const Timecode&) const = default;
+};
+
+/// Frames that a second of a picture's time code may have.
+inline constexpr uint32_t kMaxTimecodeRate = 30;
+
+/// writeImage() of a .exr (CHECKed) as floats, with a time code (CHECKed) as its attribute
+/// `timeCode`.
+[[nodiscard]] core::Status writeImageWithTimecode(
+    const std::filesystem::path& path, const image::Image& image, const Timecode& timecode
+);
+
 /// A key of at most 79 letters, and what a PNG file says under it (tEXt).
 struct PictureText {
     std::string key;

@@ -235,6 +235,10 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
         spec.attribute("compression", "zip");
         // Or OpenImageIO stamps the time into the file: the same picture shall be the same bytes.
         spec.attribute("DateTime", "1970:01:01 00:00:00");
+        if (request.timecode) {
+            const std::array<uint32_t, 2> words = {*request.timecode, 0}; // no user data
+            spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, words.data());
+        }
     }
     return spec;
 }

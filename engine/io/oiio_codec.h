@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -40,7 +41,8 @@ struct EncodeRequest {
     Storage storage = Storage::Float;
     const void* pixels = nullptr;
     std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
-    int jpegQuality = 95;                                   ///< 1 to 100
+    std::optional<uint32_t> timecode; ///< of EXR: packed as SMPTE 12M-1 has it
+    int jpegQuality = 95;             ///< 1 to 100
 };
 
 /// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty

@@ -49,7 +49,8 @@ constexpr std::array kOutputRows = {
     ),
     makeRow<&O::timecode>(
         "--timecode",
-        "time code of the film's first frame, HH:MM:SS:FF, or frame: that of its number",
+        "time code of the first frame of a film or of EXR pictures, HH:MM:SS:FF, or frame: that of "
+        "its number",
         Matters::ToNoPicture
     ),
     makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),
@@ -118,6 +119,8 @@ core::Result<io::VideoFormat> interpretFormat(const OutputArguments& arguments) 
     return format;
 }
 
+constexpr const char* kTimecodeOption = "--timecode";
+
 /// An option about films that was typed; null: none was.
 const char* findFilmOption(const OutputArguments& arguments) {
     if (arguments.keepFrames)
@@ -128,14 +131,23 @@ const char* findFilmOption(const OutputArguments& arguments) {
         return "--codec";
     if (arguments.bitDepth)
         return "--bit-depth";
-    return arguments.timecode.empty() ? nullptr : "--timecode";
+    return arguments.timecode.empty() ? nullptr : kTimecodeOption;
 }
 
 Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, OutputOptions& options) {
     const OutputArguments& arguments = all.output;
     if (!isFilm(arguments.out)) {
-        if (const char* option = findFilmOption(arguments))
+        const char* option = findFilmOption(arguments);
+        if (!option)
+            return {};
+        if (std::string_view(option) != kTimecodeOption)
             return makeError("{} needs --out FILE.mp4", option);
+        if (!shot.isSequence || !arguments.out.ends_with(".exr"))
+            return makeError("{} needs --out FILE.mp4, or a sequence of EXR", option);
+        const auto format = interpretFormat(arguments);
+        if (!format)
+            return format.error();
+        options.video.timecode = format.value().timecode;
         return {};
     }
     if (!shot.isSequence)
@@ -273,6 +285,8 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     );
     if (options.output.isDeep())
         options.fingerprint += " --bit-depth=10";
+    if (options.output.film.empty() && !options.output.video.timecode.empty())
+        options.fingerprint += " --timecode=" + options.output.video.timecode; // in each picture
     return options;
 }
 

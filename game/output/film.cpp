@@ -3,9 +3,8 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/output/sequence.h"
+#include "game/output/timecode.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -21,22 +20,11 @@ constexpr const char* kPattern = "frame_%06d.png";
 /// What the film is encoded as: the time code in numbers. Error: names --timecode.
 core::Result<io::VideoFormat> resolveFormat(const RenderOptions& options) {
     io::VideoFormat format = options.output.video;
-    if (format.timecode.empty())
-        return format;
-    const long rate = std::max(1L, std::lround(options.shot.fps));
-    if (format.timecode == kTimecodeOfFrame) {
-        const long frame = options.shot.firstFrame;
-        const long second = frame / rate;
-        if (frame < 0 || second >= 100 * 3600)
-            return core::makeError("--timecode frame: frame {} has none", frame);
-        format.timecode = fmt::format(
-            "{:02}:{:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60, frame % rate
-        );
-    }
-    if (std::stol(format.timecode.substr(format.timecode.rfind(':') + 1)) >= rate)
-        return core::makeError(
-            "--timecode {}: a second has {} frames, numbered from 0", format.timecode, rate
-        );
+    const auto timecode = findTimecode(options, 0);
+    if (!timecode)
+        return timecode.error();
+    if (timecode.value())
+        format.timecode = describe(*timecode.value());
     return format;
 }
 

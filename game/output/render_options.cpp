@@ -2,6 +2,7 @@
 #include "game/output/render_options.h"
 
 #include "engine/io/image_file.h"
+#include "game/output/timecode.h"
 
 #include <regex>
 #include <system_error>
@@ -43,6 +44,8 @@ Status checkJsonWritable(const char* option, const fs::path& file) {
 core::Status checkOutputs(const RenderOptions& options) {
     SHUTTER_TRY(checkJsonWritable("--stats", options.output.stats));
     SHUTTER_TRY(checkJsonWritable("--hash-passes", options.output.hashPasses));
+    if (const auto timecode = findTimecode(options, 0); !timecode)
+        return timecode.error();
     // A film's frames have a folder of their own, which is not there yet.
     if (!options.output.film.empty())
         return {};

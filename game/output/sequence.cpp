@@ -8,6 +8,7 @@
 #include "game/output/extra_files.h"
 #include "game/output/fingerprint.h"
 #include "game/output/sequence_journal.h"
+#include "game/output/timecode.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
@@ -27,6 +28,9 @@ namespace {
 core::Result<std::vector<std::filesystem::path>>
 writePicture(const RenderOptions& options, size_t frame, const render::FrameResult& result) {
     const std::filesystem::path file = fileOfFrame(options, frame);
+    const auto timecode = findTimecode(options, frame);
+    if (!timecode)
+        return timecode.error();
     std::vector<std::filesystem::path> files = {file};
     const bool isDisplay = options.output.displayOut && !options.output.isDeep();
     const image::Image& drawn = isDisplay ? result.display : result.color;
@@ -35,6 +39,8 @@ writePicture(const RenderOptions& options, size_t frame, const render::FrameResu
         SHUTTER_TRY(
             io::writeDeepPng(file, tonemap::computeDisplayImage(picture, options.shot.tonemap))
         );
+    else if (timecode.value() && !options.output.displayOut)
+        SHUTTER_TRY(io::writeImageWithTimecode(file, picture, *timecode.value()));
     else
         SHUTTER_TRY(io::writeImage(file, picture));
     for (const std::string& aov : options.output.aovs) {

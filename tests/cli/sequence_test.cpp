@@ -233,6 +233,29 @@ TEST_F(Sequence, FilmsAreEncodedByTheCodecThatIsNamed) {
     EXPECT_NE(late.err.find("a second has 4 frames"), std::string::npos) << late.err;
 }
 
+TEST_F(Sequence, PicturesOfExrCarryTheTimeCodesOfTheirFrames) {
+    // Name, type and size of the attribute; then the digits of frames, seconds, minutes, hours.
+    const std::string attribute("timeCode\0timecode\0\x08\0\0\0", 22);
+    const auto readCode = [&](const std::string& file) {
+        const std::string bytes = readFile(file);
+        const size_t place = bytes.find(attribute);
+        EXPECT_NE(place, std::string::npos) << file;
+        return place == std::string::npos ? "" : bytes.substr(place + attribute.size(), 4);
+    };
+    const Arguments drawn = fly({"--out", "f_%d.exr", "--timecode", "12:34:56:03"});
+    expectSuccess(drawn);
+    EXPECT_EQ(readCode("f_-2.exr"), "\x03\x56\x34\x12");
+    EXPECT_EQ(readCode("f_-1.exr"), std::string("\0\x57\x34\x12", 4));
+    EXPECT_EQ(readCode("f_3.exr"), std::string("\0\x58\x34\x12", 4));
+    // A sequence with another time code is another: nothing of this one is taken for complete.
+    const auto again = expectSuccess(fly({"--out", "f_%d.exr", "--timecode", "00:00:00:00"}));
+    EXPECT_NE(again.out.find("all are drawn anew"), std::string::npos) << again.out;
+    EXPECT_EQ(readCode("f_-2.exr"), std::string(4, '\0'));
+    const Outcome fast = run(fly({"--out", "g_%d.exr", "--timecode", "frame"}));
+    EXPECT_EQ(fast.status, 1);
+    EXPECT_NE(fast.err.find("frame -2 has none"), std::string::npos) << fast.err;
+}
+
 TEST_F(Sequence, AnFfmpegThatFailsLeavesNoFilm) {
     writeFile(
         "failing.sh",

@@ -205,6 +205,22 @@ TEST(ImageFile, AJpegOfLowerQualityIsSmaller) {
     }
 }
 
+TEST(ImageFile, AnExrCarriesItsTimeCode) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "frame.exr";
+    ASSERT_TRUE(writeImageWithTimecode(path, makeRamp(4, 4, 3), {12, 34, 56, 29}));
+    const std::vector<uint8_t> bytes = readAll(path);
+    // Name, type and size of the attribute, and the digits of the code from the last to the first.
+    constexpr std::string_view kAttribute("timeCode\0timecode\0\x08\0\0\0\x29\x56\x34\x12", 26);
+    EXPECT_NE(std::string(bytes.begin(), bytes.end()).find(kAttribute), std::string::npos);
+    const auto read = readImage(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().pixels, makeRamp(4, 4, 3).pixels);
+    ASSERT_TRUE(writeImage(path, makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> without = readAll(path);
+    EXPECT_EQ(std::string(without.begin(), without.end()).find("timeCode"), std::string::npos);
+}
+
 TEST(ImageFile, WritingLeavesNothingButThePicture) {
     const TempFolder folder;
     ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));

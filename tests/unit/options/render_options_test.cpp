@@ -102,6 +102,19 @@ TEST_F(RenderOptionsTest, AFilmsCodecTellsItsDepthAndWhatItLiesIn) {
         refuse("FILE.mp4", Words{option});
 }
 
+TEST_F(RenderOptionsTest, ASequenceOfExrTakesATimeCodeAndOtherPicturesNone) {
+    const auto pictures = [&](const char* file, const char* timecode) {
+        return Words{"--out=" + (mFolder / file).string(), "--frames=0:3", timecode};
+    };
+    const auto timed = accept(pictures("f_%d.exr", "--timecode=01:00:00:23"));
+    EXPECT_EQ(timed.output.video.timecode, "01:00:00:23");
+    EXPECT_NE(timed.fingerprint, accept(pictures("f_%d.exr", "--timecode=01:00:00:22")).fingerprint)
+        << "it is in each picture";
+    refuse("--timecode", pictures("f_%d.exr", "--timecode=1:0:0:0"));
+    refuse("a sequence of EXR", pictures("f_%d.png", "--timecode=frame"));
+    refuse("a sequence of EXR", Words{"--out=" + (mFolder / "f.exr").string(), "--timecode=frame"});
+}
+
 TEST_F(RenderOptionsTest, SizesAreTakenAndBadOnesRefused) {
     EXPECT_EQ(accept(Words{"--size=1x16384"}).shot.height, 16384u);
     for (const char* size :

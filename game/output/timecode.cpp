@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "game/output/timecode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace shutter::game {
+
+namespace {
+
+constexpr int64_t kSecondsADay = 24 * 3600;
+
+/// Two digits of "HH:MM:SS:FF".
+int64_t readPair(const std::string& text, size_t place) {
+    return std::stol(text.substr(3 * place, 2));
+}
+
+/// Frames since 00:00:00:00 of the first frame. Error: names --timecode.
+core::Result<int64_t> countFrames(const RenderOptions& options, int64_t rate) {
+    const std::string& text = options.output.video.timecode;
+    if (text == kTimecodeOfFrame) {
+        const int64_t first = options.shot.firstFrame;
+        if (first < 0 || first >= kSecondsADay * rate)
+            return core::makeError("--timecode frame: frame {} has none", first);
+        return first;
+    }
+    if (readPair(text, 0) >= 24)
+        return core::makeError("--timecode {}: a day has 24 hours, numbered from 0", text);
+    if (readPair(text, 3) >= rate)
+        return core::makeError(
+            "--timecode {}: a second has {} frames, numbered from 0", text, rate
+        );
+    return ((readPair(text, 0) * 60 + readPair(text, 1)) * 60 + readPair(text, 2)) * rate +
+           readPair(text, 3);
+}
+
+} // namespace
+
+core::Result<std::optional<io::Timecode>> findTimecode(const RenderOptions& options, size_t frame) {
+    if (options.output.video.timecode.empty())
+        return std::optional<io::Timecode>();
+    const int64_t rate = std::max<int64_t>(1, std::llround(options.shot.fps));
+    if (options.output.film.empty() && rate > io::kMaxTimecodeRate)
+        return core::makeError(
+            "--timecode: an EXR's counts {} frames a second at most, and --fps is {}",
+            io::kMaxTimecodeRate,
+            options.shot.fps
+        );
+    const auto first = countFrames(options, rate);
+    if (!first)
+        return first.error();
+    const int64_t count = (first.value() + int64_t(frame)) % (kSecondsADay * rate);
+    const int64_t second = count / rate;
+    return std::optional(io::Timecode{
+        uint32_t(second / 3600),
+        uint32_t(second / 60 % 60),
+        uint32_t(second % 60),
+        uint32_t(count % rate)});
+}
+
+std::string describe(const io::Timecode& timecode) {
+    return fmt::format(
+        "{:02}:{:02}:{:02}:{:02}",
+        timecode.hours,
+        timecode.minutes,
+        timecode.seconds,
+        timecode.frames
+    );
+}
+
+} // namespace shutter::game
