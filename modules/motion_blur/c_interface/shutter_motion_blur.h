@@ -330,7 +330,9 @@ typedef struct ShutterBlurInputs {
     /* Frames that are shown for each one drawn, where others are generated between, [1, 16]. */
     float displayedPerRendered;
     ShutterBlurImage blurScale; /* R8, R16F or R32F: the pixels' share of the blur; null: 1 */
-    VkBool32 isCut;             /* the frame before was of another place: nothing is blurred */
+    /* The frame before was of another place, or there is none: nothing is blurred, and the cameras
+     * before do not count. */
+    VkBool32 isCut;
 
     double rasterTime;   /* the raster instant in the exposure: 0 open, 0.5 centre, 1 close */
     int64_t frameNumber; /* the next frame has the next number */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/dump_manifest.h"
 
+#include "modules/motion_blur/embedding/host_camera.h"
 #include "modules/motion_blur/methods.h"
 
 #include <cmath>
@@ -49,7 +50,7 @@ ordered_json describeConvention(const HostConvention& convention) {
     root["skyValue"] = describeNumber(convention.depth.skyValue);
     // What does not count may be anything, so it is left out.
     root["cameras"] =
-        convention.cameras.areGiven ? describeCameras(convention.cameras) : ordered_json();
+        convention.cameras.areGiven ? describeCameras(countedCameras(convention)) : ordered_json();
     root["exposureShare"] = convention.scales.exposureShare;
     root["cameraScale"] = convention.scales.camera;
     root["objectScale"] = convention.scales.object;

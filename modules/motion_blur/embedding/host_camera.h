@@ -26,4 +26,11 @@ struct HostCamera {
 /// Whether the last row is (0, 0, 0, 1), to rounding.
 [[nodiscard]] bool isAffine(const math::dmat4& matrix);
 
+struct HostCameras;
+struct HostConvention;
+
+/// The cameras of a convention as they count: at a cut there is none before, and now's stands for
+/// it.
+[[nodiscard]] HostCameras countedCameras(const HostConvention& convention);
+
 } // namespace shutter::motion_blur

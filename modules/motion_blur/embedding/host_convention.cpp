@@ -165,6 +165,16 @@ core::Status checkScales(const HostScales& scales, VkExtent2D picture) {
     return {};
 }
 
+HostCameras countedCameras(const HostConvention& convention) {
+    HostCameras cameras = convention.cameras;
+    if (convention.scales.isCut) {
+        cameras.viewFromWorldBefore = cameras.viewFromWorld;
+        cameras.clipFromViewBefore = cameras.clipFromView;
+        cameras.jitterPxBefore = cameras.jitterPx;
+    }
+    return cameras;
+}
+
 core::Status checkConvention(const HostConvention& convention, VkExtent2D picture) {
     const HostVectors& vectors = convention.vectors;
     const HostDepth& depth = convention.depth;
@@ -183,7 +193,7 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
             "motion blur: convention.depth.metresPerUnit is {}, it must be finite and above 0",
             depth.metresPerUnit
         );
-    SHUTTER_TRY(checkHostCameras(convention.cameras, picture));
+    SHUTTER_TRY(checkHostCameras(countedCameras(convention), picture));
     SHUTTER_TRY(checkScales(convention.scales, picture));
     const char* need = findNeedForCameras(convention);
     if (need && !convention.cameras.areGiven)
@@ -216,7 +226,7 @@ shader::PrepareArea makeArea(const HostImage& image, VkExtent2D picture) {
 }
 
 shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent2D picture) {
-    const HostCameras& cameras = convention.cameras;
+    const HostCameras cameras = countedCameras(convention);
     const HostScales& scales = convention.scales;
     shader::PrepareTable table{};
     table.depth = makeArea(convention.depth.image, picture);

@@ -76,7 +76,8 @@ struct HostScales {
     float displayedPerRendered = 1.0f;
     /// A share of the motion for each pixel, such as 0 where a weapon or a display is; null: 1.
     HostImage perPixel; ///< R8, R16F or R32F, any resolution; sampled
-    /// The frame before was of another place: nothing is blurred, as vectors lead nowhere.
+    /// The frame before was of another place, or there is none: nothing is blurred, as vectors lead
+    /// nowhere, and the cameras before do not count.
     bool isCut = false;
 };
 

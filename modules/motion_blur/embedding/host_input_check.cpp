@@ -2,6 +2,7 @@
 #include "modules/motion_blur/embedding/host_input_check.h"
 
 #include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/embedding/host_camera.h"
 #include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/own_samples_shared.h"
 
@@ -174,7 +175,7 @@ core::Status checkCamera(const HostInputs& inputs, const Method& method) {
             "motion blur: convention.cameras are not given, which the method {} needs", method.name
         );
     const VkExtent2D picture = pictureOf(inputs);
-    SHUTTER_TRY(checkHostCameras(inputs.convention.cameras, picture));
+    SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
     return checkScales(inputs.convention.scales, picture);
 }
 
@@ -271,7 +272,7 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
         SHUTTER_TRY(checkMadeMotion(inputs, host));
     // The checker and dumps read them, too, whatever the method.
     if (inputs.showsInputs || (inputs.convention.cameras.areGiven && !inputs.isOff))
-        SHUTTER_TRY(checkHostCameras(inputs.convention.cameras, picture));
+        SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
     return checkDistinct(inputs);
 }
 
