@@ -14,12 +14,17 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace shutter::render {
+
+/// Measure of a frame that was asked for it: light of the brightest channel of a pixel in the
+/// linear picture that is shown.
+inline constexpr const char* kBrightest = "brightest channel";
 
 /// What an effect may base its decision on.
 struct ViewFacts {
@@ -38,6 +43,10 @@ struct ViewFacts {
     /// Somebody reads what effects count on the device, beyond what they need themselves.
     bool countersWanted = true;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
+    /// Light of the brightest channel of a pixel in the last picture that is known; nothing: none
+    /// is.
+    std::optional<float> lastBrightest;
+    bool brightestWanted = false; ///< that light of this picture is to be measured (kBrightest)
 };
 
 /// Named intermediates that somebody asked to see (`--aov`).

@@ -36,6 +36,8 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.pictureWanted = request.wantPicture;
     facts.countersWanted = request.wantCounters;
     facts.displayWanted = request.wantDisplay || request.showsDisplay;
+    facts.lastBrightest = request.lastBrightest;
+    facts.brightestWanted = request.wantBrightest;
     return facts;
 }
 

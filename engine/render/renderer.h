@@ -54,6 +54,11 @@ struct FrameRequest {
     /// False: effects need not count what they do on the device; FrameStatistics::counters may lack
     /// it.
     bool wantCounters = true;
+    /// Measure what a later frame may take as its lastBrightest (kBrightest), where there is a
+    /// display-encoded picture.
+    bool wantBrightest = false;
+    /// ViewFacts::lastBrightest. A picture that depends on it depends on those drawn before.
+    std::optional<float> lastBrightest{};
     /// Say of the frame's own work and of every pass why it ran or was skipped; effects always do.
     bool wantReasons = false;
 };

@@ -98,7 +98,15 @@ constexpr std::array kFrameRows = {
         "smooth edges: none (default), taa (by the frames before) or box (the mean of 16 frames)"
     ),
     makeRow<&A::bloom>(
-        "--bloom", "share of the light that the lens scatters, 0 to 1; default 0: no bloom"
+        "--bloom", "share of highlights' light that the lens scatters, 0 to 1; default 0: no bloom"
+    ),
+    makeRow<&A::bloomThreshold>(
+        "--bloom-threshold",
+        "light above which a pixel is a highlight; default 1; 0: all light is scattered"
+    ),
+    makeRow<&A::bloomKnee>(
+        "--bloom-knee",
+        "how far around the threshold highlights set in, as a share of it, 0 to 1; default 0.5"
     ),
     makeRow<&A::size>("--size", "picture size WxH; default 1280x720"),
     makeRow<&A::frames>(
@@ -112,6 +120,22 @@ constexpr std::array kFrameRows = {
         Matters::ToNoPicture
     ),
 };
+
+Status parseBloom(const ShotArguments& arguments, ShotOptions& options) {
+    // Each alone, so that the option that is out of its range is named.
+    if (!bloom::validate({.share = arguments.bloom}).ok())
+        return makeError("--bloom {} must lie in [0, 1]", arguments.bloom);
+    if (!bloom::validate({.threshold = arguments.bloomThreshold}).ok())
+        return makeError(
+            "--bloom-threshold {} must lie in [0, {}]",
+            arguments.bloomThreshold,
+            bloom::kMostThreshold
+        );
+    if (!bloom::validate({.knee = arguments.bloomKnee}).ok())
+        return makeError("--bloom-knee {} must lie in [0, 1]", arguments.bloomKnee);
+    options.bloom = {arguments.bloom, arguments.bloomThreshold, arguments.bloomKnee};
+    return {};
+}
 
 Status parseTimes(const ShotArguments& arguments, ShotOptions& options) {
     // Written so that NaN fails.
@@ -270,9 +294,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     if (!shutter)
         return shutter.error();
     options.shutter = std::move(shutter).value();
-    options.bloom.share = arguments.bloom;
-    if (!bloom::validate(options.bloom).ok())
-        return makeError("--bloom {} must lie in [0, 1]", arguments.bloom);
+    SHUTTER_TRY(parseBloom(arguments, options));
     auto tonemap = interpretTonemap(arguments);
     if (!tonemap)
         return tonemap.error();

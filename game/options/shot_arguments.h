@@ -36,7 +36,9 @@ struct ShotArguments {
     double environmentIntensity = environment::EnvironmentSettings{}.intensity;
     double environmentRotation = 0.0; ///< degrees
     double sky = 0.0;                 ///< turbidity; 0: no sky
-    float bloom = 0.0f;               ///< share of the light
+    float bloom = 0.0f;               ///< share of the light of highlights
+    float bloomThreshold = bloom::BloomSettings().threshold;
+    float bloomKnee = bloom::BloomSettings().knee;
     extract::ShadowMode shadows = extract::ShadowMode::None;
     uint32_t shadowMapSize = extract::ShadowSettings{}.mapSize;
     double shadowDistance = 0.0;

@@ -209,6 +209,8 @@ core::Status PictureDrawer::submitPart(
         frame.view = placeInPixel(request, part);
     if (family == MethodFamily::Truth)
         frame.view.lodBias += truth::computeLodBias(request.pixel, part.total);
+    if (frame.wantBrightest)
+        frame.lastBrightest = mSlots[request.slot].brightest;
     if (!part.isShown)
         frame.wantColor = frame.wantDisplay = frame.showsDisplay = false;
     if (!isLast) {
@@ -435,6 +437,11 @@ void PictureDrawer::finishOldest() {
         return;
     result.trace = std::exchange(mSlots[label.slot].trace, {});
     mSlots[label.slot].tracedFrames = 0;
+    const render::Measures& measures = result.statistics.measures;
+    const auto brightest = measures.find(render::kBrightest);
+    mSlots[label.slot].brightest.reset();
+    if (brightest != measures.end())
+        mSlots[label.slot].brightest = float(brightest->second);
     mFinished.push_back({label.slot, std::move(result)});
 }
 

@@ -48,7 +48,8 @@ struct PictureRequest {
     /// another as frames are drawn.
     bool drawsFramesBefore = true;
     /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
-    /// finished.
+    /// finished. With FrameRequest::wantBrightest, they are told of the slot's last finished
+    /// picture.
     std::vector<render::PostEffect*> ending;
     /// Below PictureDrawer::kSlots. Pictures that are drawn side by side, each again and again, use
     /// different slots, so that neither disturbs what the other's effects keep between frames.
@@ -153,6 +154,8 @@ class PictureDrawer {
         uint32_t tracedFrames = 0;
         std::optional<Drawn> drawn; ///< last, where the next frame may look it up
         int64_t jitteredCount = 0;  ///< of frames whose places in the pixel follow one another
+        /// render::kBrightest of the last picture that is finished, where it was measured.
+        std::optional<float> brightest;
     };
 
     /// One frame of a picture.

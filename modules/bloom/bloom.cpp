@@ -8,6 +8,9 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
 #include "shaders/bloom/bloom_shared.h"
+#include "shaders/common/numeric.glsl"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +21,8 @@ namespace shutter::bloom {
 namespace {
 
 using graph::Access;
+
+static_assert(kMostThreshold == shader::kMaxColor);
 
 constexpr VkFormat kFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr uint32_t kLeastSidePx = 4; ///< of the smallest image
@@ -37,14 +42,13 @@ float findCoarserShare(int level, int count) {
     return std::pow(1.0f - kOwnShare, float(level == 1 && extra < 0 ? 1 - extra : 1));
 }
 
-gpu::ComputePipelineDesc describeDown(bool fetchesTexels) {
+gpu::ComputePipelineDesc describeDown() {
     gpu::ComputePipelineDesc desc;
     desc.name = "bloom down";
     desc.spirv = bloom_bloom_down_comp;
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::BloomParams);
-    desc.specialization = {fetchesTexels ? 1u : 0u};
     return desc;
 }
 
@@ -80,7 +84,17 @@ void dispatch(
 core::Status validate(const BloomSettings& settings) {
     if (!(settings.share >= 0.0f && settings.share <= 1.0f)) // NaN too
         return core::makeError("bloom: share is {}, it must be 0 to 1", settings.share);
+    if (!(settings.threshold >= 0.0f && settings.threshold <= kMostThreshold))
+        return core::makeError(
+            "bloom: threshold is {}, it must be 0 to {}", settings.threshold, kMostThreshold
+        );
+    if (!(settings.knee >= 0.0f && settings.knee <= 1.0f))
+        return core::makeError("bloom: knee is {}, it must be 0 to 1", settings.knee);
     return {};
+}
+
+float findKneeStart(const BloomSettings& settings) {
+    return settings.threshold * (1.0f - settings.knee);
 }
 
 uint32_t countLevels(uint32_t width, uint32_t height) {
@@ -91,8 +105,8 @@ uint32_t countLevels(uint32_t width, uint32_t height) {
 }
 
 Bloom::Bloom(gpu::Device& device, const BloomSettings& settings)
-    : mDevice(device), mSettings(settings), mDown(device, describeDown(false)),
-      mDownFetched(device, describeDown(true)), mUp(device, describeUp()) {}
+    : mDevice(device), mSettings(settings), mDown(device, describeDown()),
+      mUp(device, describeUp()) {}
 
 void Bloom::configure(const BloomSettings& settings) {
     mSettings = settings;
@@ -103,7 +117,19 @@ core::Decision Bloom::ask(const render::ViewFacts& facts) const {
         return {false, "the lens scatters no light"};
     if (countLevels(facts.width, facts.height) == 0)
         return {false, "the picture is too small"};
-    return {true, "the lens scatters light"};
+    if (!facts.lastBrightest)
+        return {true, "the lens scatters light, and no picture before says how much there is"};
+    const float start = findKneeStart(mSettings);
+    if (*facts.lastBrightest <= start)
+        return {
+            false,
+            fmt::format(
+                "the last picture's brightest channel, {:.3g}, is not above the knee, which begins "
+                "at {:.3g}",
+                *facts.lastBrightest,
+                start
+            )};
+    return {true, "the lens scatters the light of highlights"};
 }
 
 void Bloom::declare(render::PostContext& context) {
@@ -112,24 +138,31 @@ void Bloom::declare(render::PostContext& context) {
     VkExtent2D size{context.facts.width, context.facts.height};
     for (uint32_t i = countLevels(size.width, size.height); i > 0; --i) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
-        levels.push_back(addDown(graph, levels.back(), size));
+        // Of the images below nothing but highlights is left.
+        const bool isPicture = levels.size() == 1;
+        levels.push_back(addDown(graph, levels.back(), size, isPicture ? mSettings.threshold : 0));
     }
     graph::ImageHandle scattered = levels.back();
     const int count = static_cast<int>(levels.size()) - 1;
     for (int i = count - 1; i > 0; --i)
-        scattered = addUp(graph, levels[size_t(i)], scattered, findCoarserShare(i, count));
-    context.color = addUp(graph, context.color, scattered, mSettings.share);
+        scattered = addUp(graph, levels[size_t(i)], scattered, findCoarserShare(i, count), 0);
+    context.color = addUp(graph, context.color, scattered, mSettings.share, mSettings.threshold);
 }
 
-graph::ImageHandle
-Bloom::addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size) const {
+graph::ImageHandle Bloom::addDown(
+    graph::Graph& graph, graph::ImageHandle source, VkExtent2D size, float threshold
+) const {
     struct Data {
         graph::ImageHandle source;
         graph::ImageHandle half;
     };
 
-    const shader::BloomParams params{{size.width, size.height}, sizeOf(graph, source), 0.0f};
-    const bool isFiltered = graph.describeImage(source).format == kFormat;
+    const shader::BloomParams params{
+        {size.width, size.height},
+        sizeOf(graph, source),
+        0.0f,
+        threshold,
+        threshold * mSettings.knee};
     return graph
         .addPass<Data>(
             "bloom down",
@@ -141,20 +174,22 @@ Bloom::addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size) 
                     Access::StorageWrite
                 );
             },
-            [this, params, isFiltered](const Data& data, graph::PassContext& recording) {
-                const VkSampler sampler =
-                    isFiltered ? mDevice.linearSampler() : mDevice.nearestSampler();
+            [this, params](const Data& data, graph::PassContext& recording) {
                 gpu::BindingList bindings;
-                bindings.sampled(recording.resources.view(data.source), sampler)
+                bindings.sampled(recording.resources.view(data.source), mDevice.nearestSampler())
                     .storage(recording.resources.image(data.half));
-                dispatch(recording, (isFiltered ? mDown : mDownFetched).get(), bindings, params);
+                dispatch(recording, mDown.get(), bindings, params);
             }
         )
         .half;
 }
 
 graph::ImageHandle Bloom::addUp(
-    graph::Graph& graph, graph::ImageHandle fine, graph::ImageHandle coarse, float share
+    graph::Graph& graph,
+    graph::ImageHandle fine,
+    graph::ImageHandle coarse,
+    float share,
+    float threshold
 ) const {
     struct Data {
         graph::ImageHandle fine;
@@ -162,7 +197,8 @@ graph::ImageHandle Bloom::addUp(
         graph::ImageHandle mixed;
     };
 
-    const shader::BloomParams params{sizeOf(graph, fine), sizeOf(graph, coarse), share};
+    const shader::BloomParams params{
+        sizeOf(graph, fine), sizeOf(graph, coarse), share, threshold, threshold * mSettings.knee};
     return graph
         .addPass<Data>(
             "bloom up",

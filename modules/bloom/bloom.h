@@ -11,9 +11,20 @@
 
 namespace shutter::bloom {
 
+inline constexpr float kMostThreshold = 65000.0f; ///< shader::kMaxColor
+
 struct BloomSettings {
-    float share = 0.0f; ///< of a pixel's light that is scattered, [0, 1]; 0: there is no bloom
+    float share = 0.0f; ///< of a highlight's light that is scattered, [0, 1]; 0: there is no bloom
+    /// Light of a pixel's brightest channel above which it is a highlight, in the linear picture's
+    /// unit, 0 or more; 0: all light is scattered, as a real lens does.
+    float threshold = 1.0f;
+    /// How far below and above the threshold pixels are highlights in part, as a share of it, [0,
+    /// 1].
+    float knee = 0.5f;
 };
+
+/// Where the knee begins: a picture with no brighter channel has no highlight.
+[[nodiscard]] float findKneeStart(const BloomSettings& settings);
 
 /// One sentence where a setting is out of its range.
 [[nodiscard]] core::Status validate(const BloomSettings& settings);
@@ -24,8 +35,12 @@ struct BloomSettings {
 [[nodiscard]] uint32_t countLevels(uint32_t width, uint32_t height);
 
 /// Pyramid of Jimenez 2014 ("Next Generation Post Processing in Call of Duty: Advanced Warfare"),
-/// with shares instead of sums and without a threshold: the picture keeps its light. Runs on the
-/// linear picture, after the motion blur and before the tone map; writes RGBA16F.
+/// of the light above a threshold (shaders/bloom/bloom.glsl). What is scattered is taken away where
+/// it comes from: the picture keeps its light, and one without a highlight is left as it is. Runs
+/// on the linear picture, after the motion blur and before the tone map; writes RGBA16F.
+///
+/// Where the last picture is known (ViewFacts::lastBrightest) and had no highlight, it does not
+/// run: a highlight that appears glows as many pictures later as it takes to know of it.
 class Bloom : public render::PostEffect {
   public:
     /// \param settings valid
@@ -41,16 +56,19 @@ class Bloom : public render::PostEffect {
 
   private:
     [[nodiscard]] graph::ImageHandle
-    addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size) const;
+    addDown(graph::Graph& graph, graph::ImageHandle source, VkExtent2D size, float threshold) const;
     /// \param share of `coarse` in the result, which has the size of `fine`
     [[nodiscard]] graph::ImageHandle addUp(
-        graph::Graph& graph, graph::ImageHandle fine, graph::ImageHandle coarse, float share
+        graph::Graph& graph,
+        graph::ImageHandle fine,
+        graph::ImageHandle coarse,
+        float share,
+        float threshold
     ) const;
 
     gpu::Device& mDevice;
     BloomSettings mSettings;
     gpu::LazyPipeline mDown;
-    gpu::LazyPipeline mDownFetched; ///< from images that the device may not filter
     gpu::LazyPipeline mUp;
 };
 

@@ -17,14 +17,20 @@ namespace shutter::tonemap {
 
 namespace {
 
-gpu::ComputePipelineDesc describePipeline() {
+gpu::ComputePipelineDesc describePipeline(bool measures) {
     gpu::ComputePipelineDesc desc;
     desc.name = "tone map";
     desc.spirv = tonemap_tonemap_comp;
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::TonemapParams);
+    desc.specialization = {measures ? 1u : 0u};
     return desc;
+}
+
+glm::uvec2 countGroups(const render::ViewFacts& facts) {
+    return (glm::uvec2(facts.width, facts.height) + shader::kTonemapGroup - 1u) /
+           shader::kTonemapGroup;
 }
 
 } // namespace
@@ -34,8 +40,8 @@ float computeGain(const TonemapSettings& settings) {
 }
 
 Tonemap::Tonemap(gpu::Device& device, const TonemapSettings& settings)
-    : mSampler(device.nearestSampler()), mSettings(settings),
-      mPipeline(device, describePipeline()) {}
+    : mDevice(device), mSettings(settings), mPipeline(device, describePipeline(false)),
+      mMeasuring(device, describePipeline(true)) {}
 
 core::Decision Tonemap::ask(const render::ViewFacts& facts) const {
     if (!facts.displayWanted)
@@ -47,6 +53,7 @@ void Tonemap::declare(render::PostContext& context) {
     struct Data {
         graph::ImageHandle color;
         graph::ImageHandle display;
+        graph::BufferHandle brightest; ///< invalid: it is not asked for
     };
 
     shader::TonemapParams params{};
@@ -54,6 +61,9 @@ void Tonemap::declare(render::PostContext& context) {
     params.gain = computeGain(mSettings);
     params.operator_ =
         mSettings.op == Operator::Neutral ? shader::kTonemapNeutral : shader::kTonemapNone;
+    const glm::uvec2 groups = countGroups(context.facts);
+    const graph::BufferHandle brightest = prepareBrightest(context);
+    params.brightest = gpu::splitAddress(mBrightest.at(context.slot).groups.address());
     const Data& pass = context.graph.addPass<Data>(
         "tone map",
         graph::PassKind::Compute,
@@ -63,18 +73,50 @@ void Tonemap::declare(render::PostContext& context) {
                 "display", {params.sizePx.x, params.sizePx.y, VK_FORMAT_R8G8B8A8_UNORM}
             );
             data.display = builder.write(display, graph::Access::StorageWrite);
+            if (!brightest.isValid())
+                return;
+            data.brightest = builder.write(brightest, graph::Access::StorageWrite);
+            context.graph.markOutput(data.brightest);
         },
-        [this, params](const Data& data, graph::PassContext& recording) {
+        [this, params, groups](const Data& data, graph::PassContext& recording) {
             gpu::BindingList bindings;
-            bindings.sampled(recording.resources.view(data.color), mSampler)
+            bindings.sampled(recording.resources.view(data.color), mDevice.nearestSampler())
                 .storage(recording.resources.image(data.display));
-            recording.frame.bind(mPipeline, bindings, &params, sizeof(params));
-            vkCmdDispatch(
-                recording.commands, (params.sizePx.x + 7) / 8, (params.sizePx.y + 7) / 8, 1
-            );
+            const gpu::LazyPipeline& pipeline = data.brightest.isValid() ? mMeasuring : mPipeline;
+            recording.frame.bind(pipeline.get(), bindings, &params, sizeof(params));
+            vkCmdDispatch(recording.commands, groups.x, groups.y, 1);
         }
     );
     context.display = pass.display;
+}
+
+graph::BufferHandle Tonemap::prepareBrightest(render::PostContext& context) {
+    Brightest& own = mBrightest.at(context.slot);
+    own.groupCount = 0;
+    if (!context.facts.brightestWanted)
+        return {};
+    const glm::uvec2 groups = countGroups(context.facts);
+    own.groupCount = groups.x * groups.y;
+    const VkDeviceSize bytes = VkDeviceSize(own.groupCount) * sizeof(float);
+    if (own.groups.bytes() < bytes)
+        own.groups = gpu::Buffer(
+            mDevice,
+            "brightest channels",
+            bytes,
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            gpu::MemoryUse::Readback
+        );
+    return context.graph.importBuffer(
+        "brightest channels", own.groups.handle(), own.groups.bytes()
+    );
+}
+
+void Tonemap::finish(render::FinishedFrame& frame) {
+    Brightest& own = mBrightest.at(frame.slot);
+    if (!frame.ran || own.groupCount == 0)
+        return;
+    const auto* groups = static_cast<const float*>(own.groups.mapped());
+    frame.measures[render::kBrightest] = double(*std::max_element(groups, groups + own.groupCount));
 }
 
 image::Image computeDisplayImage(const image::Image& linear, const TonemapSettings& settings) {

@@ -2,10 +2,13 @@
 // From linear HDR to what a display shows: gain, tone mapper, sRGB.
 #pragma once
 
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/image/image.h"
 #include "engine/render/post_effect.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -24,7 +27,9 @@ struct TonemapSettings {
 /// 2^EV, the factor before the operator.
 [[nodiscard]] float computeGain(const TonemapSettings& settings);
 
-/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8).
+/// Runs when a display-encoded picture is wanted; writes PostContext::display (RGBA8). Where asked
+/// to (ViewFacts::brightestWanted), measures render::kBrightest on the way, as it reads each pixel
+/// anyway.
 class Tonemap : public render::PostEffect {
   public:
     Tonemap(gpu::Device& device, const TonemapSettings& settings);
@@ -35,11 +40,23 @@ class Tonemap : public render::PostEffect {
 
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
+    void finish(render::FinishedFrame& frame) override;
 
   private:
-    VkSampler mSampler;
+    /// Room for what a slot's groups find. \return invalid: it is not asked for
+    [[nodiscard]] graph::BufferHandle prepareBrightest(render::PostContext& context);
+
+    /// What a frame's groups found.
+    struct Brightest {
+        gpu::Buffer groups;      ///< float[]: of each group's pixels
+        uint32_t groupCount = 0; ///< of the slot's frame; 0: it was not asked for
+    };
+
+    gpu::Device& mDevice;
     TonemapSettings mSettings;
-    gpu::Pipeline mPipeline;
+    gpu::LazyPipeline mPipeline;
+    gpu::LazyPipeline mMeasuring;
+    std::array<Brightest, gpu::kMaxFramesInFlight> mBrightest; ///< by slot
 };
 
 /// `linear` as a display takes it, by the very functions of the shader (gain, operator, sRGB), not

@@ -4,43 +4,52 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "bloom/bloom.glsl"
 #include "bloom/bloom_shared.h"
 
-/// Whether texels are fetched one by one: devices need not filter images of 32-bit floats.
-layout(constant_id = 0) const bool kFetchesTexels = false;
+const int kGroup = 8;
+const int kTile = 2 * kGroup + 4; // two texels more on each side
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroup, local_size_y = kGroup) in;
 layout(push_constant, scalar) uniform Push { BloomParams params; };
-layout(binding = 0) uniform sampler2D uSource;
+layout(binding = 0) uniform sampler2D uSource; // nearest
 layout(binding = 1, rgba16f) uniform writeonly image2D uHalf;
 
-/// Mean of the four texels that meet at a corner. \param corner in texels of the source
-vec3 fetchCorner(vec2 corner) {
+/// What the group's pixels see of the source. Texels are fetched one by one, as the threshold is one of
+/// texels and not of their means.
+shared vec3 tile[kTile * kTile];
+
+void fillTile() {
+    ivec2 corner = 2 * kGroup * ivec2(gl_WorkGroupID.xy) - 2;
     vec2 size = vec2(params.sourcePx);
-    if (!kFetchesTexels) return textureLod(uSource, corner / size, 0.0f).rgb;
-    vec3 sum = vec3(0.0f);
-    for (uint i = 0u; i < 4u; ++i) {
-        vec2 texel = corner + vec2(i & 1u, i >> 1u) - 0.5f;
-        sum += textureLod(uSource, clamp(texel, vec2(0.5f), size - 0.5f) / size, 0.0f).rgb;
+    for (uint i = gl_LocalInvocationIndex; i < uint(kTile * kTile); i += uint(kGroup * kGroup)) {
+        vec2 texel = vec2(corner + ivec2(i % kTile, i / kTile)) + 0.5f;
+        vec3 color = textureLod(uSource, clamp(texel, vec2(0.5f), size - 0.5f) / size, 0.0f).rgb;
+        tile[i] = findHighlight(color, params.threshold, params.knee);
     }
-    return 0.25f * sum;
+}
+
+/// The 13 taps are means of the four texels that meet at a corner: of the inner box's corners, and of
+/// those of the four outer boxes. In texels they are a sum of two kernels that are products of a row
+/// and a column: 1 1 2 2 1 1, and four times 0 1 1 1 1 0.
+vec3 filterTile(uvec2 local) {
+    vec3 sum = vec3(0.0f);
+    for (uint y = 0u; y < 6u; ++y) {
+        uint at = (2u * local.y + y) * kTile + 2u * local.x;
+        vec3 middle = tile[at + 2u] + tile[at + 3u];
+        vec3 sides = tile[at + 1u] + tile[at + 4u];
+        float outer = y == 2u || y == 3u ? 2.0f : 1.0f;
+        float inner = y == 0u || y == 5u ? 0.0f : 4.0f;
+        sum += (2.0f * outer + inner) * middle + (outer + inner) * sides;
+        sum += outer * (tile[at] + tile[at + 5u]);
+    }
+    return sum / 128.0f;
 }
 
 void main() {
+    fillTile();
+    barrier();
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
-    // Where four texels meet, whatever the sizes: anywhere else the taps would weigh the texels of a
-    // chessboard's black squares more than those of the white ones, and light would flicker as it moves.
-    vec2 middle = 2.0f * vec2(pixel) + 1.0f;
-    vec3 sum = 4.0f * fetchCorner(middle);
-    for (uint i = 0u; i < 4u; ++i) {
-        vec2 side = vec2(float(i & 1u), float(i >> 1u)) * 2.0f - 1.0f;
-        sum += 4.0f * fetchCorner(middle + side);        // the inner box
-        sum += 1.0f * fetchCorner(middle + 2.0f * side); // corners of the outer ones
-    }
-    sum += 2.0f * fetchCorner(middle + vec2(-2.0f, 0.0f));
-    sum += 2.0f * fetchCorner(middle + vec2(2.0f, 0.0f));
-    sum += 2.0f * fetchCorner(middle + vec2(0.0f, -2.0f));
-    sum += 2.0f * fetchCorner(middle + vec2(0.0f, 2.0f));
-    imageStore(uHalf, ivec2(pixel), vec4(sum / 32.0f, 1.0f));
+    imageStore(uHalf, ivec2(pixel), vec4(filterTile(gl_LocalInvocationID.xy), 1.0f));
 }

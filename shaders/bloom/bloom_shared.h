@@ -7,15 +7,17 @@
 SHUTTER_SHADER_BEGIN
 
 struct BloomParams {
-    uvec2 sizePx;   // of the image that is written
-    uvec2 sourcePx; // of the one that is filtered: the finer one on the way down, the coarser up
-    float share;    // up: of the coarser image in what is written
+    uvec2 sizePx;    // of the image that is written
+    uvec2 sourcePx;  // of the one that is filtered: the finer one on the way down, the coarser up
+    float share;     // up: of the coarser image in what is written
+    float threshold; // of what is scattered of the finer image; 0: all of it
+    float knee;      // of the threshold, in its unit
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::BloomParams) == 20);
+static_assert(sizeof(shutter::shader::BloomParams) == 28);
 #endif
 
 #endif

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A finer image mixed with a coarser one, which is spread by a tent (Jimenez 2014). Shares, not sums:
-// the picture keeps its light.
+// A finer image mixed with a coarser one, which is spread by a tent (Jimenez 2014). What is added was
+// taken away: the picture keeps its light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#include "bloom/bloom.glsl"
 #include "bloom/bloom_shared.h"
 #include "common/numeric.glsl"
 
@@ -28,6 +29,8 @@ void main() {
     if (any(greaterThanEqual(pixel, params.sizePx))) return;
     vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx);
     vec4 fine = textureLod(uFine, uv, 0.0f);
-    vec3 mixed = mix(fine.rgb, spreadCoarse(0.5f * (vec2(pixel) + 0.5f)), params.share);
+    vec3 scattered = findHighlight(fine.rgb, params.threshold, params.knee);
+    vec3 spread = spreadCoarse(0.5f * (vec2(pixel) + 0.5f));
+    vec3 mixed = fine.rgb + params.share * (spread - scattered);
     imageStore(uMixed, ivec2(pixel), vec4(storableColor(mixed), fine.a));
 }

@@ -6,6 +6,8 @@
 
 SHUTTER_SHADER_BEGIN
 
+SHUTTER_CONST uint kTonemapGroup = 8u; // side, pixels
+
 SHUTTER_CONST uint kTonemapNone = 0u;    // clamp to [0, 1]
 SHUTTER_CONST uint kTonemapNeutral = 1u; // Khronos PBR Neutral
 
@@ -13,12 +15,13 @@ struct TonemapParams {
     uvec2 sizePx;
     float gain; // linear multiplier before the operator: 2^EV
     uint operator_;
+    uvec2 brightest; // address of float[]: by group, row by row; 0: it is not asked for
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::TonemapParams) == 16);
+static_assert(sizeof(shutter::shader::TonemapParams) == 24);
 #endif
 
 #endif

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Bloom spreads light and keeps it.
 #include "modules/bloom/bloom.h"
+#include "shaders/bloom/bloom.glsl"
 #include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace shutter {
 namespace {
 
 class Bloom : public test::GpuTest {
   protected:
-    /// \param isHalf the picture is of half floats, as frames are; false: of floats, as sums are
+    /// All light scatters. \param isHalf the picture is of half floats, as frames are; false: of
+    /// floats, as sums are
     image::Image run(const image::Image& picture, float share, bool isHalf = true) {
+        return run(picture, {.share = share, .threshold = 0.0f}, isHalf);
+    }
+
+    image::Image
+    run(const image::Image& picture, const bloom::BloomSettings& settings, bool isHalf = true) {
         test::GraphRig rig(device());
         const graph::ImageHandle color = isHalf ? rig.uploadColor(picture) : rig.upload(picture);
         test::EffectRig effect(rig, color, picture.width, picture.height);
-        bloom::Bloom bloom(device(), {share});
+        bloom::Bloom bloom(device(), settings);
         EXPECT_TRUE(bloom.ask(effect.facts).run);
         bloom.declare(effect.context);
         const size_t ticket = rig.want(effect.context.color);
@@ -104,6 +112,84 @@ TEST_F(Bloom, TheBrightestLightStaysFinite) {
     EXPECT_TRUE(test::allFinite(run(test::makePicture(96, 64, 65000.0f), 1.0f)));
 }
 
+TEST_F(Bloom, WhatIsBelowTheKneeStaysAsItIs) {
+    image::Image noise = test::makeNoise(123, 77);
+    for (float& value : noise.pixels)
+        value = image::roundToHalf(0.25f + 0.25f * value); // the knee begins at 0.5
+    const image::Image bloomed = run(noise, {.share = 0.8f, .threshold = 1.0f, .knee = 0.5f});
+    for (size_t i = 0; i < noise.pixels.size(); ++i)
+        ASSERT_EQ(bloomed.pixels[i], noise.pixels[i]) << i;
+}
+
+TEST_F(Bloom, OnlyLightAboveTheThresholdSpreadsAndTheWholeIsKept) {
+    image::Image point = makePoint(256, 256, 120, 117);
+    for (float& value : point.pixels)
+        value += 0.25f; // around the light, below the knee
+    const double before = sum(point);
+    const image::Image bloomed = run(point, {.share = 0.5f, .threshold = 400.0f, .knee = 0.25f});
+    EXPECT_NEAR(bloomed.at(120, 117, 0), 1000.0 - 0.5 * 600.0, 40.0);
+    EXPECT_GT(bloomed.at(132, 117, 0), 0.251f);
+    EXPECT_NEAR(sum(bloomed), before, 10.0);
+}
+
+TEST_F(Bloom, AMeanThatIsBelowTheThresholdDoesNotHideAHighlight) {
+    // One bright texel among dark ones: the four of a corner are 3 on average.
+    const image::Image point = makePoint(64, 64, 31, 31);
+    image::Image dim = point;
+    for (float& value : dim.pixels)
+        value *= 12.0f / 1000.0f;
+    const image::Image bloomed = run(dim, {.share = 0.5f, .threshold = 8.0f, .knee = 0.0f});
+    EXPECT_NEAR(bloomed.at(31, 31, 0), 10.0, 0.3);
+    EXPECT_NEAR(sum(bloomed), 12.0, 0.2);
+}
+
+TEST_F(Bloom, ItRunsWhereTheLastPictureHadAHighlightOrIsNotKnown) {
+    const bloom::BloomSettings settings{.share = 0.1f, .threshold = 2.0f, .knee = 0.25f};
+    const bloom::Bloom bloom(device(), settings);
+    EXPECT_EQ(bloom::findKneeStart(settings), 1.5f);
+    render::ViewFacts facts;
+    facts.width = 640;
+    facts.height = 360;
+    EXPECT_TRUE(bloom.ask(facts).run);
+    facts.lastBrightest = 1.51f;
+    EXPECT_TRUE(bloom.ask(facts).run);
+    facts.lastBrightest = 1.5f;
+    EXPECT_FALSE(bloom.ask(facts).run);
+    EXPECT_NE(bloom.ask(facts).reason.find("knee"), std::string::npos);
+    // Without a threshold all light is scattered; in the dark there is none.
+    const bloom::Bloom all(device(), {.share = 0.1f, .threshold = 0.0f});
+    EXPECT_TRUE(all.ask(facts).run);
+    facts.lastBrightest = 0.0f;
+    EXPECT_FALSE(all.ask(facts).run);
+}
+
+TEST(BloomKnee, RisesFromNothingToAllThatIsAboveTheThreshold) {
+    const float threshold = 2.0f;
+    const float knee = 0.5f;
+    const auto find = [&](float peak) {
+        return peak * shader::findHighlightShare(peak, threshold, knee);
+    };
+    EXPECT_EQ(find(1.5f), 0.0f);
+    EXPECT_NEAR(find(2.0f), 0.25f * knee, 1e-6f);
+    EXPECT_NEAR(find(2.5f), 0.5f, 1e-6f);
+    EXPECT_NEAR(find(60000.0f), 59998.0f, 1.0f);
+    float last = 0.0f;
+    for (float peak = 1.5f; peak < 3.0f; peak += 0.01f) {
+        const float now = find(peak);
+        EXPECT_GE(now, last);
+        EXPECT_LE(now - last, 0.0101f) << peak; // no steps
+        last = now;
+    }
+}
+
+TEST(BloomKnee, HasNoWidthWhereNoneIsWanted) {
+    EXPECT_EQ(shader::findHighlightShare(2.0f, 2.0f, 0.0f), 0.0f);
+    EXPECT_EQ(shader::findHighlightShare(4.0f, 2.0f, 0.0f), 0.5f);
+    EXPECT_EQ(shader::findHighlightShare(0.3f, 0.0f, 0.0f), 1.0f);
+    EXPECT_EQ(shader::findHighlightShare(0.0f, 0.0f, 0.0f), 0.0f); // black
+    EXPECT_EQ(shader::findHighlight({0.0f, 0.0f, 0.0f}, 1.0f, 1.0f), math::vec3(0.0f));
+}
+
 TEST_F(Bloom, ItIsSkippedWithoutLightToScatterAndInTinyPictures) {
     render::ViewFacts facts;
     facts.width = 640;
@@ -118,10 +204,16 @@ TEST_F(Bloom, ItIsSkippedWithoutLightToScatterAndInTinyPictures) {
     EXPECT_EQ(bloom::countLevels(65536, 65536), 10u);
 }
 
-TEST_F(Bloom, SharesOutsideTheirRangeAreRefused) {
+TEST_F(Bloom, SettingsOutsideTheirRangeAreRefused) {
     for (const float share : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()})
         EXPECT_FALSE(bloom::validate({share}).ok()) << share;
     EXPECT_TRUE(bloom::validate({1.0f}).ok());
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const float threshold : {-0.1f, 65001.0f, nan})
+        EXPECT_FALSE(bloom::validate({.threshold = threshold}).ok()) << threshold;
+    for (const float knee : {-0.1f, 1.1f, nan})
+        EXPECT_FALSE(bloom::validate({.knee = knee}).ok()) << knee;
+    EXPECT_TRUE(bloom::validate({.threshold = 0.0f, .knee = 1.0f}).ok());
 }
 
 } // namespace

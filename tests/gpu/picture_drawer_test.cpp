@@ -2,10 +2,13 @@
 // Pictures that share a view share the measurement of its cap; a method that looks at the frame
 // before gets it, whether a sequence drew it or not.
 #include "game/shot/picture_drawer.h"
+#include "modules/bloom/bloom.h"
+#include "modules/tonemap/tonemap.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
@@ -84,6 +87,42 @@ TEST_F(PictureDrawerTest, AFrameOfASequenceIsTheFrameDrawnAlone) {
         draw(inSequence, "resolved", 4 * mOptions.frameSeconds),
         draw(alone, "resolved", 4 * mOptions.frameSeconds)
     ));
+}
+
+TEST_F(PictureDrawerTest, BloomFollowsTheHighlightsOfTheLastPictureThatIsFinished) {
+    // A bright box comes into the picture between 0.5 s and 1 s, and never leaves it.
+    mScene.add(
+        test::makeBox({0.5, 0.5, 0.5}, mScene.addColor(math::vec3(4.0f))),
+        {.position = {-6, 0, -3}, .velocity = {5, 0, 0}}
+    );
+    useShutter({.exposureSeconds = 0.0});
+    bloom::Bloom bloom(device(), {.share = 0.2f, .threshold = 2.0f});
+    tonemap::Tonemap tonemap(device(), {});
+    game::PictureDrawer drawer(device(), *mRenderer);
+    const auto runsBloom = [&](double seconds, bool isAsked) {
+        game::PictureRequest picture = game::makePicture(
+            mShot, mOptions, game::makeMethod(*game::findMethod("sharp").value()), seconds
+        );
+        picture.frame.wantDisplay = true;
+        picture.frame.wantBrightest = isAsked;
+        picture.ending = {&bloom, &tonemap};
+        auto drawn = drawer.draw(mShot.world, picture);
+        EXPECT_TRUE(drawn.ok());
+        const auto& passes = drawn.value().statistics.passes;
+        return std::any_of(passes.begin(), passes.end(), [](const render::PassTime& pass) {
+            return pass.name.starts_with("bloom");
+        });
+    };
+    EXPECT_TRUE(runsBloom(0.0, true)) << "nothing is known yet";
+    EXPECT_FALSE(runsBloom(0.0, true));
+    EXPECT_FALSE(runsBloom(1.0, true)) << "the last picture had no highlight";
+    EXPECT_TRUE(runsBloom(1.0, true));
+    EXPECT_TRUE(runsBloom(0.0, true)) << "the last picture had one";
+    EXPECT_FALSE(runsBloom(0.0, true));
+    // Pictures that stand for themselves do not depend on those before.
+    EXPECT_TRUE(runsBloom(0.0, false));
+    EXPECT_TRUE(runsBloom(0.0, false));
+    EXPECT_TRUE(runsBloom(0.0, true)) << "the last picture was not measured";
 }
 
 TEST_F(PictureDrawerTest, TheFrameBeforeIsDrawnForWhatIsLookedUpInItAlone) {

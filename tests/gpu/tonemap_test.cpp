@@ -6,6 +6,8 @@
 #include "tests/support/gpu_fixture.h"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace shutter {
 namespace {
@@ -66,6 +68,62 @@ TEST_F(Tonemap, NoMapperCutsOffAndEncodes) {
 
 TEST_F(Tonemap, TheExposureValueMultiplies) {
     expectAsInCpp(device(), {.op = tonemap::Operator::None, .exposureValue = -2.5});
+}
+
+/// What a tone map that is used again and again measures of each picture; nothing where it is not
+/// asked.
+class BrightestChannel : public Tonemap {
+  protected:
+    std::optional<double> measure(const image::Image& colors, bool isWanted = true) {
+        test::GraphRig rig(device());
+        test::EffectRig effect(rig, rig.upload(colors), colors.width, colors.height);
+        effect.facts.brightestWanted = isWanted;
+        if (!mTonemap)
+            mTonemap.emplace(device(), tonemap::TonemapSettings{.exposureValue = -3.0});
+        mTonemap->declare(effect.context);
+        const size_t ticket = rig.want(effect.context.display);
+        test::run(rig);
+        mDisplay = rig.take(ticket);
+        render::Counters counters;
+        render::Measures measures;
+        render::FinishedFrame finished{0, true, {}, counters, measures};
+        mTonemap->finish(finished);
+        const auto found = measures.find(render::kBrightest);
+        return found == measures.end() ? std::nullopt : std::optional(found->second);
+    }
+
+    std::optional<tonemap::Tonemap> mTonemap;
+    image::Image mDisplay; ///< of the last one
+};
+
+TEST_F(BrightestChannel, IsFoundWhereverItIs) {
+    // No multiple of the group's 8.
+    for (const auto at : {glm::uvec2(0, 0), glm::uvec2(130, 8), glm::uvec2(64, 3)})
+        for (uint32_t channel = 0; channel < 3; ++channel) {
+            image::Image picture = test::makePicture(131, 9, 0.125f);
+            picture.at(at.x, at.y, channel) = 37.5f;
+            EXPECT_EQ(measure(picture), 37.5) << at.x << ", " << at.y;
+        }
+    EXPECT_EQ(measure(test::makePicture(131, 9, 0.125f)), 0.125)
+        << "the brighter ones are forgotten";
+    EXPECT_EQ(measure(test::makePicture(16, 8, 0.0f)), 0.0) << "a smaller one after a larger one";
+}
+
+TEST_F(BrightestChannel, IsMeasuredForThoseWhoAskAndChangesNothing) {
+    const image::Image colors = makeColors(40, 24);
+    EXPECT_TRUE(measure(colors).has_value());
+    const image::Image measured = mDisplay;
+    EXPECT_FALSE(measure(colors, false).has_value());
+    EXPECT_EQ(measured.pixels, mDisplay.pixels);
+}
+
+TEST_F(BrightestChannel, NanCountsAsBlackAndInfinityAsTheMostThereIs) {
+    image::Image picture = test::makePicture(24, 16, 0.5f);
+    picture.at(3, 3, 1) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(measure(picture), 0.5);
+    picture.at(4, 3, 1) = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(measure(picture), double(shader::kMaxColor));
+    EXPECT_EQ(measure(test::makePicture(24, 16, -2.0f)), 0.0);
 }
 
 } // namespace

@@ -157,11 +157,11 @@ class Session(PlayCase):
         self.assertIn("instants", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
 
-    def test_bloom_costs_its_passes_and_none_without_a_share(self):
-        def shoot(share):
+    def test_bloom_costs_its_passes_and_none_without_a_share_or_a_highlight(self):
+        def shoot(share, **settings):
             script = Script().add(key="f1").wait(2).add(screenshot="a.png").wait(2)
             stats = self.play("rally", script.add(window="quit"), "--method", "gather",
-                              display=False, bloomShare=share)
+                              display=False, bloomShare=share, **settings)
             passes = {name: count for name, count in stats["passes"].items() if "bloom" in name}
             return passes, skimage.io.imread(self.folder / "a.png").astype(int)
 
@@ -171,6 +171,9 @@ class Session(PlayCase):
         passes, bloomed = shoot(0.2)
         self.assertEqual(passes, {"bloom down": 4, "bloom up": 4})
         self.assertGreater(abs(bloomed - sharp).mean(), 0.5)
+        # Nothing is as bright as that, which the second picture after knows.
+        passes, _ = shoot(0.2, bloomThreshold=60000)
+        self.assertEqual(passes, {})
 
     def test_motion_that_stops_and_starts_allocates_nothing_after_the_first_second(self):
         # Pausing and going on change what a frame consists of; drivers may take tens of

@@ -85,7 +85,8 @@ core::Status PlayRenderer::draw(
     frame.wantReasons = frame.wantCounters = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
-    mBloom.configure({settings.bloomShare});
+    mBloom.configure({settings.bloomShare, settings.bloomThreshold, settings.bloomKnee});
+    frame.wantBrightest = settings.bloomShare > 0.0f;
     // Both sides of a split share the view, so one measurement serves.
     const auto cap = mDrawer.measureCap(world, frame.view);
     if (!cap)

@@ -184,7 +184,8 @@ void drawEffectSection(PlaySettings& settings) {
     drawPlayRows(
         "effects",
         settings,
-        std::vector<std::string_view>{"antiAliasing", "shadows", "environment", "bloomShare"}
+        std::vector<std::string_view>{
+            "antiAliasing", "shadows", "environment", "bloomShare", "bloomThreshold", "bloomKnee"}
     );
     ButtonRow buttons;
     const PlaySettings fresh;

@@ -37,6 +37,7 @@ struct Case {
     /// The only pass that the frame cannot do without, which has one image; null: there is none.
     const char* pass = nullptr;
     double stepSeconds = 0.0; ///< from frame to frame
+    bloom::BloomSettings bloom{};
 };
 
 void askNothing(game::ShotArguments&) {}
@@ -95,6 +96,11 @@ const Case kCases[] = {
      .content = {.hasEnvironment = true},
      .ask = askUnlit},
     {.name = "bloom that scatters no light", .content = {}, .ask = askNothing},
+    {.name = "bloom where nothing is above its knee, in the frame after",
+     .content = {},
+     .ask = askNothing,
+     .isFirst = false,
+     .bloom = {.share = 0.1f, .threshold = 20.0f}},
 };
 
 scene::Environment makeGreySky() {
@@ -147,7 +153,7 @@ drawParts(gpu::Device& device, const DemandOptions& options, const Case& wanted,
     auto subject = isAsked ? Subject::createWithEffect(
                                  device,
                                  *stage,
-                                 std::make_unique<bloom::Bloom>(device, bloom::BloomSettings{0.0f}),
+                                 std::make_unique<bloom::Bloom>(device, wanted.bloom),
                                  width,
                                  height
                              )

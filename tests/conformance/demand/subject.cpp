@@ -111,8 +111,10 @@ core::Result<render::FrameResult> Subject::draw() {
     picture.frame.wantDisplay = true;
     picture.frame.wantDump = mWantsDump;
     picture.frame.intermediates = mIntermediates;
-    if (mEffect)
+    if (mEffect) {
         picture.ending.push_back(mEffect.get());
+        picture.frame.wantBrightest = true; // it may ask for what the last picture showed
+    }
     picture.ending.push_back(&mTonemap);
     mSeconds += mStepSeconds;
     return mDrawer.draw(mStage.shot.world, picture);

@@ -184,6 +184,8 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--aov", {"--aov", "motion"}},
         {"--background", {"--background", "1,1,1"}},
         {"--bloom", {"--bloom", "0.1"}},
+        {"--bloom-knee", {"--bloom-knee", "0.1"}},
+        {"--bloom-threshold", {"--bloom-threshold", "2"}},
         {"--budget", {"--budget", "8"}},
         {"--camera", {"--camera", "x"}},
         {"--camera-rotation-blur", {"--camera-rotation-blur", "0.5"}},

@@ -431,6 +431,17 @@ TEST_F(RenderOptionsTest, AntiAliasingIsAboutTheRasterImage) {
     }
 }
 
+TEST_F(RenderOptionsTest, BloomHasAThresholdAndAKnee) {
+    EXPECT_EQ(accept(Words{}).shot.bloom.threshold, 1.0f);
+    EXPECT_EQ(accept(Words{}).shot.bloom.knee, 0.5f);
+    EXPECT_EQ(accept(Words{"--bloom-threshold=0"}).shot.bloom.threshold, 0.0f);
+    EXPECT_EQ(accept(Words{"--bloom-knee=1"}).shot.bloom.knee, 1.0f);
+    for (const double value : {-0.1, 65001.0})
+        refuse("--bloom-threshold", Words{"--bloom-threshold=" + wordOf(value)});
+    for (const double value : {-0.1, 1.1})
+        refuse("--bloom-knee", Words{"--bloom-knee=" + wordOf(value)});
+}
+
 TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
     EXPECT_EQ(accept(Words{}).shot.bloom.share, 0.0f);
     EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.bloom.share, 0.05f);
