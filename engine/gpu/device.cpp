@@ -5,7 +5,6 @@
 #include "engine/core/log.h"
 #include "engine/core/platform.h"
 #include "engine/gpu/device_features.h"
-#include "engine/gpu/kept_pipelines.h"
 #include "engine/gpu/pipeline_cache.h"
 
 #include <algorithm>
@@ -48,7 +47,7 @@ void require(VkResult result, std::string_view doing) {
 }
 
 core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-    std::unique_ptr<Device> device(new Device);
+    std::unique_ptr<Device> device(new Device(options.keptPipelines));
     try {
         SHUTTER_TRY(device->createInstance(options));
         SHUTTER_TRY(device->choosePhysicalDevice(options));
@@ -66,7 +65,6 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->mMakesPipelinesAhead =
             options.pipelinesAhead == PipelinesAhead::Always ||
             (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
-        device->mKeptPipelines = std::make_unique<KeptPipelines>(options.keptPipelines);
         device->mBeforePipelineAhead = options.beforePipelineAhead;
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
@@ -79,9 +77,6 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
     );
     return device;
 }
-
-// Here, where KeptPipelines is complete.
-Device::Device() = default;
 
 Device::~Device() {
     if (mDevice) {

@@ -3,9 +3,11 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
+#include "engine/gpu/kept_pipelines.h"
 #include "engine/gpu/vulkan.h"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -58,17 +60,6 @@ struct DeviceOptions {
     /// Makes the surface on which the device shall show pictures (swapchain.h): it comes before the
     /// choice, which leaves out devices that cannot. Empty: any device will do.
     std::function<core::Result<VkSurfaceKHR>(VkInstance)> makeSurface;
-};
-
-class KeptPipelines;
-
-/// What makes up a pipeline.
-struct PipelineObjects {
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE; ///< set 0
-
-    bool operator==(const PipelineObjects&) const = default;
 };
 
 /// Stages that may use set 1 of a pipeline's layout.
@@ -212,10 +203,11 @@ class Device {
     [[nodiscard]] VkDescriptorSetLayout textureLayout(uint32_t count);
 
     /// DeviceOptions::keptPipelines is not 0.
-    [[nodiscard]] bool keepsPipelines() const;
+    [[nodiscard]] bool keepsPipelines() const { return mKeptPipelines.most() > 0; }
+
     /// One that was given up under this key; on any thread. See kept_pipelines.h.
     [[nodiscard]] std::optional<PipelineObjects> takePipeline(const std::string& key);
-    /// Keeps it or, where it keeps none and for an empty key, destroys it once it is not in use.
+    /// Keeps it or, where there is no room, destroys the oldest once it is not in use.
     void giveUpPipeline(std::string key, const PipelineObjects& objects);
 
     /// DeviceOptions::validate.
@@ -264,7 +256,8 @@ class Device {
     void setName(VkObjectType type, uint64_t object, const std::string& name) const;
 
   private:
-    Device();
+    explicit Device(size_t keptPipelines) : mKeptPipelines(keptPipelines) {}
+
     core::Status adoptHost(const HostDevice& host);
     core::Status createInstance(const DeviceOptions& options);
     /// Notes what is chosen in mInfo, and says what is passed over.
@@ -300,7 +293,7 @@ class Device {
     VkSampler mNearestSampler = VK_NULL_HANDLE;
     VkSampler mLinearSampler = VK_NULL_HANDLE;
     std::deque<std::pair<uint64_t, std::function<void()>>> mRetired;
-    std::unique_ptr<KeptPipelines> mKeptPipelines;
+    KeptPipelines mKeptPipelines;
     std::map<uint32_t, VkDescriptorSetLayout> mTextureLayouts; ///< by count
     LivingObjects mLiving;
     uint64_t mAllocationCount = 0;

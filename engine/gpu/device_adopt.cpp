@@ -6,7 +6,7 @@
 namespace shutter::gpu {
 
 core::Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
-    std::unique_ptr<Device> device(new Device);
+    std::unique_ptr<Device> device(new Device(0));
     try {
         SHUTTER_TRY(device->adoptHost(host));
     } catch (const DeviceError& error) {

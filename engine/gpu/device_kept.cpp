@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a device keeps for those who come later: layouts of texture tables, and pipelines.
 #include "engine/gpu/device.h"
-#include "engine/gpu/kept_pipelines.h"
 
 namespace shutter::gpu {
 
@@ -43,26 +42,18 @@ VkDescriptorSetLayout Device::textureLayout(uint32_t count) {
     return layout;
 }
 
-bool Device::keepsPipelines() const {
-    return mKeptPipelines && mKeptPipelines->most() > 0;
-}
-
 std::optional<PipelineObjects> Device::takePipeline(const std::string& key) {
-    return keepsPipelines() ? mKeptPipelines->take(key) : std::nullopt;
+    return mKeptPipelines.take(key);
 }
 
 void Device::giveUpPipeline(std::string key, const PipelineObjects& objects) {
-    std::optional<PipelineObjects> leaves = objects;
-    if (keepsPipelines() && !key.empty())
-        leaves = mKeptPipelines->keep(std::move(key), objects);
-    if (leaves)
+    if (const auto leaves = mKeptPipelines.keep(std::move(key), objects))
         retire([device = mDevice, objects = *leaves] { destroy(device, objects); });
 }
 
 void Device::destroyKept() {
-    if (mKeptPipelines)
-        for (const PipelineObjects& objects : mKeptPipelines->takeAll())
-            destroy(mDevice, objects);
+    for (const PipelineObjects& objects : mKeptPipelines.takeAll())
+        destroy(mDevice, objects);
     for (const auto& [count, layout] : mTextureLayouts)
         vkDestroyDescriptorSetLayout(mDevice, layout, nullptr);
     mTextureLayouts.clear();

@@ -5,7 +5,6 @@
 // do, spends most of its time there.
 #pragma once
 
-#include "engine/gpu/pipeline.h"
 #include "engine/gpu/vulkan.h"
 
 #include <cstddef>
@@ -17,12 +16,14 @@
 
 namespace shutter::gpu {
 
-/// All that a pipeline is made of, as bytes: equal for two descriptions exactly where one pipeline
-/// serves both. Shaders count as they are now (replaced_shader.h). Scene layouts count by handle,
-/// so they must live as long as the pipelines are kept.
-[[nodiscard]] std::string makePipelineKey(const ComputePipelineDesc& desc);
-[[nodiscard]] std::string makePipelineKey(const GraphicsPipelineDesc& desc);
-[[nodiscard]] std::string makePipelineKey(const RayPipelineDesc& desc);
+/// What makes up a pipeline.
+struct PipelineObjects {
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE; ///< set 0
+
+    bool operator==(const PipelineObjects&) const = default;
+};
 
 /// Calls nothing of Vulkan: whoever owns it destroys what it hands out. Thread-safe, since
 /// pipelines may be made on several threads.
@@ -33,7 +34,7 @@ class KeptPipelines {
 
     [[nodiscard]] size_t most() const { return mMost; }
 
-    /// Hands over one that was kept under this key.
+    /// Hands over one that was kept under this key (pipeline_key.h).
     [[nodiscard]] std::optional<PipelineObjects> take(const std::string& key);
     /// \return the one that is not kept any more, if any: the oldest, for which there is no room,
     /// or the given one, where its making failed half-way

@@ -2,7 +2,7 @@
 #include "engine/gpu/pipeline.h"
 
 #include "engine/core/check.h"
-#include "engine/gpu/kept_pipelines.h"
+#include "engine/gpu/pipeline_key.h"
 #include "engine/gpu/replaced_shader.h"
 #include "engine/gpu/shader_reflection.h"
 

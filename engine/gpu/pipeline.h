@@ -105,7 +105,7 @@ class Pipeline {
 
     Device* mDevice = nullptr;
     PipelineObjects mObjects;
-    std::string mKey; ///< under which the device may keep it; empty: it is destroyed
+    std::string mKey; ///< under which the device may keep it
     VkPipelineBindPoint mBindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags mStages = 0;
     size_t mBindingCount = 0;

@@ -138,7 +138,7 @@ void Bloom::declare(render::PostContext& context) {
     VkExtent2D size{context.facts.width, context.facts.height};
     for (uint32_t i = countLevels(size.width, size.height); i > 0; --i) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
-        // Of the images below nothing but highlights is left.
+        // The images below hold nothing but highlights.
         const bool isPicture = levels.size() == 1;
         levels.push_back(addDown(graph, levels.back(), size, isPicture ? mSettings.threshold : 0));
     }

@@ -44,14 +44,18 @@ EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, ui
     facts.displayWanted = true;
 }
 
-gpu::Pipeline makeScalePipeline(gpu::Device& device) {
+gpu::ComputePipelineDesc describeScalePipeline() {
     gpu::ComputePipelineDesc desc;
     desc.name = "scale";
     desc.spirv = accumulate_accumulate_comp;
     desc.interface.bindings = {
         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
-    return gpu::Pipeline(device, desc);
+    return desc;
+}
+
+gpu::Pipeline makeScalePipeline(gpu::Device& device) {
+    return gpu::Pipeline(device, describeScalePipeline());
 }
 
 image::Image makePicture(uint32_t width, uint32_t height, float value) {

@@ -29,6 +29,7 @@ struct EffectRig {
 
 /// The shader that adds pictures: with index 0, rgb = source's rgb times the scale. Something to
 /// dispatch, pushed AccumulateParams.
+[[nodiscard]] gpu::ComputePipelineDesc describeScalePipeline();
 [[nodiscard]] gpu::Pipeline makeScalePipeline(gpu::Device& device);
 
 /// One value in all four channels.

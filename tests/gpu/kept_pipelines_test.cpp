@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Pipelines that a device keeps for whoever wants the same.
-#include "engine/gpu/kept_pipelines.h"
-#include "engine/gpu/pipeline.h"
-#include "shaders/accumulate/accumulate_shared.h"
+#include "engine/gpu/pipeline_key.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <cstdint>
 #include <memory>
 #include <utility>
 
-// clang-format off: needs <cstdint> before it
-#include "spirv/accumulate/accumulate.comp.h"
-
-// clang-format on
-
 namespace shutter {
 namespace {
-
-gpu::ComputePipelineDesc describeScale() {
-    gpu::ComputePipelineDesc desc;
-    desc.name = "scale";
-    desc.spirv = accumulate_accumulate_comp;
-    desc.interface.bindings = {
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-    desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
-    return desc;
-}
 
 /// A device of its own that keeps so many pipelines.
 class KeptPipelines : public test::GpuTest {
@@ -57,11 +41,11 @@ TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfIt) {
     VkPipeline first = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     {
-        const gpu::Pipeline pipeline(*mOwn, describeScale());
+        const gpu::Pipeline pipeline(*mOwn, test::describeScalePipeline());
         first = pipeline.handle();
         layout = pipeline.layout();
     }
-    const gpu::Pipeline again(*mOwn, describeScale());
+    const gpu::Pipeline again(*mOwn, test::describeScalePipeline());
     EXPECT_EQ(again.handle(), first);
     EXPECT_EQ(again.layout(), layout);
     EXPECT_EQ(again.name(), "scale");
@@ -72,20 +56,20 @@ TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfIt) {
 
 TEST_F(KeptPipelines, OneInUseIsNotShared) {
     openDevice(4);
-    const gpu::Pipeline one(*mOwn, describeScale());
-    const gpu::Pipeline other(*mOwn, describeScale());
+    const gpu::Pipeline one(*mOwn, test::describeScalePipeline());
+    const gpu::Pipeline other(*mOwn, test::describeScalePipeline());
     EXPECT_NE(one.handle(), other.handle());
 }
 
 TEST_F(KeptPipelines, AnotherNameIsAnotherPipeline) {
     openDevice(4);
-    const gpu::Pipeline held(*mOwn, describeScale());
-    { const gpu::Pipeline kept(*mOwn, describeScale()); }
-    gpu::ComputePipelineDesc desc = describeScale();
+    const gpu::Pipeline held(*mOwn, test::describeScalePipeline());
+    { const gpu::Pipeline kept(*mOwn, test::describeScalePipeline()); }
+    gpu::ComputePipelineDesc desc = test::describeScalePipeline();
     desc.name = "other";
     const gpu::Pipeline other(*mOwn, desc);
     ASSERT_NE(other.handle(), held.handle());
-    const auto key = gpu::makePipelineKey(describeScale());
+    const auto key = gpu::makePipelineKey(test::describeScalePipeline());
     const auto kept = mOwn->takePipeline(key);
     ASSERT_TRUE(kept) << "it is still there";
     mOwn->giveUpPipeline(key, *kept);
@@ -93,9 +77,9 @@ TEST_F(KeptPipelines, AnotherNameIsAnotherPipeline) {
 
 TEST_F(KeptPipelines, WithoutTheOptionNothingIsKept) {
     openDevice(0);
-    { const gpu::Pipeline gone(*mOwn, describeScale()); }
+    { const gpu::Pipeline gone(*mOwn, test::describeScalePipeline()); }
     EXPECT_FALSE(mOwn->keepsPipelines());
-    EXPECT_FALSE(mOwn->takePipeline(gpu::makePipelineKey(describeScale())));
+    EXPECT_FALSE(mOwn->takePipeline(gpu::makePipelineKey(test::describeScalePipeline())));
 }
 
 TEST_F(KeptPipelines, TextureTablesOfOneSizeShareTheirLayout) {

@@ -7,7 +7,6 @@
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/tap_pipelines.h"
 #include "modules/motion_blur/passes/tile_motion.h"
-#include "shaders/accumulate/accumulate_shared.h"
 #include "shaders/common/shutter_response.glsl"
 #include "shaders/motion_blur/gather_shared.h"
 #include "tests/gpu/effect_rig.h"
@@ -20,7 +19,6 @@
 #include <thread>
 
 // clang-format off: needs <cstdint> before it
-#include "spirv/accumulate/accumulate.comp.h"
 #include "spirv/motion_blur/reconstruct.comp.h"
 
 // clang-format on
@@ -34,16 +32,6 @@ using motion_blur::TapPipelines;
 using motion_blur::TapVariants;
 
 class Pipelines : public test::GpuTest {};
-
-gpu::ComputePipelineDesc describeScale() {
-    gpu::ComputePipelineDesc desc;
-    desc.name = "scale";
-    desc.spirv = accumulate_accumulate_comp;
-    desc.interface.bindings = {
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-    desc.interface.pushConstantBytes = sizeof(shader::AccumulateParams);
-    return desc;
-}
 
 gpu::ComputePipelineDesc describeGather() {
     gpu::ComputePipelineDesc desc;
@@ -67,7 +55,7 @@ PassParams makeParams(uint32_t taps) {
 }
 
 TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgain) {
-    const gpu::LazyPipeline pipeline(device(), describeScale());
+    const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
     EXPECT_FALSE(pipeline.isReady());
     pipeline.prepare();
     pipeline.prepare(); // which changes nothing
@@ -81,7 +69,7 @@ TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgain) {
 
 TEST_F(Pipelines, OneThatNobodyWaitsForMayGo) {
     for (int i = 0; i < 4; ++i) {
-        const gpu::LazyPipeline pipeline(device(), describeScale());
+        const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
         pipeline.prepare();
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/kept_pipelines.h"
+#include "engine/gpu/pipeline_key.h"
 
 #include <gtest/gtest.h>
 
