@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/environment/prefilter.h"
 
+#include "engine/core/parallel_jobs.h"
 #include "engine/environment/directions.h"
 #include "engine/math/low_discrepancy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 namespace shutter::environment {
 
@@ -93,21 +93,16 @@ image::Image filterAll(
     const std::vector<image::Image>& pyramid, const std::vector<LobeSample>& samples, uint32_t width
 ) {
     image::Image filtered(width, width / 2, 3);
-    const auto filterRows = [&](uint32_t first, uint32_t step) {
-        for (uint32_t y = first; y < filtered.height; y += step)
-            for (uint32_t x = 0; x < width; ++x) {
-                const math::vec3 color = filterLobe(
-                    pyramid, samples, directionAt({(x + 0.5) / width, (y + 0.5) / filtered.height})
-                );
-                for (uint32_t c = 0; c < 3; ++c)
-                    filtered.at(x, y, c) = color[static_cast<int>(c)];
-            }
-    };
-    const uint32_t count = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
-    std::vector<std::jthread> threads;
-    for (uint32_t i = 1; i < count; ++i)
-        threads.emplace_back(filterRows, i, count);
-    filterRows(0, count);
+    core::runParallelJobs(filtered.height, [&](size_t row) {
+        const auto y = uint32_t(row);
+        for (uint32_t x = 0; x < width; ++x) {
+            const math::vec3 color = filterLobe(
+                pyramid, samples, directionAt({(x + 0.5) / width, (y + 0.5) / filtered.height})
+            );
+            for (uint32_t c = 0; c < 3; ++c)
+                filtered.at(x, y, c) = color[static_cast<int>(c)];
+        }
+    });
     return filtered;
 }
 

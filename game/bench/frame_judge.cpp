@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/frame_judge.h"
 
+#include "engine/core/parallel_jobs.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
-#include "game/bench/parallel_jobs.h"
 #include "game/bench/sequence/temporal_error.h"
 
 #include <utility>
@@ -15,7 +15,7 @@ core::Status FrameJudge::judge(std::vector<FramePicture>& pictures) {
     const FramePicture& truth = pictures.front();
     std::vector<Before> kept(pictures.size());
     std::vector<core::Status> written(pictures.size());
-    runParallelJobs(pictures.size(), [&](size_t i) {
+    core::runParallelJobs(pictures.size(), [&](size_t i) {
         FramePicture& picture = pictures[i];
         if (i > 0)
             judgePicture(truth, picture, kept[i]);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/sequence_run.h"
 
+#include "engine/core/parallel_jobs.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/bench/frame_judge.h"
-#include "game/bench/parallel_jobs.h"
 #include "game/bench/sequence/sequence_source.h"
 #include "game/bench/sequence_pass.h"
 #include "game/options/shot_arguments.h"
@@ -251,7 +251,7 @@ class SequenceRun {
         const std::vector<std::string> keys = listKeys();
         std::vector<Status> made(keys.size());
         if (!hasFilms())
-            runParallelJobs(keys.size(), [&](size_t i) {
+            core::runParallelJobs(keys.size(), [&](size_t i) {
                 const io::VideoFrames frames{
                     mFrames / namePart(keys[i]), kFramePattern, mPlan.frames, mFramesPerSecond};
                 made[i] =

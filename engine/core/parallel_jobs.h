@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <functional>
 
-namespace shutter::bench {
+namespace shutter::core {
 
 /// Runs job(0) to job(count - 1) on as many threads as there are processors, in no order, and waits
-/// for all of them. Each may write to what no other looks at.
+/// for all of them. Each may write to what no other looks at, and none throws.
 void runParallelJobs(size_t count, const std::function<void(size_t)>& job);
 
-} // namespace shutter::bench
+} // namespace shutter::core

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/parallel_jobs.h"
+#include "engine/core/parallel_jobs.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <vector>
 
-namespace shutter::bench {
+namespace shutter::core {
 namespace {
 
 TEST(ParallelJobs, EachRunsOnce) {
@@ -18,4 +18,4 @@ TEST(ParallelJobs, EachRunsOnce) {
 }
 
 } // namespace
-} // namespace shutter::bench
+} // namespace shutter::core
