@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view kTemporaryPrefix = ".shutter-";
+
 /// Returns an empty string, or why it failed.
 std::string writeBytes(const fs::path& path, std::span<const uint8_t> bytes) {
     errno = 0;
@@ -36,6 +38,16 @@ fs::path makeTemporaryPath(const fs::path& path) {
     const std::string name =
         fmt::format("{}{}-{}.tmp", kTemporaryPrefix, ::getpid(), sCounter.fetch_add(1));
     return (path.has_parent_path() ? path.parent_path() : fs::path(".")) / name;
+}
+
+void removeTemporaryFiles(const fs::path& folder) {
+    std::error_code ignored;
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (entry.path().filename().string().starts_with(kTemporaryPrefix))
+            left.push_back(entry.path());
+    for (const fs::path& file : left)
+        fs::remove(file, ignored);
 }
 
 core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t maxBytes) {

@@ -13,12 +13,12 @@
 
 namespace shutter::io {
 
-/// Prefix of temporary files' names; a process that was killed leaves such files behind.
-inline constexpr std::string_view kTemporaryPrefix = ".shutter-";
-
 /// A unique name for a file that will be renamed to `path`: in the same folder, so that the rename
 /// is atomic; short, so that it is allowed wherever the final name is.
 [[nodiscard]] std::filesystem::path makeTemporaryPath(const std::filesystem::path& path);
+
+/// Removes the temporary files in a folder that killed processes left, and those of running ones.
+void removeTemporaryFiles(const std::filesystem::path& folder);
 
 /// The first `maxBytes` bytes of a regular file (all of it when it is shorter). An Error says in
 /// one sentence that the path is missing, a folder, not a regular file or not readable.

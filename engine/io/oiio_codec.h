@@ -42,7 +42,7 @@ struct EncodeRequest {
     const void* pixels = nullptr;
     std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
     std::optional<uint32_t> timecode; ///< of EXR: packed as SMPTE 12M-1 has it
-    int jpegQuality = 95;             ///< 1 to 100
+    int jpegQuality = 0;              ///< of JPEG: 1 to 100
 };
 
 /// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty

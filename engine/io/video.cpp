@@ -44,7 +44,7 @@ struct CodecRow {
 const std::vector<CodecRow>& listCodecs() {
     static const std::vector<std::string> kH264 = {"-preset", "medium", "-crf", "16"};
     static const std::vector<std::string> kAv1 = {"-crf", "20", "-b:v", "0", "-cpu-used", "6"};
-    // A picture that somebody steps to is at most eight frames from one that stands alone.
+    // A key frame is at most eight frames before any that a viewer steps to.
     static const std::vector<std::string> kVp9 = {"-g", "8", "-deadline", "good", "-cpu-used", "4"};
     static const std::vector<CodecRow> kRows = {
         {VideoCodec::H264, 8, "libx264", "yuv420p", kH264},
@@ -82,7 +82,7 @@ const char* findContainer(const fs::path& file) {
     return extension == ".mov" ? "mov" : "mp4";
 }
 
-/// Of libvpx. A largest rate alone does not bind: films of two seconds came out six times as large.
+/// libvpx does not keep to a largest rate alone: films of two seconds came out six times as large.
 std::vector<std::string> listRateArguments(uint32_t kilobits) {
     if (kilobits == 0)
         return {"-crf", "12", "-b:v", "0"};

@@ -7,6 +7,7 @@
 #include "game/bench/bench_run.h"
 #include "game/bench/report/report_page.h"
 #include "game/options/program.h"
+#include "game/parts/part_commands.h"
 #include "game/parts/part_device.h"
 #include "game/parts/part_processes.h"
 #include "game/parts/part_slurm.h"
@@ -154,6 +155,9 @@ int runBench(BenchArguments& arguments) {
     auto task = interpretBench(arguments);
     if (!task)
         return game::fail(game::kExitUsage, task.error());
+    // Hours of measuring are worth their figures even without a page.
+    if (const Status page = checkReportPageCanBeMade(); !page)
+        core::logWarning("{}; results.json is written alone", page.error().message);
     const parts::JobOptions& jobs = arguments.jobs;
     const bool isInParts = jobs.jobs > 1 || jobs.slurm || !jobs.devices.empty();
     const Status done = isInParts ? measureInParts(arguments, task.value().suite)
@@ -161,32 +165,17 @@ int runBench(BenchArguments& arguments) {
     return done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
 }
 
-struct PartArguments {
-    fs::path folder;
-    uint32_t part = 0;
-    std::string device;
-};
-
-Status measurePart(const PartArguments& part) {
+Status measurePart(const parts::PartArguments& part) {
     const fs::path folder = fs::absolute(part.folder).lexically_normal();
     const auto plan = openBenchPlan(folder);
     if (!plan)
         return plan.error();
-    if (part.part >= plan.value().parts.size())
-        return core::makeError(
-            "part {} is none of the benchmark's: it has parts 0 to {}",
-            part.part,
-            plan.value().parts.size() - 1
-        );
+    SHUTTER_TRY(parts::checkPart(part.part, plan.value().parts.size(), kBenchNoun));
     CLI::App app;
     BenchArguments arguments;
     defineBenchOptions(app, arguments);
-    std::vector<std::string> reversed(plan.value().words.rbegin(), plan.value().words.rend());
-    try {
-        app.parse(std::move(reversed)); // in the order that CLI11 takes
-    } catch (const CLI::ParseError& error) {
-        return core::makeError("{}: {}", benchPlanFile(folder).string(), error.what());
-    }
+    if (const Status parsed = parts::parseWords(app, plan.value().words); !parsed)
+        return core::makeError("{}: {}", benchPlanFile(folder).string(), parsed.error().message);
     auto task = interpretBench(arguments);
     if (!task)
         return task.error();
@@ -196,29 +185,10 @@ Status measurePart(const PartArguments& part) {
     return measureTask(arguments, std::move(task.value()), folder, part.part);
 }
 
-Status finishPlanned(const PartArguments& part) {
+Status finishPlanned(const parts::PartArguments& part) {
     const fs::path folder = fs::absolute(part.folder).lexically_normal();
     const auto plan = openBenchPlan(folder);
     return plan ? finishBench(plan.value(), folder) : Status(plan.error());
-}
-
-/// A command that `--help` does not list: the processes of a run in parts run it.
-CLI::App* addHiddenCommand(
-    CLI::App& app,
-    const char* name,
-    const char* help,
-    int& exitStatus,
-    const std::shared_ptr<PartArguments>& arguments,
-    Status (*run)(const PartArguments&)
-) {
-    CLI::App* command = app.add_subcommand(name, help);
-    command->group("");
-    command->add_option("folder", arguments->folder, "working folder of the benchmark")->required();
-    command->callback([arguments, run, &exitStatus] {
-        const Status done = run(*arguments);
-        exitStatus = done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
-    });
-    return command;
 }
 
 } // namespace
@@ -229,24 +199,10 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     defineBenchOptions(*command, *arguments);
     command->callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
 
-    auto part = std::make_shared<PartArguments>();
-    CLI::App* measure = addHiddenCommand(
+    parts::addPartCommands(
         app,
-        kBenchPartCommand,
-        "measure a part of a planned benchmark",
         exitStatus,
-        part,
-        measurePart
-    );
-    measure->add_option("part", part->part, "index of the part")->required();
-    measure->add_option("--device", part->device, "in place of the benchmark's --device");
-    addHiddenCommand(
-        app,
-        kBenchFinishCommand,
-        "merge the parts of a benchmark",
-        exitStatus,
-        std::make_shared<PartArguments>(),
-        finishPlanned
+        {kBenchNoun, kBenchPartCommand, kBenchFinishCommand, measurePart, finishPlanned}
     );
 }
 

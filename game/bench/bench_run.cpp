@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/bench_run.h"
 
-#include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
@@ -51,9 +50,6 @@ class BenchRun {
     }
 
     Status run() {
-        // Hours of measuring are worth their figures even without a page.
-        if (const Status page = checkReportPageCanBeMade(); !page && mPartFile.empty())
-            core::logWarning("{}; results.json is written alone", page.error().message);
         describeRun();
         core::Progress progress("measuring", countAllSteps());
         for (const Case& shot : mSuite.cases) {

@@ -19,6 +19,7 @@ namespace shutter::bench {
 namespace {
 
 namespace fs = std::filesystem;
+using core::Status;
 
 core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
     if (!shot.writeScene)
@@ -27,9 +28,6 @@ core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
     SHUTTER_TRY(shot.writeScene(file));
     return file;
 }
-
-namespace fs = std::filesystem;
-using core::Status;
 
 constexpr uint32_t kCropSidePx = 96;
 

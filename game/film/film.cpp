@@ -5,6 +5,7 @@
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_commands.h"
 #include "game/parts/part_device.h"
 
 #include <CLI/CLI.hpp>
@@ -46,12 +47,7 @@ core::Result<game::RenderOptions> interpretWords(const std::vector<std::string>&
     CLI::App app;
     game::RenderArguments arguments;
     game::defineRenderOptions(app, arguments);
-    std::vector<std::string> reversed(words.rbegin(), words.rend()); // as CLI11 takes them
-    try {
-        app.parse(std::move(reversed));
-    } catch (const CLI::ParseError& error) {
-        return core::Error{error.what()};
-    }
+    SHUTTER_TRY(parts::parseWords(app, words));
     auto options = game::interpret(arguments);
     if (!options)
         return options;

@@ -3,6 +3,7 @@
 
 #include "game/film/film_plan.h"
 #include "game/options/option_rows.h"
+#include "game/parts/part_commands.h"
 
 #include <CLI/CLI.hpp>
 

@@ -10,6 +10,7 @@
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_commands.h"
 #include "game/parts/part_processes.h"
 #include "game/parts/part_slurm.h"
 
@@ -171,34 +172,16 @@ int runFilm(const FilmArguments& arguments) {
     return drawn ? game::kExitDone : fail(game::kExitFailed, drawn.error());
 }
 
-struct PartArguments {
-    std::string work;
-    uint32_t part = 0;
-    std::string device;
-};
-
-int runPart(const PartArguments& arguments) {
-    auto film = openFilm(arguments.work);
+core::Status runPart(const parts::PartArguments& arguments) {
+    auto film = openFilm(arguments.folder);
     if (!film)
-        return fail(game::kExitFailed, film.error());
-    const core::Status drawn = drawPart(std::move(film).value(), arguments.part, arguments.device);
-    return drawn ? game::kExitDone : fail(game::kExitFailed, drawn.error());
+        return film.error();
+    return drawPart(std::move(film).value(), arguments.part, arguments.device);
 }
 
-int runFinish(const PartArguments& arguments) {
-    auto film = openFilm(arguments.work);
-    if (!film)
-        return fail(game::kExitFailed, film.error());
-    const core::Status finished = finishFilm(std::move(film).value());
-    return finished ? game::kExitDone : fail(game::kExitFailed, finished.error());
-}
-
-/// A command that `--help` does not list: the processes of a film run it.
-CLI::App& addHiddenCommand(CLI::App& app, const char* name, const char* help, PartArguments& a) {
-    CLI::App* command = app.add_subcommand(name, help);
-    command->group("");
-    command->add_option("folder", a.work, "working folder of the film")->required();
-    return *command;
+core::Status runFinish(const parts::PartArguments& arguments) {
+    auto film = openFilm(arguments.folder);
+    return film ? finishFilm(std::move(film).value()) : core::Status(film.error());
 }
 
 } // namespace
@@ -209,16 +192,9 @@ void addFilmCommands(CLI::App& app, int& exitStatus) {
     defineFilmOptions(*command, *arguments);
     command->callback([arguments, &exitStatus] { exitStatus = runFilm(*arguments); });
 
-    auto part = std::make_shared<PartArguments>();
-    CLI::App& draw = addHiddenCommand(app, kPartCommand, "draw a part of a planned film", *part);
-    draw.add_option("part", part->part, "index of the part")->required();
-    draw.add_option("--device", part->device, "in place of the film's --device");
-    draw.callback([part, &exitStatus] { exitStatus = runPart(*part); });
-
-    auto whole = std::make_shared<PartArguments>();
-    CLI::App& finish =
-        addHiddenCommand(app, kFinishCommand, "encode a film whose parts are drawn", *whole);
-    finish.callback([whole, &exitStatus] { exitStatus = runFinish(*whole); });
+    parts::addPartCommands(
+        app, exitStatus, {kFilmNoun, kPartCommand, kFinishCommand, runPart, runFinish}
+    );
 }
 
 } // namespace shutter::film

@@ -7,6 +7,7 @@
 #include "game/output/fingerprint.h"
 #include "game/output/sequence.h"
 #include "game/output/sequence_journal.h"
+#include "game/parts/part_commands.h"
 #include "game/parts/part_device.h"
 
 #include <system_error>
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 using core::makeError;
 
 namespace {
-
-constexpr const char* kNoun = "film";
 
 /// Tells of no device: the film is known to be finished on machines that cannot draw it.
 std::string computeFilmFingerprint(const Film& film) {
@@ -78,10 +77,7 @@ core::Status recordFrames(const Film& film) {
 } // namespace
 
 core::Status drawPart(Film film, uint32_t part, const std::string& deviceName) {
-    if (part >= film.plan.parts.size())
-        return makeError(
-            "part {} is none of the film's: it has parts 0 to {}", part, film.plan.parts.size() - 1
-        );
+    SHUTTER_TRY(parts::checkPart(part, film.plan.parts.size(), kFilmNoun));
     auto shot = loadPlannedShot(film);
     if (!shot)
         return shot.error();
@@ -93,7 +89,9 @@ core::Status drawPart(Film film, uint32_t part, const std::string& deviceName) {
     if (!device)
         return device.error();
     const gpu::DeviceInfo& info = device.value()->info();
-    SHUTTER_TRY(parts::settleDevice(parts::deviceFile(film.work), {info.name, info.driver}, kNoun));
+    SHUTTER_TRY(
+        parts::settleDevice(parts::deviceFile(film.work), {info.name, info.driver}, kFilmNoun)
+    );
     const FilmPart& frames = film.plan.parts[part];
     SHUTTER_TRY(game::drawFrames(
         film.options,
@@ -144,7 +142,7 @@ core::Status finishFilm(Film film) {
 parts::PartWork describeWork(const Film& film) {
     const fs::path& file = film.options.output.film;
     parts::PartWork work;
-    work.noun = kNoun;
+    work.noun = kFilmNoun;
     work.verb = "rendering";
     work.name = (file.empty() ? film.options.output.out : file).filename().string();
     work.folder = film.work;

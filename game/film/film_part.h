@@ -10,6 +10,8 @@
 
 namespace shutter::film {
 
+/// What sentences call it.
+inline constexpr const char* kFilmNoun = "film";
 /// The hidden commands of the processes that draw and that finish.
 inline constexpr const char* kPartCommand = "film-part";
 inline constexpr const char* kFinishCommand = "film-finish";

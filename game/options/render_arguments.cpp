@@ -49,8 +49,9 @@ constexpr std::array kOutputRows = {
     ),
     makeRow<&O::timecode>(
         "--timecode",
-        "time code of the first frame of a film or of EXR pictures, HH:MM:SS:FF, or frame: that of "
-        "its number",
+        "time code of the first frame of a film or of EXR pictures, HH:MM:SS:FF (hours 00 to 23), "
+        "or "
+        "frame: that of its number",
         Matters::ToNoPicture
     ),
     makeRow<&O::aov>("--aov", "intermediates to write beside --out, comma-separated, or all"),

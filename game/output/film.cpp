@@ -7,7 +7,6 @@
 
 #include <string>
 #include <system_error>
-#include <vector>
 
 namespace shutter::game {
 
@@ -90,12 +89,7 @@ void removeFilmFrames(const RenderOptions& options, const fs::path& framesJourna
     for (size_t i = 0; i < options.shot.frameTimes.size(); ++i)
         fs::remove(frameFile(options.output.out, int(i)), ignored);
     fs::remove(framesJournal, ignored);
-    std::vector<fs::path> left;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
-            left.push_back(entry.path()); // of a run that was killed
-    for (const fs::path& file : left)
-        fs::remove(file, ignored);
+    io::removeTemporaryFiles(folder);
     fs::remove(folder, ignored);
     if (fs::exists(folder, ignored))
         core::logWarning("'{}' holds other files and is kept", folder.string());

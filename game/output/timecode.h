@@ -12,7 +12,7 @@
 namespace shutter::game {
 
 /// The time code of a frame of a sequence by --timecode and --fps; after 24 hours it begins anew.
-/// Nothing: none is asked for.
+/// Empty without --timecode.
 /// \param frame index among the sequence's frames
 /// Error: names --timecode.
 [[nodiscard]] core::Result<std::optional<io::Timecode>>

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-
 namespace shutter::parts {
 
 using core::makeError;
@@ -42,30 +40,6 @@ core::Status checkJobs(const JobOptions& o) {
     if (o.slurm && (o.jobs > 1 || !o.devices.empty()))
         return makeError("{} and --slurm exclude each other", o.jobs > 1 ? "--jobs" : "--devices");
     return {};
-}
-
-std::vector<std::string> listTypedWords(
-    std::span<const CLI::Option* const> options, std::span<const std::string_view> left
-) {
-    std::vector<std::string> words;
-    std::vector<std::string> places; // in front: an option of many values would take them
-    for (const CLI::Option* option : options) {
-        const std::string name = option->get_name();
-        if (option->count() == 0 || std::find(left.begin(), left.end(), name) != left.end())
-            continue;
-        const bool isFlag = option->get_items_expected_max() == 0;
-        for (const std::string& value : option->results()) {
-            if (option->get_lnames().empty()) {
-                places.push_back(value);
-                continue;
-            }
-            words.push_back(name);
-            if (!isFlag)
-                words.push_back(value);
-        }
-    }
-    places.insert(places.end(), words.begin(), words.end());
-    return places;
 }
 
 } // namespace shutter::parts

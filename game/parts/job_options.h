@@ -5,15 +5,12 @@
 #include "engine/core/result.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI {
 class App;
-class Option;
-} // namespace CLI
+}
 
 namespace shutter::parts {
 
@@ -31,9 +28,5 @@ void defineJobOptions(CLI::App& command, JobOptions& options);
 
 /// Error: names the option that needs or excludes another.
 [[nodiscard]] core::Status checkJobs(const JobOptions& options);
-
-/// What was typed of `options` as words that mean the same, without those of the names in `left`.
-[[nodiscard]] std::vector<std::string>
-listTypedWords(std::span<const CLI::Option* const> options, std::span<const std::string_view> left);
 
 } // namespace shutter::parts

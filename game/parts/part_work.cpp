@@ -33,12 +33,7 @@ void removePartFiles(const fs::path& folder, uint32_t partCount) {
         fs::remove(partLog(folder, part), ignored);
     for (const fs::path& file : {deviceFile(folder), jobsFile(folder), finishLog(folder)})
         fs::remove(file, ignored);
-    std::vector<fs::path> left; // of parts that were killed
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().filename().string().starts_with(io::kTemporaryPrefix))
-            left.push_back(entry.path());
-    for (const fs::path& file : left)
-        fs::remove(file, ignored);
+    io::removeTemporaryFiles(folder);
 }
 
 std::string findLastSentence(std::string_view output) {

@@ -4,49 +4,20 @@
 part that is killed is started again and goes on. Exit status 77 where Slurm is missing."""
 
 import json
-import os
 import re
-import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 import cluster as slurm
+from slurm_case import SHUTTER, SlurmCase, main
 
-SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
 CASES = ["spin", "camera_pan", "static_post"]
 
 
-class Benchmarks(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="shutter_slurm_"))
-        cls.cluster = slurm.Cluster(cls.folder / "cluster")
-        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        cls.addClassCleanup(cls.cluster.stop)
-        cls.cluster.start()
-
+class Benchmarks(SlurmCase):
     def words(self, out, *more):
         cases = [word for name in CASES for word in ("--case", name)]
         return [SHUTTER, "bench", "--suite", "hard", *cases, "--methods", "sharp,gather,accumulate",
                 "--size", "96x54", "--repeats", "2", "--truth-samples", "64", "--out", out,
                 "--device", "llvmpipe", *more]
-
-    def start(self, words):
-        environment = dict(self.cluster.environment, XDG_CACHE_HOME=str(self.folder))
-        return subprocess.Popen(words, cwd=self.folder, env=environment, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-    def finish(self, process, status=0):
-        out, err = process.communicate(timeout=300)
-        self.assertEqual(process.returncode, status, out + err)
-        return out, err
-
-    def queue(self, form, *more):
-        return self.cluster.run("squeue", "-h", "-r", "-o", form, *more).stdout.splitlines()
 
     def find_measured_part(self):
         """The job of a part that runs and of which something is in a journal."""
@@ -56,24 +27,9 @@ class Benchmarks(unittest.TestCase):
                 return job, int(part)
         return None
 
-    def start_requeued(self):
-        """Slurm lets a job that was requeued wait for two minutes; this one need not."""
-        for job in self.queue("%i", "-t", "PD"):
-            if "_" in job:
-                self.cluster.run("scontrol", "update", f"jobid={job}", "StartTime=now", check=False)
-
     def test_a_part_that_is_requeued_goes_on(self):
         process = self.start(self.words("many", "--slurm", "--wait"))
-        found = []
-
-        def is_caught():
-            self.assertIsNone(process.poll(), "the benchmark ended before a part could be requeued")
-            part = self.find_measured_part()
-            if part is not None:
-                found.append(part)
-            return part is not None
-        slurm.wait_for("a part that measures", is_caught)
-        job, part = found[0]
+        job, part = self.wait_for_part("a part that measures", process, self.find_measured_part)
         self.cluster.run("scontrol", "requeue", job)
         slurm.wait_for("the part that was requeued",
                        lambda: any(row.startswith("PD") and row.endswith(f"_{part}")
@@ -101,8 +57,7 @@ class Benchmarks(unittest.TestCase):
         self.assertEqual(len(jobs), 2, out)
         parts = self.folder / "refused/parts"
         (parts / "device.json").write_text('{"device": "another card", "driver": "7"}')
-        for job in jobs:
-            self.cluster.run("scontrol", "update", f"jobid={job}", "StartTime=now")
+        self.start_jobs(jobs)
         _, err = self.finish(self.start([*words, "--wait"]), status=1)
         self.assertEqual(err.count("\n"), 1, err)
         self.assertIn("the benchmark is not finished: part 0 says: the benchmark is drawn by "
@@ -110,17 +65,5 @@ class Benchmarks(unittest.TestCase):
         self.assertFalse((self.folder / "refused/results.json").exists())
 
 
-def has_device():
-    listed = subprocess.run([SHUTTER, "info", "--devices"], capture_output=True, text=True)
-    return "llvmpipe" in listed.stdout
-
-
 if __name__ == "__main__":
-    lacking = slurm.find_missing()
-    if lacking:
-        print(f"not installed: {', '.join(lacking)} (Debian: slurm-wlm, munge)")
-        sys.exit(77)
-    if not has_device():
-        print("skipped: llvmpipe is missing (package mesa-vulkan-drivers)")
-        sys.exit(77)
-    unittest.main(verbosity=2)
+    main()

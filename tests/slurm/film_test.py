@@ -5,17 +5,10 @@ dies in the middle changes no bit, and what fails is told. Exit status 77 where 
 
 import os
 import re
-import shutil
-import subprocess
-import sys
-import tempfile
-import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
 import cluster as slurm
+from slurm_case import SHUTTER, SlurmCase, main
 
-SHUTTER = os.environ["SHUTTER_EXECUTABLE"]
 SCENE = os.environ["SHUTTER_ASSETS"] + "/vase.glb"
 FRAMES = 16
 PARTS = 4
@@ -25,15 +18,7 @@ def read_folder(folder):
     return {path.name: path.read_bytes() for path in sorted(folder.glob("frame_*.png"))}
 
 
-class Films(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = Path(tempfile.mkdtemp(prefix="shutter_slurm_"))
-        cls.cluster = slurm.Cluster(cls.folder / "cluster")
-        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        cls.addClassCleanup(cls.cluster.stop)
-        cls.cluster.start()
-
+class Films(SlurmCase):
     def words(self, command, out, *more):
         return [SHUTTER, command, SCENE, "--device", "llvmpipe", "--size", "96x54", "--method",
                 "accumulate", "--samples", "48", "--frames", f"0:{FRAMES - 1}", "--out", out, *more]
@@ -44,20 +29,6 @@ class Films(unittest.TestCase):
             words[words.index("accumulate")] = method
         return words
 
-    def start(self, words):
-        environment = dict(self.cluster.environment, XDG_CACHE_HOME=str(self.folder))
-        return subprocess.Popen(words, cwd=self.folder, env=environment, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-    def finish(self, process, status=0):
-        out, err = process.communicate(timeout=300)
-        self.assertEqual(process.returncode, status, out + err)
-        return out, err
-
-    def queue(self, form, *more):
-        listed = self.cluster.run("squeue", "-h", "-r", "-o", form, *more).stdout
-        return listed.splitlines()
-
     def find_running_part(self, node, work):
         """A part that the node draws and of which a frame is complete."""
         for row in self.queue("%K %N", "-t", "R"):
@@ -67,25 +38,12 @@ class Films(unittest.TestCase):
                 return int(part)
         return None
 
-    def start_requeued(self):
-        """Slurm lets a job that lost its node wait for two minutes; this one need not."""
-        for job in self.queue("%i", "-t", "PD"):
-            if "_" in job:
-                self.cluster.run("scontrol", "update", f"jobid={job}", "StartTime=now", check=False)
-
     def test_a_node_that_dies_changes_no_bit(self):
         self.finish(self.start(self.words("render", "one.mp4", "--keep-frames")))
         process = self.start(self.film("parts.mp4", "--keep-frames", "--wait"))
         work = self.folder / "parts.mp4.frames"
-        drawn = []
-
-        def is_caught():
-            self.assertIsNone(process.poll(), "the film was finished before a node could die")
-            part = self.find_running_part("node2", work)
-            if part is not None:
-                drawn.append(part)
-            return part is not None
-        slurm.wait_for("a part on node2", is_caught)
+        self.wait_for_part("a part on node2", process,
+                           lambda: self.find_running_part("node2", work))
         self.cluster.kill_node("node2")
         # Where it stopped: what is complete is not drawn again.
         kept = {path: path.stat().st_mtime_ns for path in work.glob("frame_*.png")}
@@ -119,8 +77,7 @@ class Films(unittest.TestCase):
         self.assertEqual({row.split("_")[0] for row in self.queue("%i")}, set(jobs))
         work = self.folder / "refused.mp4.frames"
         (work / "device.json").write_text('{"device": "another card", "driver": "7"}')
-        for job in jobs:
-            self.cluster.run("scontrol", "update", f"jobid={job}", "StartTime=now")
+        self.start_jobs(jobs)
         _, err = self.finish(self.start([*film, "--wait"]), status=1)
         self.assertEqual(err.count("\n"), 1, err)
         self.assertIn("the film is not finished: part 0 says: the film is drawn by 'another card' "
@@ -141,18 +98,5 @@ class Films(unittest.TestCase):
         self.assertEqual(self.queue("%j", "--name=none.mp4"), [])
 
 
-def has_device():
-    listed = subprocess.run([SHUTTER, "info", "--devices"], capture_output=True, text=True)
-    return "llvmpipe" in listed.stdout
-
-
 if __name__ == "__main__":
-    lacking = slurm.find_missing()
-    lacking += [] if shutil.which("ffmpeg") else ["ffmpeg"]
-    if lacking:
-        print(f"not installed: {', '.join(lacking)} (Debian: slurm-wlm, munge, ffmpeg)")
-        sys.exit(77)
-    if not has_device():
-        print("skipped: llvmpipe is missing (package mesa-vulkan-drivers)")
-        sys.exit(77)
-    unittest.main(verbosity=2)
+    main("ffmpeg")

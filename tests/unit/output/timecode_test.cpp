@@ -15,7 +15,7 @@ RenderOptions makeOptions(const std::string& timecode, double fps) {
     return options;
 }
 
-/// The code of a frame, or why it has none; "-" where none is asked for.
+/// The code of a frame, or why it has none; "-" without --timecode.
 std::string find(const RenderOptions& options, size_t frame) {
     const auto found = findTimecode(options, frame);
     if (!found)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/parts/part_device.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <filesystem>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,22 +17,10 @@ namespace fs = std::filesystem;
 
 class DeviceFile : public testing::Test {
   protected:
-    DeviceFile() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        mFolder = fs::path(testing::TempDir()) / (std::string("device_") + test->name());
-        fs::remove_all(mFolder);
-        fs::create_directories(mFolder);
-        mFile = mFolder / "device.json";
-    }
+    [[nodiscard]] size_t countFiles() const { return test::countFiles(mFolder.path()); }
 
-    ~DeviceFile() override { fs::remove_all(mFolder); }
-
-    [[nodiscard]] size_t countFiles() const {
-        return size_t(std::distance(fs::directory_iterator(mFolder), fs::directory_iterator()));
-    }
-
-    fs::path mFolder;
-    fs::path mFile;
+    test::TempFolder mFolder;
+    fs::path mFile = mFolder.path() / "device.json";
 };
 
 } // namespace
