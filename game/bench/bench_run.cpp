@@ -87,7 +87,9 @@ class BenchRun {
             steps += axis.points.size() * countSteps(mScalingPoints, mTimesOnly);
         if (!mSuite.sequences.empty())
             steps +=
-                mSuite.sequences.size() * countPictures(planSequence(mMethods, mSequence.frames));
+                mSuite.sequences.size() *
+                countPictures(planSequence(mMethods, mSequence.frames, mSequence.truth.mostInstants)
+                );
         return steps + mSuite.hardCases.size() + mSuite.claims.size();
     }
 
@@ -116,7 +118,8 @@ class BenchRun {
         mRoot["settings"] = {
             {"width", mShot.width},
             {"height", mShot.height},
-            {"truthSamples", mOptions.truthSamples},
+            {"truthSamples",
+             mSuite.sequences.empty() ? mOptions.truthSamples : mSequence.truth.mostInstants},
             {"repeats", mOptions.repeats},
             {"limitSeconds", mOptions.limitSeconds},
             {"pixel", mShot.pixel == extract::PixelModel::Box ? "box" : "centre"},

@@ -2,6 +2,7 @@
 #include "game/bench/frame_judge.h"
 
 #include "engine/core/parallel_jobs.h"
+#include "engine/image/hdr_flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/bench/sequence/temporal_error.h"
@@ -38,7 +39,6 @@ core::Status FrameJudge::judge(std::vector<FramePicture>& pictures) {
 void FrameJudge::judgePicture(const FramePicture& truth, FramePicture& picture, Before& kept)
     const {
     std::map<std::string, double>& metrics = picture.record.picture.metrics;
-    picture.record.hasPicture = true;
     const bool isWhole = picture.judgement == Judgement::Whole;
     if (picture.judgement != Judgement::InTime)
         metrics["psnr"] = image::computePsnr(picture.shown, truth.shown);
@@ -46,6 +46,8 @@ void FrameJudge::judgePicture(const FramePicture& truth, FramePicture& picture, 
         metrics["ssim"] = image::computeSsim(picture.shown, truth.shown);
         metrics["flip"] = image::computeFlip(picture.shown, truth.shown).mean;
         kept.fine = computeFineError(picture.shown, truth.shown);
+        if (picture.linear.width > 0 && truth.linear.width > 0)
+            metrics["hdrFlip"] = image::computeHdrFlip(picture.linear, truth.linear).mean;
     }
     const auto before = mBefore.find(picture.key);
     const auto truthBefore = mBefore.find(truth.key);

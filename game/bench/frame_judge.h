@@ -43,7 +43,7 @@ class FrameJudge {
   private:
     struct Before {
         image::Image shown;
-        image::Image fine; ///< computeFineError(); empty where nobody asks for it
+        image::Image fine; ///< computeFineError(); empty where no fixed noise is measured
     };
 
     void judgePicture(const FramePicture& truth, FramePicture& picture, Before& kept) const;

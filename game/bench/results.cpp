@@ -33,17 +33,6 @@ double timeOfPass(const Sample& sample, const std::string& name) {
     return 0.0;
 }
 
-json describeTimes(const game::MethodInfo& method, const std::vector<Sample>& samples) {
-    return {
-        {"frame", packQuartiles(samples, computeFrameTime)},
-        {"effect",
-         packQuartiles(
-             samples, [&](const Sample& sample) { return computeEffectTime(method, sample); }
-         )},
-        {"wall",
-         packQuartiles(samples, [](const Sample& sample) { return sample.wallMilliseconds; })}};
-}
-
 json describePasses(const game::MethodInfo& method, const std::vector<Sample>& samples) {
     json passes = json::array();
     for (const PassSample& pass : samples.front().passes) {
@@ -55,11 +44,6 @@ json describePasses(const game::MethodInfo& method, const std::vector<Sample>& s
         passes.push_back(std::move(row));
     }
     return passes;
-}
-
-/// Null for a method that takes no samples.
-json packSampleCount(uint32_t samples) {
-    return samples > 0 ? json(samples) : json();
 }
 
 json describeMeasurement(const SamplePoint& point, const Record& record) {
@@ -165,6 +149,21 @@ json describeCurve(const demand::Curve& curve) {
 }
 
 } // namespace
+
+json packSampleCount(uint32_t samples) {
+    return samples > 0 ? json(samples) : json();
+}
+
+json describeTimes(const game::MethodInfo& method, const std::vector<Sample>& samples) {
+    return {
+        {"frame", packQuartiles(samples, computeFrameTime)},
+        {"effect",
+         packQuartiles(
+             samples, [&](const Sample& sample) { return computeEffectTime(method, sample); }
+         )},
+        {"wall",
+         packQuartiles(samples, [](const Sample& sample) { return sample.wallMilliseconds; })}};
+}
 
 json describeCase(
     const Case& shot,

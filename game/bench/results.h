@@ -15,6 +15,14 @@
 
 namespace shutter::bench {
 
+/// Null for a method that takes no samples.
+[[nodiscard]] nlohmann::json packSampleCount(uint32_t samples);
+
+/// Quartiles of the frame's, the effect's and the wall's milliseconds.
+/// \param samples at least one (CHECKed)
+[[nodiscard]] nlohmann::json
+describeTimes(const game::MethodInfo& method, const std::vector<Sample>& samples);
+
 /// One case with the sweep it was measured with.
 [[nodiscard]] nlohmann::json describeCase(
     const Case& shot,

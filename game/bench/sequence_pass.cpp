@@ -52,7 +52,7 @@ SequencePass::SequencePass(
     SequenceCamera camera,
     fs::path folder
 )
-    : mDevice(device), mSource(source), mPlan(plan), mFolder(std::move(folder)),
+    : mDevice(device), mSource(source), mPlan(plan), mCamera(camera), mFolder(std::move(folder)),
       mRenderer(device, source.world().assets), mTonemap(device, source.options().tonemap) {
     const SamplePoint most{game::findMethod("accumulate").value(), truth.mostInstants, false};
     mEachFrame.push_back({std::string(kTruthKey), makeMethodOptions(most), Judgement::Whole});
@@ -83,14 +83,14 @@ SequencePass::drawFrame(uint32_t frame, core::Progress& progress) {
     return pictures;
 }
 
-core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer) {
+core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer, bool wantLinear) {
     const game::ShotOptions& look = mSource.options();
     game::PictureRequest picture;
     picture.frame.view = mSource.view();
     picture.method = drawer.options;
     picture.pixel = look.pixel;
     picture.seed = look.seed;
-    picture.frame.wantColor = false;
+    picture.frame.wantColor = wantLinear;
     picture.frame.wantDisplay = true;
     picture.ending = {&mTonemap};
     if (const auto step = drawer.options.maxStepPx) {
@@ -103,19 +103,22 @@ core::Result<render::FrameResult> SequencePass::drawOnce(Drawer& drawer) {
 }
 
 Status SequencePass::draw(Drawer& drawer, uint32_t frame, std::vector<FramePicture>& pictures) {
+    const bool wantLinear =
+        SequencePlan::isJudgedLinear(mCamera, frame) && drawer.judgement == Judgement::Whole;
     if (!drawer.drawer) {
         // The first picture compiles shaders, which does not count as the method's time.
         drawer.drawer = std::make_unique<game::PictureDrawer>(mDevice, mRenderer);
-        if (auto warm = drawOnce(drawer); !warm)
+        if (auto warm = drawOnce(drawer, wantLinear); !warm)
             return warm.error();
     }
-    auto drawn = drawOnce(drawer);
+    auto drawn = drawOnce(drawer, wantLinear);
     if (!drawn)
         return drawn.error();
     FramePicture picture;
     picture.key = drawer.key;
     picture.judgement = drawer.judgement;
     picture.shown = dropAlpha(drawn.value().display);
+    picture.linear = std::move(drawn.value().color);
     picture.record.samples = {makeSample(drawn.value().statistics)};
     picture.record.hasPicture = true;
     picture.record.picture.counters = drawn.value().statistics.counters;

@@ -30,7 +30,7 @@ struct SequenceTruth {
 /// The part of a file's name that a key of the journal gives: "hybrid.15".
 [[nodiscard]] std::string namePart(std::string key);
 
-/// Of a picture that is kept for the film.
+/// The file of a picture that is kept for the film.
 /// \param folder of the sequence's pictures
 [[nodiscard]] std::filesystem::path
 fileOfFrame(const std::filesystem::path& folder, const std::string& key, uint32_t frame);
@@ -40,8 +40,7 @@ inline constexpr const char* kFramePattern = "frame_%06d.png";
 
 class SequencePass {
   public:
-    /// \param source stands at a frame
-    /// \param plan, source outlive this
+    /// \param source, plan outlive this
     /// \param folder of the pictures that are kept; empty: none is
     SequencePass(
         gpu::Device& device,
@@ -52,7 +51,7 @@ class SequencePass {
         std::filesystem::path folder
     );
 
-    /// The pictures of the frame that the source stands at, the truth first, to be judged.
+    /// The pictures of the source's current frame, the truth first, to be judged.
     [[nodiscard]] core::Result<std::vector<FramePicture>>
     drawFrame(uint32_t frame, core::Progress& progress);
 
@@ -65,13 +64,15 @@ class SequencePass {
         std::unique_ptr<game::PictureDrawer> drawer{}; ///< made when it draws first
     };
 
-    [[nodiscard]] core::Result<render::FrameResult> drawOnce(Drawer& drawer);
+    /// \param wantLinear as well as the picture that a display shows
+    [[nodiscard]] core::Result<render::FrameResult> drawOnce(Drawer& drawer, bool wantLinear);
     [[nodiscard]] core::Status
     draw(Drawer& drawer, uint32_t frame, std::vector<FramePicture>& pictures);
 
     gpu::Device& mDevice;
     const SequenceSource& mSource;
     const SequencePlan& mPlan;
+    SequenceCamera mCamera;
     std::filesystem::path mFolder;
     render::Renderer mRenderer;
     tonemap::Tonemap mTonemap;

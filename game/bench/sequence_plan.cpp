@@ -13,8 +13,10 @@ namespace {
 
 /// Frames in which other sample counts are drawn as well.
 constexpr uint32_t kSweepFrames = 4;
+/// Between two frames of which HDR-FLIP is taken.
+constexpr uint32_t kFramesPerLinear = 4;
 /// Largest sample count of methods that count rays: more take seconds a frame.
-constexpr uint32_t kMostRays = 16;
+constexpr uint32_t kMostRays = 8;
 
 } // namespace
 
@@ -22,10 +24,20 @@ bool SequencePlan::isSwept(uint32_t frame) const {
     return std::find(sweepFrames.begin(), sweepFrames.end(), frame) != sweepFrames.end();
 }
 
-SequencePlan planSequence(const std::vector<const game::MethodInfo*>& methods, uint32_t frames) {
+bool SequencePlan::isJudgedLinear(SequenceCamera camera, uint32_t frame) {
+    return camera == SequenceCamera::Own && frame % kFramesPerLinear == 0;
+}
+
+SequencePlan planSequence(
+    const std::vector<const game::MethodInfo*>& methods, uint32_t frames, uint32_t truthInstants
+) {
     SequencePlan plan;
     plan.points = makeSequencePoints(methods);
     for (const SamplePoint& point : makeSweep(methods, kMostRays)) {
+        // The truth would be compared with itself.
+        if (point.method->family == game::MethodFamily::Accumulate &&
+            point.samples >= truthInstants)
+            continue;
         const auto isDrawn = [&](const SamplePoint& other) {
             return makeKey(other) == makeKey(point);
         };

@@ -28,11 +28,16 @@ struct SequencePlan {
     std::vector<uint32_t> sweepFrames; ///< rising
 
     [[nodiscard]] bool isSwept(uint32_t frame) const;
+
+    /// Whether HDR-FLIP is taken of it: of every fourth frame, since it is as dear as FLIP of all.
+    [[nodiscard]] static bool isJudgedLinear(SequenceCamera camera, uint32_t frame);
 };
 
 /// \param methods that the device can run
-[[nodiscard]] SequencePlan
-planSequence(const std::vector<const game::MethodInfo*>& methods, uint32_t frames);
+/// \param truthInstants of accumulate at most, by which the truth is drawn
+[[nodiscard]] SequencePlan planSequence(
+    const std::vector<const game::MethodInfo*>& methods, uint32_t frames, uint32_t truthInstants
+);
 
 /// Pictures that are drawn in all, for a progress bar; the truth counts as one.
 [[nodiscard]] uint64_t countPictures(const SequencePlan& plan);

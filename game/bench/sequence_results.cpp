@@ -6,7 +6,6 @@
 #include "game/bench/sequence/temporal_error.h"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace shutter::bench {
@@ -15,18 +14,14 @@ namespace {
 
 using nlohmann::json;
 
-/// Films are asked for these errors, dB.
+/// Errors at which methods are compared by their time, dB.
 constexpr double kAskedPsnr[] = {35.0, 40.0};
 /// Measures of a frame that are curves over time.
-constexpr const char* kCurves[] = {"psnr", "ssim", "flip", "flicker"};
+constexpr const char* kCurves[] = {"psnr", "ssim", "flip", "hdrFlip", "flicker"};
 
 /// JSON has no infinity, which equal pictures have: null is written instead.
 json packNumber(double value) {
     return std::isfinite(value) ? json(value) : json();
-}
-
-json packSampleCount(uint32_t samples) {
-    return samples > 0 ? json(samples) : json();
 }
 
 /// The records of one point, frame by frame.
@@ -51,7 +46,7 @@ class Frames {
         return values;
     }
 
-    /// Of the frames that have it.
+    /// The frames that lack it are left out.
     [[nodiscard]] std::vector<double> collectMetric(const std::string& id) const {
         std::vector<double> values;
         for (const Record* record : mRecords)
@@ -60,14 +55,12 @@ class Frames {
         return values;
     }
 
-    [[nodiscard]] std::vector<double>
-    collectTimes(const std::function<double(const Sample&)>& timeOf) const {
-        std::vector<double> times;
+    [[nodiscard]] std::vector<Sample> collectSamples() const {
+        std::vector<Sample> samples;
         for (const Record* record : mRecords)
             if (record != nullptr)
-                for (const Sample& sample : record->samples)
-                    times.push_back(timeOf(sample));
-        return times;
+                samples.insert(samples.end(), record->samples.begin(), record->samples.end());
+        return samples;
     }
 
     [[nodiscard]] std::vector<double> collectCounter(const std::string& name) const {
@@ -78,7 +71,7 @@ class Frames {
         return counts;
     }
 
-    /// Of these frames alone.
+    /// The records of these frames alone.
     [[nodiscard]] Frames select(const std::vector<uint32_t>& frames) const {
         Frames some = *this;
         some.mRecords.clear();
@@ -112,15 +105,6 @@ double computeMean(const std::vector<double>& values) {
     return values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / double(values.size());
 }
 
-json describeTimes(const game::MethodInfo& method, const Frames& frames) {
-    const auto effect = [&](const Sample& sample) { return computeEffectTime(method, sample); };
-    const auto wall = [](const Sample& sample) { return sample.wallMilliseconds; };
-    return {
-        {"frame", packQuartiles(frames.collectTimes(computeFrameTime))},
-        {"effect", packQuartiles(frames.collectTimes(effect))},
-        {"wall", packQuartiles(frames.collectTimes(wall))}};
-}
-
 json describeMeasurement(const SamplePoint& point, const SequenceResult& result) {
     const std::string key = makeKey(point);
     const Frames own(result, SequenceCamera::Own, key);
@@ -133,10 +117,11 @@ json describeMeasurement(const SamplePoint& point, const SequenceResult& result)
          {{"psnr", packNumber(computeFilmPsnr(psnr))},
           {"ssim", packNumber(computeMean(own.collectMetric("ssim")))},
           {"flip", packNumber(computeMean(own.collectMetric("flip")))},
+          {"hdrFlip", packNumber(computeMean(own.collectMetric("hdrFlip")))},
           {"flicker", packNumber(computeMean(own.collectMetric("flicker")))},
           {"standingFlicker", packNumber(computeMean(standing.collectMetric("flicker")))},
           {"fixedNoise", computeFixedNoise(own.collectMetric("fixedPower"))}}},
-        {"milliseconds", describeTimes(*point.method, own)},
+        {"milliseconds", describeTimes(*point.method, own.collectSamples())},
         {"curves", json::object()}};
     for (const char* id : kCurves)
         row["curves"][id] = own.listMetric(id);
@@ -161,8 +146,7 @@ json describeEqualError(double psnr, const SequenceResult& result) {
             const Frames frames =
                 Frames(result, SequenceCamera::Own, makeKey(point)).select(result.plan.sweepFrames);
             const double reached = computeFilmPsnr(frames.collectMetric("psnr"));
-            const double time =
-                math::computeQuartiles(frames.collectTimes(computeFrameTime)).median;
+            const double time = describeTimes(method, frames.collectSamples())["frame"]["median"];
             best = std::max(best, reached);
             if (reached < psnr || (!fastest.is_null() && fastest.at("milliseconds") <= time))
                 continue;
@@ -203,6 +187,7 @@ json describeTemporalMetrics() {
         {{{"id", "psnr"}, {"name", "PSNR"}, {"unit", "dB"}, {"better", "higher"}},
          {{"id", "ssim"}, {"name", "SSIM"}, {"unit", ""}, {"better", "higher"}},
          {{"id", "flip"}, {"name", "FLIP"}, {"unit", ""}, {"better", "lower"}},
+         {{"id", "hdrFlip"}, {"name", "HDR-FLIP"}, {"unit", ""}, {"better", "lower"}},
          {{"id", "flicker"}, {"name", "Flicker"}, {"unit", ""}, {"better", "lower"}},
          {{"id", "standingFlicker"},
           {"name", "Flicker, camera at rest"},

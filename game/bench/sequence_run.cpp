@@ -152,11 +152,30 @@ class SequenceRun {
         FrameJudge judge;
         if (start > 0 && start < mPlan.frames)
             SHUTTER_TRY(goOnFrom(start - 1, judge));
+        if (start < mPlan.frames)
+            removeFilms();
         SHUTTER_TRY(makePictureFolders());
-        mProgress.advance(start * (mPlan.points.size() + 1));
+        mProgress.advance(countOwnPictures(start));
         for (uint32_t i = 0; i < start; ++i)
             source.value()->advance();
         return drawFrames(*source.value(), SequenceCamera::Own, {start, mPlan.frames}, judge);
+    }
+
+    /// Pictures of the frames before this one.
+    [[nodiscard]] uint64_t countOwnPictures(uint32_t end) const {
+        const auto swept =
+            std::count_if(mPlan.sweepFrames.begin(), mPlan.sweepFrames.end(), [&](uint32_t i) {
+                return i < end;
+            });
+        return uint64_t(end) * (mPlan.points.size() + 1) + uint64_t(swept) * mPlan.sweep.size();
+    }
+
+    /// Those of an earlier run do not show what is drawn now.
+    void removeFilms() const {
+        for (const std::string& key : listKeys()) {
+            std::error_code ignored;
+            fs::remove(mOptions.folder / filmOf(key), ignored);
+        }
     }
 
     Status drawStanding() {
@@ -188,7 +207,7 @@ class SequenceRun {
         uint32_t end = 0;
     };
 
-    /// \param source stands before the first of the frames
+    /// \param source whose next frame is the first of these
     Status drawFrames(
         SequenceSource& source, SequenceCamera camera, const FrameRange& frames, FrameJudge& judge
     ) {
@@ -300,7 +319,7 @@ core::Result<SequenceResult> measureSequence(
     const auto hash = computeSequenceHash(film, files.value(), options, device.info());
     if (!hash)
         return hash.error();
-    result.plan = planSequence(able, options.frames);
+    result.plan = planSequence(able, options.frames, options.truth.mostInstants);
     SequenceRun run(
         device, film, files.value(), result.plan, options, hash.value(), progress, stop
     );

@@ -177,6 +177,7 @@ TEST_F(BenchCommand, JudgesFlightsAndDemosInTime) {
     const json results = readResults();
     EXPECT_TRUE(results.at("complete"));
     ASSERT_EQ(results.at("sequences").size(), 2u);
+    EXPECT_EQ(results.at("settings").at("truthSamples"), 4);
     for (const json& film : results.at("sequences")) {
         EXPECT_EQ(film.at("frames"), 4);
         ASSERT_EQ(film.at("measurements").size(), 2u);
@@ -185,6 +186,7 @@ TEST_F(BenchCommand, JudgesFlightsAndDemosInTime) {
             EXPECT_GT(row.at("metrics").at("psnr"), 15.0);
             EXPECT_GT(row.at("metrics").at("flicker"), 0.0);
             EXPECT_TRUE(row.at("metrics").at("standingFlicker").is_number());
+            EXPECT_GT(row.at("metrics").at("hdrFlip"), 0.0);
             const json& flicker = row.at("curves").at("flicker");
             ASSERT_EQ(flicker.size(), 4u);
             EXPECT_TRUE(flicker.at(0).is_null()) << "there is no frame before the first";
@@ -232,6 +234,13 @@ TEST_F(BenchCommand, ASequenceGoesOnWhereItWasStopped) {
     const json once = readResults().at("sequences");
     expectSuccess(arguments);
     EXPECT_EQ(readResults().at("sequences"), once) << "a third run measures nothing";
+    const json& row = once.at(0).at("measurements").at(0);
+    if (!row.contains("film"))
+        return; // no encoder
+    const std::string film = "report/" + row.at("film").get<std::string>();
+    const std::string twelve = readFile(film);
+    expectSuccess(benchSequence({"--case", "spin-play", "--frames", "3"}));
+    EXPECT_NE(readFile(film), twelve) << "the film of other frames is left";
 }
 
 TEST_F(BenchCommand, GoesOnWhereItWasStopped) {

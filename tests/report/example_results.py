@@ -347,7 +347,8 @@ def soak():
 
 
 TEMPORAL = [("psnr", "PSNR", "dB", "higher"), ("ssim", "SSIM", "", "higher"),
-            ("flip", "FLIP", "", "lower"), ("flicker", "Flicker", "", "lower"),
+            ("flip", "FLIP", "", "lower"), ("hdrFlip", "HDR-FLIP", "", "lower"),
+            ("flicker", "Flicker", "", "lower"),
             ("standingFlicker", "Flicker, camera at rest", "", "lower"),
             ("fixedNoise", "Fixed noise", "", "lower")]
 
@@ -380,11 +381,13 @@ def sequence(name, shift, has_films):
         measurements.append({
             "method": method, "samples": samples,
             "metrics": {"psnr": psnr + shift, "ssim": 0.9 + psnr / 1000, "flip": 0.5 / psnr,
-                        "flicker": flicker, "standingFlicker": flicker / 4,
+                        "hdrFlip": 0.6 / psnr, "flicker": flicker, "standingFlicker": flicker / 4,
                         "fixedNoise": flicker / 2},
             "milliseconds": {"frame": quartiles(ms), "effect": quartiles(ms - 20),
                              "wall": quartiles(ms + 5)},
             "curves": {"psnr": curve(psnr), "ssim": curve(0.9), "flip": curve(0.2),
+                       "hdrFlip": [value if i % 4 == 0 else None
+                                   for i, value in enumerate(curve(0.25))],
                        "flicker": [None] + curve(0.3)[1:]},
             **({"film": f"films/{name}.{method}.webm"} if has_films else {})})
     rows = lambda times: [{"method": m["method"], "samples": m["samples"] if time else None,

@@ -25,6 +25,7 @@ READ = """
         return {frame: (at(100)[1] - %d) / %d, stripe: at(16)};
     });""" % (example_results.gray_of(0), example_results.gray_of(1) - example_results.gray_of(0))
 LAST = example_results.FRAMES - 1
+RATE = 24
 
 
 class Sequence(PageCase):
@@ -92,6 +93,36 @@ class Sequence(PageCase):
             self.assertAlmostEqual(left, right, delta=0.4)
         self.assertGreater(len({round(left) for left, _ in seen}), 6)
 
+    def test_a_frame_is_shown_once_both_films_have_put_it_on_the_screen(self):
+        # What each film presents is noted before the page looks, since the page registers later.
+        self.js("""
+            window.seen = [];
+            const rate = %d;
+            const presented = ["left", "right"].map((side, i) => {
+                const video = document.getElementById(`player-${side}-film`);
+                const note = (_now, {mediaTime}) => {
+                    presented[i] = Math.round(mediaTime * rate);
+                    video.requestVideoFrameCallback(note);
+                };
+                video.requestVideoFrameCallback(note);
+                return null;
+            });
+            const stage = document.getElementById("player-stage");
+            let left = performance.now();
+            stage.addEventListener("shown", () => {
+                window.seen.push({due: Number(stage.dataset.shown), presented: [...presented],
+                    milliseconds: performance.now() - left});
+                left = performance.now();
+                document.getElementById("player-forward").click();
+            });
+            document.getElementById("player-forward").click();""" % RATE)
+        self.wait_for(LAST)
+        # The page waits no longer than a second for a film that presents nothing.
+        seen = [one for one in self.js("return window.seen") if one["milliseconds"] < 900]
+        self.assertGreater(len(seen), 3)
+        for one in seen:
+            self.assertEqual(one["presented"], [one["due"]] * 2)
+
     def test_another_film_shows_the_frame_of_the_one_before(self):
         self.find("#player-forward").click()
         self.check_frame(1)
@@ -141,6 +172,16 @@ class Sequence(PageCase):
 
     # Figures
 
+    def test_says_what_the_truth_is_and_which_frames_have_hdr_flip(self):
+        note = self.find("#sequences-note").text
+        self.assertIn("256 instants at most", note)
+        self.assertIn("HDR-FLIP is the mean over 6 of the frames.", note)
+
+    def test_tells_times_as_medians_over_frames(self):
+        about = self.find("#about-body").text
+        self.assertIn("Each picture is timed once", about)
+        self.assertNotIn("repeats unless", about)
+
     def test_says_which_method_flickers_less(self):
         self.assertEqual(self.find("#headline").text,
                          "resolved flickers 2.0× less than gather, over 2 sequences.")
@@ -167,6 +208,9 @@ class Sequence(PageCase):
         for m in film["measurements"]:
             self.assertEqual(sets[m["method"]],
                              [[x, y] for x, y in enumerate(m["curves"]["psnr"])])
+        self.choose("#sequence-metric", "hdrFlip")
+        sets = self.datasets("#sequences-chart")
+        self.assertEqual([x for x, _ in sets["gather"]], [0, 4, 8, 12, 16, 20])
         self.choose("#sequence-metric", "flicker")
         sets = self.datasets("#sequences-chart")
         self.assertEqual(sets["gather"][0][0], 1, "the first frame has none before it")

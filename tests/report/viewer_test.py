@@ -21,7 +21,7 @@ const [view, pixels] = arguments;
 const canvas = document.querySelectorAll('#viewer-stage canvas')[view];
 const {scale, x, y} = document.getElementById('viewer-stage').dataset;
 const ratio = canvas.width / canvas.clientWidth;
-// Of a copy: reading from a canvas that is drawn to makes the browser warn.
+// From a copy: reading a canvas that is drawn to makes the browser warn.
 const copy = document.createElement('canvas');
 copy.width = canvas.width;
 copy.height = canvas.height;

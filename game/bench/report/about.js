@@ -39,14 +39,20 @@ function describeMeasuring() {
             "does is said where it counts."), el("li", {}, "What is compared took turns within " +
             `one run, ${countOf(repeats, "round")} or a multiple of it, each variant with a ` +
             "renderer of its own, after two pictures that do not count."));
+    const timed = results.sequences
+        ? "Each picture is timed once; figures of a film are medians over its frames."
+        : `Each figure is the median of ${repeats} repeats unless it says otherwise, ` +
+            "and whiskers are quartiles; the methods took turns within the same run.";
     return el("ul", {},
         el("li", {}, "Metrics compare a method's picture with the truth after the same tone map " +
             `for both (${tonemap}), at 8 bits a channel.`),
         el("li", {}, "Times are GPU times of passes by timestamps. The frame is every pass from " +
             "the G-buffer to the linear blurred picture, without the tone map and the reading " +
             "back; the effect is the frame less the G-buffer."),
-        el("li", {}, `Each figure is the median of ${repeats} repeats unless it says otherwise, ` +
-            "and whiskers are quartiles; the methods took turns within the same run."),
+        ...(results.sequences ? [el("li", {}, "HDR-FLIP compares the pictures before the tone " +
+            "map, at every exposure from the one that shows the brightest light to the one that " +
+            "shows the median. That takes long, so only some frames have it.")] : []),
+        el("li", {}, timed),
         el("li", {}, "No setting was tuned on the truth that it is judged by."));
 }
 

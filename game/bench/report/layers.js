@@ -45,9 +45,14 @@ function loadLayers(picture) {
     return layerPromises.get(key);
 }
 
-function findPatch(layers, {x, y, width, height}) {
-    return layers.patches.find((patch) => patch.x <= x && patch.y <= y &&
-        patch.x + patch.width >= x + width && patch.y + patch.height >= y + height);
+/** The first of some rectangles that is or holds a region. */
+function findHolder(rectangles, {x, y, width, height}) {
+    return rectangles.find((one) => one.x <= x && one.y <= y &&
+        one.x + one.width >= x + width && one.y + one.height >= y + height);
+}
+
+function findPatch(layers, region) {
+    return findHolder(layers.patches, region);
 }
 
 /** {color, error, isExact} of a pixel; `error` is null where only an error map's colour is known. */

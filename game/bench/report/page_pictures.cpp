@@ -28,7 +28,7 @@ using Bytes = std::vector<uint8_t>;
 
 constexpr uint64_t kMaxPictureBytes = 64ULL << 20;
 constexpr uint32_t kMagmaColors = 256;
-/// Of a part that is a thumbnail beside whole JPEG pictures.
+/// JPEG quality of parts, which are thumbnails, where whole pictures are JPEG.
 constexpr int kPartQuality = 90;
 constexpr size_t kNoLimit = std::numeric_limits<size_t>::max();
 

@@ -63,7 +63,7 @@ async function seek(video, frame) {
     await arrival;
 }
 
-/** Shows a frame in both films; where the reader is faster than the films, the last one asked for. */
+/** Shows a frame in both films; where the reader is faster than the films, the last one chosen. */
 async function showFrame(frame) {
     const {frames} = watched.sequence;
     player.frame = Math.min(Math.max(frame, 0), frames - 1);
@@ -180,7 +180,7 @@ function drawPlayer() {
     placeFilms();
 }
 
-/** The place of a pointer in the film's box below it, as shares. */
+/** A pointer's place as shares of the film's box below it, of the left one's outside of both. */
 function placeInFilm(event) {
     const box = event.target.closest(".film")?.getBoundingClientRect() ??
         byId("player-left").getBoundingClientRect();
@@ -197,16 +197,14 @@ function listenToStage() {
     let grabbed = null;
     stage.addEventListener("pointerdown", (event) => {
         if (event.button !== 0) return;
-        grabbed = {at: placeInFilm(event), isLine: event.target === byId("player-handle")};
+        grabbed = {isLine: event.target === byId("player-handle")};
         stage.setPointerCapture(event.pointerId);
         stage.focus({preventScroll: true});
         event.preventDefault();
     });
     stage.addEventListener("pointermove", (event) => {
         if (!grabbed) return;
-        const box = byId("player-left").getBoundingClientRect();
-        const at = {x: (event.clientX - box.left) / box.width,
-            y: (event.clientY - box.top) / box.height};
+        const at = placeInFilm(event);
         if (grabbed.isLine) {
             placeSplit(100 * at.x);
             return;

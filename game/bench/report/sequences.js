@@ -50,11 +50,11 @@ function makeMeasureTable(film) {
     return makeTable(columns, rows, {class: "stability"});
 }
 
-/** Rows by rising time of the first error asked for; methods that miss it come last. */
+/** Rows by rising time of the first error; methods that miss it come last. */
 function makeErrorTable(film) {
-    const asked = film.equalError ?? [];
-    if (asked.length === 0) return null;
-    const columns = ["Method", ...asked.map(({psnr}) => ({
+    const errors = film.equalError ?? [];
+    if (errors.length === 0) return null;
+    const columns = ["Method", ...errors.map(({psnr}) => ({
         content: `time for ${formatNumber(psnr, 0)} dB`, class: "n",
     }))];
     const cellOf = (row) => (row.milliseconds === null
@@ -63,10 +63,10 @@ function makeErrorTable(film) {
             (row.samples === null ? "" : ` (${nameSamples(row.method, row.samples)})`), class: "n"});
     const rowOf = (name, {rows}) => rows.find((row) => row.method === name);
     const costOf = (row) => row.milliseconds ?? Number.POSITIVE_INFINITY;
-    const names = [...asked[0].rows].sort((a, b) => costOf(a) - costOf(b) ||
+    const names = [...errors[0].rows].sort((a, b) => costOf(a) - costOf(b) ||
         (b.psnr ?? 0) - (a.psnr ?? 0)).map((row) => row.method);
     return makeTable(columns, names.map((name) => [{content: methodLabel(name)},
-        ...asked.map((each) => cellOf(rowOf(name, each)))]));
+        ...errors.map((each) => cellOf(rowOf(name, each)))]));
 }
 
 function drawSequenceLegend(film) {
@@ -108,17 +108,25 @@ function drawSequenceCurves() {
 }
 
 function describeSequenceTruth(film) {
-    const {instants, maxStepPx} = film.truth;
+    const {instants, maxStepPx, mostInstants} = film.truth;
     return `${film.description} ${countOf(film.frames, "frame")} at ` +
         `${formatNumber(film.framesPerSecond, 0)} a second. The truth of each is accumulate with ` +
         `so many instants that nothing moves farther than ${formatNumber(maxStepPx, 1)} px between ` +
-        `two of them: ${formatNumber(instants.median, 0)} at the median.`;
+        `two of them, ${countOf(mostInstants, "instant")} at most: ` +
+        `${formatNumber(instants.median, 0)} at the median.`;
+}
+
+/** HDR-FLIP is dear, and only some frames have it. */
+function describeHdrFlip(film) {
+    const curve = film.measurements[0]?.curves.hdrFlip ?? [];
+    const judged = curve.filter((value) => value !== null).length;
+    return judged > 0 ? `HDR-FLIP is the mean over ${judged} of the frames.` : "";
 }
 
 function drawSequence() {
     const film = watched.sequence;
     if (!film) return;
-    byId("sequences-note").textContent = describeSequenceTruth(film);
+    byId("sequences-note").textContent = `${describeSequenceTruth(film)} ${describeHdrFlip(film)}`;
     byId("sequences-table").replaceChildren(makeMeasureTable(film));
     const [first] = film.equalError ?? [];
     byId("sequences-error").replaceChildren(...[makeErrorTable(film)].filter(Boolean));

@@ -2,7 +2,6 @@
 // Pictures of a case pixel by pixel: views that zoom and pan as one, over floats where there are some.
 
 const kViewerMaxScale = 64;
-const kReference = "truth-reference";
 
 /** `scale`: screen pixels a pixel of the picture; `x`, `y`: what of the picture is in the middle. */
 const viewer = {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // A picture, whole or a part of it enlarged without smoothing, and the list of pictures of a case.
 
+/** The id of the picture that the others are compared with. */
+const kReference = "truth-reference";
+
 /** Pictures of a case that are in this file: the truth first, then by method and sample count. */
 function picturesOf(theCase) {
     const list = [];
     const {truth} = theCase;
     if (truth.image) {
         list.push({
-            id: "truth-reference",
+            id: kReference,
             method: null,
             label: `the truth (${nameMeasurement(truth.method, truth.samples)})`,
             image: truth.image,
@@ -32,9 +35,8 @@ function picturesOf(theCase) {
 }
 
 /** A file's part in this page, with `uri` or `exr`, that is or holds a region. */
-function findPart(file, {x, y, width, height}) {
-    return (pictureFiles.parts[file] ?? []).find((part) => part.x <= x && part.y <= y &&
-        part.x + part.width >= x + width && part.y + part.height >= y + height);
+function findPart(file, region) {
+    return findHolder(pictureFiles.parts[file] ?? [], region);
 }
 
 /** A region of a picture, or of its error map, from its floats. */

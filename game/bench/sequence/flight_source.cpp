@@ -30,7 +30,7 @@ class FlightSource : public SequenceSource {
 
   protected:
     [[nodiscard]] extract::ViewRequest ownView() const override {
-        SHUTTER_CHECK(mAdvanced > 0, "it stands before the first frame");
+        SHUTTER_CHECK(mAdvanced > 0, "no frame was advanced to");
         return game::makeView(mShot, mOptions, mOptions.frameTimes[mAdvanced - 1]);
     }
 

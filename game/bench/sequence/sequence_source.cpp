@@ -52,7 +52,7 @@ StandingView SequenceSource::standingView() const {
 }
 
 void SequenceSource::stand(const StandingView& from) {
-    SHUTTER_CHECK(mStanding == ecs::kNullEntity, "it stands already");
+    SHUTTER_CHECK(mStanding == ecs::kNullEntity, "it has a camera at rest already");
     ecs::Registry& registry = changeWorld().registry;
     mStanding = registry.create();
     registry.add(mStanding, from.lens);

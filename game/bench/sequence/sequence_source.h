@@ -41,15 +41,15 @@ class SequenceSource {
     SequenceSource(const SequenceSource&) = delete;
     SequenceSource& operator=(const SequenceSource&) = delete;
 
-    /// Loads the scene and stands before the first frame. Error: a file cannot be read.
+    /// Loads the scene; the first advance() leads to the first frame. Error: a file cannot be read.
     /// \param frames of the film, at least 1
     [[nodiscard]] static core::Result<std::unique_ptr<SequenceSource>>
     open(const SequenceCase& film, const SequenceFiles& files, uint32_t frames);
 
-    /// Goes on by a frame; to be called before the first, too.
+    /// Goes on to the next frame.
     virtual void advance() = 0;
 
-    /// Of the frame that it stands at.
+    /// What is seen in the current frame.
     [[nodiscard]] extract::ViewRequest view() const;
 
     [[nodiscard]] virtual const scene::World& world() const = 0;
@@ -57,10 +57,10 @@ class SequenceSource {
     /// Size, pixel model and tone map of the pictures.
     [[nodiscard]] virtual const game::ShotOptions& options() const = 0;
 
-    /// Of the film.
+    /// The film's.
     [[nodiscard]] virtual double framesPerSecond() const = 0;
 
-    /// The camera's place at the frame that it stands at.
+    /// Where the sequence's own camera is in the current frame.
     [[nodiscard]] StandingView standingView() const;
 
     /// From now on frames are seen from there, by a camera at rest.

@@ -21,7 +21,7 @@ std::vector<const game::MethodInfo*> findMethods(std::initializer_list<const cha
 
 TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
     const SequencePlan plan =
-        planSequence(findMethods({"sharp", "gather", "accumulate", "truth"}), 48);
+        planSequence(findMethods({"sharp", "gather", "accumulate", "truth"}), 48, 64);
     std::set<std::string> keys;
     for (const auto* points : {&plan.points, &plan.sweep})
         for (const SamplePoint& point : *points)
@@ -31,18 +31,18 @@ TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
           "gather/15",
           "gather/64",
           "accumulate/8",
-          "accumulate/64",
+          "accumulate/32",
           "truth/4",
-          "truth/16"})
+          "truth/8"})
         EXPECT_TRUE(keys.contains(key)) << key;
-    EXPECT_FALSE(keys.contains("truth/32")) << "seconds a frame";
-    EXPECT_FALSE(keys.contains("accumulate/256")) << "the truth itself";
+    EXPECT_FALSE(keys.contains("truth/16")) << "seconds a frame";
+    EXPECT_FALSE(keys.contains("accumulate/64")) << "the truth itself";
     EXPECT_EQ(plan.points.size(), 4u);
 }
 
 TEST(SequencePlan, FramesThatAreDrawnAgainLieInsideTheFilm) {
     for (const uint32_t frames : {2u, 3u, 7u, 48u}) {
-        const SequencePlan plan = planSequence(findMethods({"sharp"}), frames);
+        const SequencePlan plan = planSequence(findMethods({"sharp"}), frames, 64);
         EXPECT_GE(plan.standingFrames, 2u);
         EXPECT_LE(plan.firstStanding + plan.standingFrames, frames);
         ASSERT_FALSE(plan.sweepFrames.empty());
@@ -55,12 +55,21 @@ TEST(SequencePlan, FramesThatAreDrawnAgainLieInsideTheFilm) {
             EXPECT_TRUE(plan.isSwept(frame));
     }
     EXPECT_EQ(
-        planSequence(findMethods({"sharp"}), 48).sweepFrames, (std::vector<uint32_t>{6, 18, 30, 42})
+        planSequence(findMethods({"sharp"}), 48, 64).sweepFrames,
+        (std::vector<uint32_t>{6, 18, 30, 42})
     );
 }
 
+TEST(SequencePlan, HdrFlipIsOfEveryFourthFrameOfTheFilmItself) {
+    for (const uint32_t frame : {0u, 4u, 44u})
+        EXPECT_TRUE(SequencePlan::isJudgedLinear(SequenceCamera::Own, frame));
+    for (const uint32_t frame : {1u, 2u, 3u, 6u})
+        EXPECT_FALSE(SequencePlan::isJudgedLinear(SequenceCamera::Own, frame));
+    EXPECT_FALSE(SequencePlan::isJudgedLinear(SequenceCamera::Standing, 0));
+}
+
 TEST(SequencePlan, TheProgressBarCountsEveryPicture) {
-    const SequencePlan plan = planSequence(findMethods({"sharp", "gather"}), 48);
+    const SequencePlan plan = planSequence(findMethods({"sharp", "gather"}), 48, 64);
     // A truth and two methods in 48 and 12 frames; gather at 4, 8, 16, 32 and 64 in four.
     EXPECT_EQ(countPictures(plan), 3u * 60u + 5u * 4u);
 }

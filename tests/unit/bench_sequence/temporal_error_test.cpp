@@ -57,7 +57,7 @@ TEST(Flicker, IsTheMeanOfWhatTheTruthDoesNotDo) {
     const Image up = addCheckerboard(truth, 0.125f, 0);
     const Image down = addCheckerboard(truth, 0.125f, 1);
     EXPECT_EQ(computeFlicker({up, truth}, {down, truth}), 0.25);
-    // A picture that stands still while the truth moves flickers as well.
+    // A picture that stays as it is while the truth moves flickers as well.
     EXPECT_EQ(computeFlicker({truth, up}, {truth, down}), 0.25);
 }
 
