@@ -66,9 +66,9 @@ loadCheckedShot(const CheckScene& scene, const math::uvec2& sizePx, double expos
     return made;
 }
 
-motion_blur::HostCameras tellCameras(const CheckedShot& shot, const extract::ViewRequest& view) {
-    const scene::ExposureMotion moves(shot.shot.world, view.camera, view.exposure);
-    const auto& camera = shot.shot.world.registry.get<scene::Camera>(view.camera);
+motion_blur::HostCameras tellCameras(const scene::World& world, const extract::ViewRequest& view) {
+    const scene::ExposureMotion moves(world, view.camera, view.exposure);
+    const auto& camera = world.registry.get<scene::Camera>(view.camera);
     const auto viewAt = [&](double s) {
         return glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s)));
     };

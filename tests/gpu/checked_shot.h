@@ -34,6 +34,6 @@ loadCheckedShot(const CheckScene& scene, const math::uvec2& sizePx, double expos
 
 /// The camera when the shutter closes, and, as the one before, when it opens.
 [[nodiscard]] motion_blur::HostCameras
-tellCameras(const CheckedShot& shot, const extract::ViewRequest& view);
+tellCameras(const scene::World& world, const extract::ViewRequest& view);
 
 } // namespace shutter::test

@@ -43,7 +43,7 @@ void storeForwardDepth(GivenFrame& given) {
     const double near = clip[3].z; // of a perspective camera
     for (size_t i = 0; i < kCheckedPixels; ++i) {
         const double metres = given.metres[i];
-        if (given.metres[i] >= kNoDepth)
+        if (given.metres[i] >= shader::kSkyDepth)
             given.depth[i] = 1.0f;
         else if (clip[3].w != 0.0)
             given.depth[i] = 1.0f - storeDepth(clip, given.metres[i]);
@@ -69,9 +69,10 @@ void declareForwardDepth(GivenFrame& given) {
 
 void storeLinearDepth(GivenFrame& given, float unitsPerMetre) {
     for (size_t i = 0; i < kCheckedPixels; ++i)
-        given.depth[i] = given.metres[i] >= kNoDepth ? kNoDepth : unitsPerMetre * given.metres[i];
+        given.depth[i] = given.metres[i] >= shader::kSkyDepth ? shader::kSkyDepth
+                                                              : unitsPerMetre * given.metres[i];
     given.inputs.convention.depth.isRaw = false;
-    given.inputs.convention.depth.skyValue = kNoDepth;
+    given.inputs.convention.depth.skyValue = shader::kSkyDepth;
 }
 
 void declareJitter(GivenFrame& given, int frame) {
@@ -83,7 +84,7 @@ void leaveJitter(GivenFrame& given, int frame) {
     declareJitter(given, frame);
     const glm::vec2 more(given.jitterPxBefore - given.jitterPx);
     for (size_t i = 0; i < kCheckedPixels; ++i)
-        if (given.metres[i] < kNoDepth)
+        if (given.metres[i] < shader::kSkyDepth)
             given.motion[i] += more;
 }
 

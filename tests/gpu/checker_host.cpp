@@ -44,7 +44,7 @@ std::string makeKeys(const char* first, const char* second, const char* third) {
 std::vector<uint32_t> findMovers(const CheckedDrawing& drawn) {
     std::map<uint32_t, std::pair<int, int>> rows;
     for (size_t i = 0; i < kCheckedPixels; ++i) {
-        if (drawn.metres[i] >= kNoDepth || drawn.ids[i] >= drawn.rowCount)
+        if (drawn.metres[i] >= shader::kSkyDepth || drawn.ids[i] >= drawn.rowCount)
             continue;
         const dvec2 then =
             seeFrom(drawn, i, drawn.cameras.viewFromWorldBefore, drawn.cameras.clipFromViewBefore);
@@ -98,7 +98,7 @@ std::vector<CheckScene> listCheckScenes() {
          ),
          0.0,
          true},
-        {"walker", // he fills the picture, under a camera that hardly moves
+        {"walker", // a man who fills the picture, under a camera that hardly moves
          nullptr,
          "gltf-samples/CesiumMan/CesiumMan.glb",
          makeKeys(
@@ -125,7 +125,7 @@ dvec2 seeFrom(const CheckedDrawing& drawn, size_t pixel, const dmat4& view, cons
 }
 
 float storeDepth(const dmat4& clip, float metres) {
-    if (metres >= kNoDepth)
+    if (metres >= shader::kSkyDepth)
         return 0.0f;
     const glm::dvec4 seen = clip * glm::dvec4(0.0, 0.0, -double(metres), 1.0);
     return float(seen.z / seen.w);
@@ -169,7 +169,7 @@ void CheckerHost::draw(render::Renderer& renderer, int frame) {
         if (drawn.ids[i] != 0xFFFFFFFFu)
             drawn.rowCount = std::max(drawn.rowCount, drawn.ids[i] + 1);
     }
-    drawn.cameras = tellCameras(*mShot, request.view);
+    drawn.cameras = tellCameras(mShot->shot.world, request.view);
 }
 
 GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) const {

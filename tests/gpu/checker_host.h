@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/render/renderer.h"
+#include "shaders/render/scene_shared.h"
 #include "tests/gpu/checked_shot.h"
 #include "tests/gpu/embedding_host.h"
 
@@ -19,7 +20,6 @@ namespace shutter::test {
 inline constexpr uint32_t kCheckedWidth = 192;
 inline constexpr uint32_t kCheckedHeight = 108;
 inline constexpr size_t kCheckedPixels = size_t{kCheckedWidth} * kCheckedHeight;
-inline constexpr float kNoDepth = 1.0e9f; ///< metres where nothing is drawn
 
 /// A frame of a scene as the engine's raster has it.
 struct CheckedDrawing {

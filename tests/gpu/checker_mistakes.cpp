@@ -11,6 +11,14 @@ using math::dmat4;
 using Given = GivenFrame;
 using Drawn = const CheckedDrawing&;
 
+/// Moves samples right and down of the pixels' centres.
+void addJitter(dmat4& clipFromView, const glm::dvec2& jitterPx) {
+    const glm::dvec2 shift = 2.0 * jitterPx / glm::dvec2(kCheckedWidth, kCheckedHeight);
+    for (int column = 0; column < 4; ++column)
+        for (int axis = 0; axis < 2; ++axis)
+            clipFromView[column][axis] -= shift[axis] * clipFromView[column].w;
+}
+
 } // namespace
 
 const std::vector<CheckCase>& listMistakes() {
@@ -74,7 +82,7 @@ const std::vector<CheckCase>& listMistakes() {
          "vectors lead from this frame to the next one",
          [](Given& g, int, Drawn, Drawn after) {
              for (size_t i = 0; i < kCheckedPixels; ++i)
-                 if (g.metres[i] < kNoDepth)
+                 if (g.metres[i] < shader::kSkyDepth)
                      g.motion[i] =
                          seeFrom(g, i, after.cameras.viewFromWorld, after.cameras.clipFromView) -
                          placeOf(i);
@@ -111,6 +119,21 @@ const std::vector<CheckCase>& listMistakes() {
          [](Given& g, int frame, Drawn, Drawn) {
              declareJitter(g, frame);
              g.inputs.convention.vectors.haveJitter = true;
+         }},
+        {"jitter left in, and told with the wrong sign",
+         "cameras.jitterPx and jitterPxBefore have the wrong sign",
+         [](Given& g, int frame, Drawn, Drawn) {
+             leaveJitter(g, frame);
+             g.inputs.convention.vectors.haveJitter = true;
+             g.jitterPx = -g.jitterPx;
+             g.jitterPxBefore = -g.jitterPxBefore;
+         }},
+        {"jitter in the projection",
+         "the jitter is in cameras.clipFromView",
+         [](Given& g, int frame, Drawn, Drawn) {
+             declareJitter(g, frame);
+             addJitter(g.cameras.clipFromView, g.jitterPx);
+             addJitter(g.cameras.clipFromViewBefore, g.jitterPxBefore);
          }},
         {"forward depth, reversed projection",
          "is forward depth (far is 1), so give the forward projection",

@@ -74,7 +74,7 @@ std::vector<CheckCase> listVectors() {
          "",
          [](Given& g, int, Drawn, Drawn) {
              for (size_t i = 0; i < kCheckedPixels; ++i)
-                 if (g.metres[i] >= kNoDepth)
+                 if (g.metres[i] >= shader::kSkyDepth)
                      g.motion[i] = {};
          }},
         {"jitter left in, and said to be",

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A host without Shutter's tables blurs by its camera alone: rosado2007 follows what it says of its
 // cameras, as the plugin follows the engine's.
-#include "engine/extract/frame_view.h"
 #include "engine/image/metrics.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/exposure_motion.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/gpu/checked_shot.h"
 #include "tests/gpu/gbuffer_host.h"
 #include "tests/kit/scene_builder.h"
 #include "tests/support/picture.h"
@@ -21,23 +21,6 @@ using motion_blur::HostInputs;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
-
-/// The camera when the shutter opens and closes; the raster instant is at its end.
-void tellCameras(const render::PostContext& context, motion_blur::HostCameras& cameras) {
-    const scene::ExposureMotion moves(context.world, context.view.camera, context.view.exposure);
-    const auto& camera = context.world.registry.get<scene::Camera>(context.view.camera);
-    const auto viewAt = [&](double s) {
-        return glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s)));
-    };
-    const auto clipAt = [&](double s) {
-        return extract::makeProjection(camera, moves.cameraYFov(s), double(kWidth) / kHeight);
-    };
-    cameras.areGiven = true;
-    cameras.viewFromWorld = viewAt(1.0);
-    cameras.clipFromView = clipAt(1.0);
-    cameras.viewFromWorldBefore = viewAt(0.0);
-    cameras.clipFromViewBefore = clipAt(0.0);
-}
 
 class EmbeddedCamera : public test::EmbeddedTest {
   protected:
@@ -68,7 +51,7 @@ class EmbeddedCamera : public test::EmbeddedTest {
         host.blurOfC = c.blur;
         host.changeInputs = [](const render::PostContext& context, HostInputs& inputs) {
             inputs.rays = {};
-            tellCameras(context, inputs.convention.cameras);
+            inputs.convention.cameras = test::tellCameras(context.world, context.view);
             inputs.convention.scales.exposureShare = 1.0f;
         };
         motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), settings);

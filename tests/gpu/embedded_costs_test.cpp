@@ -8,6 +8,7 @@
 #include "game/shot/methods.h"
 #include "game/shot/picture_drawer.h"
 #include "shaders/motion_blur/prepare.glsl"
+#include "shaders/render/scene_shared.h"
 #include "tests/gpu/checked_shot.h"
 #include "tests/gpu/host_texels.h"
 #include "tests/support/picture.h"
@@ -35,7 +36,6 @@ using motion_blur::HostInputs;
 constexpr double kExposureSeconds = 1.0 / 60.0;
 constexpr double kSeconds = 0.05; ///< of the raster instant
 constexpr uint32_t kTruthInstants = 128;
-constexpr float kNoDepth = 1.0e9f;
 constexpr double kExactDb = 0.05;
 constexpr double kRoundedDb = 0.15; ///< halves hold 1/2048 of a vector's length
 
@@ -109,7 +109,7 @@ class EmbeddedCosts : public test::EmbeddedTest {
             raster.motion.emplace_back(motion.pixels[4 * i], motion.pixels[4 * i + 1]);
             raster.metres.push_back(motion.pixels[4 * i + 2]);
         }
-        raster.cameras = test::tellCameras(shot.value(), request.view);
+        raster.cameras = test::tellCameras(shot.value().shot.world, request.view);
         if (drawsTruth)
             drawTruth(renderer, shot.value());
         return raster;
@@ -149,7 +149,9 @@ class EmbeddedCosts : public test::EmbeddedTest {
     /// As a reversed infinite projection stores it.
     HostImage makeRawDepth(VkFormat format) {
         const auto near = float(mRaster.cameras.clipFromView[3].z);
-        const auto store = [&](float metres) { return metres >= kNoDepth ? 0.0f : near / metres; };
+        const auto store = [&](float metres) {
+            return metres >= shader::kSkyDepth ? 0.0f : near / metres;
+        };
         if (format == VK_FORMAT_D16_UNORM)
             return make(format, mRaster.metres, [&](float metres) {
                 return uint16_t(std::min(store(metres), 1.0f) * 65535.0f + 0.5f);
@@ -250,7 +252,7 @@ std::vector<EmbeddedCosts::Convention> EmbeddedCosts::listConventions() {
             [&](HostInputs& in) {
                 useConvention(in);
                 in.convention.depth.isRaw = false;
-                in.convention.depth.skyValue = kNoDepth;
+                in.convention.depth.skyValue = shader::kSkyDepth;
                 in.convention.depth.image =
                     make(VK_FORMAT_R16_SFLOAT, mRaster.metres, [](float metres) {
                         return glm::packHalf1x16(metres);

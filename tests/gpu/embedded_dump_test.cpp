@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -97,6 +98,11 @@ class EmbeddedDump : public test::EmbeddedTest {
         convention.cameras.clipFromView = convention.cameras.clipFromViewBefore = clip;
         convention.cameras.viewFromWorld = viewAt(frame);
         convention.cameras.viewFromWorldBefore = viewAt(double(frame) - 1.0);
+        if (mIsCut) {
+            convention.scales.isCut = true;
+            convention.cameras.viewFromWorldBefore = glm::dmat4(0.0);
+            convention.cameras.clipFromViewBefore = glm::dmat4(0.0);
+        }
         inputs.entityId = make(VK_FORMAT_R16_UINT, ids);
         inputs.noEntity = 0xFFFF;
         inputs.frameNumber = frame + 7;
@@ -109,6 +115,7 @@ class EmbeddedDump : public test::EmbeddedTest {
             inputs.motion.movers = mMovers;
         inputs.motion.followsLast = frame > 0;
         inputs.responsePoints = mResponse;
+        inputs.motion.response = mTable ? &*mTable : nullptr;
         if (mIsPacked) {
             std::vector<glm::vec4> packed;
             for (uint32_t i = 0; i < kPixels; ++i)
@@ -174,7 +181,9 @@ class EmbeddedDump : public test::EmbeddedTest {
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
     std::vector<math::ResponsePoint> mResponse;
+    std::optional<shader::ResponseTable> mTable; ///< in main memory alone
     bool mHasVectors = true;
+    bool mIsCut = false;
     bool mIsPacked = false; ///< vectors and depth are one image
 };
 
@@ -229,12 +238,33 @@ TEST_F(EmbeddedDump, ReplayFollowsTheCameraAlone) {
     settings.method = &motion_blur::getMethod("rosado2007");
     for (const bool isPacked : {false, true}) {
         mIsPacked = isPacked;
-        std::filesystem::remove_all(mFolder);
+        fs::remove_all(mFolder);
         ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
         const image::Image picture = draw(0, settings);
         EXPECT_TRUE(mTold.empty()) << mTold.front();
         expectReplayed({picture});
     }
+}
+
+TEST_F(EmbeddedDump, ReplayNeedsNoCameraBeforeACut) {
+    mIsCut = true;
+    for (const bool isPacked : {false, true}) {
+        mIsPacked = isPacked;
+        fs::remove_all(mFolder);
+        ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+        const image::Image picture = draw(0, test::gather());
+        EXPECT_TRUE(mTold.empty()) << mTold.front();
+        expectReplayed({picture});
+    }
+}
+
+TEST_F(EmbeddedDump, ReplayLeavesATableWithoutAnAddressAlone) {
+    const std::array<math::ResponsePoint, 3> points{{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}}};
+    mTable = math::makeResponseTable(points);
+    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
+    const image::Image picture = draw(0, test::gather());
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({picture});
 }
 
 TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {

@@ -59,9 +59,9 @@ TEST_F(EmbeddedLayers, AreBlurredLikeImagesOfTheirOwn) {
     color.copyFrom(commands, colors, 1);
     motion.copyFrom(commands, motions, 1);
     for (const TwoLayers* image : {&color, &motion})
-        image->move(commands, 0, kNothing, kCopied);
+        test::moveOn(commands, image->image, kNothing, kCopied);
     output.copyFrom(commands, colors, 0);
-    output.move(commands, 0, kWritten, kCopied);
+    test::moveOn(commands, output.image, kWritten, kCopied);
     HostInputs inputs;
     inputs.width = kWidth;
     inputs.height = kHeight;

@@ -38,7 +38,8 @@ inline void moveOn(
     VkCommandBuffer commands,
     VkImage image,
     const graph::OutsideUse& before,
-    const graph::OutsideUse& after
+    const graph::OutsideUse& after,
+    uint32_t layer = 0
 ) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcStageMask = before.stages;
@@ -48,7 +49,7 @@ inline void moveOn(
     barrier.oldLayout = before.layout;
     barrier.newLayout = after.layout;
     barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;

@@ -33,30 +33,9 @@ class TwoLayers {
     TwoLayers(const TwoLayers&) = delete;
     TwoLayers& operator=(const TwoLayers&) = delete;
 
-    void move(
-        VkCommandBuffer commands,
-        uint32_t layer,
-        const graph::OutsideUse& before,
-        const graph::OutsideUse& after
-    ) const {
-        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-        barrier.srcStageMask = before.stages;
-        barrier.srcAccessMask = before.access;
-        barrier.dstStageMask = after.stages;
-        barrier.dstAccessMask = after.access;
-        barrier.oldLayout = before.layout;
-        barrier.newLayout = after.layout;
-        barrier.image = image;
-        barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
-        VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        dependency.imageMemoryBarrierCount = 1;
-        dependency.pImageMemoryBarriers = &barrier;
-        vkCmdPipelineBarrier2(commands, &dependency);
-    }
-
     /// The layer is as kWritten says afterwards.
     void copyFrom(VkCommandBuffer commands, const gpu::Buffer& texels, uint32_t layer) const {
-        move(commands, layer, kNothing, kWritten);
+        moveOn(commands, image, kNothing, kWritten, layer);
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
         region.imageExtent = {mExtent.width, mExtent.height, 1};

@@ -13,8 +13,8 @@
 namespace shutter::motion_blur {
 
 /// A structure of this header or of an older one, whose missing fields are as in `defaults`. New
-/// fields come last and never where an older structure had padding, which holds anything: a field
-/// of 4 bytes behind another one goes behind a larger one.
+/// fields come last, and never where an older structure had padding, whose bytes may be anything:
+/// where the last field has 4 bytes, the first new one has 8.
 template <class T>
 [[nodiscard]] core::Result<T> takeStructure(const char* name, const T* given, const T& defaults) {
     if (!given)

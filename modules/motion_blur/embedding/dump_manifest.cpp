@@ -110,11 +110,12 @@ ordered_json describeInputs(
     root["view"] = inputs.motion.view;
     root["noEntity"] = inputs.noEntity;
     root["inPlace"] = !inputs.output.image;
-    // Of motionDepth, cameras count for the checker, and scales for methods that read the camera.
-    HostConvention convention = isPacked ? HostConvention{} : inputs.convention;
-    convention.cameras = inputs.convention.cameras;
-    if (method.readsCamera)
-        convention.scales = inputs.convention.scales;
+    HostConvention convention = inputs.convention;
+    if (isPacked) {
+        convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
+        if (method.readsCamera)
+            convention.scales = inputs.convention.scales;
+    }
     const bool hasConvention = !isPacked || convention.cameras.areGiven;
     root["convention"] = hasConvention ? describeConvention(convention) : ordered_json();
     root["motion"] = method.readsInstantMotions ? describeMotion(inputs.motion) : ordered_json();

@@ -52,7 +52,7 @@ class SmallImages {
 
   private:
     void make(HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
-        // A part of a larger image stands for a layer of one.
+        // A layer is planned as a part of a larger image.
         if (image.layer != 0)
             image.extent = {picture.width + 1, picture.height};
         image.layer = 0;

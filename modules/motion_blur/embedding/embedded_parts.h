@@ -74,14 +74,16 @@ struct EmbeddedMotionBlur::Frame {
 
     bool isHosts = false;     ///< the host will submit it: it may be checked and dumped
     OwnReveal dumpedReveal{}; ///< the host's, whose answer is dumped
-    /// Of HostInputs::responsePoints, unless they are a box.
+    /// Made from HostInputs::responsePoints; none where they are a box.
     std::optional<shader::ResponseTable> responseTable{};
     ImportedInputs images{};     ///< the host's own
     graph::ImageHandle output{}; ///< the same; in place: invalid
 
     /// In main memory; null: there is none, or its address alone is known.
     [[nodiscard]] const shader::ResponseTable* response() const {
-        return responseTable ? &*responseTable : inputs.motion.response;
+        if (responseTable)
+            return &*responseTable;
+        return inputs.response != 0 ? inputs.motion.response : nullptr;
     }
 
     /// The method follows the camera alone, by HostConvention::cameras.

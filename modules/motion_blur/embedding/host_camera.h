@@ -29,8 +29,8 @@ struct HostCamera {
 struct HostCameras;
 struct HostConvention;
 
-/// The cameras of a convention as they count: at a cut there is none before, and now's stands for
-/// it.
+/// The cameras of a convention as they count: at a cut there is none before, and this frame's takes
+/// its place.
 [[nodiscard]] HostCameras countedCameras(const HostConvention& convention);
 
 } // namespace shutter::motion_blur

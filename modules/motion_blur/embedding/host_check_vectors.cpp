@@ -268,8 +268,8 @@ class Guesses {
     void trySwap() {
         if (!mSaid.haveCamera)
             return;
-        // Of units that hosts have: two free factors would fit an orthographic camera's motion,
-        // which is nearly the same everywhere, whatever is wrong.
+        // Only units that hosts have are tried: two free factors would fit an orthographic camera's
+        // motion, which is nearly the same everywhere, whatever is wrong.
         const dvec2 unit(mFacts.convention.vectors.pixelsPerUnit);
         forEachUnit([&](const Unit& meant, const dvec2& sign) {
             Reading guess = mSaid;
@@ -339,7 +339,8 @@ class Guesses {
              {&facts.convention.cameras.clipFromView, &facts.convention.cameras.clipFromViewBefore})
             for (int column = 0; column < 4; ++column)
                 (*clip)[column].y = -(*clip)[column].y;
-        // An orthographic camera moves all alike, so that this and vectors with y up are the same.
+        // Under an orthographic camera all points move alike, so this and vectors with y up look
+        // the same.
         Reading guess = read(mNow, facts);
         guess.isAlternative = true;
         guess.sentence =

@@ -99,7 +99,7 @@ extern const HostImageRule kBlurScaleRule; ///< HostScales::perPixel
 /// The same for all of a convention.
 [[nodiscard]] core::Status checkConvention(const HostConvention& convention, VkExtent2D picture);
 
-/// HostInputs::motionDepth in the words of a convention, with the cameras and the cut of another.
+/// A convention that describes HostInputs::motionDepth, with the cameras and the cut of `given`.
 [[nodiscard]] HostConvention
 describeMotionDepth(const HostImage& motionDepth, const HostConvention& given);
 

@@ -41,7 +41,7 @@ struct HostImageRule {
     bool hasPictureSize = true; ///< the part that is used has the picture's size
 };
 
-/// HostImage::format, or what stands for it.
+/// HostImage::format, or the rule's first where that is UNDEFINED.
 [[nodiscard]] VkFormat formatOf(const HostImage& image, const HostImageRule& rule);
 /// HostImage::area with its size.
 [[nodiscard]] VkRect2D areaOf(const HostImage& image, VkExtent2D picture);

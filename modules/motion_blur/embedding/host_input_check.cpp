@@ -174,9 +174,7 @@ core::Status checkCamera(const HostInputs& inputs, const Method& method) {
         return makeError(
             "motion blur: convention.cameras are not given, which the method {} needs", method.name
         );
-    const VkExtent2D picture = pictureOf(inputs);
-    SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
-    return checkScales(inputs.convention.scales, picture);
+    return checkScales(inputs.convention.scales, pictureOf(inputs));
 }
 
 /// Vectors say in which pixels a mover's motion is seen.
@@ -268,11 +266,10 @@ core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
         SHUTTER_TRY(check(inputs.output, outputRule(inputs), picture, host));
     if (inputs.motionDepth.image)
         SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture));
+    if (inputs.motionDepth.image && !inputs.isOff) // the checker and dumps read the cameras
+        SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
     else if (!inputs.isOff)
         SHUTTER_TRY(checkMadeMotion(inputs, host));
-    // The checker and dumps read them, too, whatever the method.
-    if (inputs.showsInputs || (inputs.convention.cameras.areGiven && !inputs.isOff))
-        SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
     return checkDistinct(inputs);
 }
 

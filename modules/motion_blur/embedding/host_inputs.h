@@ -84,13 +84,13 @@ struct HostLastFrame {
 struct HostInputs {
     uint32_t width = 0; ///< of the picture, pixels, [1, 32768]
     uint32_t height = 0;
-    /// RGBA16F, RGBA32F or B10G11R11; sampled. Of the own format and size: transfer source, too; in
+    /// RGBA16F, RGBA32F or B10G11R11; sampled; of the own format and size: transfer source, too; in
     /// place: storage, too.
     HostImage color;
     /// RGBA32F: motion.xy, depth; every value finite; sampled. Null: made of `convention`.
     HostImage motionDepth;
-    /// Where motionDepth.image is null. Its `cameras` and `scales` also for Method::readsCamera,
-    /// unless rays.frameConstants tells the camera's motion.
+    /// Where motionDepth.image is null. For Method::readsCamera its `cameras` and `scales`, without
+    /// perPixel, count beside motionDepth, too, unless rays.frameConstants is given.
     HostConvention convention;
     HostImage normal; ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
     /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId
