@@ -51,7 +51,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.changes.all = false;
     mFrame.changes.rows.clear();
     const bool mayRefresh = mListed && !changes.structure && mLayout == &layout &&
-                            mRows.size() <= request.entityLimit && !view.movesStillThings();
+                            mRows.size() <= request.entityLimit;
     mLayout = &layout;
     if (!mayRefresh || !refresh(frame, changes))
         SHUTTER_TRY(rebuild(frame));
@@ -82,8 +82,7 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
             mFrame.entities[row].motion += stillMotions;
     sortDraws(&DrawList::still);
     drawMoving(frame.layout);
-    // What an artist's scale, or a cap, moves is placed by more than the view's matrices.
-    mListed = !frame.view.movesStillThings();
+    mListed = true;
     return {};
 }
 
@@ -112,7 +111,10 @@ void FrameExtractor::clear() {
 }
 
 bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
-    return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity);
+    // Under a moving camera, a scale of its own moves in the world what stands still in it.
+    return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity) ||
+           scene::findBlurScale(frame.world, entity) != 1.0 ||
+           frame.request.exposure.cap.findMover(entity) != nullptr;
 }
 
 std::optional<FrameExtractor::Posed>
@@ -121,7 +123,7 @@ FrameExtractor::pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool
     const DeformationTimes& times = frame.view.times();
     const dmat4 raster = motion.worldFromObject(entity, times.raster);
     Posed posed{ObjectPoses(raster), std::nullopt};
-    if (evolves || frame.view.movesStillThings()) {
+    if (evolves) {
         const auto poseAt = [&](double s) {
             return s == times.raster ? raster : motion.worldFromObject(entity, s);
         };
@@ -184,10 +186,23 @@ bool FrameExtractor::refresh(const Frame& frame, const WorldChanges& changes) {
     for (const Latent& latent : mLatent)
         if (latent.evolves && pose(frame, latent.entity, latent.mesh, true))
             return false;
+    refreshCapped(frame);
     takeOutOfStill();
     if (!isIdentical(mView, frame.view.matrices()))
         placeStill(frame);
     return placeMoving(frame);
+}
+
+void FrameExtractor::refreshCapped(const Frame& frame) {
+    for (const auto& [entity, share] : frame.request.exposure.cap.movers) {
+        const uint32_t index =
+            entity.index < mRowOfEntity.size() ? mRowOfEntity[entity.index] : kNone;
+        if (index == kNone || index == kLatent || mFrame.entityHandles[index] != entity)
+            continue;
+        mRows[index].evolves = true;
+        if (!std::exchange(mRows[index].moving, true))
+            mJoining.push_back(index);
+    }
 }
 
 bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& changes) {

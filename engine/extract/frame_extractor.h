@@ -36,7 +36,7 @@ class FrameExtractor {
         math::dmat4 worldFromObject{1.0}; ///< unless `evolves`: at all times
         uint32_t deformed = 0;            ///< its place in ExtractedFrame::deformed, or kNone
         float distance = 0.0f;            ///< as PlacedEntity's
-        bool evolves = false;             ///< something moves or deforms it
+        bool evolves = false;             ///< it has a pose of its own at each instant
         bool moving = false;              ///< in ExtractedFrame::movingRows, or joins them
         bool written = false;             ///< to, since the frame before
         bool visible = false;             ///< in the picture
@@ -79,6 +79,8 @@ class FrameExtractor {
     bool refreshWritten(const Frame& frame, const WorldChanges& changes);
     bool refreshRow(const Frame& frame, uint32_t index);
     bool becomesDrawable(const Frame& frame, uint32_t entity);
+    /// What the cap has a share for moves, whether it does in the world or not.
+    void refreshCapped(const Frame& frame);
     void takeOutOfStill();
     void placeStill(const Frame& frame);
     bool placeMoving(const Frame& frame);

@@ -51,11 +51,6 @@ dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
     );
 }
 
-bool mayScaleMotion(const scene::World& world, const scene::ExposureInterval& exposure) {
-    const auto scaled = world.registry.view<scene::MotionBlur>();
-    return scaled.begin() != scaled.end() || !exposure.cap.movers.empty();
-}
-
 bool isDrawable(const math::dmat4& matrix) {
     const double determinant = glm::determinant(math::dmat3(matrix));
     return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
@@ -104,9 +99,6 @@ FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     mMatrices.clipFromWorldJittered = jitterClip(request) * mMatrices.clipFromWorldRaster;
     mMatrices.clipFromWorldClose = mClipFromView[2] * mViewFromWorld[2];
     mMatrices.eye = mEye[1];
-    const bool cameraMoves =
-        scene::mayMove(world, request.camera) || scene::mayZoom(world, request.camera);
-    mMovesStillThings = cameraMoves && mayScaleMotion(world, request.exposure);
     fillConstants(camera, request);
 }
 

@@ -12,10 +12,6 @@
 
 namespace shutter::extract {
 
-/// Whether an artist's scale of an entity, or the cap, may move what stands still in the world.
-[[nodiscard]] bool
-mayScaleMotion(const scene::World& world, const scene::ExposureInterval& exposure);
-
 /// Finite and not singular: triangles keep an area, and the matrix has an inverse.
 [[nodiscard]] bool isDrawable(const math::dmat4& matrix);
 
@@ -61,10 +57,6 @@ class FrameView {
     /// Within the exposure.
     [[nodiscard]] bool moves() const { return mMoves; }
 
-    /// Something that stands still in the world may be drawn elsewhere in it, since artists scaled
-    /// its motion, or a cap did, while the camera moves (ExposureMotion).
-    [[nodiscard]] bool movesStillThings() const { return mMovesStillThings; }
-
   private:
     void fillConstants(const scene::Camera& camera, const ViewRequest& request);
 
@@ -77,7 +69,6 @@ class FrameView {
     ViewMatrices mMatrices;
     shader::FrameConstants mConstants{};
     bool mMoves = false;
-    bool mMovesStillThings = false;
 };
 
 /// worldFromObject of one entity at the three instants of a frame.

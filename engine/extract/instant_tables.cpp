@@ -73,18 +73,10 @@ class Builder {
     LayerTables describeRaster() const {
         const size_t rows = mFrame.worldFromObject.size();
         LayerBuilder layer = begin(mRasterPicture, rows);
-        const auto describe = [&](size_t row) {
+        for (const uint32_t row : mFrame.movingRows) {
             const ecs::Entity entity = mFrame.entityHandles[row];
             if (mMotion.mayObjectMove(entity))
                 addMover(layer, row, entity, mFrame.worldFromObject[row]);
-        };
-        // What an artist's scale, or a cap, moves is static in the world.
-        if (mayScaleMotion(mWorld, mView.exposure)) {
-            for (size_t row = 0; row < rows; ++row)
-                describe(row);
-        } else {
-            for (const uint32_t row : mFrame.movingRows)
-                describe(row);
         }
         for (const DeformedEntity& one : mFrame.deformed)
             if (one.changes)
@@ -121,7 +113,7 @@ class Builder {
         const size_t count = other.entities.size();
         LayerBuilder layer = begin(other.pictureFromWorld, count);
         const std::vector<uint32_t> rows = findRows(other, now.entities);
-        std::vector<bool> mayMove(now.entities.size(), mayScaleMotion(mWorld, mView.exposure));
+        std::vector<bool> mayMove(now.entities.size(), false);
         for (const uint32_t row : mFrame.movingRows)
             mayMove[row] = true;
         for (size_t row = 0; row < count; ++row) {

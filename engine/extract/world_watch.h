@@ -38,14 +38,15 @@ class WorldWatch {
         std::tuple<std::pair<Components*, ecs::ChangeCursor>...> all;
     };
 
-    /// What worldFromObject and mayObjectMove ask of an entity and its ancestors.
+    /// What worldFromObject, mayObjectMove and findBlurScale ask of an entity and its ancestors.
     Cursors<
         scene::LocalTransform,
         scene::LocalMatrix,
         scene::LinearVelocity,
         scene::AngularVelocity,
         scene::Animated,
-        scene::PathMotion>
+        scene::PathMotion,
+        scene::MotionBlur>
         mPlacing;
     /// Any change of these concerns more than the entity itself.
     Cursors<scene::Parent> mHierarchy;

@@ -61,6 +61,13 @@ bool anyPathCut(const World& world, const TimeSpan& span) {
 
 } // namespace
 
+double findBlurScale(const World& world, ecs::Entity entity) {
+    const ecs::Entity nearest = findUpwards(world, entity, [&](ecs::Entity at) {
+        return world.registry.has<MotionBlur>(at);
+    });
+    return nearest == ecs::kNullEntity ? 1.0 : scaleOf(world.registry.get<MotionBlur>(nearest));
+}
+
 ExposureMotion::ExposureMotion(
     const World& world, ecs::Entity camera, const ExposureInterval& exposure
 )
@@ -114,17 +121,8 @@ bool ExposureMotion::isObjectHeld(ecs::Entity entity) const {
            });
 }
 
-double ExposureMotion::blurScaleOf(ecs::Entity entity) const {
-    if (!mAnyBlurScale)
-        return 1.0;
-    const ecs::Entity nearest = findUpwards(mWorld, entity, [&](ecs::Entity at) {
-        return mWorld.registry.has<MotionBlur>(at);
-    });
-    return nearest == ecs::kNullEntity ? 1.0 : scaleOf(mWorld.registry.get<MotionBlur>(nearest));
-}
-
 double ExposureMotion::screenScaleOf(ecs::Entity entity) const {
-    return blurScaleOf(entity) * mExposure.cap.of(entity);
+    return (mAnyBlurScale ? findBlurScale(mWorld, entity) : 1.0) * mExposure.cap.of(entity);
 }
 
 dmat4 ExposureMotion::cameraAt(double seconds) const {

@@ -18,6 +18,9 @@
 
 namespace shutter::scene {
 
+/// Scale of the nearest MotionBlur upwards, [0, 2]; 1 if there is none.
+[[nodiscard]] double findBlurScale(const World& world, ecs::Entity entity);
+
 class ExposureMotion {
   public:
     /// \param camera alive, with a Camera; `world` must outlive this and stay as it is
@@ -57,9 +60,7 @@ class ExposureMotion {
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
     [[nodiscard]] double yFovAt(double seconds) const;
     [[nodiscard]] bool mayCameraMove() const;
-    /// Scale of the nearest MotionBlur upwards, [0, 2].
-    [[nodiscard]] double blurScaleOf(ecs::Entity entity) const;
-    /// The same times the frame's cap: the scale of the entity's motion on the screen.
+    /// findBlurScale() times the frame's cap: the scale of the entity's motion on the screen.
     [[nodiscard]] double screenScaleOf(ecs::Entity entity) const;
     /// True where the entity's own motion is none in this frame.
     [[nodiscard]] bool isHeld(ecs::Entity entity) const;

@@ -243,8 +243,10 @@ class EditedWorld : public KeptFrame {
             seconds += 0.125;
             break;
         case 6:
-            if (below(6) == 0)
-                toggle(entity, scene::MotionBlur{0.5, false});
+            if (auto* blur = world.registry.find<scene::MotionBlur>(entity); blur && below(2) == 0)
+                blur->exclude = !blur->exclude;
+            else if (below(6) == 0)
+                toggle(entity, scene::MotionBlur{below(2) == 0 ? 0.5 : 1.0, false});
             else
                 toggle(entity, scene::Animated{{{0, 0}}});
             break;

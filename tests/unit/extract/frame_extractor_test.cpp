@@ -71,6 +71,31 @@ TEST_F(KeptFrame, ACameraThatMovedPlacesAllRowsAnewAndListsNone) {
     EXPECT_NE(frame.stillRevision, first.stillRevision);
 }
 
+TEST_F(KeptFrame, UnderAMovingCameraOnlyWhatHasAScaleOfItsOwnMoves) {
+    addBox({0.0, 0.0, -10.0});
+    const ecs::Entity scaled = addBox({1.0, 0.0, -10.0});
+    const ecs::Entity child = addBox({2.0, 0.0, -10.0});
+    world.registry.add(child, scene::Parent{scaled});
+    world.registry.add(camera, scene::LinearVelocity{{0.3, 0.0, 0.0}});
+    world.registry.add(scaled, scene::MotionBlur{}); // of scale 1
+    const auto updateAt = [&](double seconds) -> const ExtractedFrame& {
+        request.exposure.open = seconds - 0.02;
+        request.exposure.raster = request.exposure.close = seconds;
+        return update();
+    };
+    const uint64_t listed = updateAt(1.0).stillSet;
+    EXPECT_TRUE(updateAt(1.1).movingRows.empty());
+    EXPECT_EQ(updateAt(1.2).stillSet, listed) << "nothing is listed anew";
+    world.registry.get<scene::MotionBlur>(scaled).exclude = true;
+    const uint64_t joined = updateAt(1.3).stillSet;
+    EXPECT_NE(joined, listed);
+    const ExtractedFrame& frame = updateAt(1.4);
+    EXPECT_EQ(frame.stillSet, joined);
+    EXPECT_EQ(frame.movingRows, (std::vector<uint32_t>{1, 2}));
+    request.exposure.cap.movers.emplace_back(frame.entityHandles[0], 0.5);
+    EXPECT_EQ(updateAt(1.5).movingRows, (std::vector<uint32_t>{0, 1, 2}));
+}
+
 TEST_F(KeptFrame, ThingsFollowAnAncestorThatIsWrittenTo) {
     const ecs::Entity root = world.registry.create();
     world.registry.add(root, scene::LocalTransform{});
