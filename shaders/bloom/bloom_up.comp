@@ -14,14 +14,21 @@ layout(binding = 0) uniform sampler2D uFine; // nearest
 layout(binding = 1) uniform sampler2D uCoarse;
 layout(binding = 2, rgba16f) uniform writeonly image2D uMixed;
 
-/// Three by three, one texel of the coarse image apart. \param at in its texels
+/// Three by three, one texel of the coarse image apart, each between its texels: four by four texels
+/// whose weights are products. Two of a row are one linear tap where they meet. \param at in its texels
 vec3 spreadCoarse(vec2 at) {
-    vec3 sum = vec3(0.0f);
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            sum += float((2 - abs(x)) * (2 - abs(y))) *
-                   textureLod(uCoarse, (at + vec2(x, y)) / vec2(params.sourcePx), 0.0f).rgb;
-    return sum / 16.0f;
+    vec2 middle = floor(at - 0.5f) + 0.5f;
+    vec2 f = at - middle;
+    // Weights of the four: 1 - f, 2 - f, 1 + f, f.
+    vec2 first = 3.0f - 2.0f * f;
+    vec2 second = 1.0f + 2.0f * f;
+    vec2 a = (middle - 1.0f + (2.0f - f) / first) / vec2(params.sourcePx);
+    vec2 b = (middle + 1.0f + f / second) / vec2(params.sourcePx);
+    vec3 upper = first.x * textureLod(uCoarse, a, 0.0f).rgb +
+                 second.x * textureLod(uCoarse, vec2(b.x, a.y), 0.0f).rgb;
+    vec3 lower = first.x * textureLod(uCoarse, vec2(a.x, b.y), 0.0f).rgb +
+                 second.x * textureLod(uCoarse, b, 0.0f).rgb;
+    return (first.y * upper + second.y * lower) / 16.0f;
 }
 
 void main() {
