@@ -5,6 +5,7 @@
 #include "engine/extract/frame_view.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/extract/shadow_casters.h"
+#include "engine/extract/shadow_tiles.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
 
@@ -84,6 +85,7 @@ class Planner {
         for (const PlacedLight& light : mLights)
             addLayers(light);
         addMoverRows();
+        markTiles();
         explainBlur();
         return std::move(mPlan);
     }
@@ -335,6 +337,21 @@ class Planner {
         }
         if (mMoving == 0)
             mPlan.instantCount = 1;
+    }
+
+    void markTiles() {
+        const ShadowPicture picture{
+            mFrameView.matrices().clipFromWorldJittered, mFrame.constants.sizePx, mScene};
+        ShadowTiles tiles(picture.sizePx);
+        for (uint32_t i = 0; i < mMovers.size(); ++i) {
+            const Mover& mover = mMovers[i];
+            const Sphere& sphere =
+                mover.path.instants.empty() ? mover.caster.sphere : mover.path.swept;
+            for (const PlacedLight& light : mLights)
+                tiles.mark(i, boundShadow(picture, sphere, light.place()));
+        }
+        mPlan.tiles = tiles.movers();
+        mPlan.tilesAcross = tiles.across();
     }
 
     [[nodiscard]] shader::ShadowInstant makeInstant(const dmat4& rasterFromInstant) const {

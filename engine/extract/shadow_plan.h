@@ -45,6 +45,8 @@ struct ShadowPlan {
     std::vector<shader::ShadowMover> movers;
     std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
     uint32_t instantCount = 1;
+    std::vector<uint32_t> tiles; ///< ShadowConstants::tiles
+    uint32_t tilesAcross = 0;
     uint64_t texelCount = 0;
     math::dvec3 eye{0.0}; ///< origin of the frame's eye space, in the world
 };

@@ -81,7 +81,7 @@ DistributedSample traceDistributed(
         Hit hit = fetchHit(frame, placement, rayHit.id);
         uint dark = traceShadows(scene, frame, moving, hit.point, ray.direction, query, lights);
         ShadedHit shaded = shadeHit(
-            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, dark, rayHit.id.entity)
+            frame, hit, ray.direction, ray.eye, lights, ShadowSource(false, dark, rayHit.id.entity, 0u)
         );
         // Behind so many layers the next is taken for opaque.
         bool last = shaded.alpha >= 1.0f || result.rays == kMaxLayers;

@@ -58,7 +58,7 @@ void main() {
 
     vec3 color = shadeSurface(
         frame, material, surface, inEyePosition, viewDirection, lightsAtRaster(frame),
-        ShadowSource(true, 0u, draw.entity)
+        ShadowSource(true, 0u, draw.entity, moversOfTile(frame, gl_FragCoord.xy))
     );
     outColor = vec4(color, kBlend != 0u ? saturate(surface.alpha) : 1.0f);
     outNormal = vec4(surface.normal, 0.0f);

@@ -36,7 +36,7 @@ ShadedHit shadeHit(
 ShadedHit shadeRasterHit(FrameRef frame, HitId id, vec3 direction) {
     Hit hit = fetchHit(frame, placeAtRaster(frame, id.entity), id);
     return shadeHit(
-        frame, hit, direction, vec3(0.0f), lightsAtRaster(frame), ShadowSource(true, 0u, id.entity)
+        frame, hit, direction, vec3(0.0f), lightsAtRaster(frame), ShadowSource(true, 0u, id.entity, kAllMovers)
     );
 }
 

@@ -23,6 +23,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Sh
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowInstantTable {
     ShadowInstant rows[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTileTable {
+    uint movers[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTexels {
     float values[];
 };
@@ -32,7 +35,11 @@ struct ShadowSource {
     bool byMaps;   // the frame's maps, where it has any; else `dark`
     uint dark;     // a bit for each light that does not reach the point
     uint receiver; // row of the entity table
+    uint movers;   // a bit for each mover whose shadow may reach the point
 };
+
+/// ShadowSource::movers of any point.
+const uint kAllMovers = ~0u;
 
 /// The point that receives light.
 struct Receiver {
@@ -150,14 +157,17 @@ float passMover(
                : sharpenEdge(passed, receiver.pixel / (map.texelMetres * place.scale));
 }
 
-/// The movers whose shadows may touch the receiver in the exposure, a bit each of the first 32, and
-/// whether one of them moves there.
-uint findMovers(ShadowRef shadows, Receiver receiver, out bool moves) {
+/// Those of some movers whose shadows may touch the receiver in the exposure, a bit each, and whether
+/// one of them moves there.
+uint findMovers(ShadowRef shadows, uint candidates, Receiver receiver, out bool moves) {
     ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
     uint found = 0u;
     bool receives = false; // the receiver itself is a mover in motion
     moves = false;
-    for (uint i = 0u; i < shadows.value.moverCount; ++i) {
+    uint count = shadows.value.moverCount;
+    if (count < 32u) candidates &= (1u << count) - 1u;
+    for (uint left = candidates; left != 0u; left &= left - 1u) {
+        uint i = uint(findLSB(left));
         bool inMotion = movers.rows[i].instantCount > 1u;
         receives = receives || (inMotion && movers.rows[i].entity == receiver.entity);
         vec4 sphere = movers.rows[i].sweptSphere;
@@ -172,9 +182,11 @@ uint findMovers(ShadowRef shadows, Receiver receiver, out bool moves) {
 }
 
 /// The mean over the exposure of what passes the movers.
-float passMovers(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
+float passMovers(
+    ShadowRef shadows, uint candidates, ShadowLight own, LightRow light, Receiver receiver
+) {
     bool moves;
-    uint found = findMovers(shadows, receiver, moves);
+    uint found = findMovers(shadows, candidates, receiver, moves);
     if (found == 0u) return 1.0f;
     ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
     ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
@@ -210,6 +222,16 @@ float passMovers(ShadowRef shadows, ShadowLight own, LightRow light, Receiver re
     return sum / float(count);
 }
 
+/// The movers whose shadows may fall into a tile of the raster: boxes around them touch it.
+/// \param pixel of the raster
+uint moversOfTile(FrameRef frame, vec2 pixel) {
+    uvec2 address = frame.value.shadows;
+    if ((address.x | address.y) == 0u) return 0u;
+    ShadowRef shadows = ShadowRef(address);
+    uvec2 tile = uvec2(pixel) / kShadowTilePx;
+    return ShadowTileTable(shadows.value.tiles).movers[tile.y * shadows.value.tilesAcross + tile.x];
+}
+
 /// Share of a light that reaches a point, [0, 1], at the raster instant or, for shadows of what
 /// moves, over the exposure.
 /// \param index of the light
@@ -237,7 +259,8 @@ float lightReaching(
     receiver.pixel = pixelFootprint(frame, position);
     receiver.entity = source.receiver;
     float passed = passStill(shadows, own, light, receiver);
-    return passed > 0.0f ? passed * passMovers(shadows, own, light, receiver) : 0.0f;
+    if (passed == 0.0f || source.movers == 0u) return passed;
+    return passed * passMovers(shadows, source.movers, own, light, receiver);
 }
 
 #endif

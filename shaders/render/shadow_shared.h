@@ -26,6 +26,9 @@ struct ShadowMap {
     uint isPerspective; // 1: depth is near / distance; 0: it is linear
 };
 
+/// Width and height of the tiles that say which movers' shadows may fall into them.
+SHUTTER_CONST uint kShadowTilePx = 32u;
+
 /// Rounding of linear depths; those in perspective are rounded in proportion.
 SHUTTER_CONST float kDepthRounding = 5.0e-7f;
 
@@ -66,10 +69,11 @@ struct ShadowConstants {
     uvec2 maps;     // of ShadowMap[]
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
+    uvec2 tiles;    // of uint[], a tile of the raster each: see moversOfTile()
     uint lightCount;
     uint moverCount;
     uint instantCount; // 1: shadows as at the raster instant
-    uint padding0;
+    uint tilesAcross;
 };
 
 /// Push constants of the draws into shadow maps.
@@ -90,7 +94,7 @@ static_assert(sizeof(shutter::shader::ShadowMap) == 80);
 static_assert(sizeof(shutter::shader::ShadowLight) == 16);
 static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
-static_assert(sizeof(shutter::shader::ShadowConstants) == 56);
+static_assert(sizeof(shutter::shader::ShadowConstants) == 64);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
 #endif
 
