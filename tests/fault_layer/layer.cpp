@@ -187,7 +187,8 @@ PFN_vkVoidFunction getInstanceProcAddr(VkInstance instance, const char* name) {
 
 } // namespace shutter::faults
 
-extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+// VK_LAYER_EXPORT is gone from newer headers.
+extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
     version->loaderLayerInterfaceVersion = CURRENT_LOADER_LAYER_INTERFACE_VERSION;
     version->pfnGetInstanceProcAddr = shutter::faults::getInstanceProcAddr;
