@@ -16,6 +16,7 @@
 #include <cstring>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <random>
 #include <span>
 #include <string>
@@ -463,6 +464,7 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
     // There is no camera before a cut, as in a host's first frame.
     cut.convention.cameras.viewFromWorldBefore = math::dmat4(0.0);
     cut.convention.cameras.clipFromViewBefore = math::dmat4(0.0);
+    cut.convention.cameras.jitterPxBefore.x = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(test::sameBits(blur(cut), sharp));
     // No vectors hold no jitter, whatever is said of them.
     convention.cameras.jitterPx = {0.25, -0.25};
@@ -470,6 +472,24 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
     const image::Image jittered = blur(inputs);
     convention.vectors.haveJitter = true;
     EXPECT_TRUE(test::sameBits(blur(inputs), jittered));
+}
+
+TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
+    HostInputs inputs = conventionInputs();
+    HostConvention& convention = inputs.convention;
+    useReversedInfiniteCamera(convention);
+    convention.depth.isRaw = false;
+    convention.depth.skyValue = 1.0e9f;
+    convention.cameras.viewFromWorldBefore =
+        glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
+    MotionBlurSettings settings = test::gather();
+    settings.method = &motion_blur::getMethod("rosado2007");
+    const image::Image own = blur(inputs, settings);
+    const std::vector<glm::vec2> wrong(kPixels, glm::vec2(3.0f, -8.0f));
+    convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, wrong).describe();
+    EXPECT_TRUE(test::sameBits(blur(inputs, settings), own));
+    convention.cameras.viewFromWorldBefore = convention.cameras.viewFromWorld;
+    EXPECT_FALSE(test::sameBits(blur(inputs, settings), own)) << "nothing was blurred";
 }
 
 TEST_F(EmbeddedConventions, MoversWithoutVectorsAreRefused) {
