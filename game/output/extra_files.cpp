@@ -105,9 +105,14 @@ bool canWriteIntermediate(const std::string& aov) {
 }
 
 core::Status writeIntermediate(
-    const std::filesystem::path& path, const std::string& aov, const image::Image& image
+    const std::filesystem::path& path,
+    const std::string& aov,
+    const image::Image& image,
+    const std::optional<io::Timecode>& timecode
 ) {
-    return io::writeImage(path, selectChannels(image, channelTable().at(aov)));
+    const image::Image chosen = selectChannels(image, channelTable().at(aov));
+    return timecode ? io::writeImageWithTimecode(path, chosen, *timecode)
+                    : io::writeImage(path, chosen);
 }
 
 core::Status writeStatistics(

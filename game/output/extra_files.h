@@ -6,10 +6,12 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device_select.h"
 #include "engine/image/image.h"
+#include "engine/io/image_file.h"
 #include "engine/render/renderer.h"
 #include "game/output/render_options.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +35,12 @@ selectChannels(const image::Image& image, const std::vector<Channel>& channels);
 
 /// Writes an intermediate with the channels that mean something, named.
 /// \param aov one that canWriteIntermediate()
+/// \param timecode of its frame, if that has one
 [[nodiscard]] core::Status writeIntermediate(
-    const std::filesystem::path& path, const std::string& aov, const image::Image& image
+    const std::filesystem::path& path,
+    const std::string& aov,
+    const image::Image& image,
+    const std::optional<io::Timecode>& timecode = {}
 );
 
 struct PictureStatistics {

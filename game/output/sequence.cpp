@@ -57,9 +57,7 @@ writePicture(const RenderOptions& options, size_t frame, const render::FrameResu
             continue;
         }
         files.push_back(intermediateFile(file, aov));
-        core::Status written = writeIntermediate(files.back(), aov, found->second);
-        if (!written)
-            return written.error();
+        SHUTTER_TRY(writeIntermediate(files.back(), aov, found->second, timecode.value()));
     }
     return files;
 }

@@ -242,8 +242,10 @@ TEST_F(Sequence, PicturesOfExrCarryTheTimeCodesOfTheirFrames) {
         EXPECT_NE(place, std::string::npos) << file;
         return place == std::string::npos ? "" : bytes.substr(place + attribute.size(), 4);
     };
-    const Arguments drawn = fly({"--out", "f_%d.exr", "--timecode", "12:34:56:03"});
+    const Arguments drawn =
+        fly({"--out", "f_%d.exr", "--timecode", "12:34:56:03", "--aov", "depth"});
     expectSuccess(drawn);
+    EXPECT_EQ(readCode("f_-2.depth.exr"), "\x03\x56\x34\x12");
     EXPECT_EQ(readCode("f_-2.exr"), "\x03\x56\x34\x12");
     EXPECT_EQ(readCode("f_-1.exr"), std::string("\0\x57\x34\x12", 4));
     EXPECT_EQ(readCode("f_3.exr"), std::string("\0\x58\x34\x12", 4));
