@@ -77,6 +77,33 @@ float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
     return settleLight(light);
 }
 
+/// The same by two by two texels: enough where instants are averaged, whose steps it has to hide.
+float filterMapLinear(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
+    ShadowTexels texels = ShadowTexels(shadows.value.texels);
+    vec2 corner = floor(place.texel - 0.5f);
+    vec2 share = place.texel - 0.5f - corner;
+    uint last = map.sizePx - 1u;
+    uvec2 at = min(uvec2(corner), uvec2(last));
+    uvec2 next = min(at + 1u, uvec2(last));
+    uint upper = map.firstTexel + at.y * map.sizePx;
+    uint lower = map.firstTexel + next.y * map.sizePx;
+    vec4 casters = vec4(
+        texels.values[upper + at.x], texels.values[upper + next.x], texels.values[lower + at.x],
+        texels.values[lower + next.x]
+    );
+    float depth = place.depth - dot(place.slope, share);
+    vec4 depths = max(
+        vec4(depth, depth + place.slope.x, depth + place.slope.y, depth + place.slope.x + place.slope.y),
+        vec4(1.0e-30f)
+    );
+    vec4 weights = vec4(1.0f - share.x, share.x, 1.0f - share.x, share.x) *
+                   vec4(1.0f - share.y, 1.0f - share.y, share.y, share.y);
+    float light = 0.0f;
+    for (int i = 0; i < 4; ++i)
+        light += casters[i] > depths[i] ? 0.0f : weights[i];
+    return settleLight(light);
+}
+
 /// Where the receiver is in a map, lifted off its surface.
 /// \param cosine of the angle between its normal and the way to the light
 ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosine) {
@@ -150,11 +177,12 @@ float passMover(
     }
     ShadowPlace place = placeReceiver(map, point, normal, dot(normal, toLight));
     if (!place.isCovered) return 1.0f;
-    float passed = filterMap(shadows, map, place);
     // Over the exposure soft edges are what hides the steps from instant to instant.
-    return mover.instantCount > 1u
-               ? passed
-               : sharpenEdge(passed, receiver.pixel / (map.texelMetres * place.scale));
+    if (mover.instantCount > 1u)
+        return filterMapLinear(shadows, map, place);
+    return sharpenEdge(
+        filterMap(shadows, map, place), receiver.pixel / (map.texelMetres * place.scale)
+    );
 }
 
 /// Those of some movers whose shadows may touch the receiver in the exposure, a bit each, and whether
