@@ -132,8 +132,8 @@ struct ExtractedFrame {
     std::vector<shader::EntityMotion> stillMotions; ///< ... while they stand still in the world
     std::vector<shader::EntityMotion> movingMotions;
     RowChanges changes; ///< of `entities`
-    /// Rows that something moves or deforms, that have a MotionBlur's scale, or that were written to
-    /// since the rows were listed; in rising order. The others stand still in the world.
+    /// Rows that something moves or deforms, that have a MotionBlur's scale, or that were written
+    /// to since the rows were listed; in rising order. The others stand still in the world.
     std::vector<uint32_t> movingRows;
     /// Changes whenever other rows stand still; no two frame extractors have the same.
     uint64_t stillSet = 0;

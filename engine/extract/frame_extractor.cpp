@@ -50,8 +50,8 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.changes.revision = takeRevision();
     mFrame.changes.all = false;
     mFrame.changes.rows.clear();
-    const bool mayRefresh = mListed && !changes.structure && mLayout == &layout &&
-                            mRows.size() <= request.entityLimit;
+    const bool mayRefresh =
+        mListed && !changes.structure && mLayout == &layout && mRows.size() <= request.entityLimit;
     mLayout = &layout;
     if (!mayRefresh || !refresh(frame, changes))
         SHUTTER_TRY(rebuild(frame));
