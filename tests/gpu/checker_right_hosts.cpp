@@ -162,7 +162,13 @@ std::vector<CheckCase> listImagesAndMethods() {
         {"one image of vectors and depth",
          "",
          [](Given& g, int, Drawn, Drawn) { g.isNative = true; }},
-        {"the same, resolved",
+        {"the same, over half of the time between the cameras",
+         "",
+         [](Given& g, int, Drawn, Drawn) {
+             g.isNative = true;
+             scaleVectors(g, {0.5f, 0.5f});
+         }},
+        {"one image of vectors and depth, resolved",
          "",
          [](Given& g, int frame, Drawn, Drawn) {
              g.isNative = g.isResolved = true;
