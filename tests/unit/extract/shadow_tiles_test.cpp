@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <ranges>
 
 namespace shutter::extract {
 
