@@ -99,7 +99,7 @@ TEST_F(SequenceResults, OnlyFramesWithEverySampleCountAreAtEqualError) {
     add("gather/15", 0, 1.0, 0.0);
     EXPECT_EQ(rowOfGather(0).at("psnr"), 38.0);
     EXPECT_EQ(describe().at("equalError").at(0).at("frames"), json(mResult.plan.sweepFrames));
-    // Of these the squares are averaged, not the decibels: 38 dB thrice and 20 dB.
+    // Squares are averaged, not decibels: 38 dB thrice and 20 dB.
     add("gather/15", mResult.plan.sweepFrames[0], 10.0, 20.0);
     const double meanSquare = (3.0 * std::pow(10.0, -3.8) + 0.01) / 4.0;
     setSwept("gather/64", 1.0, 0.0);
