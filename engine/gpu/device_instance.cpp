@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstring>
+#include <string>
 
 namespace shutter::gpu {
 
@@ -14,6 +15,13 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 /// Part of the names of messages that advise and find nothing wrong.
 constexpr const char* kAdvice = "BestPractices";
 
+/// The message with its name, by which older layers begin it and which newer ones leave out.
+std::string describe(const VkDebugUtilsMessengerCallbackDataEXT& data) {
+    const char* name = data.pMessageIdName ? data.pMessageIdName : "";
+    return std::strstr(data.pMessage, name) ? data.pMessage
+                                            : fmt::format("[ {} ] {}", name, data.pMessage);
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
     VkDebugUtilsMessageSeverityFlagBitsEXT,
     VkDebugUtilsMessageTypeFlagsEXT,
@@ -22,11 +30,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(
 ) {
     const char* id = data->pMessageIdName ? data->pMessageIdName : "";
     if (std::strstr(id, kAdvice)) {
-        core::logWarning("Vulkan advice: {}", data->pMessage);
+        core::logWarning("Vulkan advice: {}", describe(*data));
         return VK_FALSE;
     }
     ++*static_cast<std::atomic<uint32_t>*>(user);
-    core::logWarning("Vulkan validation: {}", data->pMessage);
+    core::logWarning("Vulkan validation: {}", describe(*data));
     return VK_FALSE;
 }
 
