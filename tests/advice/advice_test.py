@@ -17,7 +17,8 @@ LIST = pathlib.Path(__file__).with_name("explained.txt")
 # https://vulkan.lunarg.com/doc/view/latest/linux/khronos_validation_layer.html, VK_LAYER_ENABLES
 ENABLES = ":".join(f"VALIDATION_CHECK_ENABLE_VENDOR_SPECIFIC_{vendor}"
                    for vendor in ("NVIDIA", "AMD", "ARM", "IMG"))
-NAME = re.compile(r"\[ (?:UNASSIGNED-)?(BestPractices-[A-Za-z0-9_-]+) \]")
+# Newer layers name the vendor, too.
+NAME = re.compile(r"\[ (?:UNASSIGNED-)?(BestPractices-)(?:AMD-|Arm-|IMG-|NVIDIA-)?([A-Za-z0-9_-]+) \]")
 SAMPLES = {"accumulate": "2", "truth": "1", "denoised": "1"}
 
 
@@ -56,7 +57,7 @@ class Advice(unittest.TestCase):
         for message in done.stderr.split("Vulkan advice: ")[1:]:
             found = NAME.search(message)
             self.assertIsNotNone(found, message)
-            heard.setdefault(found[1], message.strip())
+            heard.setdefault(found[1] + found[2], message.strip())
         return heard
 
     def expect_explained(self, heard):

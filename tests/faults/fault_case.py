@@ -41,8 +41,9 @@ class FaultCase(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def environment(self, more=()):
+        # Without XDG_RUNTIME_DIR, Wayland's library writes to the standard error stream.
         return {"MESA_SHADER_CACHE_DIR": self.caches, **os.environ, "XDG_CACHE_HOME": self.caches,
-                "HOME": str(self.folder), **dict(more)}
+                "XDG_RUNTIME_DIR": str(self.folder), "HOME": str(self.folder), **dict(more)}
 
     def run_shutter(self, arguments, environment=(), before=(), **options):
         return subprocess.run([*before, EXECUTABLE, *arguments], cwd=self.folder, text=True,
