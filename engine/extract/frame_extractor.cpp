@@ -193,10 +193,13 @@ bool FrameExtractor::refresh(const Frame& frame, const WorldChanges& changes) {
     return placeMoving(frame);
 }
 
+uint32_t FrameExtractor::rowOf(uint32_t entity) const {
+    return entity < mRowOfEntity.size() ? mRowOfEntity[entity] : kNone;
+}
+
 void FrameExtractor::refreshCapped(const Frame& frame) {
     for (const auto& [entity, share] : frame.request.exposure.cap.movers) {
-        const uint32_t index =
-            entity.index < mRowOfEntity.size() ? mRowOfEntity[entity.index] : kNone;
+        const uint32_t index = rowOf(entity.index);
         if (index == kNone || index == kLatent || mFrame.entityHandles[index] != entity)
             continue;
         mRows[index].evolves = true;
@@ -206,9 +209,6 @@ void FrameExtractor::refreshCapped(const Frame& frame) {
 }
 
 bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& changes) {
-    const auto rowOf = [&](uint32_t entity) {
-        return entity < mRowOfEntity.size() ? mRowOfEntity[entity] : kNone;
-    };
     for (const ecs::Entity entity : changes.drawn) {
         // It is there: a component that was removed would have changed the structure.
         const uint32_t mesh = frame.world.registry.get<scene::MeshInstance>(entity).mesh;

@@ -22,9 +22,9 @@ namespace shutter::extract {
 /// cannot be drawn as before, or when too many changed.
 class FrameExtractor {
   public:
-    /// The frame equals extractFrame()'s, but for which rows count as moving ones (they stay it
-    /// when they are written to) and so for the order of the table of motions. It lives until the
-    /// next call and may be written to: rows that are appended are dropped then.
+    /// The frame equals extractFrame()'s, except that rows that were written to still count as
+    /// moving ones, and that the table of motions may be in another order. It lives until the next
+    /// call and may be written to: rows that are appended are dropped then.
     /// \param layout stays as it is between calls
     /// Error: as extractFrame's.
     [[nodiscard]] core::Result<ExtractedFrame*>
@@ -78,6 +78,8 @@ class FrameExtractor {
     bool refresh(const Frame& frame, const WorldChanges& changes);
     bool refreshWritten(const Frame& frame, const WorldChanges& changes);
     bool refreshRow(const Frame& frame, uint32_t index);
+    /// A row, kLatent or kNone. \param entity index
+    [[nodiscard]] uint32_t rowOf(uint32_t entity) const;
     bool becomesDrawable(const Frame& frame, uint32_t entity);
     /// What the cap has a share for moves, whether it does in the world or not.
     void refreshCapped(const Frame& frame);
