@@ -173,6 +173,18 @@ class EmbeddedConventions : public test::EmbeddedTest {
         convention.cameras.clipFromViewBefore = convention.cameras.clipFromView;
     }
 
+    /// Linear depth, and a camera that moves by half a metre.
+    HostInputs movingCameraInputs() {
+        HostInputs inputs = conventionInputs();
+        HostConvention& convention = inputs.convention;
+        useReversedInfiniteCamera(convention);
+        convention.depth.isRaw = false;
+        convention.depth.skyValue = 1.0e9f;
+        convention.cameras.viewFromWorldBefore =
+            glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
+        return inputs;
+    }
+
     /// Runs the effect, and what is recorded behind it.
     void
     run(const HostInputs& inputs,
@@ -443,13 +455,8 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
 }
 
 TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
-    HostInputs inputs = conventionInputs();
+    HostInputs inputs = movingCameraInputs();
     HostConvention& convention = inputs.convention;
-    useReversedInfiniteCamera(convention);
-    convention.depth.isRaw = false;
-    convention.depth.skyValue = 1.0e9f;
-    convention.cameras.viewFromWorldBefore =
-        glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
     const glm::vec2 still{0.0f};
     convention.vectors.image =
         make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still)).describe();
@@ -475,13 +482,8 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
 }
 
 TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
-    HostInputs inputs = conventionInputs();
+    HostInputs inputs = movingCameraInputs();
     HostConvention& convention = inputs.convention;
-    useReversedInfiniteCamera(convention);
-    convention.depth.isRaw = false;
-    convention.depth.skyValue = 1.0e9f;
-    convention.cameras.viewFromWorldBefore =
-        glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
     MotionBlurSettings settings = test::gather();
     settings.method = &motion_blur::getMethod("rosado2007");
     const image::Image own = blur(inputs, settings);
