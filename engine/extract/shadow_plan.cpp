@@ -5,6 +5,7 @@
 #include "engine/extract/frame_view.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/extract/shadow_casters.h"
+#include "engine/extract/shadow_runs.h"
 #include "engine/extract/shadow_tiles.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
@@ -78,13 +79,14 @@ class Planner {
         collectMovers();
         followMovers();
         mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
-        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, 0});
+        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun});
         for (const PlacedLight& light : mLights)
             addLightMaps(light);
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
         for (const PlacedLight& light : mLights)
             addLayers(light);
         addMoverRows();
+        addRuns();
         markTiles();
         explainBlur();
         return std::move(mPlan);
@@ -337,6 +339,55 @@ class Planner {
         }
         if (mMoving == 0)
             mPlan.instantCount = 1;
+    }
+
+    /// A mover has runs for all lights that are far away, or for none.
+    void addRuns() {
+        std::vector<std::vector<std::vector<shader::ShadowRun>>> lights;
+        for (const PlacedLight& light : mLights)
+            if (light.light.kind == scene::LightKind::Directional)
+                lights.push_back(makeRunsOf(light));
+        if (lights.empty())
+            return;
+        uint32_t count = 0;
+        for (size_t i = 0; i < mMovers.size(); ++i) {
+            const bool hasRuns = std::all_of(lights.begin(), lights.end(), [&](const auto& light) {
+                return light[i].size() > 1;
+            });
+            mPlan.movers[i].firstRun = count;
+            mPlan.movers[i].hasRuns = hasRuns ? 1 : 0;
+            for (auto& light : lights)
+                light[i].resize(hasRuns ? light[i].size() : 1);
+            count += static_cast<uint32_t>(lights.front()[i].size());
+        }
+        uint32_t next = 0;
+        for (const PlacedLight& light : mLights)
+            if (light.light.kind == scene::LightKind::Directional)
+                mPlan.lights[light.index].firstRun = count * next++;
+        for (const auto& light : lights)
+            for (const auto& mover : light)
+                mPlan.runs.insert(mPlan.runs.end(), mover.begin(), mover.end());
+    }
+
+    [[nodiscard]] std::vector<std::vector<shader::ShadowRun>>
+    makeRunsOf(const PlacedLight& light) const {
+        std::vector<std::vector<shader::ShadowRun>> runs;
+        for (size_t i = 0; i < mMovers.size(); ++i) {
+            const Mover& mover = mMovers[i];
+            std::vector<MoverLayer> layers(1 + mover.parts.size());
+            for (size_t part = 0; part < layers.size(); ++part) {
+                const PlannedMap& map = mPlan.maps
+                    [mPlan.lights[light.index].firstLayer + mPlan.movers[i].firstLayer + part];
+                layers[part].view = map.view;
+                layers[part].firstTexel = map.firstTexel;
+                if (part > 0)
+                    layers[part].rasterFromInstant = mover.parts[part - 1].rasterFromInstant;
+            }
+            runs.push_back(makeRuns(
+                mover.caster, mover.path, layers, -light.direction, mView.shadows.mapSize / 4, eye()
+            ));
+        }
+        return runs;
     }
 
     void markTiles() {

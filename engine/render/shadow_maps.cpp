@@ -190,6 +190,7 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
     const size_t mapsAt = writer.add(maps);
     const size_t moversAt = writer.add(mPlan.movers);
     const size_t instantsAt = writer.add(mPlan.instants);
+    const size_t runsAt = writer.add(mPlan.runs);
     const size_t tilesAt = writer.add(mPlan.tiles);
     if (mTables.bytes() < writer.bytes().size())
         mTables = gpu::Buffer(
@@ -205,6 +206,7 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
     constants.maps = addressOf(mapsAt);
     constants.movers = addressOf(moversAt);
     constants.instants = addressOf(instantsAt);
+    constants.runs = addressOf(runsAt);
     constants.tiles = addressOf(tilesAt);
     constants.tilesAcross = mPlan.tilesAcross;
     constants.lightCount = static_cast<uint32_t>(mPlan.lights.size());

@@ -11,6 +11,9 @@ SHUTTER_SHADER_BEGIN
 /// Steepest that the filter's edges are made: thin casters and corners suffer from more.
 SHUTTER_CONST float kMostEdgeContrast = 3.0f;
 
+/// Beyond 87 degrees from the light a plane's slope is worth less than its rounding.
+SHUTTER_CONST float kLeastSlopeCosine = 0.05f;
+
 /// How far a point goes off its surface before it is looked up, for what its plane does not say:
 /// curvature, and rounding (Holbert 2011, "Saying Goodbye to Shadow Acne", normal offset).
 /// \return metres
@@ -29,8 +32,7 @@ SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
 SHUTTER_INLINE vec2 planeSlope(
     vec4 clip, vec4 clipNormal, float cosine, float texelMetres, uint sizePx, bool isPerspective
 ) {
-    // Beyond 87 degrees the slope is worth less than its rounding.
-    if (!(cosine > 0.05f)) return vec2(0.0f);
+    if (!(cosine > kLeastSlopeCosine)) return vec2(0.0f);
     float half_ = 0.5f * texelMetres * float(sizePx); // of the map's width, at w = 1
     float scale = half_ * texelMetres;
     vec2 across = vec2(clipNormal.x, clipNormal.y);
@@ -59,6 +61,12 @@ struct ShadowPlace {
     bool isCovered;  // the map has all texels that the filter reads
 };
 
+/// Whether a map has all texels that the filter reads around a place. NaN is not covered.
+SHUTTER_INLINE bool coversFilter(vec2 texel, float size) {
+    return texel.x >= kShadowFilterTexels && texel.y >= kShadowFilterTexels &&
+           texel.x <= size - kShadowFilterTexels && texel.y <= size - kShadowFilterTexels;
+}
+
 /// \param clip the receiver's; w above 0 is in front of the light
 /// \param slope planeSlope()'s
 SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float depthBias) {
@@ -69,12 +77,8 @@ SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float 
     place.isCovered = clip.w > 0.0f;
     float scale = 1.0f / max(clip.w, 1.0e-30f);
     place.texel = (vec2(clip.x, clip.y) * scale * 0.5f + 0.5f) * size;
-    place.depth = clip.z * scale * (1.0f + 1.0e-6f) + depthBias;
-    // Written so that NaN is not covered.
-    place.isCovered = place.isCovered && place.texel.x >= kShadowFilterTexels &&
-                      place.texel.y >= kShadowFilterTexels &&
-                      place.texel.x <= size - kShadowFilterTexels &&
-                      place.texel.y <= size - kShadowFilterTexels;
+    place.depth = clip.z * scale * (1.0f + kDepthScaleRounding) + depthBias;
+    place.isCovered = place.isCovered && coversFilter(place.texel, size);
     return place;
 }
 
@@ -123,6 +127,13 @@ SHUTTER_INLINE float sharpenEdge(float light, float texelsPerPixel) {
 /// The form whose unit ellipsoid is a mover's box, applied to a vector.
 SHUTTER_INLINE vec3 applyShape(vec4 shape[3], vec3 v) {
     return vec3(dot(vec3(shape[0]), v), dot(vec3(shape[1]), v), dot(vec3(shape[2]), v));
+}
+
+/// The slope of a plane's depth in a run's layer, a texel towards x and y; see planeSlope().
+/// \param run ShadowRun::slope
+SHUTTER_INLINE vec2 planeSlopeOnRun(vec4 run[2], vec3 normal, float cosine) {
+    if (!(cosine > kLeastSlopeCosine)) return vec2(0.0f);
+    return vec2(dot(vec3(run[0]), normal), dot(vec3(run[1]), normal)) / cosine;
 }
 
 /// Where a receiver is looked up in a mover's layer, for a light that is far away. The layer was

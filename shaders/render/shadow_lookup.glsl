@@ -23,6 +23,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Sh
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowInstantTable {
     ShadowInstant rows[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowRunTable {
+    ShadowRun rows[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ShadowTileTable {
     uint movers[];
 };
@@ -52,13 +55,13 @@ struct Receiver {
 };
 
 /// Share of the light that passes the casters of one map; `place` is covered.
-float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
+float filterMap(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPlace place) {
     ShadowTexels texels = ShadowTexels(shadows.value.texels);
     vec2 middle = floor(place.texel);
     vec2 offset = place.texel - middle - 0.5f;
     vec3 across = splineWeights(offset.x);
     vec3 down = splineWeights(offset.y);
-    uint last = map.sizePx - 1u;
+    uint last = sizePx - 1u;
     uvec2 at = min(uvec2(middle), uvec2(last));
     uint x0 = max(at.x, 1u) - 1u;
     uint x2 = min(at.x + 1u, last);
@@ -66,7 +69,7 @@ float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
     float depth = place.depth - dot(place.slope, offset); // at the middle texel's centre
     for (uint row = 0u; row < 3u; ++row) {
         uint y = min(max(at.y + row, 1u) - 1u, last);
-        uint first = map.firstTexel + y * map.sizePx;
+        uint first = firstTexel + y * sizePx;
         vec3 casters = vec3(
             texels.values[first + x0], texels.values[first + at.x], texels.values[first + x2]
         );
@@ -78,15 +81,15 @@ float filterMap(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
 }
 
 /// The same by two by two texels: enough where instants are averaged, whose steps it has to hide.
-float filterMapLinear(ShadowRef shadows, ShadowMap map, ShadowPlace place) {
+float filterMapLinear(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPlace place) {
     ShadowTexels texels = ShadowTexels(shadows.value.texels);
     vec2 corner = floor(place.texel - 0.5f);
     vec2 share = place.texel - 0.5f - corner;
-    uint last = map.sizePx - 1u;
+    uint last = sizePx - 1u;
     uvec2 at = min(uvec2(corner), uvec2(last));
     uvec2 next = min(at + 1u, uvec2(last));
-    uint upper = map.firstTexel + at.y * map.sizePx;
-    uint lower = map.firstTexel + next.y * map.sizePx;
+    uint upper = firstTexel + at.y * sizePx;
+    uint lower = firstTexel + next.y * sizePx;
     vec4 casters = vec4(
         texels.values[upper + at.x], texels.values[upper + next.x], texels.values[lower + at.x],
         texels.values[lower + next.x]
@@ -134,7 +137,7 @@ float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver rec
         ShadowPlace place = placeReceiver(map, receiver.position, receiver.normal, cosine);
         if (!place.isCovered) continue;
         return sharpenEdge(
-            filterMap(shadows, map, place), receiver.pixel / (map.texelMetres * place.scale)
+            filterMap(shadows, map.firstTexel, map.sizePx, place), receiver.pixel / (map.texelMetres * place.scale)
         );
     }
     return 1.0f;
@@ -156,10 +159,11 @@ struct MoverLayer {
     vec3 light;   // ... or from there
 };
 
-/// Light that passes one mover at one instant.
+/// Light that passes one mover at one instant, worked out for it alone.
+/// \param isMean whether it is one of several that are averaged
 float passMover(
     ShadowMap map, ShadowRef shadows, ShadowMover mover, MoverLayer layer,
-    vec4 rasterFromInstant[3], LightRow light, Receiver receiver
+    vec4 rasterFromInstant[3], LightRow light, Receiver receiver, bool isMean
 ) {
     vec3 point = transformPoint(rasterFromInstant, receiver.position);
     vec3 toLight = normalize(transformDirection(rasterFromInstant, receiver.toLight));
@@ -178,20 +182,106 @@ float passMover(
     ShadowPlace place = placeReceiver(map, point, normal, dot(normal, toLight));
     if (!place.isCovered) return 1.0f;
     // Over the exposure soft edges are what hides the steps from instant to instant.
-    if (mover.instantCount > 1u)
-        return filterMapLinear(shadows, map, place);
+    if (isMean) return filterMapLinear(shadows, map.firstTexel, map.sizePx, place);
     return sharpenEdge(
-        filterMap(shadows, map, place), receiver.pixel / (map.texelMetres * place.scale)
+        filterMap(shadows, map.firstTexel, map.sizePx, place),
+        receiver.pixel / (map.texelMetres * place.scale)
     );
 }
 
-/// Those of some movers whose shadows may touch the receiver in the exposure, a bit each, and whether
-/// one of them moves there.
-uint findMovers(ShadowRef shadows, uint candidates, Receiver receiver, out bool moves) {
+/// A receiver on a mover's run.
+struct RunPlace {
+    ShadowPlace place; // at the run's first instant; whether it is covered is left open
+    vec3 step;         // of texel and depth, from instant to instant
+    uint firstTexel;
+    uint sizePx;
+    float texelMetres;
+};
+
+RunPlace placeOnRun(ShadowRef shadows, uint index, Receiver receiver) {
+    ShadowRun run = ShadowRunTable(shadows.value.runs).rows[index];
+    float cosine = dot(receiver.normal, receiver.toLight);
+    vec3 lifted = receiver.position + receiver.normal * normalOffset(run.texelMetres, cosine);
+    vec3 first = transformPoint(run.first, lifted);
+    vec2 slope = planeSlopeOnRun(run.slope, receiver.normal, cosine);
+    return RunPlace(
+        ShadowPlace(first.xy, first.z, slope, 1.0f, false), transformPoint(run.step, lifted),
+        run.firstTexel, run.sizePx, run.texelMetres
+    );
+}
+
+/// Light that passes one mover at the raster instant.
+float passAtRaster(
+    ShadowRef shadows, ShadowLight own, uint mover, LightRow light, Receiver receiver
+) {
     ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
-    uint found = 0u;
+    if (own.firstRun == kNoShadowRun) {
+        ShadowMover row = movers.rows[mover];
+        vec4 identity[3] = vec4[3](
+            vec4(1.0f, 0.0f, 0.0f, 0.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 1.0f, 0.0f)
+        );
+        MoverLayer layer = MoverLayer(row.firstLayer, receiver.toLight, light.positionRange.xyz);
+        ShadowMap map = ShadowMapTable(shadows.value.maps).rows[own.firstLayer + row.firstLayer];
+        return passMover(map, shadows, row, layer, identity, light, receiver, false);
+    }
+    RunPlace run = placeOnRun(shadows, own.firstRun + movers.rows[mover].firstRun, receiver);
+    if (!coversFilter(run.place.texel, float(run.sizePx))) return 1.0f;
+    return sharpenEdge(
+        filterMap(shadows, run.firstTexel, run.sizePx, run.place), receiver.pixel / run.texelMetres
+    );
+}
+
+/// Light that passes one mover at the instants of a run.
+vec4 passOnRun(ShadowRef shadows, uint index, Receiver receiver) {
+    RunPlace run = placeOnRun(shadows, index, receiver);
+    float size = float(run.sizePx);
+    vec4 passed = vec4(1.0f);
+    for (uint i = 0u; i < kRunInstants; ++i) {
+        if (coversFilter(run.place.texel, size))
+            passed[i] = filterMapLinear(shadows, run.firstTexel, run.sizePx, run.place);
+        run.place.texel += run.step.xy;
+        run.place.depth += run.step.z;
+    }
+    return passed;
+}
+
+/// The same where each instant is worked out for itself. \param first of the instants
+vec4 passAtInstants(
+    ShadowRef shadows, ShadowLight own, ShadowMover mover, uint first, LightRow light,
+    Receiver receiver
+) {
+    ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
+    ShadowInstantTable instants = ShadowInstantTable(shadows.value.instants);
+    vec4 passed = vec4(1.0f);
+    for (uint i = 0u; i < kRunInstants && first + i < mover.instantCount; ++i) {
+        uint instant = first + i;
+        MoverLayer layer =
+            MoverLayer(mover.firstLayer, receiver.toLight, light.positionRange.xyz);
+        if (mover.partCount > 0u) {
+            uint part = instant * mover.partCount / mover.instantCount;
+            uint at = mover.firstInstant + mover.instantCount + part;
+            vec4 drawn[3] = instants.rows[at].rasterFromInstant;
+            layer.map += 1u + part;
+            layer.toLight = normalize(transformDirection(drawn, layer.toLight));
+            layer.light = transformPoint(drawn, layer.light);
+        }
+        ShadowMap map = maps.rows[own.firstLayer + layer.map];
+        vec4 rows[3] = instants.rows[mover.firstInstant + instant].rasterFromInstant;
+        passed[i] = passMover(map, shadows, mover, layer, rows, light, receiver, true);
+    }
+    return passed;
+}
+
+/// Movers whose shadows may touch a receiver in the exposure, a bit each.
+struct FoundMovers {
+    uint resting; // looked up at the raster instant
+    uint moving;  // at all of them
+};
+
+FoundMovers findMovers(ShadowRef shadows, uint candidates, Receiver receiver) {
+    ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
+    FoundMovers found = FoundMovers(0u, 0u);
     bool receives = false; // the receiver itself is a mover in motion
-    moves = false;
     uint count = shadows.value.moverCount;
     if (count < 32u) candidates &= (1u << count) - 1u;
     for (uint left = candidates; left != 0u; left &= left - 1u) {
@@ -200,12 +290,14 @@ uint findMovers(ShadowRef shadows, uint candidates, Receiver receiver, out bool 
         receives = receives || (inMotion && movers.rows[i].entity == receiver.entity);
         vec4 sphere = movers.rows[i].sweptSphere;
         if (!meetsSphere(receiver.position, receiver.toLight, receiver.distance_, sphere)) continue;
-        found |= 1u << i;
-        moves = moves || inMotion;
+        if (inMotion)
+            found.moving |= 1u << i;
+        else
+            found.resting |= 1u << i;
     }
     // What is looked up is a point of the surface, and a blur carries it along: what moves by itself
     // is lit as at the raster instant.
-    moves = moves && !receives;
+    if (receives) found = FoundMovers(found.resting | found.moving, 0u);
     return found;
 }
 
@@ -213,41 +305,29 @@ uint findMovers(ShadowRef shadows, uint candidates, Receiver receiver, out bool 
 float passMovers(
     ShadowRef shadows, uint candidates, ShadowLight own, LightRow light, Receiver receiver
 ) {
-    bool moves;
-    uint found = findMovers(shadows, candidates, receiver, moves);
-    if (found == 0u) return 1.0f;
-    ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
+    FoundMovers found = findMovers(shadows, candidates, receiver);
+    float resting = 1.0f;
+    for (uint left = found.resting; left != 0u && resting > 0.0f; left &= left - 1u)
+        resting *= passAtRaster(shadows, own, uint(findLSB(left)), light, receiver);
+    if (found.moving == 0u || resting == 0.0f) return resting;
     ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
-    ShadowInstantTable instants = ShadowInstantTable(shadows.value.instants);
-    uint count = moves ? shadows.value.instantCount : 1u;
+    uint count = shadows.value.instantCount;
     float sum = 0.0f;
-    for (uint instant = 0u; instant < count; ++instant) {
-        float passed = 1.0f;
-        for (uint left = found; left != 0u && passed > 0.0f; left &= left - 1u) {
-            ShadowMover mover = movers.rows[findLSB(left)];
-            vec4 rows[3] = vec4[3](
-                vec4(1.0f, 0.0f, 0.0f, 0.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f),
-                vec4(0.0f, 0.0f, 1.0f, 0.0f)
-            );
-            MoverLayer layer =
-                MoverLayer(mover.firstLayer, receiver.toLight, light.positionRange.xyz);
-            if (moves && mover.instantCount > 1u) {
-                rows = instants.rows[mover.firstInstant + instant].rasterFromInstant;
-                if (mover.partCount > 0u) {
-                    uint part = instant * mover.partCount / mover.instantCount;
-                    uint at = mover.firstInstant + mover.instantCount + part;
-                    vec4 drawn[3] = instants.rows[at].rasterFromInstant;
-                    layer.map += 1u + part;
-                    layer.toLight = normalize(transformDirection(drawn, layer.toLight));
-                    layer.light = transformPoint(drawn, layer.light);
-                }
+    for (uint first = 0u; first < count; first += kRunInstants) {
+        vec4 passed = vec4(lessThan(uvec4(0u, 1u, 2u, 3u) + first, uvec4(count)));
+        for (uint left = found.moving; left != 0u && passed != vec4(0.0f); left &= left - 1u) {
+            uint mover = uint(findLSB(left));
+            if (own.firstRun != kNoShadowRun && movers.rows[mover].hasRuns != 0u) {
+                uint run = movers.rows[mover].firstRun + 1u + first / kRunInstants;
+                passed *= passOnRun(shadows, own.firstRun + run, receiver);
+            } else {
+                passed *=
+                    passAtInstants(shadows, own, movers.rows[mover], first, light, receiver);
             }
-            ShadowMap map = maps.rows[own.firstLayer + layer.map];
-            passed *= passMover(map, shadows, mover, layer, rows, light, receiver);
         }
-        sum += passed;
+        sum += dot(passed, vec4(1.0f));
     }
-    return sum / float(count);
+    return resting * sum / float(count);
 }
 
 /// The movers whose shadows may fall into a tile of the raster: boxes around them touch it.

@@ -14,6 +14,10 @@ SHUTTER_SHADER_BEGIN
 SHUTTER_CONST uint kMaxShadowLights = 16u;
 /// ShadowLight::firstMap of a light that has no maps.
 SHUTTER_CONST uint kNoShadowMap = 0xFFFFFFFFu;
+/// ShadowLight::firstRun of a light that is not far away.
+SHUTTER_CONST uint kNoShadowRun = 0xFFFFFFFFu;
+/// Instants of a ShadowRun; the last one of an exposure may have fewer.
+SHUTTER_CONST uint kRunInstants = 4u;
 /// Texels to each side of a lookup's own that its filter may read.
 SHUTTER_CONST float kShadowFilterTexels = 1.5f;
 
@@ -31,13 +35,15 @@ SHUTTER_CONST uint kShadowTilePx = 32u;
 
 /// Rounding of linear depths; those in perspective are rounded in proportion.
 SHUTTER_CONST float kDepthRounding = 5.0e-7f;
+/// The same of all depths, as a share.
+SHUTTER_CONST float kDepthScaleRounding = 1.0e-6f;
 
 /// Beside each row of the table of lights.
 struct ShadowLight {
     uint firstMap;   // of the light's maps, or kNoShadowMap: the light casts no shadows
     uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
     uint firstLayer; // map of the first mover's first layer; the others follow
-    uint padding0;
+    uint firstRun;   // of the first mover's runs, or kNoShadowRun: the light has a place
 };
 
 /// A caster that moves, and has layers of its own for each light: maps of it alone.
@@ -52,9 +58,9 @@ struct ShadowMover {
     /// Equal parts of the exposure that have a layer each, as in the middle of the part; they
     /// follow the raster instant's. 0: that one is for all.
     uint partCount;
+    uint firstRun; // counted from ShadowLight::firstRun: the raster instant's
+    uint hasRuns;  // 1: runs over the exposure follow it; 0: each instant is worked out anew
     uint padding0;
-    uint padding1;
-    uint padding2;
 };
 
 /// Where a mover is at one instant: takes points of eye space to where they are as seen from the
@@ -63,12 +69,26 @@ struct ShadowInstant {
     vec4 rasterFromInstant[3];
 };
 
+/// Where points of eye space are looked up in a mover's layer at successive instants, for a light
+/// that is far away: by an affine map at each, which is linear in the instant's number.
+struct ShadowRun {
+    vec4 first[3]; // rows of the first instant's: x and y in texels, depth with its bias
+    vec4 step[3];  // what each further instant adds
+    vec4 slope[2]; // xyz: times a unit normal, over its cosine with the way to the light, it is the
+                   // slope of a plane's depth, a texel, towards x and y
+    uint firstTexel;
+    uint sizePx;
+    float texelMetres;
+    uint padding0;
+};
+
 struct ShadowConstants {
     uvec2 texels;   // addresses: of float[]
     uvec2 lights;   // of ShadowLight[]
     uvec2 maps;     // of ShadowMap[]
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
+    uvec2 runs;     // of ShadowRun[]
     uvec2 tiles;    // of uint[], a tile of the raster each: see moversOfTile()
     uint lightCount;
     uint moverCount;
@@ -94,7 +114,8 @@ static_assert(sizeof(shutter::shader::ShadowMap) == 80);
 static_assert(sizeof(shutter::shader::ShadowLight) == 16);
 static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
-static_assert(sizeof(shutter::shader::ShadowConstants) == 64);
+static_assert(sizeof(shutter::shader::ShadowRun) == 144);
+static_assert(sizeof(shutter::shader::ShadowConstants) == 72);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
 #endif
 

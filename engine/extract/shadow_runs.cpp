@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/shadow_runs.h"
+
+#include "shaders/render/shadow_filter.glsl"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat3;
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+/// A map that is linear in the instant's number.
+struct LinearMap {
+    dmat4 first{1.0};
+    dmat4 step{0.0};
+
+    [[nodiscard]] dmat4 at(double instant) const { return first + instant * step; }
+};
+
+/// By least squares. \param maps one or more
+LinearMap fitLine(std::span<const dmat4> maps) {
+    const double middle = 0.5 * double(maps.size() - 1);
+    dmat4 sum(0.0);
+    dmat4 slope(0.0);
+    double squares = 0.0;
+    for (size_t i = 0; i < maps.size(); ++i) {
+        const double offset = double(i) - middle;
+        sum += maps[i];
+        slope += offset * maps[i];
+        squares += offset * offset;
+    }
+    LinearMap line;
+    if (squares > 0.0)
+        line.step = slope / squares;
+    line.first = sum / double(maps.size()) - middle * line.step;
+    return line;
+}
+
+dvec3 rowOf(const dmat4& matrix, int row) {
+    return {matrix[0][row], matrix[1][row], matrix[2][row]};
+}
+
+/// Farthest that the line takes a point of a sphere from where its map does, texels. Along the way
+/// to the light the error is the same: all maps take it to the layer's.
+double findError(
+    const LinearMap& line, std::span<const dmat4> maps, const Sphere& sphere, uint32_t sizePx
+) {
+    double most = 0.0;
+    for (size_t i = 0; i < maps.size(); ++i) {
+        const dmat4 error = line.at(double(i)) - maps[i];
+        const dvec3 centre(error * dvec4(sphere.centre, 1.0));
+        for (int row = 0; row < 3; ++row) {
+            const double off =
+                std::abs(centre[row]) + sphere.radius * glm::length(rowOf(error, row));
+            most = std::max(most, row < 2 ? off : off * sizePx); // depth: 1 over the layer's width
+        }
+    }
+    return most;
+}
+
+std::array<math::vec4, 3> makeRows(const dmat4& map) {
+    std::array<math::vec4, 3> rows;
+    for (int i = 0; i < 3; ++i)
+        rows[size_t(i)] = math::vec4(dvec4(rowOf(map, i), map[3][i]));
+    return rows;
+}
+
+shader::ShadowRun
+makeRun(const LinearMap& line, double middle, const MoverLayer& layer, uint32_t sizePx, const dvec3& eye) {
+    const dmat4 toEye = glm::translate(dmat4(1.0), eye);
+    const std::array<math::vec4, 3> first = makeRows(line.first * toEye);
+    const std::array<math::vec4, 3> step = makeRows(line.step * toEye);
+    shader::ShadowRun run{};
+    std::copy(first.begin(), first.end(), run.first);
+    std::copy(step.begin(), step.end(), run.step);
+    // A plane's depth over x and y: what its normal is perpendicular to is perpendicular to it.
+    const dmat4 map = line.at(middle);
+    const dvec3 x = rowOf(map, 0);
+    const dvec3 y = rowOf(map, 1);
+    const dvec3 depth = rowOf(map, 2);
+    const double scale = 1.0 / glm::length(glm::cross(x, y)); // it points to the light
+    run.slope[0] = math::vec4(math::vec3(scale * glm::cross(depth, y)), 0.0f);
+    run.slope[1] = math::vec4(math::vec3(scale * glm::cross(x, depth)), 0.0f);
+    run.firstTexel = layer.firstTexel;
+    run.sizePx = sizePx;
+    run.texelMetres = float(layer.view.texelMetres);
+    return run;
+}
+
+bool isFinite(const shader::ShadowRun& run) {
+    const auto isUsable = [](const math::vec4& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+    };
+    return std::all_of(std::begin(run.first), std::end(run.first), isUsable) &&
+           std::all_of(std::begin(run.step), std::end(run.step), isUsable) &&
+           std::all_of(std::begin(run.slope), std::end(run.slope), isUsable);
+}
+
+} // namespace
+
+dmat4 mapToLayer(
+    const ShadowCaster& caster,
+    const dmat4& rasterFromInstant,
+    const dvec3& toLight,
+    const MoverLayer& layer,
+    uint32_t sizePx
+) {
+    const LightPlace light(toLight, 0.0);
+    const dvec3 turned(seeLight(rasterFromInstant, light));
+    const dvec3 drawn(seeLight(layer.rasterFromInstant, light));
+    // alignRay(): points move by `turned - drawn` times how far along the ray its deepest place is.
+    const dvec3 weighed = caster.shape * turned / glm::dot(turned, caster.shape * turned);
+    dmat4 align(1.0);
+    for (int column = 0; column < 3; ++column)
+        align[column] -= dvec4(weighed[column] * (turned - drawn), 0.0);
+    align[3] += dvec4(glm::dot(caster.sphere.centre, weighed) * (turned - drawn), 0.0);
+    dmat4 texels(1.0);
+    texels[0][0] = texels[1][1] = 0.5 * sizePx;
+    texels[2][2] = 1.0 + double(shader::kDepthScaleRounding);
+    texels[3] = dvec4(0.5 * sizePx, 0.5 * sizePx, shader::kDepthRounding, 1.0);
+    return texels * layer.view.clipFromWorld * align * rasterFromInstant;
+}
+
+std::vector<shader::ShadowRun> makeRuns(
+    const ShadowCaster& caster,
+    const CasterPath& path,
+    std::span<const MoverLayer> layers,
+    const dvec3& toLight,
+    uint32_t sizePx,
+    const dvec3& eye
+) {
+    std::vector<shader::ShadowRun> runs;
+    const dmat4 raster = mapToLayer(caster, dmat4(1.0), toLight, layers.front(), sizePx);
+    runs.push_back(makeRun({raster}, 0.0, layers.front(), sizePx, eye));
+    const size_t count = path.instants.size();
+    const size_t parts = layers.size() - 1;
+    if (parts > (count + shader::kRunInstants - 1) / shader::kRunInstants)
+        return runs;
+    for (size_t begin = 0; begin < count; begin += shader::kRunInstants) {
+        const size_t end = std::min<size_t>(begin + shader::kRunInstants, count);
+        const MoverLayer& layer = layers[parts == 0 ? 0 : 1 + (begin + end) * parts / (2 * count)];
+        std::vector<dmat4> maps;
+        for (size_t i = begin; i < end; ++i)
+            maps.push_back(
+                mapToLayer(caster, path.instants[i].rasterFromInstant, toLight, layer, sizePx)
+            );
+        const LinearMap line = fitLine(maps);
+        runs.push_back(makeRun(line, 0.5 * double(end - begin - 1), layer, sizePx, eye));
+        if (!(findError(line, maps, path.swept, sizePx) <= kMostRunError) || !isFinite(runs.back()))
+            return {runs.front()};
+    }
+    return runs;
+}
+
+} // namespace shutter::extract

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Where receivers are looked up in the layers of a mover, for a light that is far away: affine maps,
+// which over a few instants change linearly, so that a shader works them out once. Pure.
+#pragma once
+
+#include "engine/extract/shadow_casters.h"
+#include "engine/extract/shadow_views.h"
+#include "engine/math/math.h"
+#include "shaders/render/shadow_shared.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::extract {
+
+/// How far a run may take a point of its mover from where the instant has it, texels.
+inline constexpr double kMostRunError = 0.25;
+
+/// A layer of a mover for one light.
+struct MoverLayer {
+    /// The mover when it is drawn: CasterInstant's; the raster instant's is the identity.
+    math::dmat4 rasterFromInstant{1.0};
+    LightView view;
+    uint32_t firstTexel = 0;
+};
+
+/// Takes points of the world to x and y in texels of a layer and to their depth there, for the ray
+/// that comes to them from the light: alignRay() as a matrix.
+/// \param toLight unit
+[[nodiscard]] math::dmat4 mapToLayer(
+    const ShadowCaster& caster,
+    const math::dmat4& rasterFromInstant,
+    const math::dvec3& toLight,
+    const MoverLayer& layer,
+    uint32_t sizePx
+);
+
+/// The raster instant's run, and those of the exposure after it: none where the mover stands still,
+/// where a run would err by more than kMostRunError, or where the mover has more layers than there
+/// would be runs.
+/// \param layers the raster instant's, then those of equal parts of the exposure
+/// \param eye origin of the space that the runs take points of
+[[nodiscard]] std::vector<shader::ShadowRun> makeRuns(
+    const ShadowCaster& caster,
+    const CasterPath& path,
+    std::span<const MoverLayer> layers,
+    const math::dvec3& toLight,
+    uint32_t sizePx,
+    const math::dvec3& eye
+);
+
+} // namespace shutter::extract
