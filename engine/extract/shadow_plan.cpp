@@ -79,7 +79,7 @@ class Planner {
         collectMovers();
         followMovers();
         mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
-        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun});
+        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun, {}});
         for (const PlacedLight& light : mLights)
             addLightMaps(light);
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
@@ -233,6 +233,9 @@ class Planner {
         shader::ShadowLight& row = mPlan.lights[light.index];
         row.firstMap = static_cast<uint32_t>(mPlan.maps.size());
         if (light.light.kind == scene::LightKind::Directional) {
+            const math::dmat3 axes = glm::transpose(makeLightAxes(-light.direction));
+            for (int i = 0; i < 3; ++i)
+                row.axes[i] = math::vec4(math::vec3(axes[i]), 0.0f);
             for (const LightView& view :
                  fitCascades(sliceOfCamera(), -light.direction, mScene, findFarthest(), size))
                 addMap(view, size, shader::kNoEntity);

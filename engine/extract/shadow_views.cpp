@@ -30,13 +30,6 @@ double roundUp(double value, double steps) {
     return std::exp2(std::ceil(std::log2(value) * steps - 1.0e-9) / steps);
 }
 
-/// Rows: right, up and towards the light.
-dmat3 makeLightAxes(const dvec3& toLight) {
-    const dvec3 helper = std::abs(toLight.y) < 0.99 ? dvec3(0.0, 1.0, 0.0) : dvec3(1.0, 0.0, 0.0);
-    const dvec3 right = glm::normalize(glm::cross(helper, toLight));
-    return glm::transpose(dmat3(right, glm::cross(toLight, right), toLight));
-}
-
 /// From the light's axes, which turn the world only.
 dmat4 makeOrthographic(
     const dmat3& axes, const dvec2& centre, double half, double farDepth, double nearDepth
@@ -106,6 +99,12 @@ LightView makeCascade(const SceneInLight& seen, const dvec2& wanted, double half
 }
 
 } // namespace
+
+dmat3 makeLightAxes(const dvec3& toLight) {
+    const dvec3 helper = std::abs(toLight.y) < 0.99 ? dvec3(0.0, 1.0, 0.0) : dvec3(1.0, 0.0, 0.0);
+    const dvec3 right = glm::normalize(glm::cross(helper, toLight));
+    return glm::transpose(dmat3(right, glm::cross(toLight, right), toLight));
+}
 
 Sphere boundSlice(const CameraSlice& camera, double from, double to) {
     const double reach2 = camera.cornerReach * camera.cornerReach;

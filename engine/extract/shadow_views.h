@@ -41,6 +41,10 @@ struct Sphere {
 /// Most cascades of a light.
 inline constexpr uint32_t kMaxCascades = 4;
 
+/// Rows: right, up and towards a light that is far away, unit. The views of such a light differ in
+/// place and scale alone.
+[[nodiscard]] math::dmat3 makeLightAxes(const math::dvec3& toLight);
+
 /// Cascades of a directional light, finest first: squares across the light, each larger than the
 /// one before; the last, or one before it that is large enough for the whole scene, has all of it.
 /// A cascade keeps its place while the camera moves by less than an eighth of its width, and moves

@@ -70,6 +70,21 @@ shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye
     return row;
 }
 
+/// A row for maps of lights at a place too, which none reads.
+shader::ShadowCascade makeCascade(const extract::PlannedMap& map, const math::dvec3& eye) {
+    const math::dmat4 clip = map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye);
+    const double half = 0.5 * map.sizePx;
+    const double rounding = 1.0 + double(shader::kDepthScaleRounding);
+    shader::ShadowCascade row{};
+    row.corner = math::vec2(half * (clip[3].x + 1.0), half * (clip[3].y + 1.0));
+    row.texelsPerMetre = float(1.0 / map.view.texelMetres);
+    row.depthPerMetre = float(rounding * glm::length(math::dvec3(clip[0].z, clip[1].z, clip[2].z)));
+    row.depth = float(rounding * clip[3].z + double(shader::kDepthRounding));
+    row.firstTexel = map.firstTexel;
+    row.sizePx = map.sizePx;
+    return row;
+}
+
 /// Records the draws of one map after another.
 class Recorder {
   public:
@@ -181,13 +196,17 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
         mKept.clear();
     }
     std::vector<shader::ShadowMap> maps;
-    for (const extract::PlannedMap& map : mPlan.maps)
+    std::vector<shader::ShadowCascade> cascades;
+    for (const extract::PlannedMap& map : mPlan.maps) {
         maps.push_back(makeRow(map, mPlan.eye));
+        cascades.push_back(makeCascade(map, mPlan.eye));
+    }
     shader::ShadowConstants constants{};
     TableWriter writer;
     (void)writer.addBytes(&constants, sizeof(constants));
     const size_t lightsAt = writer.add(mPlan.lights);
     const size_t mapsAt = writer.add(maps);
+    const size_t cascadesAt = writer.add(cascades);
     const size_t moversAt = writer.add(mPlan.movers);
     const size_t instantsAt = writer.add(mPlan.instants);
     const size_t runsAt = writer.add(mPlan.runs);
@@ -204,6 +223,7 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
     constants.texels = gpu::splitAddress(mTexels.address());
     constants.lights = addressOf(lightsAt);
     constants.maps = addressOf(mapsAt);
+    constants.cascades = addressOf(cascadesAt);
     constants.movers = addressOf(moversAt);
     constants.instants = addressOf(instantsAt);
     constants.runs = addressOf(runsAt);

@@ -129,6 +129,34 @@ SHUTTER_INLINE vec3 applyShape(vec4 shape[3], vec3 v) {
     return vec3(dot(vec3(shape[0]), v), dot(vec3(shape[1]), v), dot(vec3(shape[2]), v));
 }
 
+/// Where a point lies in a map of a light that is far away. \param point along the light's axes
+SHUTTER_INLINE vec2 findTexel(ShadowCascade cascade, vec3 point) {
+    return vec2(point.x, point.y) * cascade.texelsPerMetre + cascade.corner;
+}
+
+/// Whether the map has the texels around a point, and still has them if it is lifted.
+SHUTTER_INLINE bool hasPoint(ShadowCascade cascade, vec3 point) {
+    // Off its surface it moves by 0.55 texels at most: see normalOffset().
+    return coversFilter(findTexel(cascade, point) + vec2(1.0f), float(cascade.sizePx)) &&
+           coversFilter(findTexel(cascade, point) - vec2(1.0f), float(cascade.sizePx));
+}
+
+/// Where a receiver that the map has is looked up, lifted off its surface.
+/// \param point, normal along the light's axes; normal unit, its z above or at 0
+SHUTTER_INLINE ShadowPlace placeInCascade(ShadowCascade cascade, vec3 point, vec3 normal) {
+    vec3 lifted = point + normal * normalOffset(1.0f / cascade.texelsPerMetre, normal.z);
+    ShadowPlace place;
+    place.texel = findTexel(cascade, lifted);
+    place.depth = lifted.z * cascade.depthPerMetre + cascade.depth;
+    place.slope = vec2(0.0f);
+    if (normal.z > kLeastSlopeCosine)
+        place.slope = vec2(normal.x, normal.y) *
+                      (-cascade.depthPerMetre / (cascade.texelsPerMetre * normal.z));
+    place.scale = 1.0f;
+    place.isCovered = true;
+    return place;
+}
+
 /// The slope of a plane's depth in a run's layer, a texel towards x and y; see planeSlope().
 /// \param run ShadowRun::slope
 SHUTTER_INLINE vec2 planeSlopeOnRun(vec4 run[2], vec3 normal, float cosine) {

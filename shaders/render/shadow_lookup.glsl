@@ -14,6 +14,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Sha
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowMapTable {
     ShadowMap rows[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer ShadowCascadeTable {
+    ShadowCascade rows[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShadowLightTable {
     ShadowLight rows[];
 };
@@ -122,27 +125,6 @@ ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosin
     return placeInMap(clip, slope, map.sizePx, map.isPerspective != 0u ? 0.0f : kDepthRounding);
 }
 
-/// Light that passes what is in the light's own maps.
-float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
-    ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
-    float cosine = dot(receiver.normal, receiver.toLight);
-    uint first = own.firstMap;
-    uint count = own.mapCount;
-    if (light.kind == kLightPoint || (light.kind == kLightSpot && count > 1u)) {
-        first += cubeFace(receiver.position - light.positionRange.xyz);
-        count = 1u;
-    }
-    for (uint i = 0u; i < count; ++i) {
-        ShadowMap map = maps.rows[first + i];
-        ShadowPlace place = placeReceiver(map, receiver.position, receiver.normal, cosine);
-        if (!place.isCovered) continue;
-        return sharpenEdge(
-            filterMap(shadows, map.firstTexel, map.sizePx, place), receiver.pixel / (map.texelMetres * place.scale)
-        );
-    }
-    return 1.0f;
-}
-
 vec3 transformPoint(vec4 rows[3], vec3 point) {
     vec4 p = vec4(point, 1.0f);
     return vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
@@ -150,6 +132,41 @@ vec3 transformPoint(vec4 rows[3], vec3 point) {
 
 vec3 transformDirection(vec4 rows[3], vec3 d) {
     return vec3(dot(rows[0].xyz, d), dot(rows[1].xyz, d), dot(rows[2].xyz, d));
+}
+
+/// Light that passes what is in the maps of a light that is far away: the finest one that has the
+/// place counts.
+float passCascades(ShadowRef shadows, ShadowLight own, Receiver receiver) {
+    ShadowCascadeTable cascades = ShadowCascadeTable(shadows.value.cascades);
+    vec3 point = transformDirection(own.axes, receiver.position);
+    uint found = own.mapCount;
+    for (uint i = own.mapCount; i > 0u; --i) {
+        if (hasPoint(cascades.rows[own.firstMap + i - 1u], point)) found = i - 1u;
+    }
+    if (found == own.mapCount) return 1.0f;
+    ShadowCascade cascade = cascades.rows[own.firstMap + found];
+    ShadowPlace place =
+        placeInCascade(cascade, point, transformDirection(own.axes, receiver.normal));
+    return sharpenEdge(
+        filterMap(shadows, cascade.firstTexel, cascade.sizePx, place),
+        receiver.pixel * cascade.texelsPerMetre
+    );
+}
+
+/// Light that passes what is in the light's own maps.
+float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver receiver) {
+    if (light.kind == kLightDirectional) return passCascades(shadows, own, receiver);
+    uint face =
+        own.mapCount > 1u ? cubeFace(receiver.position - light.positionRange.xyz) : 0u;
+    ShadowMap map = ShadowMapTable(shadows.value.maps).rows[own.firstMap + face];
+    ShadowPlace place = placeReceiver(
+        map, receiver.position, receiver.normal, dot(receiver.normal, receiver.toLight)
+    );
+    if (!place.isCovered) return 1.0f;
+    return sharpenEdge(
+        filterMap(shadows, map.firstTexel, map.sizePx, place),
+        receiver.pixel / (map.texelMetres * place.scale)
+    );
 }
 
 /// A layer of a mover.

@@ -30,6 +30,18 @@ struct ShadowMap {
     uint isPerspective; // 1: depth is near / distance; 0: it is linear
 };
 
+/// A map of a light that is far away, beside its row of ShadowMap: where the light's axes
+/// (ShadowLight::axes) lie in it.
+struct ShadowCascade {
+    vec2 corner;          // x and y of the origin of eye space, texels
+    float texelsPerMetre;
+    float depthPerMetre;  // towards the light
+    float depth;          // of the origin, with its bias
+    uint firstTexel;      // ShadowMap's
+    uint sizePx;
+    uint padding0;
+};
+
 /// Width and height of the tiles that say which movers' shadows may fall into them.
 SHUTTER_CONST uint kShadowTilePx = 32u;
 
@@ -44,6 +56,7 @@ struct ShadowLight {
     uint mapCount;   // directional: cascades, finest first; spot: 1; point: 6, +x -x +y -y +z -z
     uint firstLayer; // map of the first mover's first layer; the others follow
     uint firstRun;   // of the first mover's runs, or kNoShadowRun: the light has a place
+    vec4 axes[3];    // xyz of a light that is far away: right, up and towards it, unit, eye space
 };
 
 /// A caster that moves, and has layers of its own for each light: maps of it alone.
@@ -86,6 +99,7 @@ struct ShadowConstants {
     uvec2 texels;   // addresses: of float[]
     uvec2 lights;   // of ShadowLight[]
     uvec2 maps;     // of ShadowMap[]
+    uvec2 cascades; // of ShadowCascade[], a row beside each of `maps`
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
     uvec2 runs;     // of ShadowRun[]
@@ -111,11 +125,12 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::ShadowMap) == 80);
-static_assert(sizeof(shutter::shader::ShadowLight) == 16);
+static_assert(sizeof(shutter::shader::ShadowCascade) == 32);
+static_assert(sizeof(shutter::shader::ShadowLight) == 64);
 static_assert(sizeof(shutter::shader::ShadowMover) == 112);
 static_assert(sizeof(shutter::shader::ShadowInstant) == 48);
 static_assert(sizeof(shutter::shader::ShadowRun) == 144);
-static_assert(sizeof(shutter::shader::ShadowConstants) == 72);
+static_assert(sizeof(shutter::shader::ShadowConstants) == 80);
 static_assert(sizeof(shutter::shader::ShadowDraw) == 80);
 #endif
 
