@@ -18,10 +18,12 @@ using math::dvec4;
 /// Least extent of a caster's box, of its largest: planes have a form too.
 constexpr double kThinnest = 0.02;
 
-/// By how much a caster turns before a light until its outline is drawn anew, radians: where it is
-/// drawn for the middle of such a turn, its far and near parts are off by a sixteenth of their
-/// distance.
+/// By how much a caster that is as thick as it is wide turns before a light until its outline is
+/// drawn anew, radians: where it is drawn for the middle of such a turn, what lies before or behind
+/// its middle is off by a sixteenth of its distance from there. What is flat may turn farther: in its
+/// plane the lookup is exact.
 constexpr double kTurnOfPart = 0.125;
+constexpr double kMostTurnOfPart = 0.5; ///< however flat it is
 
 Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
     const math::Bounds box = math::transformBounds(worldFromObject, bounds);
@@ -38,6 +40,16 @@ Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
     // A plane seen from its edge has a sphere too.
     sphere.radius = std::max(sphere.radius, 1.0e-6 * (1.0 + glm::length(box.size())));
     return sphere;
+}
+
+double findThinness(const dmat4& worldFromObject, const math::Bounds& bounds) {
+    dvec3 size = bounds.size();
+    for (int axis = 0; axis < 3; ++axis)
+        size[axis] *= glm::length(dvec3(worldFromObject[axis]));
+    const double largest = std::max({size.x, size.y, size.z});
+    if (!(largest > 0.0))
+        return 1.0;
+    return std::max(std::min({size.x, size.y, size.z}) / largest, kThinnest);
 }
 
 dmat3 makeShape(const dmat4& worldFromObject, const math::Bounds& bounds) {
@@ -83,6 +95,7 @@ ShadowCaster makeShadowCaster(
     }
     caster.sphere = boundSphere(worldFromObject, bounds);
     caster.shape = makeShape(worldFromObject, bounds);
+    caster.thinness = findThinness(worldFromObject, bounds);
     const double distance = glm::length(caster.sphere.centre - eye);
     caster.seenSize = caster.sphere.radius / std::max(distance, caster.sphere.radius);
     return caster;
@@ -140,7 +153,8 @@ countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const L
         }
         turned = std::max(turned, own);
     }
-    const double wanted = caster.deforms ? kMaxExposureParts : std::ceil(turned / kTurnOfPart);
+    const double turn = std::min(kTurnOfPart / caster.thinness, kMostTurnOfPart);
+    const double wanted = caster.deforms ? kMaxExposureParts : std::ceil(turned / turn);
     const auto parts =
         static_cast<uint32_t>(std::clamp(wanted, 0.0, double(std::min(kMaxExposureParts, count))));
     return parts < 2 ? 0 : parts;

@@ -25,7 +25,8 @@ struct ShadowCaster {
     /// The form whose unit ellipsoid is that of the caster's box, up to a factor
     /// (ShadowMover::shape).
     math::dmat3 shape{1.0};
-    bool deforms = false; ///< during the exposure
+    double thinness = 1.0; ///< smallest extent of the box over its largest, above 0
+    bool deforms = false;  ///< during the exposure
 };
 
 /// \param bounds object space, raster instant

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +34,10 @@ bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
             return true;
     return false;
 }
+
+/// Texels of a mover's layer to a pixel of its shadow, and the least that a layer has on a side.
+constexpr double kLayerTexelsPerPixel = 1.5;
+constexpr uint32_t kLeastLayerSize = 16;
 
 /// A light that casts shadows, in the world.
 struct PlacedLight {
@@ -252,10 +257,22 @@ class Planner {
         row.mapCount = static_cast<uint32_t>(mPlan.maps.size()) - row.firstMap;
     }
 
+    /// Width of the layers of a mover, texels.
+    [[nodiscard]] uint32_t findLayerSize(const PlacedLight& light, const Mover& mover) const {
+        const uint32_t most = mView.shadows.mapSize / 4;
+        if (light.light.kind != scene::LightKind::Directional)
+            return most;
+        const double wanted = kLayerTexelsPerPixel *
+                              findShadowWidth(picture(), mover.caster.sphere, -light.direction);
+        if (!(wanted < double(most))) // NaN too
+            return most;
+        return std::clamp(std::bit_ceil(uint32_t(std::ceil(wanted))), kLeastLayerSize, most);
+    }
+
     void addLayers(const PlacedLight& light) {
-        const uint32_t size = mView.shadows.mapSize / 4;
         mPlan.lights[light.index].firstLayer = static_cast<uint32_t>(mPlan.maps.size());
         for (const Mover& mover : mMovers) {
+            const uint32_t size = findLayerSize(light, mover);
             addLayer(light.place(), mover, {}, size);
             for (const CasterInstant& part : mover.parts)
                 addLayer(light.place(), mover, part, size);
@@ -344,65 +361,73 @@ class Planner {
             mPlan.instantCount = 1;
     }
 
-    /// A mover has runs for all lights that are far away, or for none.
+    /// Runs of movers before the lights that are far away.
     void addRuns() {
-        std::vector<std::vector<std::vector<shader::ShadowRun>>> lights;
+        std::vector<const PlacedLight*> lights;
         for (const PlacedLight& light : mLights)
             if (light.light.kind == scene::LightKind::Directional)
-                lights.push_back(makeRunsOf(light));
-        if (lights.empty())
-            return;
-        uint32_t count = 0;
-        for (size_t i = 0; i < mMovers.size(); ++i) {
-            const bool hasRuns = std::all_of(lights.begin(), lights.end(), [&](const auto& light) {
-                return light[i].size() > 1;
-            });
-            mPlan.movers[i].firstRun = count;
-            mPlan.movers[i].hasRuns = hasRuns ? 1 : 0;
-            for (auto& light : lights)
-                light[i].resize(hasRuns ? light[i].size() : 1);
-            count += static_cast<uint32_t>(lights.front()[i].size());
+                lights.push_back(&light);
+        for (const PlacedLight* light : lights)
+            for (size_t i = 0; i < mMovers.size(); ++i) {
+                const uint32_t length = findRunInstants(
+                    mMovers[i].caster, mMovers[i].path, layersOf(*light, i), -light->direction
+                );
+                uint32_t& least = mPlan.movers[i].runInstants; // of all lights
+                least = light == lights.front() ? length : std::min(least, length);
+            }
+        for (const PlacedLight* light : lights) {
+            const auto first = static_cast<uint32_t>(mPlan.runs.size());
+            mPlan.lights[light->index].firstRun = first;
+            for (size_t i = 0; i < mMovers.size(); ++i) {
+                shader::ShadowMover& row = mPlan.movers[i];
+                row.firstRun = static_cast<uint32_t>(mPlan.runs.size()) - first;
+                const std::vector<shader::ShadowRun> runs = makeRuns(
+                    mMovers[i].caster,
+                    mMovers[i].path,
+                    layersOf(*light, i),
+                    -light->direction,
+                    row.runInstants,
+                    eye()
+                );
+                mPlan.runs.insert(mPlan.runs.end(), runs.begin(), runs.end());
+            }
         }
-        uint32_t next = 0;
-        for (const PlacedLight& light : mLights)
-            if (light.light.kind == scene::LightKind::Directional)
-                mPlan.lights[light.index].firstRun = count * next++;
-        for (const auto& light : lights)
-            for (const auto& mover : light)
-                mPlan.runs.insert(mPlan.runs.end(), mover.begin(), mover.end());
     }
 
-    [[nodiscard]] std::vector<std::vector<shader::ShadowRun>>
-    makeRunsOf(const PlacedLight& light) const {
-        std::vector<std::vector<shader::ShadowRun>> runs;
-        for (size_t i = 0; i < mMovers.size(); ++i) {
-            const Mover& mover = mMovers[i];
-            std::vector<MoverLayer> layers(1 + mover.parts.size());
-            for (size_t part = 0; part < layers.size(); ++part) {
-                const PlannedMap& map = mPlan.maps
-                    [mPlan.lights[light.index].firstLayer + mPlan.movers[i].firstLayer + part];
-                layers[part].view = map.view;
-                layers[part].firstTexel = map.firstTexel;
-                if (part > 0)
-                    layers[part].rasterFromInstant = mover.parts[part - 1].rasterFromInstant;
-            }
-            runs.push_back(makeRuns(
-                mover.caster, mover.path, layers, -light.direction, mView.shadows.mapSize / 4, eye()
-            ));
+    /// \param mover index of mMovers
+    [[nodiscard]] std::vector<MoverLayer> layersOf(const PlacedLight& light, size_t mover) const {
+        const std::vector<CasterInstant>& parts = mMovers[mover].parts;
+        std::vector<MoverLayer> layers(1 + parts.size());
+        const uint32_t first =
+            mPlan.lights[light.index].firstLayer + mPlan.movers[mover].firstLayer;
+        for (size_t i = 0; i < layers.size(); ++i) {
+            const PlannedMap& map = mPlan.maps[first + i];
+            layers[i].view = map.view;
+            layers[i].sizePx = map.sizePx;
+            layers[i].firstTexel = map.firstTexel;
+            if (i > 0)
+                layers[i].rasterFromInstant = parts[i - 1].rasterFromInstant;
         }
-        return runs;
+        return layers;
+    }
+
+    [[nodiscard]] ShadowPicture picture() const {
+        return {
+            mFrameView.matrices().clipFromWorldJittered,
+            mFrame.constants.sizePx,
+            mScene,
+            eye(),
+            mFrame.constants.pixelFootprint};
     }
 
     void markTiles() {
-        const ShadowPicture picture{
-            mFrameView.matrices().clipFromWorldJittered, mFrame.constants.sizePx, mScene};
-        ShadowTiles tiles(picture.sizePx);
+        ShadowTiles tiles(mFrame.constants.sizePx);
         for (uint32_t i = 0; i < mMovers.size(); ++i) {
             const Mover& mover = mMovers[i];
             const Sphere& sphere =
                 mover.path.instants.empty() ? mover.caster.sphere : mover.path.swept;
             for (const PlacedLight& light : mLights)
-                tiles.mark(i, boundShadow(picture, sphere, light.place()));
+                tiles.mark(i, boundShadow(picture(), sphere, light.place()));
         }
         mPlan.tiles = tiles.movers();
         mPlan.tilesAcross = tiles.across();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace shutter::extract {
 
@@ -74,7 +73,7 @@ std::array<math::vec4, 3> makeRows(const dmat4& map) {
 }
 
 shader::ShadowRun
-makeRun(const LinearMap& line, double middle, const MoverLayer& layer, uint32_t sizePx, const dvec3& eye) {
+makeRun(const LinearMap& line, double middle, const MoverLayer& layer, const dvec3& eye) {
     const dmat4 toEye = glm::translate(dmat4(1.0), eye);
     const std::array<math::vec4, 3> first = makeRows(line.first * toEye);
     const std::array<math::vec4, 3> step = makeRows(line.step * toEye);
@@ -90,18 +89,36 @@ makeRun(const LinearMap& line, double middle, const MoverLayer& layer, uint32_t 
     run.slope[0] = math::vec4(math::vec3(scale * glm::cross(depth, y)), 0.0f);
     run.slope[1] = math::vec4(math::vec3(scale * glm::cross(x, depth)), 0.0f);
     run.firstTexel = layer.firstTexel;
-    run.sizePx = sizePx;
+    run.sizePx = layer.sizePx;
     run.texelMetres = float(layer.view.texelMetres);
     return run;
 }
 
-bool isFinite(const shader::ShadowRun& run) {
-    const auto isUsable = [](const math::vec4& v) {
-        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-    };
-    return std::all_of(std::begin(run.first), std::end(run.first), isUsable) &&
-           std::all_of(std::begin(run.step), std::end(run.step), isUsable) &&
-           std::all_of(std::begin(run.slope), std::end(run.slope), isUsable);
+/// A run over some of the exposure's instants.
+struct FittedRun {
+    std::vector<dmat4> maps; ///< of its instants
+    LinearMap line;
+    size_t layer = 0; ///< of the mover's
+};
+
+FittedRun fitRun(
+    const ShadowCaster& caster,
+    const CasterPath& path,
+    std::span<const MoverLayer> layers,
+    const dvec3& toLight,
+    size_t begin,
+    size_t end
+) {
+    const size_t parts = layers.size() - 1;
+    FittedRun run;
+    // The layer of the part that the run's middle is in.
+    run.layer = parts == 0 ? 0 : 1 + (begin + end) * parts / (2 * path.instants.size());
+    for (size_t i = begin; i < end; ++i)
+        run.maps.push_back(
+            mapToLayer(caster, path.instants[i].rasterFromInstant, toLight, layers[run.layer])
+        );
+    run.line = fitLine(run.maps);
+    return run;
 }
 
 } // namespace
@@ -110,8 +127,7 @@ dmat4 mapToLayer(
     const ShadowCaster& caster,
     const dmat4& rasterFromInstant,
     const dvec3& toLight,
-    const MoverLayer& layer,
-    uint32_t sizePx
+    const MoverLayer& layer
 ) {
     const LightPlace light(toLight, 0.0);
     const dvec3 turned(seeLight(rasterFromInstant, light));
@@ -123,10 +139,34 @@ dmat4 mapToLayer(
         align[column] -= dvec4(weighed[column] * (turned - drawn), 0.0);
     align[3] += dvec4(glm::dot(caster.sphere.centre, weighed) * (turned - drawn), 0.0);
     dmat4 texels(1.0);
-    texels[0][0] = texels[1][1] = 0.5 * sizePx;
+    texels[0][0] = texels[1][1] = 0.5 * layer.sizePx;
     texels[2][2] = 1.0 + double(shader::kDepthScaleRounding);
-    texels[3] = dvec4(0.5 * sizePx, 0.5 * sizePx, shader::kDepthRounding, 1.0);
+    texels[3] = dvec4(0.5 * layer.sizePx, 0.5 * layer.sizePx, shader::kDepthRounding, 1.0);
     return texels * layer.view.clipFromWorld * align * rasterFromInstant;
+}
+
+uint32_t findRunInstants(
+    const ShadowCaster& caster,
+    const CasterPath& path,
+    std::span<const MoverLayer> layers,
+    const dvec3& toLight
+) {
+    const size_t count = path.instants.size();
+    if (count == 0)
+        return 0;
+    for (uint32_t length = shader::kMaxRunInstants; length > 1; length /= 2) {
+        bool isExact = layers.size() - 1 <= (count + length - 1) / length;
+        for (size_t begin = 0; begin < count && isExact; begin += length) {
+            const FittedRun run = fitRun(
+                caster, path, layers, toLight, begin, std::min<size_t>(begin + length, count)
+            );
+            isExact = findError(run.line, run.maps, path.swept, layers[run.layer].sizePx) <=
+                      kMostRunError; // not with NaN
+        }
+        if (isExact)
+            return length;
+    }
+    return 1;
 }
 
 std::vector<shader::ShadowRun> makeRuns(
@@ -134,29 +174,25 @@ std::vector<shader::ShadowRun> makeRuns(
     const CasterPath& path,
     std::span<const MoverLayer> layers,
     const dvec3& toLight,
-    uint32_t sizePx,
+    uint32_t runInstants,
     const dvec3& eye
 ) {
-    std::vector<shader::ShadowRun> runs;
-    const dmat4 raster = mapToLayer(caster, dmat4(1.0), toLight, layers.front(), sizePx);
-    runs.push_back(makeRun({raster}, 0.0, layers.front(), sizePx, eye));
-    const size_t count = path.instants.size();
-    const size_t parts = layers.size() - 1;
-    if (parts > (count + shader::kRunInstants - 1) / shader::kRunInstants)
+    const dmat4 raster = mapToLayer(caster, dmat4(1.0), toLight, layers.front());
+    std::vector<shader::ShadowRun> runs{makeRun({raster}, 0.0, layers.front(), eye)};
+    if (runInstants == 0)
         return runs;
-    for (size_t begin = 0; begin < count; begin += shader::kRunInstants) {
-        const size_t end = std::min<size_t>(begin + shader::kRunInstants, count);
-        const MoverLayer& layer = layers[parts == 0 ? 0 : 1 + (begin + end) * parts / (2 * count)];
-        std::vector<dmat4> maps;
-        for (size_t i = begin; i < end; ++i)
-            maps.push_back(
-                mapToLayer(caster, path.instants[i].rasterFromInstant, toLight, layer, sizePx)
-            );
-        const LinearMap line = fitLine(maps);
-        runs.push_back(makeRun(line, 0.5 * double(end - begin - 1), layer, sizePx, eye));
-        if (!(findError(line, maps, path.swept, sizePx) <= kMostRunError) || !isFinite(runs.back()))
-            return {runs.front()};
+    const size_t count = path.instants.size();
+    for (size_t begin = 0; begin < count; begin += runInstants) {
+        const size_t end = std::min<size_t>(begin + runInstants, count);
+        const FittedRun run = fitRun(caster, path, layers, toLight, begin, end);
+        runs.push_back(
+            makeRun(run.line, 0.5 * double(end - begin - 1), layers[run.layer], eye)
+        );
     }
+    // Shaders read runs for as many instants as the longest run has.
+    const size_t whole = shader::kMaxRunInstants / runInstants;
+    while ((runs.size() - 1) % whole != 0)
+        runs.push_back(runs.back());
     return runs;
 }
 

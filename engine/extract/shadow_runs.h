@@ -22,6 +22,7 @@ struct MoverLayer {
     /// The mover when it is drawn: CasterInstant's; the raster instant's is the identity.
     math::dmat4 rasterFromInstant{1.0};
     LightView view;
+    uint32_t sizePx = 0; ///< width and height, the same of all layers of a mover
     uint32_t firstTexel = 0;
 };
 
@@ -32,21 +33,27 @@ struct MoverLayer {
     const ShadowCaster& caster,
     const math::dmat4& rasterFromInstant,
     const math::dvec3& toLight,
-    const MoverLayer& layer,
-    uint32_t sizePx
+    const MoverLayer& layer
 );
 
-/// The raster instant's run, and those of the exposure after it: none where the mover stands still,
-/// where a run would err by more than kMostRunError, or where the mover has more layers than there
-/// would be runs.
+/// Most instants that the runs of a mover may have: as many as no run errs by more than
+/// kMostRunError for, and each layer is still used. 0: the mover stands still.
 /// \param layers the raster instant's, then those of equal parts of the exposure
+[[nodiscard]] uint32_t findRunInstants(
+    const ShadowCaster& caster,
+    const CasterPath& path,
+    std::span<const MoverLayer> layers,
+    const math::dvec3& toLight
+);
+
+/// \param runInstants 1, 2 or shader::kMaxRunInstants; 0: the raster instant's run alone
 /// \param eye origin of the space that the runs take points of
 [[nodiscard]] std::vector<shader::ShadowRun> makeRuns(
     const ShadowCaster& caster,
     const CasterPath& path,
     std::span<const MoverLayer> layers,
     const math::dvec3& toLight,
-    uint32_t sizePx,
+    uint32_t runInstants,
     const math::dvec3& eye
 );
 

@@ -89,6 +89,15 @@ boundShadow(const ShadowPicture& picture, const Sphere& caster, const LightPlace
     return box;
 }
 
+double findShadowWidth(const ShadowPicture& picture, const Sphere& caster, const dvec3& toLight) {
+    const double reach = findExit(caster, -toLight, picture.scene);
+    const double along = glm::dot(caster.centre - picture.eye, toLight);
+    const dvec3 nearest = caster.centre - toLight * std::clamp(along, 0.0, reach);
+    const double distance = std::max(glm::length(nearest - picture.eye) - caster.radius, 0.0);
+    const double pixel = picture.pixelFootprint.x * distance + picture.pixelFootprint.y;
+    return 2.0 * caster.radius / pixel;
+}
+
 ShadowTiles::ShadowTiles(const math::uvec2& sizePx)
     : mAcross((sizePx.x + shader::kShadowTilePx - 1) / shader::kShadowTilePx),
       mDown((sizePx.y + shader::kShadowTilePx - 1) / shader::kShadowTilePx),

@@ -18,6 +18,8 @@ struct ShadowPicture {
     math::dmat4 clipFromWorld{1.0};
     math::uvec2 sizePx{0};
     math::Bounds scene; ///< holds all that receives shadows, metres
+    math::dvec3 eye{0.0};
+    math::dvec2 pixelFootprint{0.0}; ///< shader::FrameConstants'
 };
 
 /// A rectangle of pixels.
@@ -31,6 +33,13 @@ struct PixelBox {
 /// \return nothing: it may be anywhere
 [[nodiscard]] std::optional<PixelBox>
 boundShadow(const ShadowPicture& picture, const Sphere& caster, const LightPlace& light);
+
+/// Width of the caster, pixels, where the camera is nearest to its shadow or to itself: no texel of
+/// its layer need be much finer than a pixel there.
+/// \param toLight unit, of a light that is far away
+[[nodiscard]] double findShadowWidth(
+    const ShadowPicture& picture, const Sphere& caster, const math::dvec3& toLight
+);
 
 /// A bit for each mover in each tile of a picture.
 class ShadowTiles {

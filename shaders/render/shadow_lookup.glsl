@@ -248,16 +248,20 @@ float passAtRaster(
     );
 }
 
-/// Light that passes one mover at the instants of a run.
-vec4 passOnRun(ShadowRef shadows, uint index, Receiver receiver) {
-    RunPlace run = placeOnRun(shadows, index, receiver);
-    float size = float(run.sizePx);
+/// Light that passes one mover at successive instants. \param index of the first run, and how many
+/// instants each has
+vec4 passOnRuns(ShadowRef shadows, uint index, uint runInstants, Receiver receiver) {
     vec4 passed = vec4(1.0f);
-    for (uint i = 0u; i < kRunInstants; ++i) {
-        if (coversFilter(run.place.texel, size))
-            passed[i] = filterMapLinear(shadows, run.firstTexel, run.sizePx, run.place);
-        run.place.texel += run.step.xy;
-        run.place.depth += run.step.z;
+    for (uint first = 0u; first < kMaxRunInstants; first += runInstants) {
+        RunPlace run = placeOnRun(shadows, index++, receiver);
+        float size = float(run.sizePx);
+        for (uint i = 0u; i < runInstants; ++i) {
+            if (coversFilter(run.place.texel, size))
+                passed[first + i] =
+                    filterMapLinear(shadows, run.firstTexel, run.sizePx, run.place);
+            run.place.texel += run.step.xy;
+            run.place.depth += run.step.z;
+        }
     }
     return passed;
 }
@@ -270,7 +274,7 @@ vec4 passAtInstants(
     ShadowMapTable maps = ShadowMapTable(shadows.value.maps);
     ShadowInstantTable instants = ShadowInstantTable(shadows.value.instants);
     vec4 passed = vec4(1.0f);
-    for (uint i = 0u; i < kRunInstants && first + i < mover.instantCount; ++i) {
+    for (uint i = 0u; i < kMaxRunInstants && first + i < mover.instantCount; ++i) {
         uint instant = first + i;
         MoverLayer layer =
             MoverLayer(mover.firstLayer, receiver.toLight, light.positionRange.xyz);
@@ -330,13 +334,14 @@ float passMovers(
     ShadowMoverTable movers = ShadowMoverTable(shadows.value.movers);
     uint count = shadows.value.instantCount;
     float sum = 0.0f;
-    for (uint first = 0u; first < count; first += kRunInstants) {
+    for (uint first = 0u; first < count; first += kMaxRunInstants) {
         vec4 passed = vec4(lessThan(uvec4(0u, 1u, 2u, 3u) + first, uvec4(count)));
         for (uint left = found.moving; left != 0u && passed != vec4(0.0f); left &= left - 1u) {
             uint mover = uint(findLSB(left));
-            if (own.firstRun != kNoShadowRun && movers.rows[mover].hasRuns != 0u) {
-                uint run = movers.rows[mover].firstRun + 1u + first / kRunInstants;
-                passed *= passOnRun(shadows, own.firstRun + run, receiver);
+            if (own.firstRun != kNoShadowRun) {
+                uint runInstants = movers.rows[mover].runInstants;
+                uint run = movers.rows[mover].firstRun + 1u + first / runInstants;
+                passed *= passOnRuns(shadows, own.firstRun + run, runInstants, receiver);
             } else {
                 passed *=
                     passAtInstants(shadows, own, movers.rows[mover], first, light, receiver);

@@ -16,8 +16,8 @@ SHUTTER_CONST uint kMaxShadowLights = 16u;
 SHUTTER_CONST uint kNoShadowMap = 0xFFFFFFFFu;
 /// ShadowLight::firstRun of a light that is not far away.
 SHUTTER_CONST uint kNoShadowRun = 0xFFFFFFFFu;
-/// Instants of a ShadowRun; the last one of an exposure may have fewer.
-SHUTTER_CONST uint kRunInstants = 4u;
+/// Most instants of a ShadowRun.
+SHUTTER_CONST uint kMaxRunInstants = 4u;
 /// Texels to each side of a lookup's own that its filter may read.
 SHUTTER_CONST float kShadowFilterTexels = 1.5f;
 
@@ -72,7 +72,8 @@ struct ShadowMover {
     /// follow the raster instant's. 0: that one is for all.
     uint partCount;
     uint firstRun; // counted from ShadowLight::firstRun: the raster instant's
-    uint hasRuns;  // 1: runs over the exposure follow it; 0: each instant is worked out anew
+    uint runInstants; // of each run over the exposure, which follow it: 1, 2 or kMaxRunInstants;
+                      // the last one may go on beyond the exposure. 0: there are none
     uint padding0;
 };
 
