@@ -229,7 +229,7 @@ class Planner {
     void addMap(const LightView& view, uint32_t sizePx, uint32_t mover, float shapeShift = 0.0f) {
         const auto first = static_cast<uint32_t>(mPlan.texelCount);
         mPlan.maps.push_back({view, sizePx, first, mover, shapeShift});
-        mPlan.texelCount += uint64_t{sizePx} * sizePx;
+        mPlan.texelCount += uint64_t{shader::shadowRowTexels(sizePx)} * sizePx;
     }
 
     void addLightMaps(const PlacedLight& light) {

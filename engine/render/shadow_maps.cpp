@@ -166,7 +166,8 @@ uint64_t countRoom(const extract::ShadowPlan& plan) {
     uint64_t layers = 0;
     uint64_t largest = 0;
     for (size_t i = plan.lightMapCount; i < plan.maps.size(); ++i) {
-        const uint64_t texels = uint64_t{plan.maps[i].sizePx} * plan.maps[i].sizePx;
+        const uint32_t side = plan.maps[i].sizePx;
+        const uint64_t texels = uint64_t{shader::shadowRowTexels(side)} * side;
         layers += texels;
         largest = std::max(largest, texels);
     }
@@ -334,6 +335,7 @@ graph::BufferHandle ShadowMaps::declare(
                 const extract::PlannedMap& map = mPlan.maps[drawn.map];
                 VkBufferImageCopy copy{};
                 copy.bufferOffset = VkDeviceSize{map.firstTexel} * sizeof(float);
+                copy.bufferRowLength = shader::shadowRowTexels(map.sizePx);
                 copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
                 copy.imageOffset = {drawn.place.offset.x, drawn.place.offset.y, 0};
                 copy.imageExtent = {map.sizePx, map.sizePx, 1};

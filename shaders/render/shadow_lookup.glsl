@@ -72,7 +72,7 @@ float filterMap(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPlace pla
     float depth = place.depth - dot(place.slope, offset); // at the middle texel's centre
     for (uint row = 0u; row < 3u; ++row) {
         uint y = min(max(at.y + row, 1u) - 1u, last);
-        uint first = firstTexel + y * sizePx;
+        uint first = firstTexel + y * shadowRowTexels(sizePx);
         vec3 casters = vec3(
             texels.values[first + x0], texels.values[first + at.x], texels.values[first + x2]
         );
@@ -91,8 +91,8 @@ float filterMapLinear(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPla
     uint last = sizePx - 1u;
     uvec2 at = min(uvec2(corner), uvec2(last));
     uvec2 next = min(at + 1u, uvec2(last));
-    uint upper = firstTexel + at.y * sizePx;
-    uint lower = firstTexel + next.y * sizePx;
+    uint upper = firstTexel + at.y * shadowRowTexels(sizePx);
+    uint lower = firstTexel + next.y * shadowRowTexels(sizePx);
     vec4 casters = vec4(
         texels.values[upper + at.x], texels.values[upper + next.x], texels.values[lower + at.x],
         texels.values[lower + next.x]

@@ -21,10 +21,16 @@ SHUTTER_CONST uint kMaxRunInstants = 4u;
 /// Texels to each side of a lookup's own that its filter may read.
 SHUTTER_CONST float kShadowFilterTexels = 1.5f;
 
+/// Texels from one row of a map to the next. Maps are a power of two wide, and caches keep few lines
+/// whose addresses are such a power apart: a lookup's rows would drive one another out.
+SHUTTER_INLINE uint shadowRowTexels(uint sizePx) {
+    return sizePx + 16u;
+}
+
 /// One view of a light. Depth is reversed: 1 nearest the light, 0 where there is no caster.
 struct ShadowMap {
     mat4 clipFromEye;   // x, y in [-1, 1] over the map
-    uint firstTexel;    // in ShadowConstants::texels; rows of sizePx, top row first
+    uint firstTexel;    // in ShadowConstants::texels; rows of shadowRowTexels(), top row first
     uint sizePx;        // width and height
     float texelMetres;  // width of a texel, metres: at clip w = 1
     uint isPerspective; // 1: depth is near / distance; 0: it is linear
