@@ -17,12 +17,20 @@ MotionBlurSettings makeFor(std::string_view method, uint32_t samples) {
     return settings;
 }
 
+/// What `balanced` shows in less time: where the motion of blocks differs by up to two pixels they
+/// are still taken for one plane's, which no shot that was measured shows.
+MotionBlurSettings makePerformance() {
+    MotionBlurSettings settings = makeFor("resolved", 6);
+    settings.uniformMotionPx = 2.0f;
+    return settings;
+}
+
 } // namespace
 
 std::span<const Preset> listPresets() {
     static const std::vector<Preset> kPresets = {
         {"off", "no motion blur: the raster image", true, {}},
-        {"performance", "fewer instants", false, makeFor("resolved", 9)},
+        {"performance", "fewer instants, and more of the fast path", false, makePerformance()},
         {"balanced", "no rays", false, makeFor("resolved", 15)},
         {"quality", "rays where the raster images do not suffice", false, makeFor("adaptive", 15)},
         {"paper", "with the numbers of the publication", false, paperSettings()},

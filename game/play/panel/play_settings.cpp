@@ -56,7 +56,7 @@ struct PresetLook {
 };
 
 constexpr std::array kLooks = {
-    PresetLook{"performance", AntiAliasing::None, extract::ShadowMode::None, 0.0f},
+    PresetLook{"performance", AntiAliasing::None, extract::ShadowMode::Blurred, 0.0f},
     PresetLook{"balanced", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
     PresetLook{"quality", AntiAliasing::Taa, extract::ShadowMode::Blurred, 0.04f},
 };

@@ -251,7 +251,7 @@ TEST(Presets, SetTheEffectsBesideTheBlurExceptWhereTheyCompareIt) {
     };
     apply("performance");
     EXPECT_EQ(settings.antiAliasing, game::AntiAliasing::None);
-    EXPECT_EQ(settings.shadows, extract::ShadowMode::None);
+    EXPECT_EQ(settings.shadows, extract::ShadowMode::Blurred);
     EXPECT_EQ(settings.bloomShare, 0.0f);
     settings.environment = false;
     settings.shadows = extract::ShadowMode::Sharp;
