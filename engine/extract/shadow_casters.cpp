@@ -20,10 +20,10 @@ constexpr double kThinnest = 0.02;
 
 /// By how much a caster that is as thick as it is wide turns before a light until its outline is
 /// drawn anew, radians: where it is drawn for the middle of such a turn, what lies before or behind
-/// its middle is off by a sixteenth of its distance from there. What is flat may turn farther: in its
-/// plane the lookup is exact.
+/// its middle is off by a sixteenth of its distance from there. What is flat may turn farther: in
+/// its plane the lookup is exact.
 constexpr double kTurnOfPart = 0.125;
-constexpr double kMostTurnOfPart = 0.5; ///< however flat it is
+constexpr double kMostTurnOfPart = 0.25; ///< however flat it is
 
 Sphere boundSphere(const dmat4& worldFromObject, const math::Bounds& bounds) {
     const math::Bounds box = math::transformBounds(worldFromObject, bounds);

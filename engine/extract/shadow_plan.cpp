@@ -84,7 +84,9 @@ class Planner {
         collectMovers();
         followMovers();
         mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
-        mPlan.lights.assign(mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun, {}});
+        mPlan.lights.assign(
+            mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun, {}}
+        );
         for (const PlacedLight& light : mLights)
             addLightMaps(light);
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());

@@ -44,7 +44,7 @@ struct ShadowPlan {
     std::vector<shader::ShadowLight> lights; ///< one a light
     std::vector<shader::ShadowMover> movers;
     std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
-    std::vector<shader::ShadowRun> runs; ///< by light that is far away, then by mover
+    std::vector<shader::ShadowRun> runs;         ///< by light that is far away, then by mover
     uint32_t instantCount = 1;
     std::vector<uint32_t> tiles; ///< ShadowConstants::tiles
     uint32_t tilesAcross = 0;

@@ -132,7 +132,8 @@ dmat4 mapToLayer(
     const LightPlace light(toLight, 0.0);
     const dvec3 turned(seeLight(rasterFromInstant, light));
     const dvec3 drawn(seeLight(layer.rasterFromInstant, light));
-    // alignRay(): points move by `turned - drawn` times how far along the ray its deepest place is.
+    // The ray keeps the place where it is deepest in the caster's ellipsoid, as alignPointRay() has
+    // it: points move by `turned - drawn` times how far along the ray that place is.
     const dvec3 weighed = caster.shape * turned / glm::dot(turned, caster.shape * turned);
     dmat4 align(1.0);
     for (int column = 0; column < 3; ++column)
@@ -185,9 +186,7 @@ std::vector<shader::ShadowRun> makeRuns(
     for (size_t begin = 0; begin < count; begin += runInstants) {
         const size_t end = std::min<size_t>(begin + runInstants, count);
         const FittedRun run = fitRun(caster, path, layers, toLight, begin, end);
-        runs.push_back(
-            makeRun(run.line, 0.5 * double(end - begin - 1), layers[run.layer], eye)
-        );
+        runs.push_back(makeRun(run.line, 0.5 * double(end - begin - 1), layers[run.layer], eye));
     }
     // Shaders read runs for as many instants as the longest run has.
     const size_t whole = shader::kMaxRunInstants / runInstants;

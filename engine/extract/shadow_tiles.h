@@ -37,9 +37,8 @@ boundShadow(const ShadowPicture& picture, const Sphere& caster, const LightPlace
 /// Width of the caster, pixels, where the camera is nearest to its shadow or to itself: no texel of
 /// its layer need be much finer than a pixel there.
 /// \param toLight unit, of a light that is far away
-[[nodiscard]] double findShadowWidth(
-    const ShadowPicture& picture, const Sphere& caster, const math::dvec3& toLight
-);
+[[nodiscard]] double
+findShadowWidth(const ShadowPicture& picture, const Sphere& caster, const math::dvec3& toLight);
 
 /// A bit for each mover in each tile of a picture.
 class ShadowTiles {

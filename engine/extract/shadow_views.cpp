@@ -158,8 +158,7 @@ LightView fitSpot(
     const double tangent = widen(std::tan(std::clamp(halfAngle, 1.0e-3, kWidestSpot)), sizePx);
     return {
         makePerspective(position, direction, findUp(direction), tangent, near),
-        2.0 * tangent / double(sizePx),
-        true};
+        2.0 * tangent / double(sizePx)};
 }
 
 std::array<LightView, 6> fitCube(const dvec3& position, double near, uint32_t sizePx) {
@@ -170,8 +169,7 @@ std::array<LightView, 6> fitCube(const dvec3& position, double near, uint32_t si
         forward[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
         views[size_t(face)] = {
             makePerspective(position, forward, findUp(forward), tangent, near),
-            2.0 * tangent / double(sizePx),
-            true};
+            2.0 * tangent / double(sizePx)};
     }
     return views;
 }
@@ -188,8 +186,7 @@ LightView fitLayer(const dvec3& toLight, const Sphere& mover, uint32_t sizePx) {
             centre.z - 1.01 * mover.radius,
             centre.z + 1.01 * mover.radius
         ),
-        2.0 * half / double(sizePx),
-        false};
+        2.0 * half / double(sizePx)};
 }
 
 bool fitsPointLayer(const dvec3& position, const Sphere& mover) {
@@ -205,8 +202,7 @@ LightView fitPointLayer(const dvec3& position, const Sphere& mover, uint32_t siz
     const double near = 0.5 * (distance - mover.radius);
     return {
         makePerspective(position, forward, findUp(forward), tangent, near),
-        2.0 * tangent / double(sizePx),
-        true};
+        2.0 * tangent / double(sizePx)};
 }
 
 } // namespace shutter::extract

@@ -15,7 +15,6 @@ namespace shutter::extract {
 struct LightView {
     math::dmat4 clipFromWorld{1.0};
     double texelMetres = 0.0; ///< width of a texel of the map, metres: at clip w = 1
-    bool isPerspective = false;
 };
 
 /// What of a camera decides where cascades lie.

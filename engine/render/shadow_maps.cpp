@@ -60,17 +60,16 @@ class TableWriter {
     std::vector<std::byte> mBytes;
 };
 
+// Each map has both rows; the light's kind says which one is read.
 shader::ShadowMap makeRow(const extract::PlannedMap& map, const math::dvec3& eye) {
     shader::ShadowMap row{};
     row.clipFromEye = math::mat4(map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye));
     row.firstTexel = map.firstTexel;
     row.sizePx = map.sizePx;
     row.texelMetres = float(map.view.texelMetres);
-    row.isPerspective = map.view.isPerspective ? 1 : 0;
     return row;
 }
 
-/// A row for maps of lights at a place too, which none reads.
 shader::ShadowCascade makeCascade(const extract::PlannedMap& map, const math::dvec3& eye) {
     const math::dmat4 clip = map.view.clipFromWorld * glm::translate(math::dmat4(1.0), eye);
     const double half = 0.5 * map.sizePx;

@@ -23,25 +23,22 @@ SHUTTER_INLINE float normalOffset(float texelMetres, float cosine) {
     return texelMetres * (0.5f * sine + 0.05f);
 }
 
-/// How a plane's depth changes from texel to texel of a map, towards x and y (Isidoro 2006, "Shadow
-/// Mapping: GPU-based Tips and Techniques", receiver plane depth bias). Exact in perspective too:
+/// How a plane's depth changes from texel to texel of the map of a light at a place, towards x and y
+/// (Isidoro 2006, "Shadow Mapping: GPU-based Tips and Techniques", receiver plane depth bias). Exact:
 /// near / distance is linear in the map. 0 for a plane that the light sees from its edge.
 /// \param clip of a point of the plane; clipNormal: of its unit normal, w 0
 /// \param cosine of the angle between the normal and the way to the light
 /// \param texelMetres ShadowMap's
-SHUTTER_INLINE vec2 planeSlope(
-    vec4 clip, vec4 clipNormal, float cosine, float texelMetres, uint sizePx, bool isPerspective
-) {
+SHUTTER_INLINE vec2
+planeSlope(vec4 clip, vec4 clipNormal, float cosine, float texelMetres, uint sizePx) {
     if (!(cosine > kLeastSlopeCosine)) return vec2(0.0f);
     float half_ = 0.5f * texelMetres * float(sizePx); // of the map's width, at w = 1
-    float scale = half_ * texelMetres;
     vec2 across = vec2(clipNormal.x, clipNormal.y);
-    if (!isPerspective) return across * (-scale * clipNormal.z / (cosine * cosine));
     // Distance of the plane from the light.
     float away = half_ * half_ * (clipNormal.x * clip.x + clipNormal.y * clip.y) +
                  clipNormal.w * clip.w;
     if (!(abs(away) > 1.0e-30f)) return vec2(0.0f);
-    return across * (scale * clip.z / away);
+    return across * (half_ * texelMetres * clip.z / away);
 }
 
 /// Quadratic B-spline over three texels: shadows' edges have no steps.
@@ -69,7 +66,7 @@ SHUTTER_INLINE bool coversFilter(vec2 texel, float size) {
 
 /// \param clip the receiver's; w above 0 is in front of the light
 /// \param slope planeSlope()'s
-SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float depthBias) {
+SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx) {
     ShadowPlace place;
     place.slope = slope;
     place.scale = clip.w;
@@ -77,7 +74,7 @@ SHUTTER_INLINE ShadowPlace placeInMap(vec4 clip, vec2 slope, uint sizePx, float 
     place.isCovered = clip.w > 0.0f;
     float scale = 1.0f / max(clip.w, 1.0e-30f);
     place.texel = (vec2(clip.x, clip.y) * scale * 0.5f + 0.5f) * size;
-    place.depth = clip.z * scale * (1.0f + kDepthScaleRounding) + depthBias;
+    place.depth = clip.z * scale * (1.0f + kDepthScaleRounding);
     place.isCovered = place.isCovered && coversFilter(place.texel, size);
     return place;
 }
@@ -164,22 +161,12 @@ SHUTTER_INLINE vec2 planeSlopeOnRun(vec4 run[2], vec3 normal, float cosine) {
     return vec2(dot(vec3(run[0]), normal), dot(vec3(run[1]), normal)) / cosine;
 }
 
-/// Where a receiver is looked up in a mover's layer, for a light that is far away. The layer was
-/// drawn along `toLight`, all as the mover sees it; at the instant in question the light comes along
-/// `turned`. The ray keeps the place where it is deepest in the mover's ellipsoid: of what is flat,
-/// where it passes the plane, which is exact; of what is round, where it passes the middle. Only an
-/// outline that comes from elsewhere in the mover is the layer's.
-/// \param point, turned the ray; both directions unit
+/// Where a receiver is looked up in a mover's layer, for a light at a place. The layer was drawn from
+/// `light`, and at the instant in question the mover sees the light at `seen`. The ray keeps the place
+/// where it is deepest in the mover's ellipsoid: of what is flat, where it passes the plane, which is
+/// exact; of what is round, where it passes the middle. Only an outline that comes from elsewhere in
+/// the mover is the layer's. (extract::mapToLayer() does the same for a light that is far away.)
 /// \param shape ShadowMover's
-SHUTTER_INLINE vec3
-alignRay(vec3 point, vec3 turned, vec3 toLight, vec3 centre, vec4 shape[3]) {
-    vec3 weighed = applyShape(shape, turned);
-    float along = dot(centre - point, weighed) / max(dot(turned, weighed), 1.0e-30f);
-    return point + turned * along - toLight * along;
-}
-
-/// The same for a light at a place.
-/// \param seen where the mover sees the light, `light` where the layer saw it
 /// \return w 0: the receiver does not lie before the light as the mover sees it; else 1
 SHUTTER_INLINE vec4
 alignPointRay(vec3 point, vec3 seen, vec3 light, vec3 centre, vec4 shape[3]) {

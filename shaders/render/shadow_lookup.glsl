@@ -110,19 +110,17 @@ float filterMapLinear(ShadowRef shadows, uint firstTexel, uint sizePx, ShadowPla
     return settleLight(light);
 }
 
-/// Where the receiver is in a map, lifted off its surface.
+/// Where the receiver is in the map of a light at a place, lifted off its surface.
 /// \param cosine of the angle between its normal and the way to the light
 ShadowPlace placeReceiver(ShadowMap map, vec3 position, vec3 normal, float cosine) {
     vec4 clip = map.clipFromEye * vec4(position, 1.0f);
-    // A map that does not have the place is left for the next before anything else is worked out.
-    ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx, 0.0f);
+    // A map that does not have the place needs nothing else worked out.
+    ShadowPlace place = placeInMap(clip, vec2(0.0f), map.sizePx);
     if (!place.isCovered) return place;
     vec4 clipNormal = map.clipFromEye * vec4(normal, 0.0f);
-    vec2 slope = planeSlope(
-        clip, clipNormal, cosine, map.texelMetres, map.sizePx, map.isPerspective != 0u
-    );
+    vec2 slope = planeSlope(clip, clipNormal, cosine, map.texelMetres, map.sizePx);
     clip += clipNormal * normalOffset(map.texelMetres * clip.w, cosine);
-    return placeInMap(clip, slope, map.sizePx, map.isPerspective != 0u ? 0.0f : kDepthRounding);
+    return placeInMap(clip, slope, map.sizePx);
 }
 
 vec3 transformPoint(vec4 rows[3], vec3 point) {
@@ -169,14 +167,13 @@ float passStill(ShadowRef shadows, ShadowLight own, LightRow light, Receiver rec
     );
 }
 
-/// A layer of a mover.
+/// A layer of a mover, for a light at a place.
 struct MoverLayer {
-    uint map;     // from the light's first layer
-    vec3 toLight; // unit, as the mover sees it: the layer was drawn along it ...
-    vec3 light;   // ... or from there
+    uint map;   // from the light's first layer
+    vec3 light; // as the mover sees it: the layer was drawn from there
 };
 
-/// Light that passes one mover at one instant, worked out for it alone.
+/// Light that passes one mover at one instant, from a light at a place.
 /// \param isMean whether it is one of several that are averaged
 float passMover(
     ShadowMap map, ShadowRef shadows, ShadowMover mover, MoverLayer layer,
@@ -186,17 +183,11 @@ float passMover(
     vec3 toLight = normalize(transformDirection(rasterFromInstant, receiver.toLight));
     if (!meetsSphere(point, toLight, receiver.distance_, mover.sphere)) return 1.0f;
     vec3 normal = normalize(transformDirection(rasterFromInstant, receiver.normal));
-    if (light.kind == kLightDirectional) {
-        point = alignRay(point, toLight, layer.toLight, mover.sphere.xyz, mover.shape);
-        toLight = layer.toLight;
-    } else {
-        vec3 seen = transformPoint(rasterFromInstant, light.positionRange.xyz);
-        vec4 aligned = alignPointRay(point, seen, layer.light, mover.sphere.xyz, mover.shape);
-        if (aligned.w == 0.0f) return 1.0f;
-        point = aligned.xyz;
-        toLight = normalize(layer.light - point);
-    }
-    ShadowPlace place = placeReceiver(map, point, normal, dot(normal, toLight));
+    vec3 seen = transformPoint(rasterFromInstant, light.positionRange.xyz);
+    vec4 aligned = alignPointRay(point, seen, layer.light, mover.sphere.xyz, mover.shape);
+    if (aligned.w == 0.0f) return 1.0f;
+    vec3 drawn = normalize(layer.light - aligned.xyz);
+    ShadowPlace place = placeReceiver(map, aligned.xyz, normal, dot(normal, drawn));
     if (!place.isCovered) return 1.0f;
     // Over the exposure soft edges are what hides the steps from instant to instant.
     if (isMean) return filterMapLinear(shadows, map.firstTexel, map.sizePx, place);
@@ -237,7 +228,7 @@ float passAtRaster(
         vec4 identity[3] = vec4[3](
             vec4(1.0f, 0.0f, 0.0f, 0.0f), vec4(0.0f, 1.0f, 0.0f, 0.0f), vec4(0.0f, 0.0f, 1.0f, 0.0f)
         );
-        MoverLayer layer = MoverLayer(row.firstLayer, receiver.toLight, light.positionRange.xyz);
+        MoverLayer layer = MoverLayer(row.firstLayer, light.positionRange.xyz);
         ShadowMap map = ShadowMapTable(shadows.value.maps).rows[own.firstLayer + row.firstLayer];
         return passMover(map, shadows, row, layer, identity, light, receiver, false);
     }
@@ -266,7 +257,8 @@ vec4 passOnRuns(ShadowRef shadows, uint index, uint runInstants, Receiver receiv
     return passed;
 }
 
-/// The same where each instant is worked out for itself. \param first of the instants
+/// The same for a light at a place, whose lookups are no affine maps: each instant is worked out for
+/// itself. \param first of the instants
 vec4 passAtInstants(
     ShadowRef shadows, ShadowLight own, ShadowMover mover, uint first, LightRow light,
     Receiver receiver
@@ -276,14 +268,12 @@ vec4 passAtInstants(
     vec4 passed = vec4(1.0f);
     for (uint i = 0u; i < kMaxRunInstants && first + i < mover.instantCount; ++i) {
         uint instant = first + i;
-        MoverLayer layer =
-            MoverLayer(mover.firstLayer, receiver.toLight, light.positionRange.xyz);
+        MoverLayer layer = MoverLayer(mover.firstLayer, light.positionRange.xyz);
         if (mover.partCount > 0u) {
             uint part = instant * mover.partCount / mover.instantCount;
             uint at = mover.firstInstant + mover.instantCount + part;
             vec4 drawn[3] = instants.rows[at].rasterFromInstant;
             layer.map += 1u + part;
-            layer.toLight = normalize(transformDirection(drawn, layer.toLight));
             layer.light = transformPoint(drawn, layer.light);
         }
         ShadowMap map = maps.rows[own.firstLayer + layer.map];

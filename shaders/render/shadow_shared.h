@@ -27,17 +27,17 @@ SHUTTER_INLINE uint shadowRowTexels(uint sizePx) {
     return sizePx + 16u;
 }
 
-/// One view of a light. Depth is reversed: 1 nearest the light, 0 where there is no caster.
+/// One view of a light at a place. Depth is near / distance: 0 where there is no caster.
 struct ShadowMap {
-    mat4 clipFromEye;   // x, y in [-1, 1] over the map
-    uint firstTexel;    // in ShadowConstants::texels; rows of shadowRowTexels(), top row first
-    uint sizePx;        // width and height
-    float texelMetres;  // width of a texel, metres: at clip w = 1
-    uint isPerspective; // 1: depth is near / distance; 0: it is linear
+    mat4 clipFromEye;  // x, y in [-1, 1] over the map
+    uint firstTexel;   // in ShadowConstants::texels; rows of shadowRowTexels(), top row first
+    uint sizePx;       // width and height
+    float texelMetres; // width of a texel, metres: at clip w = 1
+    uint padding0;
 };
 
-/// A map of a light that is far away, beside its row of ShadowMap: where the light's axes
-/// (ShadowLight::axes) lie in it.
+/// One view of a light that is far away: where the light's axes (ShadowLight::axes) lie in it. Depth is
+/// linear and reversed: 1 nearest the light, 0 where there is no caster.
 struct ShadowCascade {
     vec2 corner;          // x and y of the origin of eye space, texels
     float texelsPerMetre;
@@ -69,7 +69,7 @@ struct ShadowLight {
 struct ShadowMover {
     vec4 sphere;       // xyz eye space, w radius, metres: at the raster instant
     vec4 sweptSphere;  // the same over the whole exposure
-    vec4 shape[3];     // rows of the form whose unit ellipsoid is the mover's box, see alignRay()
+    vec4 shape[3];     // rows of the form whose unit ellipsoid is the mover's box: alignPointRay()
     uint entity;       // row of the entity table
     uint firstInstant; // in the table of instants: instantCount rows, then partCount
     uint instantCount; // 1: it stands still in the exposure; else ShadowConstants::instantCount
@@ -105,8 +105,8 @@ struct ShadowRun {
 struct ShadowConstants {
     uvec2 texels;   // addresses: of float[]
     uvec2 lights;   // of ShadowLight[]
-    uvec2 maps;     // of ShadowMap[]
-    uvec2 cascades; // of ShadowCascade[], a row beside each of `maps`
+    uvec2 maps;     // of ShadowMap[], a row for each map
+    uvec2 cascades; // of ShadowCascade[], likewise: a light's kind says in which of both a map's row is
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
     uvec2 runs;     // of ShadowRun[]

@@ -156,6 +156,28 @@ TEST_F(ShadowTilesOfScenes, MayBeAnywhereWhereThereIsNoBox) {
     EXPECT_EQ(std::ranges::count(tiles.movers(), 2u), 11 * 6);
 }
 
+TEST_F(ShadowTilesOfScenes, AShadowIsAsWideAsTheCameraIsNearToIt) {
+    ShadowPicture picture = makePicture();
+    picture.scene = {dvec3(-20, 0, -40), dvec3(20, 10, 0)};
+    picture.eye = {0, 2, 0};
+    picture.pixelFootprint = {0.01, 0.0};
+    const Sphere caster{{0, 2, -20.5}, 0.5};
+    // Straight down the shadow is nowhere nearer than the caster.
+    EXPECT_NEAR(findShadowWidth(picture, caster, {0, 1, 0}), 1.0 / (0.01 * 20.0), 1e-9);
+    // The sun is behind it, and its shadow comes as near to the camera as its radius.
+    const dvec3 low = glm::normalize(dvec3(0, 0.05, -1));
+    EXPECT_GT(findShadowWidth(picture, caster, low), 150.0);
+    // It ends where the scene does.
+    picture.scene.max.z = -15.0;
+    EXPECT_LT(findShadowWidth(picture, caster, low), 8.0);
+    // Behind the caster the shadow goes away from the camera.
+    EXPECT_NEAR(findShadowWidth(picture, caster, -low), 1.0 / (0.01 * 20.0), 1e-9);
+    picture.eye = caster.centre;
+    EXPECT_FALSE(std::isfinite(findShadowWidth(picture, caster, {0, 1, 0}))) << "around the camera";
+    picture.pixelFootprint = {0.0, 0.02};
+    EXPECT_NEAR(findShadowWidth(picture, caster, {0, 1, 0}), 50.0, 1e-9) << "orthographic";
+}
+
 } // namespace
 
 } // namespace shutter::extract

@@ -131,7 +131,7 @@ TEST(ShadowViews, EachDirectionIsInTheMiddleOfItsFaceOfACube) {
         const dvec3 point = light + 5.0 * direction;
         const LightView& face = faces.at(shader::cubeFace(math::vec3(direction)));
         const auto place = shader::placeInMap(
-            math::vec4(face.clipFromWorld * dvec4(point, 1.0)), math::vec2(0.0f), kSize, 0.0f
+            math::vec4(face.clipFromWorld * dvec4(point, 1.0)), math::vec2(0.0f), kSize
         );
         EXPECT_TRUE(place.isCovered) << i;
     }

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Where receivers are looked up in the layers of movers over the exposure.
+#include "engine/extract/shadow_runs.h"
+#include "shaders/render/shadow_filter.glsl"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat3;
+using math::dmat4;
+using math::dvec3;
+using math::dvec4;
+
+constexpr uint32_t kSize = 128;
+
+/// A mover that turns about an axis through its middle and goes somewhere.
+struct Way {
+    dvec3 velocity{0.0}; ///< over the exposure, metres
+    dvec3 axis{0.0, 1.0, 0.0};
+    double turn = 0.0; ///< over the exposure, radians
+};
+
+/// A mover of two metres' radius before a light, over an exposure.
+struct MoverBeforeLight {
+    ShadowCaster caster;
+    CasterPath path;
+    std::vector<MoverLayer> layers;
+    dvec3 toLight{0.0, 1.0, 0.0};
+
+    /// \param parts layers of parts of the exposure
+    MoverBeforeLight(const Way& way, const dvec3& light, uint32_t count, uint32_t parts)
+        : toLight(light) {
+        caster.sphere = {{1.0, 3.0, -8.0}, 2.0};
+        path.swept = {caster.sphere.centre, caster.sphere.radius + 0.5 * glm::length(way.velocity)};
+        path.instants = follow(way, count);
+        layers.push_back({dmat4(1.0), fitLayer(toLight, caster.sphere, kSize), kSize, 0});
+        for (const CasterInstant& part : follow(way, parts)) {
+            const dvec3 seen(seeLight(part.rasterFromInstant, LightPlace(toLight, 0.0)));
+            layers.push_back(
+                {part.rasterFromInstant,
+                 fitLayer(seen, caster.sphere, kSize),
+                 kSize,
+                 uint32_t(layers.size()) * kSize * kSize}
+            );
+        }
+    }
+
+    [[nodiscard]] std::vector<CasterInstant> follow(const Way& way, uint32_t count) const {
+        std::vector<CasterInstant> instants;
+        for (uint32_t i = 0; i < count; ++i) {
+            const double s = (i + 0.5) / count - 0.5;
+            const dmat4 motion =
+                glm::translate(dmat4(1.0), s * way.velocity + caster.sphere.centre) *
+                glm::rotate(dmat4(1.0), s * way.turn, way.axis) *
+                glm::translate(dmat4(1.0), -caster.sphere.centre);
+            instants.push_back({glm::inverse(motion), 0.0f});
+        }
+        return instants;
+    }
+
+    [[nodiscard]] uint32_t runInstants() const {
+        return findRunInstants(caster, path, layers, toLight);
+    }
+
+    [[nodiscard]] std::vector<shader::ShadowRun> runs(const dvec3& eye = dvec3(0.0)) const {
+        return makeRuns(caster, path, layers, toLight, runInstants(), eye);
+    }
+
+    /// The layer that an instant of the exposure is looked up in.
+    [[nodiscard]] const MoverLayer& layerOf(const shader::ShadowRun& run) const {
+        return *std::find_if(layers.begin(), layers.end(), [&](const MoverLayer& layer) {
+            return layer.firstTexel == run.firstTexel;
+        });
+    }
+};
+
+dvec3 apply(
+    const math::vec4 rows[3], const math::vec4 steps[3], uint32_t instant, const dvec3& point
+) {
+    dvec3 at;
+    for (int i = 0; i < 3; ++i)
+        at[i] = glm::dot(dvec4(rows[i]) + double(instant) * dvec4(steps[i]), dvec4(point, 1.0));
+    return at;
+}
+
+class ShadowRuns : public ::testing::Test {
+  protected:
+    double uniform(double from, double to) {
+        return std::uniform_real_distribution(from, to)(mRandom);
+    }
+
+    dvec3 direction() {
+        dvec3 way(0.0);
+        while (glm::length(way) < 0.2)
+            way = dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+        return glm::normalize(way);
+    }
+
+    std::mt19937 mRandom{11};
+};
+
+} // namespace
+
+TEST_F(ShadowRuns, TakePointsToWhereEachInstantHasThem) {
+    size_t lengths[shader::kMaxRunInstants + 1] = {};
+    for (int i = 0; i < 300; ++i) {
+        const Way way{uniform(0, 3) * direction(), direction(), std::exp(uniform(-4.0, 1.5))};
+        const MoverBeforeLight mover(way, direction(), 3 + uint32_t(i % 17), uint32_t(i % 3) * 2);
+        const dvec3 eye(uniform(-9, 9), uniform(0, 4), uniform(-9, 9));
+        const uint32_t length = mover.runInstants();
+        ++lengths[length];
+        const auto runs = mover.runs(eye);
+        for (uint32_t instant = 0; instant < mover.path.instants.size(); ++instant) {
+            const shader::ShadowRun& run = runs.at(1 + instant / length);
+            const dmat4& back = mover.path.instants[instant].rasterFromInstant;
+            const dmat4 exact = mapToLayer(mover.caster, back, mover.toLight, mover.layerOf(run));
+            // Of the mover at the instant, and of its shadow.
+            const dvec3 point = dvec3(glm::inverse(back) * dvec4(mover.caster.sphere.centre, 1.0)) +
+                                uniform(0, 2) * direction() - uniform(0, 20) * mover.toLight;
+            const dvec3 wanted(exact * dvec4(point, 1.0));
+            const dvec3 found = apply(run.first, run.step, instant % length, point - eye);
+            ASSERT_LT(std::abs(found.x - wanted.x), kMostRunError + 0.01) << i << ": " << length;
+            ASSERT_LT(std::abs(found.y - wanted.y), kMostRunError + 0.01) << i << ": " << length;
+            ASSERT_LT(std::abs(found.z - wanted.z) * kSize, kMostRunError + 0.01) << i;
+        }
+    }
+    for (const uint32_t length : {1u, 2u, 4u})
+        EXPECT_GT(lengths[length], 10u) << "runs of " << length << " instants were hardly tried";
+}
+
+TEST_F(ShadowRuns, BeginWithTheRasterInstants) {
+    const MoverBeforeLight mover({{1, 0, 0}, {0, 0, 1}, 0.4}, direction(), 16, 2);
+    const shader::ShadowRun run = mover.runs().front();
+    EXPECT_EQ(run.firstTexel, 0u);
+    const dvec3 point = mover.caster.sphere.centre + dvec3(0.3, -0.2, 0.5);
+    const dvec4 clip = mover.layers.front().view.clipFromWorld * dvec4(point, 1.0);
+    const dvec3 found = apply(run.first, run.step, 0, point);
+    EXPECT_NEAR(found.x, (0.5 * clip.x + 0.5) * kSize, 1e-3);
+    EXPECT_NEAR(found.y, (0.5 * clip.y + 0.5) * kSize, 1e-3);
+    EXPECT_NEAR(found.z, clip.z, 1e-5);
+    const double scaled = clip.z * (1.0 + double(shader::kDepthScaleRounding));
+    EXPECT_GT(found.z, scaled + 0.5 * double(shader::kDepthRounding)) << "without a bias";
+    for (const math::vec4& step : run.step)
+        EXPECT_EQ(step, math::vec4(0.0f));
+}
+
+TEST_F(ShadowRuns, OfWhatStandsStillThereIsOneAlone) {
+    const MoverBeforeLight mover({}, direction(), 0, 0);
+    EXPECT_EQ(mover.runInstants(), 0u);
+    EXPECT_EQ(mover.runs().size(), 1u);
+}
+
+TEST_F(ShadowRuns, AreAsShortAsTheMoverHasLayers) {
+    const Way straight{{2, 0, 0}, {0, 1, 0}, 0.0};
+    EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 0).runInstants(), 4u);
+    EXPECT_EQ(MoverBeforeLight(straight, direction(), 16, 4).runInstants(), 4u);
+    const MoverBeforeLight mover(straight, direction(), 16, 8);
+    EXPECT_EQ(mover.runInstants(), 2u);
+    const auto runs = mover.runs();
+    ASSERT_EQ(runs.size(), 9u);
+    for (uint32_t i = 1; i < runs.size(); ++i)
+        EXPECT_EQ(runs[i].firstTexel, i * kSize * kSize);
+    // The layer of a run is that of its middle.
+    const auto uneven = MoverBeforeLight(straight, direction(), 16, 3).runs();
+    ASSERT_EQ(uneven.size(), 5u);
+    const std::array<uint32_t, 5> wanted{0, 1, 2, 2, 3};
+    for (uint32_t i = 1; i < uneven.size(); ++i)
+        EXPECT_EQ(uneven[i].firstTexel / (kSize * kSize), wanted[i]);
+}
+
+TEST_F(ShadowRuns, AreEnoughForAsManyInstantsAsAreReadAtATime) {
+    const Way turning{{0, 0, 0}, {0, 0, 1}, 6.0};
+    for (const uint32_t count : {1u, 3u, 5u, 6u, 63u, 64u}) {
+        const MoverBeforeLight mover(turning, {0, 1, 0}, count, 0);
+        const uint32_t length = mover.runInstants();
+        const size_t groups = (count + shader::kMaxRunInstants - 1) / shader::kMaxRunInstants;
+        EXPECT_EQ(
+            mover.runs().size() - 1,
+            length == shader::kMaxRunInstants ? groups : groups * (shader::kMaxRunInstants / length)
+        ) << count;
+    }
+}
+
+TEST_F(ShadowRuns, ASlopeIsExactOnAPlane) {
+    for (int i = 0; i < 50; ++i) {
+        const Way way{direction(), direction(), 0.2};
+        const MoverBeforeLight mover(way, direction(), 1, 0);
+        shader::ShadowRun run = mover.runs().back();
+        dvec3 normal = direction();
+        const double cosine = glm::dot(normal, mover.toLight);
+        if (cosine < 0.1)
+            continue;
+        const math::vec2 slope =
+            shader::planeSlopeOnRun(run.slope, math::vec3(normal), float(cosine));
+        const dvec3 across = glm::normalize(glm::cross(normal, direction()));
+        const dvec3 from = apply(run.first, run.step, 0, mover.caster.sphere.centre);
+        for (const dvec3& along : {across, glm::cross(normal, across)}) {
+            const dvec3 to = apply(run.first, run.step, 0, mover.caster.sphere.centre + along);
+            const double depth = slope.x * (to.x - from.x) + slope.y * (to.y - from.y);
+            EXPECT_NEAR(depth, to.z - from.z, 1e-4 / cosine);
+        }
+    }
+}
+
+/// Where the ray that comes to a point along the light, as a turned mover sees it, is looked up:
+/// the point itself in the layer's own view.
+dvec3 lookUp(
+    const ShadowCaster& caster, const dmat4& turn, const dvec3& toLight, const dvec3& point
+) {
+    const MoverLayer layer{dmat4(1.0), fitLayer(toLight, caster.sphere, kSize), kSize, 0};
+    const dmat4 own = mapToLayer(caster, dmat4(1.0), toLight, layer);
+    return dvec3(glm::inverse(own) * mapToLayer(caster, turn, toLight, layer) * dvec4(point, 1.0));
+}
+
+TEST_F(ShadowRuns, AMoverThatOnlyWentElsewhereKeepsItsRay) {
+    ShadowCaster caster;
+    caster.sphere = {{0.3, 1.0, 0.0}, 2.0};
+    const dvec3 way(0.2, -0.1, 0.4);
+    const dvec3 point(1.0, -2.0, 0.5);
+    const dvec3 found = lookUp(
+        caster, glm::translate(dmat4(1.0), way), glm::normalize(dvec3(0.2, 1.0, 0.1)), point
+    );
+    EXPECT_NEAR(glm::length(found - point - way), 0.0, 1e-9);
+}
+
+TEST_F(ShadowRuns, ATurnKeepsWhereTheRayPassesTheMoversMiddle) {
+    ShadowCaster caster;
+    caster.sphere = {{3.0, 2.0, 1.0}, 2.0};
+    const dmat4 turn = glm::translate(dmat4(1.0), caster.sphere.centre) *
+                       glm::rotate(dmat4(1.0), 0.1, dvec3(0, 0, 1)) *
+                       glm::translate(dmat4(1.0), -caster.sphere.centre);
+    // Through the middle, from far below.
+    const dvec3 point = caster.sphere.centre + dvec3(0, -8, 0);
+    const dvec3 found = lookUp(caster, turn, {0, 1, 0}, point);
+    EXPECT_NEAR(glm::length(found - point), 0.0, 1e-9);
+}
+
+TEST_F(ShadowRuns, OfWhatIsFlatATurnKeepsWhereTheRayPassesThePlane) {
+    ShadowCaster disc;
+    disc.sphere = {dvec3(0.0), 2.0};
+    disc.shape[1][1] = 2500.0;
+    const dmat4 turn = glm::rotate(dmat4(1.0), 0.7, dvec3(0.3, 0.0, -0.9));
+    // The disc has turned under the light; the ray passes it off its middle.
+    const dvec3 turned(turn * dvec4(0, 1, 0, 0));
+    const dvec3 passed(0.7, 0.0, -0.4);
+    const dvec3 point(glm::inverse(turn) * dvec4(passed - 5.0 * turned, 1.0));
+    const dvec3 found = lookUp(disc, turn, {0, 1, 0}, point);
+    EXPECT_NEAR(found.x, passed.x, 2e-3);
+    EXPECT_NEAR(found.z, passed.z, 2e-3);
+}
+
+TEST_F(ShadowRuns, FlatThingsNeedFewerLayersThanThickOnes) {
+    const LightPlace light(glm::normalize(dvec3(1.0, 1.0, 0.0)), 0.0);
+    const MoverBeforeLight mover({{0, 0, 0}, {0, 0, 1}, 0.8}, dvec3(light), 16, 0);
+    ShadowCaster caster = mover.caster;
+    const uint32_t thick = countParts(caster, mover.path, {&light, 1});
+    EXPECT_EQ(thick, 6u);
+    caster.thinness = 0.7;
+    EXPECT_EQ(countParts(caster, mover.path, {&light, 1}), 5u);
+    caster.thinness = 0.02;
+    EXPECT_EQ(countParts(caster, mover.path, {&light, 1}), 3u) << "however flat it is";
+}
+
+} // namespace shutter::extract
