@@ -5,7 +5,7 @@
 #include "engine/extract/frame_view.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/extract/shadow_casters.h"
-#include "engine/extract/shadow_runs.h"
+#include "engine/extract/shadow_movers.h"
 #include "engine/extract/shadow_tiles.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
@@ -39,26 +39,6 @@ bool castsShadows(const SceneLayout& layout, uint32_t mesh) {
 constexpr double kLayerTexelsPerPixel = 1.5;
 constexpr uint32_t kLeastLayerSize = 16;
 
-/// A light that casts shadows, in the world.
-struct PlacedLight {
-    uint32_t index = 0; ///< of the table of lights
-    scene::Light light;
-    dvec3 position{0.0};
-    dvec3 direction{0.0, 0.0, -1.0}; ///< unit
-
-    [[nodiscard]] LightPlace place() const {
-        return light.kind == scene::LightKind::Directional ? LightPlace(-direction, 0.0)
-                                                           : LightPlace(position, 1.0);
-    }
-};
-
-/// A caster with layers of its own.
-struct Mover {
-    ShadowCaster caster;
-    CasterPath path;
-    std::vector<CasterInstant> parts;
-};
-
 /// Plans one frame.
 class Planner {
   public:
@@ -83,7 +63,6 @@ class Planner {
             return std::move(mPlan);
         collectMovers();
         followMovers();
-        mPlan.instantCount = mBlurs ? mView.shadows.instants : 1;
         mPlan.lights.assign(
             mFrame.lights.size(), {shader::kNoShadowMap, 0, 0, shader::kNoShadowRun, {}}
         );
@@ -92,8 +71,9 @@ class Planner {
         mPlan.lightMapCount = static_cast<uint32_t>(mPlan.maps.size());
         for (const PlacedLight& light : mLights)
             addLayers(light);
-        addMoverRows();
-        addRuns();
+        const uint32_t instants = mBlurs ? mView.shadows.instants : 1;
+        mMoving = addMovers(mPlan, mMovers, mLights, instants);
+        mPlan.instantCount = mMoving == 0 ? 1 : instants;
         markTiles();
         explainBlur();
         return std::move(mPlan);
@@ -188,8 +168,7 @@ class Planner {
 
     [[nodiscard]] bool fitsLayers(const Sphere& mover) const {
         return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
-            return light.light.kind == scene::LightKind::Directional ||
-                   fitsPointLayer(light.position, mover);
+            return light.isFar() || fitsPointLayer(light.position, mover);
         });
     }
 
@@ -202,7 +181,7 @@ class Planner {
             lights.push_back(light.place());
         size_t left = kMaxPartLayers / lights.size();
         const scene::ShutterResponse& response = mView.exposure.shutter.response;
-        for (Mover& mover : mMovers) {
+        for (PlannedMover& mover : mMovers) {
             mover.path =
                 followCaster(mover.caster, mFrameView, mFrame, response, mView.shadows.instants);
             const uint32_t parts = countParts(mover.caster, mover.path, lights);
@@ -219,7 +198,7 @@ class Planner {
         }
     }
 
-    [[nodiscard]] bool fitsPart(const Mover& mover, const CasterInstant& part) const {
+    [[nodiscard]] bool fitsPart(const PlannedMover& mover, const CasterInstant& part) const {
         return std::all_of(mLights.begin(), mLights.end(), [&](const PlacedLight& light) {
             const LightPlace seen = seeLight(part.rasterFromInstant, light.place());
             return seen.w == 0.0 || fitsPointLayer(dvec3(seen), mover.caster.sphere);
@@ -239,7 +218,7 @@ class Planner {
         const double near = kNearShare * std::max(glm::length(mScene.size()), 1.0e-3);
         shader::ShadowLight& row = mPlan.lights[light.index];
         row.firstMap = static_cast<uint32_t>(mPlan.maps.size());
-        if (light.light.kind == scene::LightKind::Directional) {
+        if (light.isFar()) {
             const math::dmat3 axes = glm::transpose(makeLightAxes(-light.direction));
             for (int i = 0; i < 3; ++i)
                 row.axes[i] = math::vec4(math::vec3(axes[i]), 0.0f);
@@ -260,9 +239,10 @@ class Planner {
     }
 
     /// Width of the layers of a mover, texels.
-    [[nodiscard]] uint32_t findLayerSize(const PlacedLight& light, const Mover& mover) const {
+    [[nodiscard]] uint32_t
+    findLayerSize(const PlacedLight& light, const PlannedMover& mover) const {
         const uint32_t most = mView.shadows.mapSize / 4;
-        if (light.light.kind != scene::LightKind::Directional)
+        if (!light.isFar())
             return most;
         const double wanted = kLayerTexelsPerPixel *
                               findShadowWidth(picture(), mover.caster.sphere, -light.direction);
@@ -273,7 +253,7 @@ class Planner {
 
     void addLayers(const PlacedLight& light) {
         mPlan.lights[light.index].firstLayer = static_cast<uint32_t>(mPlan.maps.size());
-        for (const Mover& mover : mMovers) {
+        for (const PlannedMover& mover : mMovers) {
             const uint32_t size = findLayerSize(light, mover);
             addLayer(light.place(), mover, {}, size);
             for (const CasterInstant& part : mover.parts)
@@ -283,7 +263,10 @@ class Planner {
 
     /// As the mover sees the light: what turns then is the light.
     void addLayer(
-        const LightPlace& light, const Mover& mover, const CasterInstant& instant, uint32_t sizePx
+        const LightPlace& light,
+        const PlannedMover& mover,
+        const CasterInstant& instant,
+        uint32_t sizePx
     ) {
         const LightPlace seen = seeLight(instant.rasterFromInstant, light);
         const Sphere& sphere = mover.caster.sphere;
@@ -331,88 +314,6 @@ class Planner {
         return std::max(farthest, least);
     }
 
-    [[nodiscard]] math::vec4 toEye(const Sphere& sphere) const {
-        return {math::vec3(sphere.centre - eye()), float(sphere.radius)};
-    }
-
-    void addMoverRows() {
-        uint32_t layers = 0;
-        for (const Mover& mover : mMovers) {
-            shader::ShadowMover row{};
-            row.entity = mover.caster.row;
-            row.sphere = row.sweptSphere = toEye(mover.caster.sphere);
-            for (int i = 0; i < 3; ++i)
-                row.shape[i] = math::vec4(math::vec3(mover.caster.shape[i]), 0.0f); // symmetric
-            row.firstInstant = static_cast<uint32_t>(mPlan.instants.size());
-            row.instantCount = 1;
-            row.firstLayer = layers;
-            row.partCount = static_cast<uint32_t>(mover.parts.size());
-            layers += 1 + row.partCount;
-            if (!mover.path.instants.empty()) {
-                row.instantCount = mPlan.instantCount;
-                row.sweptSphere = toEye(mover.path.swept);
-                ++mMoving;
-            }
-            for (const CasterInstant& instant : mover.path.instants)
-                mPlan.instants.push_back(makeInstant(instant.rasterFromInstant));
-            for (const CasterInstant& part : mover.parts)
-                mPlan.instants.push_back(makeInstant(part.rasterFromInstant));
-            mPlan.movers.push_back(row);
-        }
-        if (mMoving == 0)
-            mPlan.instantCount = 1;
-    }
-
-    /// Runs of movers before the lights that are far away.
-    void addRuns() {
-        std::vector<const PlacedLight*> lights;
-        for (const PlacedLight& light : mLights)
-            if (light.light.kind == scene::LightKind::Directional)
-                lights.push_back(&light);
-        for (const PlacedLight* light : lights)
-            for (size_t i = 0; i < mMovers.size(); ++i) {
-                const uint32_t length = findRunInstants(
-                    mMovers[i].caster, mMovers[i].path, layersOf(*light, i), -light->direction
-                );
-                uint32_t& least = mPlan.movers[i].runInstants; // of all lights
-                least = light == lights.front() ? length : std::min(least, length);
-            }
-        for (const PlacedLight* light : lights) {
-            const auto first = static_cast<uint32_t>(mPlan.runs.size());
-            mPlan.lights[light->index].firstRun = first;
-            for (size_t i = 0; i < mMovers.size(); ++i) {
-                shader::ShadowMover& row = mPlan.movers[i];
-                row.firstRun = static_cast<uint32_t>(mPlan.runs.size()) - first;
-                const std::vector<shader::ShadowRun> runs = makeRuns(
-                    mMovers[i].caster,
-                    mMovers[i].path,
-                    layersOf(*light, i),
-                    -light->direction,
-                    row.runInstants,
-                    eye()
-                );
-                mPlan.runs.insert(mPlan.runs.end(), runs.begin(), runs.end());
-            }
-        }
-    }
-
-    /// \param mover index of mMovers
-    [[nodiscard]] std::vector<MoverLayer> layersOf(const PlacedLight& light, size_t mover) const {
-        const std::vector<CasterInstant>& parts = mMovers[mover].parts;
-        std::vector<MoverLayer> layers(1 + parts.size());
-        const uint32_t first =
-            mPlan.lights[light.index].firstLayer + mPlan.movers[mover].firstLayer;
-        for (size_t i = 0; i < layers.size(); ++i) {
-            const PlannedMap& map = mPlan.maps[first + i];
-            layers[i].view = map.view;
-            layers[i].sizePx = map.sizePx;
-            layers[i].firstTexel = map.firstTexel;
-            if (i > 0)
-                layers[i].rasterFromInstant = parts[i - 1].rasterFromInstant;
-        }
-        return layers;
-    }
-
     [[nodiscard]] ShadowPicture picture() const {
         return {
             mFrameView.matrices().clipFromWorldJittered,
@@ -425,7 +326,7 @@ class Planner {
     void markTiles() {
         ShadowTiles tiles(mFrame.constants.sizePx);
         for (uint32_t i = 0; i < mMovers.size(); ++i) {
-            const Mover& mover = mMovers[i];
+            const PlannedMover& mover = mMovers[i];
             const Sphere& sphere =
                 mover.path.instants.empty() ? mover.caster.sphere : mover.path.swept;
             for (const PlacedLight& light : mLights)
@@ -433,16 +334,6 @@ class Planner {
         }
         mPlan.tiles = tiles.movers();
         mPlan.tilesAcross = tiles.across();
-    }
-
-    [[nodiscard]] shader::ShadowInstant makeInstant(const dmat4& rasterFromInstant) const {
-        const dmat4 matrix = glm::translate(dmat4(1.0), -eye()) * rasterFromInstant *
-                             glm::translate(dmat4(1.0), eye());
-        shader::ShadowInstant row{};
-        for (int i = 0; i < 3; ++i)
-            row.rasterFromInstant[i] =
-                math::vec4(matrix[0][i], matrix[1][i], matrix[2][i], matrix[3][i]);
-        return row;
     }
 
     void explainBlur() {
@@ -474,8 +365,8 @@ class Planner {
     math::Bounds mScene; ///< all rows, world space
     /// Distance of the nearest row's box from the camera, of those that it is not in; metres.
     double mNearest = std::numeric_limits<double>::infinity();
-    std::vector<Mover> mMovers;
-    size_t mMoving = 0;      ///< of mMovers, in the exposure
+    std::vector<PlannedMover> mMovers;
+    uint32_t mMoving = 0;    ///< of mMovers, in the exposure
     size_t mSharpMovers = 0; ///< that have no layers
     ShadowPlan mPlan;
 };

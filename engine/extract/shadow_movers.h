@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The movers of a frame's shadows as shading reads them: what they are, where they are at each
+// instant, and where they are looked up. Pure.
+#pragma once
+
+#include "engine/extract/shadow_casters.h"
+#include "engine/extract/shadow_plan.h"
+#include "engine/scene/components.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shutter::extract {
+
+/// A light that casts shadows, in the world.
+struct PlacedLight {
+    uint32_t index = 0; ///< of the table of lights
+    scene::Light light;
+    math::dvec3 position{0.0};
+    math::dvec3 direction{0.0, 0.0, -1.0}; ///< unit
+
+    [[nodiscard]] bool isFar() const { return light.kind == scene::LightKind::Directional; }
+
+    [[nodiscard]] LightPlace place() const {
+        return isFar() ? LightPlace(-direction, 0.0) : LightPlace(position, 1.0);
+    }
+};
+
+/// A caster with layers of its own.
+struct PlannedMover {
+    ShadowCaster caster;
+    CasterPath path;
+    std::vector<CasterInstant> parts; ///< of the exposure, that have layers
+};
+
+/// Adds the rows of movers, of their instants and of their runs to a plan.
+/// \param plan has all maps: of each light a layer for each mover, and for each of its parts
+/// \param instantCount of the exposure
+/// \return how many of them move during the exposure
+uint32_t addMovers(
+    ShadowPlan& plan,
+    std::span<const PlannedMover> movers,
+    std::span<const PlacedLight> lights,
+    uint32_t instantCount
+);
+
+} // namespace shutter::extract
