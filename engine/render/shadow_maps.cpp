@@ -22,6 +22,13 @@ namespace {
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 /// Width of the image that maps are drawn into, unless one map is wider.
 constexpr uint32_t kImageWidth = 4096;
+/// Width of one that needs no more. Images are kept for other frames by their size, and maps and
+/// layers are of many: two widths, and heights that are powers of two from `kLeastImageHeight`,
+/// leave few.
+constexpr uint32_t kSmallImageWidth = 1024;
+constexpr uint32_t kLeastImageHeight = 256;
+/// Images that are kept for other frames.
+constexpr size_t kMostImages = 4;
 
 gpu::GraphicsPipelineDesc describeCasters(const gpu_scene::GpuScene& scene, bool masked) {
     gpu::GraphicsPipelineDesc desc;
@@ -183,8 +190,10 @@ ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene&
 void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame) {
     mPlan = std::move(plan);
     frame.constants.shadows = {0, 0};
-    if (!mPlan.shadows.run)
+    if (!mPlan.shadows.run) {
+        mImages.clear();
         return;
+    }
     if (mTexels.bytes() < mPlan.texelCount * sizeof(float)) {
         mTexels = gpu::Buffer(
             mDevice,
@@ -266,7 +275,32 @@ VkExtent2D ShadowMaps::placeMaps() {
         size.width = std::max(size.width, x);
         size.height = std::max(size.height, y + side);
     }
+    if (mDrawn.empty())
+        return {};
+    size.width = size.width > kSmallImageWidth ? limit : kSmallImageWidth;
+    size.height = std::bit_ceil(std::max(size.height, kLeastImageHeight));
     return size;
+}
+
+const gpu::Image* ShadowMaps::prepareImage(VkExtent2D size) {
+    if (size.width == 0)
+        return nullptr;
+    gpu::ImageDesc desc;
+    desc.width = size.width;
+    desc.height = size.height;
+    desc.format = kDepthFormat;
+    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    const auto found = std::find_if(mImages.begin(), mImages.end(), [&](const gpu::Image& image) {
+        return image.desc() == desc;
+    });
+    if (found != mImages.end()) {
+        std::rotate(found, found + 1, mImages.end()); // used last
+    } else {
+        if (mImages.size() == kMostImages)
+            mImages.erase(mImages.begin());
+        mImages.emplace_back(mDevice, "shadow casters", desc);
+    }
+    return &mImages.back();
 }
 
 graph::BufferHandle ShadowMaps::declare(
@@ -280,13 +314,14 @@ graph::BufferHandle ShadowMaps::declare(
     mDrawn.clear();
     if (!mPlan.shadows.run)
         return {};
-    const VkExtent2D size = placeMaps();
+    const gpu::Image* target = prepareImage(placeMaps());
     graph::BufferHandle texels =
         graph.importBuffer("shadow maps", mTexels.handle(), mTexels.bytes());
     if (mDrawn.empty())
         return texels;
-    const graph::ImageHandle image =
-        graph.createImage("shadow casters", {size.width, size.height, kDepthFormat});
+    const graph::ImageHandle image = graph.importImage(
+        "shadow casters", *target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED
+    );
 
     struct Casters {
         graph::ImageHandle depth;

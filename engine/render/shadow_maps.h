@@ -70,8 +70,11 @@ class ShadowMaps {
     };
 
     [[nodiscard]] Kept describe(const extract::PlannedMap& map) const;
-    /// Which maps have to be drawn, and where. \return the size of the image
+    /// Which maps have to be drawn, and where. \return the size of the image; 0: none has to be
     VkExtent2D placeMaps();
+    /// Null: no map has to be drawn. It is none of the graph's own images: those share their memory
+    /// by plan, and each size of this one would make another plan.
+    const gpu::Image* prepareImage(VkExtent2D size);
 
     gpu::Device& mDevice;
     extract::ShadowPlan mPlan;
@@ -79,6 +82,7 @@ class ShadowMaps {
     gpu::Buffer mTexels;
     std::vector<Kept> mKept; ///< by index of the lights' maps
     std::vector<Drawn> mDrawn;
+    std::vector<gpu::Image> mImages; ///< that maps are drawn into, the one used last at the end
 };
 
 } // namespace shutter::render
