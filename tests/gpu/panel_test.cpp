@@ -232,45 +232,6 @@ TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
 }
 
 /// Look at it: with SHUTTER_PICTURES set to a folder, what is drawn is written there.
-/// The dark grounds of the head-up display's lines: rectangles of one colour.
-std::vector<ImVec4> listGrounds(const ImDrawList& list) {
-    std::vector<ImVec4> grounds; // left, top, right, bottom
-    for (int i = 0; i + 3 < list.VtxBuffer.Size; i += 4) {
-        const ImDrawVert* corners = &list.VtxBuffer[i];
-        if (corners[0].col == IM_COL32(0, 0, 0, 150))
-            grounds.emplace_back(
-                corners[0].pos.x, corners[0].pos.y, corners[2].pos.x, corners[2].pos.y
-            );
-    }
-    return grounds;
-}
-
-TEST_F(PanelOnWindow, NoTwoLinesOfTheHeadUpDisplayOverlapHoweverNarrowTheWindow) {
-    app::Ui ui(device());
-    game::PlaySettings settings;
-    mFacts.paused = true;
-    bool isBelow = false;
-    for (const uint32_t width : {280u, 360u, 480u, 640u, 960u, 1280u}) {
-        ui.begin({}, {width, 700}, mScale, 1.0 / 30.0);
-        const game::HudSpace space = game::drawHud(mFacts, settings);
-        isBelow = isBelow || space.top > 100.0f;
-        const std::vector<ImVec4> grounds = listGrounds(*ImGui::GetBackgroundDrawList());
-        ui.end();
-        ASSERT_GE(grounds.size(), 5u);
-        // Lines of a column touch one another by their padding.
-        const float touch = ImGui::GetFontSize() * 0.5f;
-        for (size_t a = 0; a < grounds.size(); ++a)
-            for (size_t b = 0; b < a; ++b) {
-                const ImVec4& one = grounds[a];
-                const ImVec4& other = grounds[b];
-                const bool apart = one.z <= other.x || other.z <= one.x ||
-                                   one.w - touch <= other.y || other.w - touch <= one.y;
-                EXPECT_TRUE(apart) << width << ": " << a << ", " << b;
-            }
-    }
-    EXPECT_TRUE(isBelow) << "no window was narrow";
-}
-
 TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
     struct Look {
         const char* name;

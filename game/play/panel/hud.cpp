@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <imgui.h>
-#include <string>
-#include <vector>
 
 namespace shutter::game {
 
@@ -53,25 +51,21 @@ class TextColumn {
         );
         list.AddText(font, font->FontSize, from, color, text.c_str(), nullptr, mWrap);
         mPlace.y += size.y + 2.0f * pad;
-        mRight = std::max(mRight, from.x + size.x + pad);
     }
 
     void setWrap(float width) { mWrap = width; }
 
     [[nodiscard]] float y() const { return mPlace.y; }
 
-    [[nodiscard]] float right() const { return mRight; }
-
   private:
-    float mRight = 0.0f;
     ImVec2 mPlace;
     float mShare;
     float mWrap = 0.0f; ///< pixels; 0: lines are as long as they are
 };
 
 /// Values side by side on one ground, each large below its small label.
-/// \return where the row ends, x and y
-ImVec2 drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
+/// \return where the row ends, y
+float drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
     const ImFont& small = *ImGui::GetFont();
     ImFont& large = largeFont();
     const float pad = padding();
@@ -97,7 +91,7 @@ ImVec2 drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
         );
         x += std::ceil(widthOf(reading)) + gap;
     }
-    return {x - gap + pad, bottom + 2.0f * pad};
+    return bottom + 2.0f * pad;
 }
 
 std::string describeState(const PanelFacts& facts) {
@@ -115,65 +109,40 @@ std::string describeState(const PanelFacts& facts) {
     return state;
 }
 
-/// \return its lower right corner
-ImVec2 drawGame(const PanelFacts& facts) {
+void drawGame(const PanelFacts& facts) {
     float y = margin();
-    float right = 0.0f;
     const auto isReading = [](const HudLine& line) { return !line.label.empty(); };
     for (auto line = facts.hud.begin(); line != facts.hud.end();) {
         const auto end = std::find_if_not(line, facts.hud.end(), isReading);
         if (line != end) {
-            const ImVec2 corner = drawReadings({line, end}, {margin(), y});
-            right = std::max(right, corner.x);
-            y = corner.y;
+            y = drawReadings({line, end}, {margin(), y});
             line = end;
             continue;
         }
         TextColumn column({margin(), y}, 0.0f);
         column.add(line->text, line->emphasis ? kEmphasis : kText, line->emphasis);
         y = column.y();
-        right = std::max(right, column.right());
         ++line;
     }
-    if (const std::string state = describeState(facts); !state.empty()) {
-        TextColumn column({margin(), y}, 0.0f);
-        column.add(state, kEmphasis);
-        y = column.y();
-        right = std::max(right, column.right());
-    }
-    return {right, y};
+    if (const std::string state = describeState(facts); !state.empty())
+        TextColumn({margin(), y}, 0.0f).add(state, kEmphasis);
 }
 
-std::vector<std::string> describeRates(const PanelFacts& facts, const PlaySettings& settings) {
-    std::vector<std::string> lines;
+/// \return where it ends, y
+float drawRates(const PanelFacts& facts, const PlaySettings& settings) {
+    TextColumn column({ImGui::GetIO().DisplaySize.x - margin(), margin()}, 1.0f);
     const double milliseconds = facts.frameMilliseconds;
     if (milliseconds > 0.0 && std::isfinite(milliseconds))
-        lines.push_back(fmt::format("{:.1f} fps   {:.1f} ms", 1000.0 / milliseconds, milliseconds));
+        column.add(fmt::format("{:.1f} fps   {:.1f} ms", 1000.0 / milliseconds, milliseconds));
     if (facts.left && settings.split)
-        lines.push_back(
-            "left: " + describeBlurCost(settings.leftMethod, *facts.left, milliseconds)
-        );
+        column.add("left: " + describeBlurCost(settings.leftMethod, *facts.left, milliseconds));
     if (facts.right)
-        lines.push_back(
+        column.add(
             (facts.left && settings.split ? "right: " : "") +
             describeBlurCost(
                 facts.photoRays ? "truth" : settings.method, *facts.right, milliseconds
             )
         );
-    return lines;
-}
-
-/// At the right edge: beside what the game shows, or below it where the window is too narrow.
-/// \param game its lower right corner \return where it ends, y
-float drawRates(const std::vector<std::string>& lines, const ImVec2& game) {
-    const float edge = ImGui::GetIO().DisplaySize.x - margin();
-    float width = 0.0f;
-    for (const std::string& line : lines)
-        width = std::max(width, measure(*ImGui::GetFont(), line).x);
-    const bool isBeside = edge - width - padding() >= game.x;
-    TextColumn column({edge, isBeside ? margin() : game.y}, 1.0f);
-    for (const std::string& line : lines)
-        column.add(line);
     return column.y();
 }
 
@@ -284,8 +253,8 @@ HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
     const float line = ImGui::GetFontSize() + 2.0f * padding();
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     HudSpace space;
-    const ImVec2 game = drawGame(facts);
-    space.top = drawRates(describeRates(facts, settings), game) + margin();
+    drawGame(facts);
+    space.top = drawRates(facts, settings) + margin();
     float y = window.y - margin();
     if (facts.showsHint) {
         y = drawAbove(y, describeKeys(listCommonKeys()), kText);
