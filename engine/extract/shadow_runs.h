@@ -36,8 +36,8 @@ struct MoverLayer {
     const MoverLayer& layer
 );
 
-/// Most instants that the runs of a mover may have: as many as no run errs by more than
-/// kMostRunError for, and each layer is still used. 0: the mover stands still.
+/// The most instants per run for which no run errs by more than kMostRunError and each layer is
+/// still used. 0: the mover stands still.
 /// \param layers the raster instant's, then those of equal parts of the exposure
 [[nodiscard]] uint32_t findRunInstants(
     const ShadowCaster& caster,

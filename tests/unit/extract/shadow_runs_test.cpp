@@ -122,7 +122,7 @@ TEST_F(ShadowRuns, TakePointsToWhereEachInstantHasThem) {
             const shader::ShadowRun& run = runs.at(1 + instant / length);
             const dmat4& back = mover.path.instants[instant].rasterFromInstant;
             const dmat4 exact = mapToLayer(mover.caster, back, mover.toLight, mover.layerOf(run));
-            // Of the mover at the instant, and of its shadow.
+            // A point of the mover at this instant, or one in its shadow.
             const dvec3 point = dvec3(glm::inverse(back) * dvec4(mover.caster.sphere.centre, 1.0)) +
                                 uniform(0, 2) * direction() - uniform(0, 20) * mover.toLight;
             const dvec3 wanted(exact * dvec4(point, 1.0));
