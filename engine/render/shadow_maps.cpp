@@ -257,16 +257,28 @@ VkExtent2D ShadowMaps::placeMaps() {
     for (uint32_t i = 0; i < mPlan.maps.size(); ++i)
         if (i >= mPlan.lightMapCount || mKept[i] != describe(mPlan.maps[i]))
             mDrawn.push_back({i, {}});
-    // Rows of maps as they come: lights' maps before the smaller layers.
+    if (mDrawn.empty())
+        return {};
+    // Large maps, or many, need rows that are longer.
+    const uint32_t most = mDevice.limits().maxImageDimension2D;
+    uint32_t width = kImageWidth;
+    VkExtent2D size = placeInRows(width);
+    while (size.height > width && width < most)
+        size = placeInRows(width = std::min(2 * width, most));
+    size.width = size.width > kSmallImageWidth ? std::max(size.width, width) : kSmallImageWidth;
+    const uint32_t rounded = std::bit_ceil(std::max(size.height, kLeastImageHeight));
+    size.height = std::max(size.height, std::min(rounded, most));
+    return size;
+}
+
+VkExtent2D ShadowMaps::placeInRows(uint32_t width) {
+    // As they come: lights' maps before the smaller layers.
     VkExtent2D size{};
-    for (const Drawn& drawn : mDrawn)
-        size.width = std::max(size.width, mPlan.maps[drawn.map].sizePx);
-    const uint32_t limit = std::max(size.width, kImageWidth);
     uint32_t x = 0;
     uint32_t y = 0;
     for (Drawn& drawn : mDrawn) {
         const uint32_t side = mPlan.maps[drawn.map].sizePx;
-        if (x + side > limit) {
+        if (x > 0 && x + side > width) {
             x = 0;
             y = size.height;
         }
@@ -275,10 +287,6 @@ VkExtent2D ShadowMaps::placeMaps() {
         size.width = std::max(size.width, x);
         size.height = std::max(size.height, y + side);
     }
-    if (mDrawn.empty())
-        return {};
-    size.width = size.width > kSmallImageWidth ? limit : kSmallImageWidth;
-    size.height = std::bit_ceil(std::max(size.height, kLeastImageHeight));
     return size;
 }
 

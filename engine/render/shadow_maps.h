@@ -72,6 +72,8 @@ class ShadowMaps {
     [[nodiscard]] Kept describe(const extract::PlannedMap& map) const;
     /// Which maps have to be drawn, and where. \return the size of the image; 0: none has to be
     VkExtent2D placeMaps();
+    /// Places them in rows of that width, or of one map that is wider. \return what they take
+    VkExtent2D placeInRows(uint32_t width);
     /// Null: no map has to be drawn. It is none of the graph's own images: those share their memory
     /// by plan, and each size of this one would make another plan.
     const gpu::Image* prepareImage(VkExtent2D size);

@@ -21,8 +21,8 @@ SHUTTER_CONST uint kMaxRunInstants = 4u;
 /// Texels to each side of a lookup's own that its filter may read.
 SHUTTER_CONST float kShadowFilterTexels = 1.5f;
 
-/// Texels from one row of a map to the next. Maps are a power of two wide, and caches keep few lines
-/// whose addresses are such a power apart: a lookup's rows would drive one another out.
+/// Texels from one row of a map to the next. Maps are a power of two wide, and caches keep few
+/// lines whose addresses are such a power apart: a lookup's rows would drive one another out.
 SHUTTER_INLINE uint shadowRowTexels(uint sizePx) {
     return sizePx + 16u;
 }
@@ -36,14 +36,14 @@ struct ShadowMap {
     uint padding0;
 };
 
-/// One view of a light that is far away: where the light's axes (ShadowLight::axes) lie in it. Depth is
-/// linear and reversed: 1 nearest the light, 0 where there is no caster.
+/// One view of a light that is far away: where the light's axes (ShadowLight::axes) lie in it.
+/// Depth is linear and reversed: 1 nearest the light, 0 where there is no caster.
 struct ShadowCascade {
-    vec2 corner;          // x and y of the origin of eye space, texels
+    vec2 corner; // x and y of the origin of eye space, texels
     float texelsPerMetre;
-    float depthPerMetre;  // towards the light
-    float depth;          // of the origin, with its bias
-    uint firstTexel;      // ShadowMap's
+    float depthPerMetre; // towards the light
+    float depth;         // of the origin, with its bias
+    uint firstTexel;     // ShadowMap's
     uint sizePx;
     uint padding0;
 };
@@ -77,7 +77,7 @@ struct ShadowMover {
     /// Equal parts of the exposure that have a layer each, as in the middle of the part; they
     /// follow the raster instant's. 0: that one is for all.
     uint partCount;
-    uint firstRun; // counted from ShadowLight::firstRun: the raster instant's
+    uint firstRun;    // counted from ShadowLight::firstRun: the raster instant's
     uint runInstants; // of each run over the exposure, which follow it: 1, 2 or kMaxRunInstants;
                       // the last one may go on beyond the exposure. 0: there are none
     uint padding0;
@@ -106,7 +106,7 @@ struct ShadowConstants {
     uvec2 texels;   // addresses: of float[]
     uvec2 lights;   // of ShadowLight[]
     uvec2 maps;     // of ShadowMap[], a row for each map
-    uvec2 cascades; // of ShadowCascade[], likewise: a light's kind says in which of both a map's row is
+    uvec2 cascades; // of ShadowCascade[], too: the light's kind says which of the two is read
     uvec2 movers;   // of ShadowMover[]
     uvec2 instants; // of ShadowInstant[]
     uvec2 runs;     // of ShadowRun[]

@@ -201,6 +201,19 @@ TEST_F(ShadowLaw, AShadowOfWhatMovesIsTheMeanOverTheExposure) {
     EXPECT_GT(measureGain(device(), scene, 30), 25.0) << "the last run is not whole";
 }
 
+TEST_F(ShadowLaw, LargeMapsOfFourCascadesFitTheImageThatTheyAreDrawnInto) {
+    SceneBuilder scene = makeFloor({.position = {0.3, 0.6, 0.2}, .velocity = {0.5, 0, 0}});
+    const auto white = scene.addMaterial({});
+    scene.add(test::makeBox(dvec3(5.0), white), {.position = {0, 0, -400}});
+    scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
+    Stage stage(device(), scene);
+    Shot shot = makeShot(ShadowMode::Blurred);
+    shot.exposureSeconds = 1.0;
+    const auto usual = stage.render(shot);
+    shot.shadows.mapSize = 4096;
+    EXPECT_GT(image::computePsnr(usual.color, stage.render(shot).color), 40.0);
+}
+
 TEST_F(ShadowLaw, AShadowOfWhatTurnsIsNearTheMean) {
     SceneBuilder scene =
         makeFloor({.position = {2, 8, 1}, .scale = {3, 0.3, 0.3}, .angularVelocity = {0, 0.7, 0}});
