@@ -131,6 +131,7 @@ class Builder {
             else
                 addMover(layer, row, entity, other.worldFromObject[row]);
         }
+        layer.setRasterRows(rows);
         return layer.take();
     }
 

@@ -20,6 +20,9 @@ namespace shutter::math {
 struct LayerTables {
     std::vector<uint32_t> movers; ///< by row of the raster's entity table, and one for the sky
     std::vector<shader::InstantMotion> motions; ///< for each mover one per instant
+    /// By row of the raster's entity table: the same entity's row in this frame's raster, or
+    /// shader::kNoRasterRow; empty for this frame's raster itself.
+    std::vector<uint32_t> rasterRows;
     /// What stands still in the world is where the raster has it, at every instant.
     bool isStill = false;
 };
@@ -71,6 +74,9 @@ class LayerBuilder {
 
     /// \param kind shader::kDeformedMover or shader::kNoMover
     void setMover(size_t row, uint32_t kind) { mTables.movers[row] = kind; }
+
+    /// \param rows by row of the layer's entity table: the row in this frame's, or kNoRasterRow
+    void setRasterRows(std::vector<uint32_t> rows) { mTables.rasterRows = std::move(rows); }
 
     [[nodiscard]] LayerTables take() { return std::move(mTables); }
 

@@ -32,10 +32,15 @@ struct PlacedLayer {
     const math::LayerTables* tables = nullptr;
     VkDeviceSize movers = 0;
     VkDeviceSize motions = 0;
+    VkDeviceSize rasterRows = 0;
 };
 
 PlacedLayer place(Layout& layout, const math::LayerTables& tables) {
-    return {&tables, layout.add(tables.movers), layout.add(tables.motions)};
+    return {
+        &tables,
+        layout.add(tables.movers),
+        layout.add(tables.motions),
+        layout.add(tables.rasterRows)};
 }
 
 shader::LayerMotion write(gpu::Buffer& buffer, const PlacedLayer& layer) {
@@ -46,6 +51,11 @@ shader::LayerMotion write(gpu::Buffer& buffer, const PlacedLayer& layer) {
         gpu::splitAddress(buffer.address() + layer.motions),
         static_cast<uint32_t>(layer.tables->movers.size() - 1),
         layer.tables->isStill ? 1u : 0u};
+}
+
+glm::uvec2 writeRasterRows(gpu::Buffer& buffer, const PlacedLayer& layer) {
+    buffer.write(std::span<const uint32_t>(layer.tables->rasterRows), layer.rasterRows);
+    return gpu::splitAddress(buffer.address() + layer.rasterRows);
 }
 
 bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
@@ -77,10 +87,14 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
         );
     buffer.write(std::span<const float>(layers.times), times);
     head[0].raster = write(buffer, raster);
-    if (second)
+    if (second) {
         head[0].second = write(buffer, *second);
-    if (last)
+        head[0].secondRows = writeRasterRows(buffer, *second);
+    }
+    if (last) {
         head[0].last = write(buffer, *last);
+        head[0].lastRows = writeRasterRows(buffer, *last);
+    }
     head[0].times = gpu::splitAddress(buffer.address() + times);
     head[0].isPerspective = layers.isPerspective ? 1 : 0;
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);

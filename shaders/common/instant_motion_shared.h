@@ -33,6 +33,10 @@ struct InstantMotions {
     LayerMotion raster;
     LayerMotion second; // of the exposure's other end
     LayerMotion last;
+    // Addresses of uint[]: by row of that raster's entity table, the same entity's row in this
+    // frame's, or kNoRasterRow.
+    uvec2 secondRows;
+    uvec2 lastRows;
     uvec2 times;        // address of float[]: shutter time of each instant
     uint isPerspective; // 1: the camera is; 0: orthographic
     uint padding0;
@@ -46,12 +50,15 @@ SHUTTER_CONST uint kDeformedMover = 0xFFFFFFFEu;
 /// What the raster holds of it says nothing about the exposure.
 SHUTTER_CONST uint kNoMover = 0xFFFFFFFFu;
 
+/// The entity is not among this frame's rows, or it is not known which one it is.
+SHUTTER_CONST uint kNoRasterRow = 0xFFFFFFFFu;
+
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::InstantMotion) == 96);
 static_assert(sizeof(shutter::shader::LayerMotion) == 24);
-static_assert(sizeof(shutter::shader::InstantMotions) == 88);
+static_assert(sizeof(shutter::shader::InstantMotions) == 104);
 #endif
 
 #endif

@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push {
     ResolvedParams method;
 };
 
-#include "motion_blur/resolved_search.glsl"
+#include "motion_blur/resolved_hidden.glsl"
 
 #define SHUTTER_BLOCK_LIST_BINDING 16
 #include "motion_blur/block_list.glsl"
@@ -64,9 +64,12 @@ void main() {
             fromSecond += seen.layer == kSecondLayer ? 1u : 0u;
             fromLast += seen.layer == kLastLayer ? 1u : 0u;
             ++found;
-        } else if (doubt.hasBeside) {
-            color = fetchColor(kRasterLayer, doubt.beside);
-            ++guessed;
+        } else {
+            Substitute substitute = findSubstitute(search, instant);
+            if (substitute.distancePx < kFarthest) {
+                color = substitute.color;
+                ++guessed;
+            }
         }
         sum += color;
         if (kFindsEdges) ++counts[classify(seen, color, doubt)];

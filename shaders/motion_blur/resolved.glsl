@@ -18,6 +18,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Ins
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MoverTable {
     uint movers[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RowTable {
+    uint rows[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer InstantMotionTable {
     InstantMotion motions[];
 };

@@ -5,7 +5,7 @@
 #define SHUTTER_RESOLVED_RAYS_GLSL
 
 #include "common/sampling.glsl"
-#include "motion_blur/resolved_search.glsl"
+#include "motion_blur/resolved_hidden.glsl"
 
 /// Share of the samples of each class that the frame's rays are enough for, the most harmful first.
 void shareRays(out float shares[kSampleClasses]) {
@@ -42,13 +42,17 @@ LookedUp lookUpAgain(
     PixelSearch search, ivec2 pixel, uint index, float shares[kSampleClasses], inout Guesses guesses
 ) {
     Doubt doubt = kNoDoubt;
-    Seen seen = searchInstant(search, instantOf(search, index), guesses, doubt);
+    uint instant = instantOf(search, index);
+    Seen seen = searchInstant(search, instant, guesses, doubt);
     vec3 color = vec3(0.0f);
-    if (seen.isFound)
+    bool isKnown = seen.isFound;
+    if (seen.isFound) {
         color = colorOf(seen);
-    else if (doubt.hasBeside)
-        color = fetchColor(kRasterLayer, doubt.beside);
-    bool isKnown = seen.isFound || doubt.hasBeside;
+    } else {
+        Substitute substitute = findSubstitute(search, instant);
+        isKnown = substitute.distancePx < kFarthest;
+        if (isKnown) color = substitute.color;
+    }
     return LookedUp(isKnown, isTraced(pixel, index, shares[classify(seen, color, doubt)]), color);
 }
 

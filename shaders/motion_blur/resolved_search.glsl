@@ -29,17 +29,13 @@ const float kSeedlessWayPx = 2.0f;
 
 /// What a search knows besides what it found.
 struct Doubt {
-    // Beside the surface that hides the rest of the raster at this pixel, where that surface would be
-    // if it were seen: the nearest that is known of what came into sight.
-    bool hasBeside;
-    ivec2 beside; // in this frame's raster
     // Edges run through the pixel, or colours are interpolated: bounds of the colours beside.
     bool hasEdge;
     vec3 leastAcross;
     vec3 greatestAcross;
 };
 
-const Doubt kNoDoubt = Doubt(false, ivec2(0), false, vec3(kMaxColor), vec3(0.0f));
+const Doubt kNoDoubt = Doubt(false, vec3(kMaxColor), vec3(0.0f));
 
 /// Depth that surfaces are compared by.
 float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : depth; }
@@ -59,11 +55,7 @@ void addEdge(vec3 color, inout Doubt doubt) {
 }
 
 /// The entity is not where the search ended; notes where it is if it is right beside.
-void noteMiss(uint layer, uint key, vec2 at, uint hiding, inout Doubt doubt) {
-    if (layer == kRasterLayer && key == hiding && !doubt.hasBeside) {
-        doubt.hasBeside = true;
-        doubt.beside = ivec2(at);
-    }
+void noteMiss(uint layer, uint key, vec2 at, inout Doubt doubt) {
     if (!kFindsEdges) return;
     Footprint footprint = footprintOf(at);
     bvec4 matches = gatherMatches(layer, key, footprint);
@@ -103,7 +95,7 @@ struct Guesses {
 /// \return whether it was found
 bool searchRigid(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, uint hiding, inout Seen best, inout Doubt doubt
+    float spreadPx, inout Seen best, inout Doubt doubt
 ) {
     uint key = guess.key;
     vec2 at = placeOn(ray, guess.along, perspective);
@@ -112,7 +104,7 @@ bool searchRigid(
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurface(layer, texel);
         if (surface.key != key) {
-            noteMiss(layer, key, at, hiding, doubt);
+            noteMiss(layer, key, at, doubt);
             return false;
         }
         float layerDepth =
@@ -129,7 +121,7 @@ bool searchRigid(
             if (way > kArrivedPx && step_ + 1u < kSteps) continue;
             if (way > kTolerancePx || !isInside(at)) return false;
             if (ivec2(at) != texel && fetchSurface(layer, ivec2(at)).key != key) {
-                noteMiss(layer, key, at, hiding, doubt);
+                noteMiss(layer, key, at, doubt);
                 return false;
             }
         }
@@ -148,14 +140,14 @@ const uint kUnclear = 2u; // it is there, but it takes more to say what is seen
 /// \return kFound, kMissed or kUnclear
 uint searchInner(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, uint hiding, inout Seen best, inout Doubt doubt
+    float spreadPx, inout Seen best, inout Doubt doubt
 ) {
     vec2 at = placeOn(ray, guess.along, perspective);
     if (!isInside(at)) return kMissed;
     vec2 texel = floor(at);
     Probe surface = fetchSurface(layer, ivec2(texel));
     if (surface.key != guess.key) {
-        noteMiss(layer, guess.key, at, hiding, doubt);
+        noteMiss(layer, guess.key, at, doubt);
         return kMissed;
     }
     float layerDepth = depthOfKey(guess.key, surface.depth);
@@ -183,7 +175,7 @@ float alongAt(Candidate candidate, float share, bool perspective) {
 /// Looks for the place in the layer of what the pixel sees of an entity.
 /// \param guess where it was found at the instant before, if it was this entity; where it is now
 void searchDepths(
-    uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x, uint hiding,
+    uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x,
     inout Guess guess, inout Seen best, inout Doubt doubt
 ) {
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
@@ -197,13 +189,13 @@ void searchDepths(
     Guess tried =
         Guess(candidate.key, hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective));
     uint first =
-        searchInner(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt);
+        searchInner(layer, depthRow, ray, perspective, tried, way, best, doubt);
     if (first == kFound) {
         guess = tried;
         return;
     }
     if (first == kUnclear && (hasGuess || way < kSeedlessWayPx)) {
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, best, doubt)) {
             guess = tried;
             return;
         }
@@ -213,7 +205,7 @@ void searchDepths(
     for (uint seed = 0u; seed < seeds; ++seed) {
         tried.along = alongAt(candidate, float(seed) / float(seeds - 1u), perspective);
         // From near to far: the first place found is, as a rule, the one that hides the others.
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, hiding, best, doubt)) {
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, best, doubt)) {
             guess = tried;
             return;
         }
@@ -223,7 +215,7 @@ void searchDepths(
 /// By the motion vectors of this frame's raster, taken as straight.
 /// \param time shutter time since the raster instant
 void searchDeformed(
-    uint key, float time, vec2 x, uint hiding, inout Seen best, inout Doubt doubt
+    uint key, float time, vec2 x, inout Seen best, inout Doubt doubt
 ) {
     vec2 at = x;
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
@@ -231,7 +223,7 @@ void searchDeformed(
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurface(kRasterLayer, texel);
         if (surface.key != key) {
-            noteMiss(kRasterLayer, key, at, hiding, doubt);
+            noteMiss(kRasterLayer, key, at, doubt);
             return;
         }
         vec2 next = x - texelFetch(uMotionDepth, texel, 0).xy * time;
@@ -249,7 +241,6 @@ void searchDeformed(
 struct PixelSearch {
     vec2 x;
     uint tile;
-    uint hiding; // key of what this frame's raster has at the pixel
     bool perspective;
     uint looks;  // index of the first BlockLook of its block
     uint set;    // of instants
@@ -262,6 +253,38 @@ struct PixelSearch {
     Seen secondStill;
     Seen lastStill;
 };
+
+/// How much farther, as a share, a surface must be to refute a nearer one.
+const float kRefutingShare = 1.0e-3f;
+
+/// How far a place is from what its pixel was sampled at.
+float fromCentre(vec2 at) { return distance(fract(at), vec2(0.5f)); }
+
+/// Whether this frame's raster shows something farther where it would show the surface: then the pixel
+/// did not see it. Without this, a mover would be as wide as the widest of its rasters has it, by up to
+/// half a pixel at each edge.
+/// \param found in another layer
+bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
+    if (found.key == kSkyKey) return false;
+    InstantMotions motions = InstantMotionsRef(method.motions).value;
+    uint row = RowTable(isSecond(found.layer) ? motions.secondRows : motions.lastRows)
+                   .rows[found.key];
+    uint mover = findMover(pixel.raster, row);
+    if (mover == kNoMover || mover == kDeformedMover) return false;
+    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
+                               .motions[mover * method.instantCount + instant];
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return false;
+    vec3 inRaster = transformRows(
+        motion.rasterFromInstant, pictureSpace(pixel.x, found.depth, pixel.perspective)
+    );
+    if (pixel.perspective && inRaster.z < kLeastDepth) return false;
+    vec2 at = projectPicture(inRaster, pixel.perspective);
+    if (!isInside(at)) return false;
+    if (fromCentre(at) > fromCentre(found.at)) return false;
+    Probe surface = fetchSurface(kRasterLayer, ivec2(at));
+    return surface.key != row &&
+           behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
+}
 
 /// \param slots a bit for each candidate of the tile that is looked for
 void searchLayer(
@@ -276,19 +299,23 @@ void searchLayer(
         if (!kFindsEdges && best.isFound &&
             (candidate.key == kSkyKey || uintBitsToFloat(candidate.nearest) > best.depth))
             break;
+        Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
         if (candidate.mover == kDeformedMover)
             searchDeformed(
                 candidate.key,
                 timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime, pixel.x,
-                pixel.hiding, best, doubt
+                found, doubt
             );
         else
             searchDepths(
                 index, candidate,
                 InstantMotionTable(layer.motions)
                     .motions[candidate.mover * method.instantCount + instant],
-                pixel.perspective, pixel.x, pixel.hiding, guess, best, doubt
+                pixel.perspective, pixel.x, guess, found, doubt
             );
+        if (!found.isFound) continue;
+        if (index != kRasterLayer && isRefuted(pixel, instant, found)) continue;
+        keepNearer(best, found);
     }
 }
 
@@ -321,7 +348,6 @@ PixelSearch beginSearch(ivec2 pixel) {
     search.second = getLayer(motions, kSecondLayer);
     search.last = getLayer(motions, kLastLayer);
     search.still = findStill(kRasterLayer, search.raster, pixel);
-    search.hiding = search.still.key;
     search.secondStill = Seen(false, kSecondLayer, kNoKey, search.x, 0.0f, false);
     if (kHasSecond && !search.still.isFound)
         search.secondStill = findStill(kSecondLayer, search.second, pixel);
@@ -334,7 +360,7 @@ PixelSearch beginSearch(ivec2 pixel) {
 /// What is known before the first instant.
 Guesses beginGuesses(PixelSearch pixel) {
     return Guesses(
-        Guess(pixel.hiding, alongOf(depthOfKey(pixel.hiding, pixel.still.depth), pixel.perspective)),
+        Guess(pixel.still.key, alongOf(depthOfKey(pixel.still.key, pixel.still.depth), pixel.perspective)),
         Guess(kNoKey, 0.0f), Guess(kNoKey, 0.0f)
     );
 }

@@ -30,6 +30,27 @@ class Resolved : public test::GpuTest {
         return scene;
     }
 
+    /// A camera that turns about a fence of narrow bars, so that what is behind them runs past.
+    static test::SceneBuilder makeFence(bool hasWall) {
+        test::SceneBuilder scene;
+        scene.setPerspective(0.785);
+        scene.moveCamera(
+            {.position = {0, 0, 4},
+             .velocity = {10.0, 0.0, 0.0},
+             .angularVelocity = {0.0, 1.0, 0.0}}
+        );
+        const scene::AssetIndex green = scene.addColor({0.0f, 1.0f, 0.0f});
+        const scene::AssetIndex bar = scene.addMesh({test::makeQuad(0.25, 20, green)});
+        for (int i = -14; i <= 14; ++i)
+            scene.add(bar, {.position = {i * 0.5, 0, -6}});
+        if (hasWall)
+            scene.add(
+                test::makeQuad(200, 200, scene.addColor({0.1f, 0.1f, 0.6f})),
+                {.position = {0, 0, -30}}
+            );
+        return scene;
+    }
+
     static test::Shot shotOf(std::string_view method) {
         return {
             .method = method,
@@ -38,6 +59,16 @@ class Resolved : public test::GpuTest {
             .exposureSeconds = 1.0 / 48.0,
             .phase = scene::ShutterPhase::End,
             .instants = 15};
+    }
+
+    static test::Shot fenceShotOf(std::string_view method) {
+        test::Shot shot = shotOf(method);
+        shot.width = 320;
+        shot.height = 180;
+        shot.exposureSeconds = 1.0 / 60.0;
+        shot.phase = scene::ShutterPhase::Centre;
+        shot.instants = method == "accumulate" ? 64 : 15;
+        return shot;
     }
 
     /// The gather with the paper's numbers: how hard a shot is.
@@ -64,6 +95,38 @@ TEST_F(Resolved, SoItIsUnderACameraThatMovesAndTurns) {
         makeScene({.velocity = {1.0, 0.3, -2.0}, .angularVelocity = {0.2, 1.5, 0.6}});
     EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 32.0);
     EXPECT_LT(compareWithTruth(scene, paperGather()), 31.0) << "the shot is hard";
+}
+
+TEST_F(Resolved, ABackgroundThatBarsHideKeepsItsOwnColor) {
+    for (const bool hasWall : {false, true}) {
+        const test::SceneBuilder scene = makeFence(hasWall);
+        const auto truth = test::renderOnce(device(), scene, fenceShotOf("accumulate")).color;
+        const auto psnrOf = [&](const test::Shot& shot) {
+            return image::computePsnr(test::renderOnce(device(), scene, shot).color, truth);
+        };
+        const double resolved = psnrOf(fenceShotOf("resolved"));
+        for (const char* method : {"sharp", "own_velocity", "gather", "guertin2014"})
+            EXPECT_GT(resolved, psnrOf(fenceShotOf(method))) << method << ", wall " << hasWall;
+        test::Shot alone = fenceShotOf("resolved");
+        alone.settings.history = false;
+        EXPECT_GT(psnrOf(alone), psnrOf(fenceShotOf("gather"))) << "wall " << hasWall;
+    }
+}
+
+// Each raster knows an edge to half a pixel. What any of them shows must not count as there: movers
+// would be too wide, and the picture would have too much of their colour.
+TEST_F(Resolved, EdgesInTwoRastersMakeNoMoverWider) {
+    const test::SceneBuilder scene = makeFence(false);
+    const auto greenOf = [&](const test::Shot& shot) {
+        const image::Image picture = test::renderOnce(device(), scene, shot).color;
+        double sum = 0.0;
+        for (uint32_t y = 0; y < picture.height; ++y)
+            for (uint32_t x = 0; x < picture.width; ++x)
+                sum += picture.at(x, y, 1);
+        return sum / (picture.width * picture.height);
+    };
+    const double expected = greenOf(fenceShotOf("accumulate"));
+    EXPECT_NEAR(greenOf(fenceShotOf("resolved")) / expected, 1.0, 0.01);
 }
 
 TEST_F(Resolved, SoIsWhatPassesTheCamerasPlane) {

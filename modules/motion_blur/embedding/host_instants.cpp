@@ -211,7 +211,7 @@ class Builder {
         std::vector<const HostRaster::Mover*> moverThen(last.rowCount, nullptr);
         for (const HostRaster::Mover& mover : last.movers)
             moverThen[mover.row] = &mover;
-        const std::vector<uint32_t> rows = findRows(last);
+        std::vector<uint32_t> rows = findRows(last);
         for (uint32_t row = 0; row < last.rowCount; ++row) {
             const HostRaster::Mover* const then = moverThen[row];
             const uint32_t moverNow = rows[row] == kNone ? kNone : mMoverOfRow[rows[row]];
@@ -223,6 +223,7 @@ class Builder {
             else
                 addMover(layer, row, *mWays[moverNow], then->worldFromObject);
         }
+        layer.setRasterRows(std::move(rows));
         return layer.take();
     }
 

@@ -209,6 +209,7 @@ TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {
     const Seen then = project(second, corner, 1.0);
     setTime(1.0);
     expectMaps(*tables.last, 1, then, second, corner);
+    EXPECT_EQ(tables.last->rasterRows, (std::vector<uint32_t>{shader::kNoRasterRow, 0}));
 }
 
 TEST_F(InstantTablesTest, WhatWasTeleportedHasNoPast) {

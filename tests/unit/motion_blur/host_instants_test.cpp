@@ -245,6 +245,8 @@ TEST_F(HostInstantsTest, FewerRowsThanBeforeLeaveTheOthersOut) {
     EXPECT_EQ(found.movers.at(1), shader::kWorldMover);
     EXPECT_EQ(found.movers.at(2), shader::kNoMover);
     EXPECT_EQ(found.movers.at(kRows), shader::kSkyMover);
+    EXPECT_EQ(found.rasterRows.at(1), 1u);
+    EXPECT_EQ(found.rasterRows.at(2), shader::kNoRasterRow);
 }
 
 } // namespace

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The colour of a sample that no layer holds, because this frame's raster shows something nearer there.
+// Whoever includes this has the push constants `params` and `method`.
+#ifndef SHUTTER_RESOLVED_HIDDEN_GLSL
+#define SHUTTER_RESOLVED_HIDDEN_GLSL
+
+#include "motion_blur/resolved_search.glsl"
+
+/// Steps from a hidden place to where the surface is seen: of a pixel each, unless the way is longer.
+const uint kWalkSteps = 32u;
+/// In place of a key: whatever is static before a static camera, which is no candidate.
+const uint kStaticKey = kNoKey;
+
+/// The color that stands for a hidden surface's.
+struct Substitute {
+    float distancePx; // from the hidden place to the nearest pixel of the surface; kFarthest: none
+    vec3 color;
+};
+
+/// Where the raster shows the part of a surface that the pixel would see at the instant, going by what
+/// it shows of that surface at `at`. The pixel does not see the surface then: it ends on the way there.
+vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
+    uint mover = findMover(pixel.raster, hiding.key);
+    if (mover == kNoMover || isStillMover(pixel.raster, mover)) return pixel.x;
+    if (mover == kDeformedMover) {
+        float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
+        return pixel.x - texelFetch(uMotionDepth, ivec2(at), 0).xy * time;
+    }
+    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
+                               .motions[mover * method.instantCount + instant];
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return pixel.x;
+    float depth = dot(
+        motion.instantFromRaster[2],
+        pictureSpace(at, depthOfKey(hiding.key, hiding.depth), pixel.perspective)
+    );
+    PixelRay ray = findRay(motion.rasterFromInstant, pixel.x, pixel.perspective);
+    return placeOn(ray, alongOf(depth, pixel.perspective), pixel.perspective);
+}
+
+bool showsHidden(PixelSearch pixel, uint key, Probe hiding, vec2 at) {
+    if (!isInside(at)) return false;
+    Probe surface = fetchSurface(kRasterLayer, ivec2(at));
+    if (key != kStaticKey) return surface.key == key;
+    return isStillMover(pixel.raster, findMover(pixel.raster, surface.key)) &&
+           behindSky(surface.key, surface.depth) > hiding.depth;
+}
+
+/// Walks from where a surface is hidden to where what hides it ends, up to the first pixel that shows
+/// the surface. Its color and the one at the end of the way are averaged: each of them is another place's,
+/// and the mean of two such guesses errs less than either.
+/// \param key of the hidden surface, or kStaticKey
+void walkToSeen(
+    PixelSearch pixel, uint instant, uint key, vec2 from, Probe hiding, inout Substitute best
+) {
+    vec2 end = placeOfHiding(pixel, instant, from, hiding);
+    float way = distance(from, end);
+    float steps = min(ceil(way), float(kWalkSteps));
+    for (float step_ = 1.0f; step_ <= steps; ++step_) {
+        float share = step_ / steps;
+        vec2 at = mix(from, end, share);
+        if (way * share >= best.distancePx || !isInside(at)) return;
+        if (!showsHidden(pixel, key, hiding, at)) continue;
+        vec3 color = fetchColor(kRasterLayer, ivec2(at));
+        if (showsHidden(pixel, key, hiding, end))
+            color = 0.5f * (color + fetchColor(kRasterLayer, ivec2(end)));
+        best = Substitute(way * share, color);
+        return;
+    }
+}
+
+/// Depth in the raster of the farthest that the tile may see of an entity.
+float farthestInRaster(Candidate candidate, PixelRay ray, bool perspective) {
+    if (candidate.key == kSkyKey) return kFarthest;
+    float along = alongAt(candidate, 1.0f, perspective);
+    float depth = (ray.base + ray.slope * along).z;
+    return perspective ? depth / along : depth;
+}
+
+/// Considers an entity that the search did not find: it may be hidden where the pixel would see it. If
+/// what the raster shows there is farther, the entity is not there at all.
+void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Substitute best) {
+    InstantMotion motion = InstantMotionTable(pixel.raster.motions)
+                               .motions[candidate.mover * method.instantCount + instant];
+    if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
+    PixelRay ray = findRay(motion.rasterFromInstant, pixel.x, pixel.perspective);
+    vec2 at = placeOn(ray, alongAt(candidate, 0.5f, pixel.perspective), pixel.perspective);
+    if (!isInside(at)) return;
+    Probe surface = fetchSurface(kRasterLayer, ivec2(at));
+    bool isHidden = surface.key != candidate.key &&
+                    behindSky(surface.key, surface.depth) <
+                        farthestInRaster(candidate, ray, pixel.perspective);
+    if (isHidden) walkToSeen(pixel, instant, candidate.key, at, surface, best);
+}
+
+/// Looks for a color that stands for what the pixel saw at an instant where no layer holds it: of the
+/// surfaces that this frame's raster hides there, the one that comes out from behind what hides it
+/// nearest to there.
+Substitute findSubstitute(PixelSearch pixel, uint instant) {
+    Substitute best = Substitute(kFarthest, vec3(0.0f));
+    if (pixel.raster.isStill != 0u) {
+        Probe surface = fetchSurface(kRasterLayer, ivec2(pixel.x));
+        walkToSeen(pixel, instant, kStaticKey, pixel.x, surface, best);
+    }
+    uint slots = getPart(kRasterLayer, pixel.tile, partOf(instant, pixel.partsPerInstant));
+    for (; slots != 0u; slots &= slots - 1u) {
+        Candidate candidate = getCandidate(kRasterLayer, pixel.tile, uint(findLSB(slots)));
+        if (candidate.mover != kDeformedMover) addHidden(pixel, instant, candidate, best);
+    }
+    return best;
+}
+
+#endif
