@@ -32,7 +32,7 @@ const float kFetchMarginPx = 1.0f;
 /// Most blocks of the raster, across and down, that a block may look at.
 const int kMostBlocksAcross = 4;
 const float kFarAway = 1.0e4f;
-const uint kLeastInstants = 3u;
+const uint kLeastInstants = 6u;
 /// Way from one instant to the next from which pixels have instants of their own, and how much more it
 /// takes until these spread over all of it, pixels. Copies of an edge that lie closer are not seen, and
 /// noise would only be an error. Above 1/2, or blocks with noise would take fewer instants than there
