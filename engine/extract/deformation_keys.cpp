@@ -117,13 +117,14 @@ struct Sweep {
 std::optional<Sweep> sweep(const DeformationAt& deformAt, const PoseReach& reach) {
     Sweep result;
     const Deformation first = deformAt(0.0);
+    const double rounding = measureRounding(scene::computeDeformedBounds(reach, first));
     for (uint32_t i = 0; i <= kProbeIntervals; ++i) {
         const double odd = std::min((i + kOddPlace) / kProbeIntervals, 1.0);
         for (const double s : {double(i) / kProbeIntervals, odd}) {
             const Deformation probe = deformAt(s);
             if (!isFinite(probe, reach))
                 return std::nullopt;
-            result.changes = result.changes || !isSame(probe, first);
+            result.changes = result.changes || !isNear(probe, first, reach, rounding);
             result.bounds.add(scene::computeDeformedBounds(reach, probe));
         }
     }

@@ -12,13 +12,18 @@
 namespace shutter::extract {
 
 struct DeformedEntity {
-    uint32_t row = 0;  ///< of the entity table
-    uint32_t mesh = 0; ///< index into Assets::meshes
+    uint32_t row = 0;                        ///< of the entity table
+    uint32_t mesh = 0;                       ///< index into Assets::meshes
+    const scene::PoseReach* reach = nullptr; ///< of the mesh: SceneLayout's, which outlives this
     scene::Deformation open;
     scene::Deformation raster;
     scene::Deformation close;
-    math::Bounds bounds;   ///< raster instant, object space: holds every vertex
-    bool changes = false;  ///< open, raster instant and close are not one shape
+    math::Bounds bounds;  ///< raster instant, object space: holds every vertex
+    bool changes = false; ///< open, raster instant and close are not one shape
+    /// A joint that all of the shape moves with, where it changes as a rigid body does that turns:
+    /// at each of the three times the joint's matrix takes it there. Nothing: it deforms, or is one
+    /// shape.
+    std::optional<uint32_t> carrier;
     bool mirrored = false; ///< the joints turn the winding round
 };
 
@@ -29,8 +34,9 @@ struct DeformationTimes {
     double close = 1.0;
 };
 
-/// Without `row` and `mesh`. Nothing where the entity cannot be drawn: a joint that deforms
-/// something, or a weight, is not finite at one of the times, or there are no vertices.
+/// Without `row` and `mesh`; `reach` must outlive it. Nothing where the entity cannot be drawn: a
+/// joint that deforms something, or a weight, is not finite at one of the times, or there are no
+/// vertices.
 [[nodiscard]] std::optional<DeformedEntity> poseEntity(
     const scene::ExposureMotion& motion,
     ecs::Entity entity,
@@ -45,5 +51,27 @@ struct DeformationTimes {
 [[nodiscard]] bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach);
 
 [[nodiscard]] bool isSame(const scene::Deformation& a, const scene::Deformation& b);
+
+/// Most that two poses of one shape differ by rounding alone, metres: what single precision, in
+/// which vertices are kept, does not hold.
+/// \param bounds of the shape, object space
+[[nodiscard]] double measureRounding(const math::Bounds& bounds);
+
+/// No vertex is farther from one place to the other than `tolerance`, metres.
+[[nodiscard]] bool isNear(
+    const scene::Deformation& a,
+    const scene::Deformation& b,
+    const scene::PoseReach& reach,
+    double tolerance
+);
+
+/// A joint whose matrix takes the whole shape from the first pose to the second, each vertex to
+/// within `tolerance`, metres; nothing: it deforms.
+[[nodiscard]] std::optional<uint32_t> findCarrier(
+    const scene::Deformation& from,
+    const scene::Deformation& to,
+    const scene::PoseReach& reach,
+    double tolerance
+);
 
 } // namespace shutter::extract

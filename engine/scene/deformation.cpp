@@ -84,6 +84,14 @@ Deformation deformationAt(const World& world, ecs::Entity entity, double seconds
     return result;
 }
 
+dmat4 objectFromBind(const World& world, ecs::Entity entity, size_t joint, double seconds) {
+    const auto& skinned = world.registry.get<Skinned>(entity);
+    const dvec3 origin(worldFromObject(world, entity, seconds)[3]);
+    dmat4 objectFromJoint = worldFromEntity(world, skinned.joints.at(joint), seconds);
+    objectFromJoint[3] -= math::dvec4(origin, 0.0);
+    return objectFromJoint * world.assets.skins.at(skinned.skin).jointFromBind.at(joint);
+}
+
 std::vector<double> sampleWeights(const WeightChannel& channel, double seconds) {
     const size_t keyCount = channel.times.size();
     const size_t targets = channel.targetCount;

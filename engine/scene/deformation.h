@@ -7,6 +7,7 @@
 #include "engine/scene/assets.h"
 #include "engine/scene/world.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace shutter::scene {
@@ -35,6 +36,10 @@ struct Deformation {
 
 /// \param seconds finite, any time, in any order
 [[nodiscard]] Deformation deformationAt(const World& world, ecs::Entity entity, double seconds);
+
+/// Deformation::objectFromBind of one joint of a skinned entity.
+[[nodiscard]] math::dmat4
+objectFromBind(const World& world, ecs::Entity entity, size_t joint, double seconds);
 
 /// The channel's weights at `seconds`, clamped to its keys; targetCount values.
 [[nodiscard]] std::vector<double> sampleWeights(const WeightChannel& channel, double seconds);

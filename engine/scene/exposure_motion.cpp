@@ -201,6 +201,12 @@ Deformation ExposureMotion::deformationAt(ecs::Entity entity, double s) const {
     );
 }
 
+dmat4 ExposureMotion::objectFromBind(ecs::Entity entity, size_t joint, double s) const {
+    return scene::objectFromBind(
+        mWorld, entity, joint, objectSeconds(entity, secondsAt(s), screenScaleOf(entity))
+    );
+}
+
 bool ExposureMotion::mayMove(ecs::Entity entity) const {
     return mExposure.shutter.objectScale != 0.0 && scene::mayMove(mWorld, entity) &&
            !isHeld(entity);

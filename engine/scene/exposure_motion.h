@@ -38,6 +38,8 @@ class ExposureMotion {
     /// its.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
+    /// Deformation::objectFromBind of one joint of a skinned entity.
+    [[nodiscard]] math::dmat4 objectFromBind(ecs::Entity entity, size_t joint, double s) const;
     /// From the space of the camera's entity; may hold scale.
     [[nodiscard]] math::dmat4 worldFromCamera(double s) const;
     /// Vertical field of view of the camera, radians; orthographic cameras have none.

@@ -143,6 +143,62 @@ TEST_F(DeformedEntities, AChangeOfShapeIsMotion) {
     EXPECT_EQ(frame.deformed[1].raster.morphWeights.at(0), 0.75);
 }
 
+TEST_F(DeformedEntities, AHeldSkeletonThatIsCarriedIsOneShape) {
+    for (const double away : {0.0, 0.3, 1.0e4, 1.0e6}) {
+        const ecs::Entity root = addJoint(at({away, -3.0 * away, -5.0}));
+        world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
+        const ecs::Entity above = addJoint(
+            {.translation = {0.1, 0.2, 0.3}, .rotation = glm::angleAxis(0.7, dvec3(0.6, 0, 0.8))}
+        );
+        world.registry.add(above, scene::Parent{root});
+        addSkinned(root, above);
+        const ExtractedFrame frame = extract();
+        EXPECT_FALSE(frame.deformed.back().changes) << away;
+        EXPECT_TRUE(frame.moves);
+    }
+}
+
+TEST_F(DeformedEntities, ASmallBendIsAChangeOfShape) {
+    const ecs::Entity above = addJoint(at({0, 0, -5}));
+    world.registry.add(above, scene::AngularVelocity{{0.0, 0.0, 1.0e-6}});
+    addSkinned(addJoint(at({0, 0, -5})), above);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.deformed.at(0).changes);
+    EXPECT_FALSE(frame.deformed[0].carrier) << "a body in two pieces";
+}
+
+TEST_F(DeformedEntities, AHeldSkeletonThatTurnsIsCarriedByAJoint) {
+    const ecs::Entity root = addJoint(at({1.0e4, 0, -5}));
+    world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity above = addJoint({.translation = {0.1, 0.2, 0.3}, .scale = {1.0, 0.5, -2.0}});
+    world.registry.add(above, scene::Parent{root});
+    addSkinned(root, above);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.deformed.at(0).changes) << "in the world's axes";
+    EXPECT_TRUE(frame.deformed[0].carrier);
+}
+
+TEST_F(DeformedEntities, AJointOfScaleZeroCarriesNothing) {
+    const ecs::Entity root = addJoint({.translation = {0, 0, -5}, .scale = dvec3(0.0)});
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity above = addJoint(at({0, 0, -5}));
+    addSkinned(root, above);
+    EXPECT_FALSE(extract().deformed.at(0).carrier) << "one joint stands, the other is a point";
+    world.registry.get<scene::LocalTransform>(above).transform.scale = dvec3(0.0);
+    EXPECT_FALSE(extract().deformed.at(0).carrier) << "all is a point";
+}
+
+TEST_F(DeformedEntities, AHeldSkeletonWhoseWeightsChangeDeforms) {
+    const ecs::Entity root = addJoint(at({0, 0, -5}));
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity entity = addSkinned(root, root);
+    EXPECT_TRUE(extract().deformed.at(0).carrier);
+    const ecs::Entity other = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    world.registry.add(entity, scene::MorphWeights(world.registry.get<scene::MorphWeights>(other)));
+    EXPECT_FALSE(extract().deformed.at(0).carrier);
+}
+
 TEST_F(DeformedEntities, OneInstantHasOneShape) {
     addMorphed({0, 0, -5}, 0.0f, 1.0f);
     request.instant = 0.25;
