@@ -7,7 +7,9 @@
 #include "engine/scene/history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace shutter::extract {
@@ -17,6 +19,15 @@ namespace {
 using math::dmat4;
 using math::LayerBuilder;
 using math::LayerTables;
+
+/// Shutter times that a shape's way is drawn through.
+constexpr std::array kWayTimes{0.0, 0.5, 1.0};
+
+/// As many joints and targets.
+bool hasSameParts(const scene::Deformation& a, const scene::Deformation& b) {
+    return a.objectFromBind.size() == b.objectFromBind.size() &&
+           a.morphWeights.size() == b.morphWeights.size();
+}
 
 class Builder {
   public:
@@ -36,6 +47,9 @@ class Builder {
         for (const double s : mTimes)
             mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
         mRasterPicture = pictureFromWorldAt(mWorld, mView, mMotion, view.exposure.rasterTime);
+        mShapeOfRow.assign(mFrame.worldFromObject.size(), kNoRow);
+        for (uint32_t i = 0; i < mFrame.deformed.size(); ++i)
+            mShapeOfRow[mFrame.deformed[i].row] = i;
     }
 
     InstantTables run(const RasterRecord* last, const InstantFrame* second) {
@@ -43,11 +57,13 @@ class Builder {
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
         tables.record = makeRasterRecord(mView, mFrame, mView.exposure.raster, mRasterPicture);
-        tables.raster = describeRaster();
+        tables.raster = describeRaster(tables.rasterWays);
         if (last && mayUse(*last))
-            tables.last = describeLast(*last, tables.record);
+            tables.last = describeLast(*last, tables.record, tables.lastWays);
         if (second)
-            tables.second = describeSecond(makeSecondRecord(*second), tables.record);
+            tables.second =
+                describeSecond(makeSecondRecord(*second), tables.record, tables.secondWays);
+        tables.middles = poseMiddles(tables);
         return tables;
     }
 
@@ -70,7 +86,67 @@ class Builder {
         });
     }
 
-    LayerTables describeRaster() const {
+    /// A skin that moves as one body: its place is a joint's.
+    /// \param worldFromJoint when the layer was drawn
+    void addCarried(
+        LayerBuilder& layer,
+        size_t row,
+        ecs::Entity entity,
+        uint32_t joint,
+        const dmat4& worldFromJoint
+    ) const {
+        layer.addMover(row, worldFromJoint, [&](size_t instant) {
+            return mMotion.worldFromObject(entity, mTimes[instant]) *
+                   mMotion.objectFromBind(entity, joint, mTimes[instant]);
+        });
+    }
+
+    /// What it takes to draw where an entity that deforms goes.
+    /// \param pose index of its pose when the layer was drawn
+    ShapeWay makeWay(
+        uint32_t row,
+        uint32_t shape,
+        uint32_t pose,
+        const math::mat4& clipFromObject,
+        const dmat4& pictureFromObject
+    ) {
+        const DeformedEntity& now = mFrame.deformed[shape];
+        const ecs::Entity entity = mFrame.entityHandles[now.row];
+        ExposurePlaces places;
+        for (size_t i = 0; i < places.size(); ++i)
+            places[i] = mMotion.worldFromObject(entity, kWayTimes[i]);
+        if (!mWayPictures) {
+            mWayPictures.emplace();
+            for (size_t i = 0; i < kWayTimes.size(); ++i)
+                (*mWayPictures)[i] = pictureFromWorldAt(mWorld, mView, mMotion, kWayTimes[i]);
+        }
+        const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
+        return {
+            row,
+            shape,
+            now.mesh,
+            pose,
+            makeShapeWayRow(clipFromObject, pictureFromObject, *mWayPictures, places, perspective)};
+    }
+
+    std::vector<scene::Deformation> poseMiddles(const InstantTables& tables) const {
+        std::vector<scene::Deformation> middles(mFrame.deformed.size());
+        for (const auto* ways : {&tables.rasterWays, &tables.secondWays, &tables.lastWays})
+            for (const ShapeWay& way : *ways) {
+                scene::Deformation& middle = middles[way.shape];
+                const DeformedEntity& shape = mFrame.deformed[way.shape];
+                const bool isPosed = !middle.objectFromBind.empty() || !middle.morphWeights.empty();
+                if (!shape.changes || isPosed)
+                    continue;
+                middle = mMotion.deformationAt(mFrame.entityHandles[shape.row], kWayTimes[1]);
+                // A shape that is nowhere half way goes straight.
+                if (!isFinite(middle, *shape.reach))
+                    middle = shape.open;
+            }
+        return middles;
+    }
+
+    LayerTables describeRaster(std::vector<ShapeWay>& ways) {
         const size_t rows = mFrame.worldFromObject.size();
         LayerBuilder layer = begin(mRasterPicture, rows);
         for (const uint32_t row : mFrame.movingRows) {
@@ -78,9 +154,24 @@ class Builder {
             if (mMotion.mayObjectMove(entity))
                 addMover(layer, row, entity, mFrame.worldFromObject[row]);
         }
-        for (const DeformedEntity& one : mFrame.deformed)
-            if (one.changes)
-                layer.setMover(one.row, shader::kDeformedMover);
+        for (uint32_t i = 0; i < mFrame.deformed.size(); ++i) {
+            const DeformedEntity& one = mFrame.deformed[i];
+            const uint32_t row = one.row;
+            if (one.carrier) {
+                const dmat4& joint = one.raster.objectFromBind[*one.carrier];
+                const ecs::Entity entity = mFrame.entityHandles[row];
+                addCarried(layer, row, entity, *one.carrier, mFrame.worldFromObject[row] * joint);
+            } else if (one.changes) {
+                layer.setMover(row, shader::kDeformedMover);
+                ways.push_back(makeWay(
+                    row,
+                    i,
+                    i,
+                    mFrame.entities[row].clipFromObjectRaster,
+                    mRasterPicture * mFrame.worldFromObject[row]
+                ));
+            }
+        }
         return layer.take();
     }
 
@@ -92,36 +183,96 @@ class Builder {
                showsTheSame(mWorld, mView, mMotion, last);
     }
 
-    LayerTables describeLast(const RasterRecord& last, const RasterRecord& now) const {
+    LayerTables
+    describeLast(const RasterRecord& last, const RasterRecord& now, std::vector<ShapeWay>& ways) {
         const scene::TimeSpan span = spanSince(last, mView.exposure);
-        return describeOther(last, now, [&](ecs::Entity entity) {
-            return scene::hasNoPast(mWorld, entity, span);
+        return describeOther(last, now, ways, [&](ecs::Entity entity) {
+            const auto* skinned = mWorld.registry.find<scene::Skinned>(entity);
+            return scene::hasNoPast(mWorld, entity, span) ||
+                   (skinned != nullptr &&
+                    std::any_of(
+                        skinned->joints.begin(),
+                        skinned->joints.end(),
+                        [&](ecs::Entity joint) { return scene::hasNoPast(mWorld, joint, span); }
+                    ));
         });
     }
 
     /// What has no past stands still during the exposure, and is in both of its rasters.
-    LayerTables describeSecond(const RasterRecord& second, const RasterRecord& now) const {
-        return describeOther(second, now, [](ecs::Entity) { return false; });
+    LayerTables describeSecond(
+        const RasterRecord& second, const RasterRecord& now, std::vector<ShapeWay>& ways
+    ) {
+        return describeOther(second, now, ways, [](ecs::Entity) { return false; });
+    }
+
+    /// An entity that has, or had, a shape.
+    /// \return false: it has and had the same one, and is like any other
+    template <class IsUnknown>
+    bool addShaped(
+        LayerBuilder& layer,
+        const RasterRecord& other,
+        uint32_t pose,
+        uint32_t shape,
+        std::vector<ShapeWay>& ways,
+        const IsUnknown& isUnknown
+    ) {
+        const RasterShape& then = other.shapes[pose];
+        const DeformedEntity& now = mFrame.deformed[shape];
+        const ecs::Entity entity = mFrame.entityHandles[now.row];
+        if (then.mesh != now.mesh || !hasSameParts(then.pose, now.raster)) {
+            layer.setMover(then.row, shader::kNoMover);
+            return true;
+        }
+        const double rounding = measureRounding(now.bounds);
+        if (!now.changes && isNear(then.pose, now.raster, *now.reach, rounding))
+            return false;
+        if (isUnknown(entity)) {
+            layer.setMover(then.row, shader::kNoMover);
+            return true;
+        }
+        const dmat4& worldFromObject = other.worldFromObject[then.row];
+        const auto carrier = !now.changes || now.carrier
+                                 ? findCarrier(then.pose, now.raster, *now.reach, rounding)
+                                 : std::nullopt;
+        if (carrier) {
+            const dmat4 joint = worldFromObject * then.pose.objectFromBind[*carrier];
+            addCarried(layer, then.row, entity, *carrier, joint);
+            return true;
+        }
+        layer.setMover(then.row, shader::kDeformedMover);
+        ways.push_back(makeWay(
+            then.row, shape, pose, then.clipFromObject, other.pictureFromWorld * worldFromObject
+        ));
+        return true;
     }
 
     /// A raster that is not the frame's own.
     /// \param isUnknown (ecs::Entity) -> bool: where it was does not say where it is
     template <class IsUnknown>
     LayerTables describeOther(
-        const RasterRecord& other, const RasterRecord& now, const IsUnknown& isUnknown
-    ) const {
+        const RasterRecord& other,
+        const RasterRecord& now,
+        std::vector<ShapeWay>& ways,
+        const IsUnknown& isUnknown
+    ) {
         const size_t count = other.entities.size();
         LayerBuilder layer = begin(other.pictureFromWorld, count);
         const std::vector<uint32_t> rows = findRows(other, now.entities);
         std::vector<bool> mayMove(now.entities.size(), false);
         for (const uint32_t row : mFrame.movingRows)
             mayMove[row] = true;
+        std::vector<uint32_t> poseOfRow(count, kNoRow);
+        for (uint32_t i = 0; i < other.shapes.size(); ++i)
+            poseOfRow[other.shapes[i].row] = i;
         for (size_t row = 0; row < count; ++row) {
             const uint32_t current = rows[row];
-            if (current == kNoRow || other.deforms[row] || now.deforms[current]) {
+            const uint32_t shape = current == kNoRow ? kNoRow : mShapeOfRow[current];
+            if (current == kNoRow || (shape == kNoRow) != (poseOfRow[row] == kNoRow)) {
                 layer.setMover(row, shader::kNoMover);
                 continue;
             }
+            if (shape != kNoRow && addShaped(layer, other, poseOfRow[row], shape, ways, isUnknown))
+                continue;
             const bool wasMoved = other.worldFromObject[row] != now.worldFromObject[current];
             const ecs::Entity entity = other.entities[row];
             if (!wasMoved && !(mayMove[current] && mMotion.mayObjectMove(entity)))
@@ -143,6 +294,8 @@ class Builder {
     std::vector<double> mTimes;
     std::vector<dmat4> mPictures; ///< one per instant
     dmat4 mRasterPicture{1.0};
+    std::vector<uint32_t> mShapeOfRow; ///< index into ExtractedFrame::deformed, or kNoRow
+    std::optional<ExposurePictures> mWayPictures; ///< at kWayTimes
 };
 
 } // namespace

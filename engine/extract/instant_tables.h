@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Where the surfaces that a raster image holds are seen at other instants of the exposure, on the
 // CPU: of this frame's rasters and of the last one's. Exact for whatever moves rigidly, along any
-// path and before any camera; what deforms is left to motion vectors.
+// path and before any camera; of what deforms, what it takes to draw where it goes.
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
 #include "engine/extract/raster_record.h"
+#include "engine/extract/shape_ways.h"
 #include "engine/math/layer_tables.h"
 #include "engine/math/math.h"
 #include "engine/scene/world.h"
@@ -17,6 +18,13 @@ namespace shutter::extract {
 
 struct InstantTables : math::InstantLayers {
     RasterRecord record; ///< of this frame's raster, for the frame after
+    // What deforms (shader::kDeformedMover), by layer.
+    std::vector<ShapeWay> rasterWays;
+    std::vector<ShapeWay> secondWays;
+    std::vector<ShapeWay> lastWays;
+    /// By index into ExtractedFrame::deformed: the shape half way through the exposure. Empty where
+    /// nothing needs it, and of those that do not change.
+    std::vector<scene::Deformation> middles;
 };
 
 /// Another raster of the frame, of another instant of its exposure.
@@ -32,8 +40,8 @@ struct InstantFrame {
 /// \param instantCount above 0
 /// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
 /// same camera, in the same size and without a cut in between; of what has appeared, was teleported
-/// or deforms, nothing counts
-/// \param second drawn for the same view, or null; nothing of it that deforms counts
+/// or has another mesh, nothing counts
+/// \param second drawn for the same view, or null
 [[nodiscard]] InstantTables computeInstantTables(
     const scene::World& world,
     const ViewRequest& view,

@@ -45,8 +45,12 @@ RasterRecord makeRasterRecord(
     record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
     record.worldFromObject = frame.worldFromObject;
     record.deforms.assign(frame.worldFromObject.size(), false);
-    for (const DeformedEntity& one : frame.deformed)
+    for (const DeformedEntity& one : frame.deformed) {
         record.deforms[one.row] = one.changes;
+        record.shapes.push_back(
+            {one.row, one.mesh, one.raster, frame.entities[one.row].clipFromObjectRaster}
+        );
+    }
     return record;
 }
 

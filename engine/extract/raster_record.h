@@ -19,6 +19,14 @@ inline constexpr double kFrameSlack = 1.0e-3;
 /// The entity has no row.
 inline constexpr uint32_t kNoRow = 0xFFFFFFFFu;
 
+/// A skinned or morphed entity as a raster image was drawn of it.
+struct RasterShape {
+    uint32_t row = 0;  ///< of the entity table
+    uint32_t mesh = 0; ///< index into Assets::meshes
+    scene::Deformation pose;
+    math::mat4 clipFromObject{1.0f}; ///< EntityRow::clipFromObjectRaster
+};
+
 /// What a raster image was drawn of: enough to find its surfaces again in the frame after.
 struct RasterRecord {
     double seconds = 0.0;
@@ -28,7 +36,8 @@ struct RasterRecord {
     math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
     std::vector<ecs::Entity> entities; ///< one per row of the entity table
     std::vector<math::dmat4> worldFromObject;
-    std::vector<bool> deforms; ///< the row's shape changes during the exposure
+    std::vector<bool> deforms;       ///< the row's shape changes during the exposure
+    std::vector<RasterShape> shapes; ///< in the order of their rows: 128 bytes per joint
 };
 
 /// Picture space (layer_tables.h) at shutter time `s` from the world.

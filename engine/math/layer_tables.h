@@ -25,6 +25,7 @@ struct LayerTables {
     std::vector<uint32_t> rasterRows;
     /// What stands still in the world is where the raster has it, at every instant.
     bool isStill = false;
+    bool deforms = false; ///< a mover is shader::kDeformedMover
 };
 
 /// What a frame's rasters and the one of the frame before hold.
@@ -73,7 +74,10 @@ class LayerBuilder {
     }
 
     /// \param kind shader::kDeformedMover or shader::kNoMover
-    void setMover(size_t row, uint32_t kind) { mTables.movers[row] = kind; }
+    void setMover(size_t row, uint32_t kind) {
+        mTables.movers[row] = kind;
+        mTables.deforms = mTables.deforms || kind == shader::kDeformedMover;
+    }
 
     /// \param rows by row of the layer's entity table: the row in this frame's, or kNoRasterRow
     void setRasterRows(std::vector<uint32_t> rows) { mTables.rasterRows = std::move(rows); }

@@ -6,6 +6,7 @@
 #include "engine/extract/extracted_frame.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/frame.h"
+#include "engine/gpu_scene/deformation_pass.h"
 #include "engine/graph/graph.h"
 #include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
@@ -75,6 +76,7 @@ class Intermediates {
 struct SecondRasterView {
     GBuffer gbuffer;
     const extract::ExtractedFrame* frame = nullptr; ///< lives as long as the graph
+    gpu_scene::DeformedMeshes shapes;               ///< of `frame`
     double instant = 0.0;                           ///< shutter time, [0, 1]
 };
 
@@ -83,6 +85,7 @@ struct PostContext {
     const scene::World& world;
     const extract::ViewRequest& view;
     const extract::ExtractedFrame& frame;
+    const gpu_scene::DeformedMeshes& shapes; ///< of `frame`
     const ViewFacts& facts;
     const GBuffer& gbuffer;
     const graph::RayScene* rays;          ///< null where no effect asked for rays

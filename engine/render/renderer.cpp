@@ -371,6 +371,7 @@ Renderer::Tickets Renderer::declareFrame(
         world,
         request.view,
         frame,
+        shapes,
         facts,
         gbuffer,
         running.rays.run ? &rays : nullptr,

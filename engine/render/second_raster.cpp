@@ -53,7 +53,7 @@ SecondRasterView SecondRaster::declare(
         std::array{shapes.buffer, shadowMaps},
         tables.constants
     );
-    return {gbuffer, mFrame, *mView.instant};
+    return {gbuffer, mFrame, shapes, *mView.instant};
 }
 
 } // namespace shutter::render

@@ -13,7 +13,9 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -38,12 +40,27 @@ struct SecondRaster {
     graph::ImageHandle entityId;    ///< R32_UINT
 };
 
+/// Rasters that methods look things up in, as kRasterLayer and the others in resolved.glsl.
+enum class LayerIndex : uint8_t { Raster, Last, Second };
+
+/// Declares what draws where what deforms in a layer goes: an image RG32UI of packWay()s
+/// (common/pixel_way.glsl).
+/// \param surface of the layer, RG32UI: bits of the depth, and a word of which `keyMask` has the
+/// row of its entity table
+using DrawWays = std::function<graph::ImageHandle(
+    graph::Graph& graph, LayerIndex layer, graph::ImageHandle surface, uint32_t keyMask
+)>;
+
 /// Where the surfaces of this frame's rasters, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
-    VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
-    uint32_t instantCount = 0; ///< countInstants() (settings.h)
-    bool hasLast = false;      ///< of the raster that `history` keeps or `lent` is, too
+    VkDeviceAddress table = 0;     ///< shader::InstantMotions (common/instant_motion_shared.h)
+    uint32_t instantCount = 0;     ///< countInstants() (settings.h)
+    bool hasLast = false;          ///< of the raster that `history` keeps or `lent` is, too
+    std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
+    /// For the layers in which something deforms. Empty: motion vectors are followed, of this
+    /// frame's raster alone.
+    DrawWays drawWays;
     /// The view's: keeps this frame's raster for the next one. Null: none is kept, nor read.
     RasterHistory* history = nullptr;
     std::optional<LentRaster> lent;     ///< in place of `history`, which is null then

@@ -7,6 +7,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/resolved.glsl"
+#include "motion_blur/resolved_parts_shared.h"
 
 layout(constant_id = 0) const uint kLayer = kRasterLayer;
 
@@ -19,9 +20,13 @@ layout(push_constant, scalar) uniform Push {
     ResolvedParams method;
 };
 layout(binding = 0) uniform usampler2D uSurface;
-layout(binding = 1) uniform sampler2D uMotionDepth; // of this frame's raster
-layout(binding = 2, scalar) buffer Candidates { TileCandidates uTiles[]; };
-layout(binding = 3, scalar) buffer Counters { ResolvedCounters uCounters; };
+layout(binding = 1, scalar) buffer DeformingArguments { DispatchArguments uDeformingArguments; };
+layout(binding = 4, scalar) buffer DeformingTiles {
+    DeformingHeader header;
+    uint entries[];
+} uDeforming;
+
+#include "motion_blur/resolved_enter.glsl"
 
 // What the group found in its tile.
 shared uint sKeys[kCandidatesPerTile];
@@ -31,34 +36,22 @@ shared int sLowX[kCandidatesPerTile];
 shared int sLowY[kCandidatesPerTile];
 shared int sHighX[kCandidatesPerTile];
 shared int sHighY[kCandidatesPerTile];
-// Bounds of a deformed entity's motion, in sixteenths of a pixel.
-shared int sMotionLowX[kCandidatesPerTile];
-shared int sMotionLowY[kCandidatesPerTile];
-shared int sMotionHighX[kCandidatesPerTile];
-shared int sMotionHighY[kCandidatesPerTile];
+shared bool sDeforms; // something in it does
 
-const float kMotionSteps = 16.0f;
 /// Beyond the box: half a pixel to its border, one for what is interpolated, and some for rounding.
 const float kMarginPx = 2.0f;
-
-uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
 
 /// Pixels of one entity.
 struct Extent {
     uint key;     // kNoKey: none
     bool isOfUse; // it moves, and it is known how
-    bool deforms;
     vec2 depths;
     ivec2 low;
     ivec2 high;
-    ivec2 motionLow;
-    ivec2 motionHigh;
 };
 
-const Extent kNoExtent = Extent(
-    kNoKey, false, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), ivec2(0x7FFFFFFF),
-    ivec2(-0x7FFFFFFF)
-);
+const Extent kNoExtent =
+    Extent(kNoKey, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF));
 
 void note(uint slot, Extent extent) {
     atomicMin(sNearest[slot], floatBitsToUint(extent.depths.x));
@@ -67,11 +60,6 @@ void note(uint slot, Extent extent) {
     atomicMin(sLowY[slot], extent.low.y);
     atomicMax(sHighX[slot], extent.high.x);
     atomicMax(sHighY[slot], extent.high.y);
-    if (!extent.deforms) return;
-    atomicMin(sMotionLowX[slot], extent.motionLow.x);
-    atomicMin(sMotionLowY[slot], extent.motionLow.y);
-    atomicMax(sMotionHighX[slot], extent.motionHigh.x);
-    atomicMax(sMotionHighY[slot], extent.motionHigh.y);
 }
 
 void listExtent(Extent extent) {
@@ -98,64 +86,15 @@ void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
         uint mover = findMover(layer, key);
         extent = kNoExtent;
         extent.key = key;
-        extent.isOfUse = mover != kNoMover && !isStillMover(layer, mover);
-        extent.deforms = mover == kDeformedMover;
+        // What deforms is listed part by part (resolved_parts.comp).
+        extent.isOfUse = mover != kNoMover && mover != kDeformedMover && !isStillMover(layer, mover);
+        if (mover == kDeformedMover) sDeforms = true;
     }
     if (!extent.isOfUse) return;
     float depth = depthOfKey(key, uintBitsToFloat(surface.x));
     extent.depths = vec2(min(extent.depths.x, depth), max(extent.depths.y, depth));
     extent.low = min(extent.low, pixel);
     extent.high = max(extent.high, pixel);
-    if (!extent.deforms) return;
-    vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
-    extent.motionLow = min(extent.motionLow, ivec2(floor(motion * kMotionSteps)));
-    extent.motionHigh = max(extent.motionHigh, ivec2(ceil(motion * kMotionSteps)));
-}
-
-void enter(uint tile, uint key, vec2 depths, uint bits) {
-    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
-        uint held = uTiles[tile].candidates[slot].key;
-        if (held == kNoKey) held = atomicCompSwap(uTiles[tile].candidates[slot].key, kNoKey, key);
-        if (held != kNoKey && held != key) continue;
-        atomicMin(uTiles[tile].candidates[slot].nearest, floatBitsToUint(max(depths.x, 0.0f)));
-        atomicMin(
-            uTiles[tile].candidates[slot].farthestInverted, ~floatBitsToUint(max(depths.y, 0.0f))
-        );
-        atomicAnd(uTiles[tile].parts[slot], ~bits);
-        return;
-    }
-    atomicAdd(uCounters.overflown, 1u);
-}
-
-/// Where an entity is seen at some instants, with the margin around it.
-struct SeenBox {
-    vec2 low;
-    vec2 high;
-    vec2 depths;
-    uint parts; // of the exposure, a bit each; 0: it is not seen
-};
-
-const SeenBox kNoBox = SeenBox(vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, 0.0f), 0u);
-
-void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
-    low -= kMarginPx;
-    high += kMarginPx;
-    if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, vec2(params.sizePx)))) return;
-    box.low = min(box.low, low);
-    box.high = max(box.high, high);
-    box.depths = vec2(min(box.depths.x, depths.x), max(box.depths.y, depths.y));
-    box.parts |= 1u << partOf(instant, partsPerInstant(method.instantCount));
-}
-
-void enterBox(uint key, SeenBox box) {
-    vec2 size = vec2(params.sizePx);
-    uvec2 tiles = countTiles();
-    vec2 lowTile = clamp(box.low, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
-    vec2 highTile = clamp(box.high, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
-    uvec2 from = min(uvec2(lowTile), tiles - 1u);
-    uvec2 to = min(uvec2(highTile), tiles - 1u);
-    for (uint y = from.y; y <= to.y; ++y)
-        for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, box.depths, box.parts);
 }
 
 void addRigid(
@@ -181,17 +120,7 @@ void addRigid(
         depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
         isInFront = isInFront || seen.z > 0.0f || !perspective;
     }
-    if (isInFront) addBox(instant, low, high, depths, box);
-}
-
-void addDeformed(uint slot, uint instant, inout SeenBox box) {
-    float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
-    vec2 a = vec2(sMotionLowX[slot], sMotionLowY[slot]) / kMotionSteps * time;
-    vec2 b = vec2(sMotionHighX[slot], sMotionHighY[slot]) / kMotionSteps * time;
-    vec2 low = vec2(sLowX[slot], sLowY[slot]) + min(a, b);
-    vec2 high = vec2(sHighX[slot] + 1, sHighY[slot] + 1) + max(a, b);
-    vec2 depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
-    addBox(instant, low, high, depths, box);
+    if (isInFront) addBox(instant, low - kMarginPx, high + kMarginPx, depths, box);
 }
 
 /// Where an entity of the tile is seen at the instants of a sample: those of all sets, which follow one
@@ -201,12 +130,17 @@ SeenBox findBox(LayerMotion layer, uint slot, uint sample_, bool perspective) {
     uint mover = findMover(layer, sKeys[slot]);
     for (uint set = 0u; set < method.setCount; ++set) {
         uint instant = sample_ * method.setCount + set;
-        if (mover == kDeformedMover)
-            addDeformed(slot, instant, box);
-        else
-            addRigid(layer, slot, mover, instant, perspective, box);
+        addRigid(layer, slot, mover, instant, perspective, box);
     }
     return box;
+}
+
+/// For the pass that finds the parts of what deforms in the tile.
+void listDeforming() {
+    uint index = atomicAdd(uDeforming.header.count, 1u);
+    uDeforming.entries[index] = gl_WorkGroupID.x | gl_WorkGroupID.y << 16;
+    atomicMax(uDeformingArguments.groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uDeformingArguments.groupsY, 1u);
 }
 
 void main() {
@@ -216,9 +150,10 @@ void main() {
         sKeys[slot] = kNoKey;
         sNearest[slot] = 0xFFFFFFFFu;
         sFarthest[slot] = 0u;
-        sLowX[slot] = sLowY[slot] = sMotionLowX[slot] = sMotionLowY[slot] = 0x7FFFFFFF;
-        sHighX[slot] = sHighY[slot] = sMotionHighX[slot] = sMotionHighY[slot] = -0x7FFFFFFF;
+        sLowX[slot] = sLowY[slot] = 0x7FFFFFFF;
+        sHighX[slot] = sHighY[slot] = -0x7FFFFFFF;
     }
+    if (thread == 0u) sDeforms = false;
     barrier();
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
@@ -231,6 +166,7 @@ void main() {
         }
     listExtent(extent);
     barrier();
+    if (sDeforms && thread == 0u) listDeforming();
     bool perspective = motions.value.isPerspective != 0u;
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;

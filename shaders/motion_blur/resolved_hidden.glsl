@@ -23,8 +23,10 @@ vec2 placeOfHiding(PixelSearch pixel, uint instant, vec2 at, Probe hiding) {
     uint mover = findMover(pixel.raster, hiding.key);
     if (mover == kNoMover || isStillMover(pixel.raster, mover)) return pixel.x;
     if (mover == kDeformedMover) {
-        float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
-        return pixel.x - texelFetch(uMotionDepth, ivec2(at), 0).xy * time;
+        vec2 displacement;
+        float s = timeOf(InstantMotionsRef(method.motions), instant);
+        return findDisplacement(kRasterLayer, ivec2(at), s, displacement) ? pixel.x - displacement
+                                                                          : pixel.x;
     }
     InstantMotion motion = InstantMotionTable(pixel.raster.motions)
                                .motions[mover * method.instantCount + instant];

@@ -5,6 +5,7 @@
 #define SHUTTER_RESOLVED_LAYERS_GLSL
 
 #include "motion_blur/resolved.glsl"
+#include "motion_blur/resolved_parts.glsl"
 
 /// TileCandidates with each candidate as one vector, which is one load.
 struct ReadTile {
@@ -28,6 +29,11 @@ layout(binding = 12) uniform sampler2D uSecondColor;
 layout(binding = 13) uniform usampler2D uSecondSurface;
 layout(binding = 14, scalar) readonly buffer SecondCandidates { ReadTile uSecondTiles[]; };
 layout(binding = 15) uniform sampler2D uSecondColorLinear;
+layout(binding = 16, scalar) readonly buffer Parts { TilePart uParts[]; }; // of all layers
+// Where what deforms goes (common/pixel_way.glsl); with ResolvedParams::hasWays.
+layout(binding = 17) uniform usampler2D uWays;
+layout(binding = 18) uniform usampler2D uLastWays;
+layout(binding = 19) uniform usampler2D uSecondWays;
 
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;

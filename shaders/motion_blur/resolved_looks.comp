@@ -8,6 +8,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/block_plane.glsl"
 #include "motion_blur/pixel_ray.glsl"
+#include "motion_blur/resolved_parts.glsl"
 
 layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
 
@@ -26,6 +27,7 @@ layout(binding = 4, scalar) buffer BlockLists {
 } uBlocks;
 layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
 layout(binding = 6, scalar) readonly buffer SecondCandidates { TileCandidates uSecond[]; };
+layout(binding = 7, scalar) readonly buffer Parts { TilePart uParts[]; };
 
 /// Beyond the places that are looked at: what a linear fetch reads.
 const float kFetchMarginPx = 1.0f;
@@ -160,6 +162,8 @@ bool isShown(ivec2 block, Candidate candidate, InstantMotion motion, bool perspe
     return false;
 }
 
+#include "motion_blur/resolved_part_looks.glsl"
+
 /// Candidates that the block may see.
 uint findShown(
     ivec2 block, uint tile, uint slots, uint instant, InstantMotionTable motions, bool perspective
@@ -168,9 +172,15 @@ uint findShown(
     for (; slots != 0u; slots &= slots - 1u) {
         uint slot = uint(findLSB(slots));
         Candidate candidate = uRaster[tile].candidates[slot];
-        if (candidate.mover == kDeformedMover) continue;
-        InstantMotion motion = motions.motions[candidate.mover * method.instantCount + instant];
-        if (!isShown(block, candidate, motion, perspective)) shown &= ~(1u << slot);
+        bool isSeen;
+        if (candidate.mover == kDeformedMover)
+            isSeen = isPartShown(block, candidate.key, instant);
+        else
+            isSeen = isShown(
+                block, candidate,
+                motions.motions[candidate.mover * method.instantCount + instant], perspective
+            );
+        if (!isSeen) shown &= ~(1u << slot);
     }
     return shown;
 }
@@ -232,12 +242,15 @@ PlaneMap findLook(BlockSearch search, uint instant) {
         InstantMotion motion = table.motions[seen.mover * method.instantCount + instant];
         map = lookAt(search.block, seen.mover, seen.alongs, motion, search.perspective);
     }
-    BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
+    uint shown = 0u;
     if (!map.isAffine) {
-        uint shown =
-            findShown(search.block, search.tile, slots, instant, table, search.perspective);
-        look = BlockLook(vec2(0.0f), kSearchedLook, shown);
+        shown = findShown(search.block, search.tile, slots, instant, table, search.perspective);
+        map = lookAtParts(
+            search.block, search.tile, shown, instant, search.layer.isStill != 0u
+        );
     }
+    BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
+    if (!map.isAffine) look = BlockLook(vec2(0.0f), kSearchedLook, shown);
     uLooks[search.looks + instant] = look;
     return map;
 }

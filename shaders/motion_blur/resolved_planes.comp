@@ -27,11 +27,13 @@ float alongOfPixel(uvec2 surface, bool perspective) {
     return alongOf(uintBitsToFloat(surface.x), perspective);
 }
 
-/// \return a plane with the block's keys, and the mover of all its pixels if that can have one
+/// \return a plane with the block's keys, and the mover of all its pixels if that can have one; for one
+/// entity that deforms, its key in place of a plane
 BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective) {
     BlockPlane plane = kNoPlane;
     uint lastKey = kNoKey;
     bool hasOne = true;
+    uint runs = 0u; // of pixels of one entity
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             uint key = keyOf(fetchSurface(first + ivec2(x, y)));
@@ -42,10 +44,14 @@ BlockPlane findKeys(ivec2 first, ivec2 size, LayerMotion layer, bool perspective
             hasOne = hasOne && (lastKey == kNoKey || mover == plane.mover);
             plane.mover = mover;
             lastKey = key;
+            ++runs;
         }
-    if (!hasOne || plane.mover == kDeformedMover || plane.mover == kSkyMover ||
-        isStillMover(layer, plane.mover) || any(lessThan(size, ivec2(kGroupSize))))
+    if (!hasOne || plane.mover == kSkyMover || isStillMover(layer, plane.mover) ||
+        any(lessThan(size, ivec2(kGroupSize))))
         plane.mover = kNoMover;
+    if (plane.mover != kDeformedMover) return plane;
+    plane.along = float(lastKey);
+    if (runs > 1u) plane.mover = kNoMover;
     return plane;
 }
 
@@ -86,6 +92,7 @@ void main() {
     // What a raster shows is a candidate of its tile, unless it stands still.
     if (uTiles[tile.y * tiles.x + tile.x].candidates[0].key != kNoKey)
         plane = findKeys(first, size, layer, perspective);
-    if (plane.mover != kNoMover) fitPlane(first, perspective, plane);
+    if (plane.mover != kNoMover && plane.mover != kDeformedMover)
+        fitPlane(first, perspective, plane);
     uPlanes[block.y * blocks.x + block.x] = plane;
 }

@@ -212,30 +212,7 @@ void searchDepths(
     }
 }
 
-/// By the motion vectors of this frame's raster, taken as straight.
-/// \param time shutter time since the raster instant
-void searchDeformed(
-    uint key, float time, vec2 x, inout Seen best, inout Doubt doubt
-) {
-    vec2 at = x;
-    for (uint step_ = 0u; step_ < kSteps; ++step_) {
-        if (!isInside(at)) return;
-        ivec2 texel = ivec2(at);
-        Probe surface = fetchSurface(kRasterLayer, texel);
-        if (surface.key != key) {
-            noteMiss(kRasterLayer, key, at, doubt);
-            return;
-        }
-        vec2 next = x - texelFetch(uMotionDepth, texel, 0).xy * time;
-        float way = distance(next, at);
-        at = next;
-        if (way > kArrivedPx && step_ + 1u < kSteps) continue;
-        if (way > kTolerancePx || !isInside(at)) return;
-        if (ivec2(at) != texel && fetchSurface(kRasterLayer, ivec2(at)).key != key) return;
-        keepNearer(best, Seen(true, kRasterLayer, key, at, surface.depth, false));
-        return;
-    }
-}
+#include "motion_blur/resolved_part_search.glsl"
 
 /// What the searches of one pixel share.
 struct PixelSearch {
@@ -301,10 +278,9 @@ void searchLayer(
             break;
         Seen found = Seen(false, index, kNoKey, pixel.x, 0.0f, false);
         if (candidate.mover == kDeformedMover)
-            searchDeformed(
-                candidate.key,
-                timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime, pixel.x,
-                found, doubt
+            searchPart(
+                index, candidate.key & ~kPartBit,
+                timeOf(InstantMotionsRef(method.motions), instant), pixel.x, found, doubt
             );
         else
             searchDepths(

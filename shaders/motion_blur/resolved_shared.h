@@ -21,10 +21,10 @@ SHUTTER_CONST uint kNoKey = 0xFFFFFFFFu;
 /// Parts of the exposure that a tile's candidates are told apart by.
 SHUTTER_CONST uint kExposureParts = 32u;
 
-/// An entity that a tile may see during the exposure. Every field of an unused one has all bits
-/// set.
+/// An entity, or a part of one that deforms, that a tile may see during the exposure. Every field
+/// of an unused one has all bits set.
 struct Candidate {
-    uint key;              // row of its raster's entity table, or kSkyKey
+    uint key;              // row of its raster's entity table, kSkyKey, or kPartBit and a part
     uint nearest;          // bits of its least depth in the tile at any instant, metres
     uint farthestInverted; // inverted bits of the largest
     uint mover;            // in the table of movers, once they are sorted
@@ -41,7 +41,8 @@ struct TileCandidates {
 /// sky, before a perspective camera, belongs to the world, infinitely far away.
 struct BlockPlane {
     uint keys;       // keyBit() of each key in it; 0 where nothing moves
-    uint mover;      // of all its pixels; kNoMover: several, or of a mover without a plane
+    uint mover;      // of all its pixels; kNoMover: several, or of a mover without a plane;
+                     // kDeformedMover: of one entity, whose key is `along`
     float along;     // at the block's centre: 1/metre (perspective) or metres
     vec2 slope;      // of `along`, per pixel
     float deviation; // greatest, of a pixel from the plane
@@ -91,6 +92,8 @@ struct ResolvedParams {
     float turn;        // added to the mask, modulo 1
     uint setCount;     // 1 without noise
     uint instantCount; // of the tables: sampleCount of each set; set s has s, s + setCount, ...
+    uint hasWays; // 1: images say where what deforms goes (common/pixel_way.glsl), of all layers;
+                  // 0: motion vectors do, of this frame's raster
 };
 
 /// What a frame counted.
@@ -113,7 +116,7 @@ static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
 static_assert(sizeof(shutter::shader::BlockLook) == 16);
-static_assert(sizeof(shutter::shader::ResolvedParams) == 56);
+static_assert(sizeof(shutter::shader::ResolvedParams) == 60);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif
 

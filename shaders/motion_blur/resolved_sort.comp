@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/resolved.glsl"
+#include "motion_blur/resolved_parts_shared.h"
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -58,7 +59,8 @@ uint sortCandidates(uint layer, uint tile) {
     for (; end < kCandidatesPerTile; ++end) {
         Candidate moved = getCandidate(layer, tile, end);
         if (moved.key == kNoKey) break;
-        moved.mover = findMover(motion, moved.key);
+        moved.mover =
+            (moved.key & kPartBit) != 0u ? kDeformedMover : findMover(motion, moved.key);
         uint parts = getParts(layer, tile, end);
         uint slot = end;
         for (; slot > 0u; --slot) {

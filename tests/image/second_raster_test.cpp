@@ -3,13 +3,11 @@
 // `adaptive`: what it shows that the others hide, and that nothing of it is there unless it is
 // read.
 #include "engine/image/metrics.h"
-#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
 
 #include <algorithm>
-#include <array>
 
 namespace shutter {
 namespace {
@@ -97,17 +95,6 @@ TEST_F(SecondRaster, AdaptiveWithoutRaysIsResolved) {
     const auto resolved = test::renderOnce(device(), scene, shotOf("resolved", true));
     const auto adaptive = test::renderOnce(device(), scene, shotOf("adaptive", true));
     EXPECT_TRUE(test::sameBits(resolved.color, adaptive.color));
-}
-
-TEST_F(SecondRaster, WhatDeformsIsLookedUpInTheFramesOwnRasterAlone) {
-    test::SceneBuilder scene = makeScene();
-    const std::array joints{
-        test::Placement{.position = {0.1, -0.8, -3}},
-        test::Placement{.position = {0, 0.8, 0}, .angularVelocity = {0, 0, 40}}};
-    test::addSkinned(scene, test::makeStrip(0.9, 1.6, 12, scene.addWaves()), joints);
-    const auto drawn = test::renderOnce(device(), scene, shotOf("resolved", true));
-    EXPECT_TRUE(drawsSecond(drawn));
-    EXPECT_TRUE(test::allFinite(drawn.color));
 }
 
 TEST_F(SecondRaster, AFrameThatStandsStillDrawsNone) {

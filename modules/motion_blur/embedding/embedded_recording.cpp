@@ -61,6 +61,7 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
     motions.instantCount = countInstants(frame.settings);
     motions.hasLast = made.layers.last.has_value();
+    motions.deforms[size_t(LayerIndex::Raster)] = made.layers.raster.deforms;
     if (!keeps)
         return motions;
     if (lent)

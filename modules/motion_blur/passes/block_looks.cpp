@@ -28,7 +28,7 @@ gpu::ComputePipelineDesc describeFind(bool sortsUniform) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks",
         motion_blur_resolved_looks_comp,
-        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
+        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
     );
     desc.specialization = {sortsUniform ? 1u : 0u};
     return desc;
@@ -100,11 +100,13 @@ BlockLookOutputs BlockLooks::addFind(
     graph::Graph& graph,
     const SurfaceLayer& raster,
     const SortedCandidates& candidates,
+    graph::BufferHandle parts,
     const SortedBlocks& empty,
     const PassParams& params
 ) const {
     struct Data {
         SortedCandidates candidates;
+        graph::BufferHandle parts;
         graph::BufferHandle planes;
         BlockLookOutputs sorted;
     };
@@ -125,6 +127,8 @@ BlockLookOutputs BlockLooks::addFind(
                      {candidates.raster, candidates.second, candidates.last})
                     if (layer.isValid())
                         builder.read(layer, Access::StorageRead);
+                if (parts.isValid())
+                    data.parts = builder.read(parts, Access::StorageRead);
                 if (planes.isValid()) {
                     data.planes = builder.read(planes, Access::StorageRead);
                     data.sorted.looks = builder.write(looks, Access::StorageWrite);
@@ -148,7 +152,8 @@ BlockLookOutputs BlockLooks::addFind(
                       hasPlanes ? data.sorted.looks : lists.blocks,
                       lists.blocks,
                       lists.arguments,
-                      layers.second.isValid() ? layers.second : layers.raster})
+                      layers.second.isValid() ? layers.second : layers.raster,
+                      data.parts.isValid() ? data.parts : layers.raster})
                     bindings.buffer(resources.buffer(buffer));
                 dispatchPixels(context, mFind.get(), bindings, params, countBlocks(params));
             }

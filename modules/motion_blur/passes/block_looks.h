@@ -35,6 +35,7 @@ class BlockLooks {
 
     /// Sorts the blocks that something moves in.
     /// \param raster this frame's
+    /// \param parts of DeformingParts; invalid: nothing deforms
     /// \param empty BlockSorter::getEmpty()
     /// \param params with shader::ResolvedParams; uniformMotionPx 0: each pixel searches for
     /// itself, as it must unless canFind()
@@ -42,6 +43,7 @@ class BlockLooks {
         graph::Graph& graph,
         const SurfaceLayer& raster,
         const SortedCandidates& candidates,
+        graph::BufferHandle parts,
         const SortedBlocks& empty,
         const PassParams& params
     ) const;

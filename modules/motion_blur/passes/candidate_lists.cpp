@@ -4,6 +4,7 @@
 #include "spirv/motion_blur/resolved_candidates.comp.h"
 
 #include "modules/motion_blur/passes/dispatch.h"
+#include "shaders/motion_blur/resolved_parts_shared.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
 namespace shutter::motion_blur {
@@ -28,7 +29,7 @@ gpu::ComputePipelineDesc describeList(const gpu::Device& device, LayerIndex laye
     gpu::ComputePipelineDesc desc = describePass(
         namePass(layer),
         motion_blur_resolved_candidates_comp,
-        {kSampled, kSampled, kBuffer, kBuffer}
+        {kSampled, kBuffer, kBuffer, kBuffer, kBuffer}
     );
     // A software device runs a group's threads in turn, and each waits at the barriers.
     const uint32_t rows = isSoftware(device) ? 2u : shader::kGroupSize;
@@ -54,6 +55,21 @@ CandidateLists::create(graph::Graph& graph, const PassParams& params, Clears& cl
     return lists;
 }
 
+DeformingTiles
+CandidateLists::createDeforming(graph::Graph& graph, const PassParams& params, Clears& clears) {
+    const glm::uvec2 tiles = countCandidateTiles(params);
+    const VkDeviceSize bytes =
+        sizeof(shader::DeformingHeader) + VkDeviceSize(tiles.x) * tiles.y * sizeof(uint32_t);
+    const DeformingTiles deforming{
+        graph.createBuffer("deforming tiles", {bytes, kListUsage}),
+        graph.createBuffer(
+            "deforming tile arguments", {sizeof(shader::DispatchArguments), kArgumentsUsage}
+        )};
+    clears.addHead(deforming.tiles, sizeof(shader::DeformingHeader));
+    clears.addArguments(deforming.arguments, 1);
+    return deforming;
+}
+
 CandidateOutputs CandidateLists::add(
     graph::Graph& graph, const CandidateInputs& inputs, LayerIndex layer, const PassParams& params
 ) const {
@@ -63,19 +79,27 @@ CandidateOutputs CandidateLists::add(
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, CandidateOutputs& data) {
             builder.read(inputs.surface, Access::SampledCompute);
-            builder.read(inputs.motionDepth, Access::SampledCompute);
             data.candidates = builder.write(inputs.empty, Access::StorageWrite);
             data.counters = builder.write(inputs.counters, Access::StorageWrite);
+            if (inputs.deforming.tiles.isValid())
+                data.deforming = {
+                    builder.write(inputs.deforming.tiles, Access::StorageWrite),
+                    builder.write(inputs.deforming.arguments, Access::StorageWrite)};
         },
         [this, inputs, layer, params, tiles](
             const CandidateOutputs& data, graph::PassContext& context
         ) {
             const graph::PassResources& resources = context.resources;
+            // Where nothing deforms the shader leaves two bindings alone: some buffer all the same.
+            const DeformingTiles deforming = data.deforming.tiles.isValid()
+                                                 ? data.deforming
+                                                 : DeformingTiles{data.counters, data.counters};
             gpu::BindingList bindings;
             bindings.sampled(resources.view(inputs.surface), mSampler)
-                .sampled(resources.view(inputs.motionDepth), mSampler)
+                .buffer(resources.buffer(deforming.arguments))
                 .buffer(resources.buffer(data.candidates))
-                .buffer(resources.buffer(data.counters));
+                .buffer(resources.buffer(data.counters))
+                .buffer(resources.buffer(deforming.tiles));
             const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
             context.frame.bind(pipeline.get(), bindings, &params, sizeof(params));
             vkCmdDispatch(context.commands, tiles.x, tiles.y, 1);

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
+#include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/clears.h"
 #include "shaders/motion_blur/resolved_shared.h"
@@ -12,20 +13,24 @@
 
 namespace shutter::motion_blur {
 
-/// As kRasterLayer and the others in resolved.glsl.
-enum class LayerIndex : uint8_t { Raster, Last, Second };
+/// Tiles of a layer in which something deforms.
+struct DeformingTiles {
+    graph::BufferHandle tiles;     ///< shader::DeformingHeader, then the tiles
+    graph::BufferHandle arguments; ///< shader::DispatchArguments: a group for each
+};
 
 /// Handles of a frame: the passes of all layers count into one.
 struct CandidateInputs {
-    graph::ImageHandle surface;     ///< of the layer
-    graph::ImageHandle motionDepth; ///< of this frame's raster
-    graph::BufferHandle counters;   ///< shader::ResolvedCounters
-    graph::BufferHandle empty;      ///< of CandidateLists::create(), cleared
+    graph::ImageHandle surface;   ///< of the layer
+    graph::BufferHandle counters; ///< shader::ResolvedCounters
+    graph::BufferHandle empty;    ///< of CandidateLists::create(), cleared
+    DeformingTiles deforming;     ///< of createDeforming(), cleared; invalid: nothing deforms
 };
 
 struct CandidateOutputs {
     graph::BufferHandle candidates; ///< shader::TileCandidates[tile], not sorted
     graph::BufferHandle counters;
+    DeformingTiles deforming; ///< invalid: nothing deforms
 };
 
 /// Tiles that have a list, across and down.
@@ -40,6 +45,10 @@ class CandidateLists {
     /// The lists of a layer, which nothing has written, to be cleared with others.
     [[nodiscard]] static graph::BufferHandle
     create(graph::Graph& graph, const PassParams& params, Clears& clears);
+
+    /// The same for tiles in which something deforms.
+    [[nodiscard]] static DeformingTiles
+    createDeforming(graph::Graph& graph, const PassParams& params, Clears& clears);
 
     /// \param params with shader::ResolvedParams
     CandidateOutputs

@@ -9,6 +9,7 @@
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -19,6 +20,9 @@ namespace shutter::motion_blur {
 namespace {
 
 using graph::Access;
+
+/// Of a surface's second word: resolved.glsl has it as kKeyBits.
+constexpr uint32_t kKeyMask = 0xFFFFFFu;
 
 gpu::ComputePipelineDesc describeResolve(bool listsPixels, bool hasSecond) {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
@@ -59,7 +63,14 @@ struct Starts {
     graph::BufferHandle counters;
     ListedPixels listed;
     std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
+    std::array<DeformingTiles, 3> deforming;       ///< the same; invalid: nothing deforms
     SortedBlocks blocks;
+
+    [[nodiscard]] bool deforms() const {
+        return std::any_of(deforming.begin(), deforming.end(), [](const DeformingTiles& one) {
+            return one.tiles.isValid();
+        });
+    }
 };
 
 Starts createStarts(
@@ -67,6 +78,7 @@ Starts createStarts(
     const SurfaceLayersOutputs& layers,
     const PassParams& params,
     bool listsPixels,
+    const std::array<bool, 3>& deforms,
     Clears& clears
 ) {
     Starts starts;
@@ -85,9 +97,12 @@ Starts createStarts(
         clears.addArguments(starts.listed.arguments, 1);
     }
     const auto create = [&](const SurfaceLayer& layer, LayerIndex index) {
-        if (layer.surface.isValid())
-            starts.candidates.at(static_cast<size_t>(index)) =
-                CandidateLists::create(graph, params, clears);
+        if (!layer.surface.isValid())
+            return;
+        const auto at = static_cast<size_t>(index);
+        starts.candidates.at(at) = CandidateLists::create(graph, params, clears);
+        if (deforms.at(at))
+            starts.deforming.at(at) = CandidateLists::createDeforming(graph, params, clears);
     };
     create(layers.raster, LayerIndex::Raster);
     create(layers.second, LayerIndex::Second);
@@ -99,23 +114,9 @@ Starts createStarts(
 } // namespace
 
 std::vector<VkDescriptorType> listSearchBindings() {
-    return {
-        kSampled,
-        kSampled,
-        kSampled,
-        kSampled,
-        kSampled,
-        kStorage,
-        kBuffer,
-        kBuffer,
-        kBuffer,
-        kSampled,
-        kSampled,
-        kBuffer,
-        kSampled,
-        kSampled,
-        kBuffer,
-        kSampled};
+    return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer,
+            kBuffer,  kBuffer,  kSampled, kSampled, kBuffer,  kSampled, kSampled,
+            kBuffer,  kSampled, kBuffer,  kSampled, kSampled, kSampled};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
@@ -124,8 +125,11 @@ void SearchResources::use(graph::PassBuilder& builder) {
         for (const graph::ImageHandle image : {layer.color, layer.surface})
             if (image.isValid())
                 builder.read(image, Access::SampledCompute);
+    for (const graph::ImageHandle image : ways)
+        if (image.isValid())
+            builder.read(image, Access::SampledCompute);
     for (const graph::BufferHandle buffer :
-         {candidates.raster, candidates.second, candidates.last, looks})
+         {candidates.raster, candidates.second, candidates.last, looks, parts})
         if (buffer.isValid())
             builder.read(buffer, Access::StorageRead);
     counters = builder.write(counters, Access::StorageWrite);
@@ -154,12 +158,18 @@ gpu::BindingList SearchResources::bind(
     for (const graph::ImageHandle image : {second.color, second.surface})
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.buffer(bufferOr(candidates.second, candidates.raster))
-        .sampled(resources.view(second.color), device.linearSampler());
+        .sampled(resources.view(second.color), device.linearSampler())
+        .buffer(bufferOr(parts, counters));
+    for (const graph::ImageHandle image : ways)
+        bindings.sampled(
+            resources.view(image.isValid() ? image : layers.raster.surface), device.nearestSampler()
+        );
     return bindings;
 }
 
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
+      mParts(device),
       mSort(
           device,
           describePass(
@@ -193,6 +203,7 @@ LookUpOutputs LookUp::add(
     auto own = params.getMethod<shader::ResolvedParams>();
     own.hasLast = hasLast ? 1 : 0;
     own.hasSecond = motions.second ? 1 : 0;
+    own.hasWays = motions.drawWays ? 1 : 0;
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
@@ -204,7 +215,10 @@ LookUpOutputs LookUp::add(
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
     Clears clears;
-    const Starts starts = createStarts(graph, search.layers, params, mListsPixels, clears);
+    const Starts starts =
+        createStarts(graph, search.layers, params, mListsPixels, motions.deforms, clears);
+    if (starts.deforms())
+        search.parts = DeformingParts::create(graph, params);
     clears.declare(graph);
     outputs.listed = starts.listed;
     if (mListsPixels)
@@ -213,11 +227,29 @@ LookUpOutputs LookUp::add(
     const auto list = [&](const SurfaceLayer& layer, LayerIndex index) -> graph::BufferHandle {
         if (!layer.surface.isValid())
             return {};
-        const graph::BufferHandle empty =
-            clears.get(starts.candidates.at(static_cast<size_t>(index)));
-        const CandidateOutputs listed = mCandidates.add(
-            graph, {layer.surface, inputs.motionDepth, search.counters, empty}, index, params
-        );
+        const auto at = static_cast<size_t>(index);
+        const DeformingTiles& deforming = starts.deforming.at(at);
+        CandidateInputs given{layer.surface, search.counters, clears.get(starts.candidates.at(at))};
+        if (deforming.tiles.isValid())
+            given.deforming = {clears.get(deforming.tiles), clears.get(deforming.arguments)};
+        CandidateOutputs listed = mCandidates.add(graph, given, index, params);
+        if (listed.deforming.tiles.isValid()) {
+            if (motions.drawWays)
+                search.ways.at(at) = motions.drawWays(graph, index, layer.surface, kKeyMask);
+            const PartOutputs found = mParts.add(
+                graph,
+                {layer.surface,
+                 inputs.motionDepth,
+                 search.ways.at(at),
+                 listed.deforming,
+                 listed,
+                 search.parts},
+                index,
+                params
+            );
+            listed = found.listed;
+            search.parts = found.parts;
+        }
         search.counters = listed.counters;
         return listed.candidates;
     };
@@ -227,7 +259,12 @@ LookUpOutputs LookUp::add(
     candidates.last = list(search.layers.last, LayerIndex::Last);
     search.candidates = addSort(graph, candidates, params);
     const BlockLookOutputs looks = mBlocks.addFind(
-        graph, raster, search.candidates, BlockSorter::getEmpty(starts.blocks, clears), params
+        graph,
+        raster,
+        search.candidates,
+        search.parts,
+        BlockSorter::getEmpty(starts.blocks, clears),
+        params
     );
     outputs.blocks = looks.blocks;
     search.looks = looks.looks;

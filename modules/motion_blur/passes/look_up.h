@@ -8,23 +8,27 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/block_looks.h"
 #include "modules/motion_blur/passes/candidate_lists.h"
+#include "modules/motion_blur/passes/deforming_parts.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 #include "modules/motion_blur/shared_passes.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 15 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 19 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     SurfaceLayersOutputs layers;
     graph::ImageHandle motionDepth; ///< of this frame's raster
     SortedCandidates candidates;
-    graph::BufferHandle looks;    ///< of BlockLooks
-    graph::BufferHandle counters; ///< shader::ResolvedCounters
+    graph::BufferHandle looks;              ///< of BlockLooks
+    graph::BufferHandle parts;              ///< of DeformingParts; invalid: nothing deforms
+    std::array<graph::ImageHandle, 3> ways; ///< by LayerIndex, of DrawWays; invalid: not needed
+    graph::BufferHandle counters;           ///< shader::ResolvedCounters
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);
@@ -86,6 +90,7 @@ class LookUp {
     gpu::Device& mDevice;
     SurfaceLayers mLayers;
     CandidateLists mCandidates;
+    DeformingParts mParts;
     gpu::LazyPipeline mSort;
     BlockLooks mBlocks;
     gpu::LazyPipeline mResolve;
@@ -95,7 +100,7 @@ class LookUp {
     uint64_t mHistoryBytes = 0;       ///< of the frame declared last
 };
 
-/// Bindings 0 to 15 of a pipeline that searches.
+/// Bindings 0 to 19 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur

@@ -5,7 +5,9 @@
 #include "engine/extract/instant_tables.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
+#include "engine/gpu_scene/gpu_scene.h"
 #include "engine/render/post_effect.h"
+#include "engine/render/shape_ways.h"
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/instant_motions.h"
 
@@ -17,7 +19,9 @@ namespace shutter::motion_blur {
 
 class InstantMotionBuffers {
   public:
-    explicit InstantMotionBuffers(gpu::Device& device) : mDevice(device), mHistory(device) {}
+    /// \param scene must outlive this
+    InstantMotionBuffers(gpu::Device& device, const gpu_scene::GpuScene& scene)
+        : mDevice(device), mScene(scene), mHistory(device) {}
 
     /// \param context the slot's last frame must be finished
     /// \param keepsRaster the next frame may look things up in this one's raster
@@ -28,8 +32,14 @@ class InstantMotionBuffers {
     void forget();
 
   private:
+    /// \return empty where nothing deforms
+    [[nodiscard]] DrawWays
+    declareWays(const render::PostContext& context, const extract::InstantTables& tables);
+
     gpu::Device& mDevice;
+    const gpu_scene::GpuScene& mScene;
     std::optional<extract::RasterRecord> mLast; ///< of what mHistory keeps
+    std::array<std::optional<render::ShapeWays>, gpu::kMaxFramesInFlight> mWays; ///< by slot
     RasterHistory mHistory;
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;
 };

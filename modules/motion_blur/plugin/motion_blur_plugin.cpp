@@ -36,7 +36,7 @@ MotionBlurPlugin::MotionBlurPlugin(
     const MotionBlurSettings& settings,
     const BlurBudget& budget
 )
-    : mWanted(settings), mBudget(budget, settings), mInstantMotions(device),
+    : mWanted(settings), mBudget(budget, settings), mInstantMotions(device, scene),
       mEffect(device, scene.textureLayout()) {}
 
 void MotionBlurPlugin::configure(

@@ -270,5 +270,149 @@ TEST_F(InstantTablesTest, InstantsFollowTheResponse) {
         );
 }
 
+/// The fixture's box with a morph target that lifts all of it by 1 m, or a skin of one joint.
+class ShapeWaysTest : public InstantTablesTest {
+  protected:
+    ShapeWaysTest() {
+        scene::Primitive box;
+        box.influenceCount = 4;
+        scene::MorphTarget target;
+        for (int corner = 0; corner < 8; ++corner) {
+            box.positions.push_back(
+                {corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f}
+            );
+            box.joints.insert(box.joints.end(), {0, 0, 0, 0});
+            box.weights.insert(box.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+            target.positions.push_back({0.0f, 1.0f, 0.0f});
+        }
+        box.morphTargets.push_back(target);
+        layout.geometries[0].vertexCount = 8;
+        layout.reaches.push_back(scene::computePoseReach({&box, 1}));
+        world.assets.skins.push_back({"", {math::dmat4(1.0)}});
+    }
+
+    /// Weights go from 0 to 1 between the times.
+    ecs::Entity addMorphed(float from, float to) {
+        const ecs::Entity entity = addBox({0.0, 0.0, -8.0});
+        scene::WeightChannel channel;
+        channel.targetCount = 1;
+        channel.times = {from, to};
+        channel.values = {0.0f, 1.0f};
+        world.assets.clips.push_back({"", double(to), {}, {channel}});
+        const auto clip = static_cast<uint32_t>(world.assets.clips.size() - 1);
+        world.registry.add(entity, scene::MorphWeights{{0.0f}, {{clip, 0}}});
+        return entity;
+    }
+
+    ecs::Entity addSkin(const scene::AngularVelocity& turn) {
+        const ecs::Entity joint = world.registry.create();
+        math::Transform transform;
+        transform.translation = {0.0, 0.0, -8.0};
+        world.registry.add(joint, scene::LocalTransform{transform});
+        world.registry.add(joint, turn);
+        const ecs::Entity entity = addBox(dvec3(0.0));
+        world.registry.add(entity, scene::Skinned{0, {joint}});
+        return entity;
+    }
+
+    static math::dvec2 placeBy(const vec4 (&rows)[3], const dvec3& point) {
+        const vec4 p(vec3(point), 1.0f);
+        return math::dvec2(dot(rows[0], p), dot(rows[1], p)) / double(dot(rows[2], p));
+    }
+};
+
+TEST_F(ShapeWaysTest, WhatDeformsIsDrawnFromBothRastersToThisExposure) {
+    moveCamera();
+    const ecs::Entity entity = addMorphed(0.0f, 2.0f);
+    setTime(1.0 - kFrameSeconds);
+    const dvec3 corner(0.9, -0.7, 0.3);
+    const Seen then = project(entity, corner, 1.0);
+    const InstantTables tables = computeSecondFrame();
+    ASSERT_EQ(tables.rasterWays.size(), 1u);
+    EXPECT_EQ(tables.raster.movers.at(0), shader::kDeformedMover);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kDeformedMover);
+    ASSERT_EQ(tables.lastWays.size(), 1u);
+    const shader::ShapeWayRow& maps = tables.lastWays[0].maps;
+    EXPECT_NEAR(
+        glm::distance(placeBy({maps.raster[0], maps.raster[1], maps.raster[2]}, corner), then.at),
+        0.0,
+        2e-3
+    );
+    EXPECT_NEAR(double(dot(maps.raster[3], vec4(vec3(corner), 1.0f))), then.depth, 1e-4);
+    const auto expectAt = [&](const vec4(&rows)[3], double s) {
+        EXPECT_NEAR(glm::distance(placeBy(rows, corner), project(entity, corner, s).at), 0.0, 2e-3);
+    };
+    expectAt(maps.open, 0.0);
+    expectAt(maps.middle, 0.5);
+    expectAt(maps.close, 1.0);
+    ASSERT_EQ(tables.middles.size(), 1u);
+    EXPECT_NEAR(tables.middles[0].morphWeights.at(0), 0.5 * (1.0 - 0.5 * kExposureSeconds), 1e-7);
+}
+
+TEST_F(ShapeWaysTest, AShapeThatChangedBetweenTheExposuresAloneIsDrawnFromTheLastRaster) {
+    addMorphed(0.8f, 0.85f); // this exposure opens at 0.875 s
+    addTumbler();
+    const InstantTables tables = computeSecondFrame();
+    EXPECT_EQ(tables.raster.movers.at(0), shader::kWorldMover);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kDeformedMover);
+}
+
+TEST_F(ShapeWaysTest, AShapeThatIsTheSameIsRigidInBothRasters) {
+    addMorphed(2.0f, 3.0f);
+    addTumbler();
+    const InstantTables tables = computeSecondFrame();
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kWorldMover);
+    EXPECT_TRUE(tables.lastWays.empty());
+    EXPECT_TRUE(tables.middles.at(0).morphWeights.empty()) << "nobody needs it";
+}
+
+TEST_F(ShapeWaysTest, ASkinThatTurnsAsOneIsARigidMoverInAllLayers) {
+    addSkin({{1.0, 2.0, 0.5}});
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    setTime(1.0);
+    ViewRequest atOpen = request;
+    atOpen.instant = 0.0;
+    const auto second = extractFrame(world, layout, atOpen);
+    const InstantFrame frame{0.0, second.value()};
+    const InstantTables tables =
+        computeInstantTables(world, request, extract(), kInstants, &last, &frame);
+    for (const LayerTables* layer : {&tables.raster, &*tables.last, &*tables.second})
+        EXPECT_LT(layer->movers.at(0), shader::kDeformedMover);
+    EXPECT_TRUE(tables.rasterWays.empty() && tables.lastWays.empty() && tables.secondWays.empty());
+}
+
+TEST_F(ShapeWaysTest, ASkinOneOfWhoseJointsWasTeleportedHasNoPast) {
+    const ecs::Entity entity = addSkin({{1.0, 2.0, 0.5}});
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    math::Transform elsewhere;
+    elsewhere.translation = {1.0, 1.0, -6.0};
+    const ecs::Entity joint = world.registry.get<scene::Skinned>(entity).joints[0];
+    scene::teleport(world, joint, elsewhere, 0.8);
+    setTime(1.0);
+    const InstantTables tables = compute(&last);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kNoMover);
+}
+
+TEST_F(ShapeWaysTest, AnotherMeshHasNoPast) {
+    const ecs::Entity entity = addMorphed(0.0f, 2.0f);
+    layout.reaches.push_back(layout.reaches[0]);
+    const uint32_t other = addMesh(scene::AlphaMode::Opaque, 1);
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    world.registry.get<scene::MeshInstance>(entity).mesh = other;
+    setTime(1.0);
+    const InstantTables tables = compute(&last);
+    ASSERT_TRUE(tables.last.has_value());
+    EXPECT_EQ(tables.last->movers.at(0), shader::kNoMover);
+}
+
 } // namespace
 } // namespace shutter::extract

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/deforming_parts.h"
+
+#include "spirv/motion_blur/resolved_parts.comp.h"
+
+#include "modules/motion_blur/passes/dispatch.h"
+#include "shaders/motion_blur/resolved_parts_shared.h"
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+const char* namePass(LayerIndex layer) {
+    switch (layer) {
+    case LayerIndex::Raster:
+        return "find parts";
+    case LayerIndex::Last:
+        return "find parts, last frame";
+    case LayerIndex::Second:
+        break;
+    }
+    return "find parts, second raster";
+}
+
+gpu::ComputePipelineDesc describeFind(const gpu::Device& device, LayerIndex layer) {
+    gpu::ComputePipelineDesc desc = describePass(
+        namePass(layer),
+        motion_blur_resolved_parts_comp,
+        {kSampled, kSampled, kBuffer, kBuffer, kBuffer, kBuffer, kSampled}
+    );
+    // As those that list candidates.
+    const uint32_t rows = isSoftware(device) ? 2u : shader::kGroupSize;
+    desc.specialization = {static_cast<uint32_t>(layer), rows, rows};
+    return desc;
+}
+
+} // namespace
+
+DeformingParts::DeformingParts(gpu::Device& device)
+    : mSampler(device.nearestSampler()),
+      mPipelines{
+          gpu::LazyPipeline(device, describeFind(device, LayerIndex::Raster)),
+          gpu::LazyPipeline(device, describeFind(device, LayerIndex::Last)),
+          gpu::LazyPipeline(device, describeFind(device, LayerIndex::Second))} {}
+
+graph::BufferHandle DeformingParts::create(graph::Graph& graph, const PassParams& params) {
+    const glm::uvec2 tiles = countCandidateTiles(params);
+    const VkDeviceSize count = VkDeviceSize(tiles.x) * tiles.y * shader::kPartsPerTile;
+    constexpr VkDeviceSize kLayers = 3;
+    return graph.createBuffer("parts", {kLayers * count * sizeof(shader::TilePart), kListUsage});
+}
+
+PartOutputs DeformingParts::add(
+    graph::Graph& graph, const PartInputs& inputs, LayerIndex layer, const PassParams& params
+) const {
+    struct Data {
+        PartOutputs outputs;
+        DeformingTiles tiles;
+    };
+
+    return graph
+        .addPass<Data>(
+            namePass(layer),
+            graph::PassKind::Compute,
+            [&](graph::PassBuilder& builder, Data& data) {
+                builder.read(inputs.surface, Access::SampledCompute);
+                builder.read(inputs.motion, Access::SampledCompute);
+                if (inputs.ways.isValid())
+                    builder.read(inputs.ways, Access::SampledCompute);
+                data.tiles = {
+                    builder.read(inputs.tiles.tiles, Access::StorageRead),
+                    builder.read(inputs.tiles.arguments, Access::IndirectRead)};
+                data.outputs.listed = inputs.listed;
+                data.outputs.listed.candidates =
+                    builder.write(inputs.listed.candidates, Access::StorageWrite);
+                data.outputs.listed.counters =
+                    builder.write(inputs.listed.counters, Access::StorageWrite);
+                data.outputs.parts = builder.write(inputs.parts, Access::StorageWrite);
+            },
+            [this, inputs, layer, params](const Data& data, graph::PassContext& context) {
+                const graph::PassResources& resources = context.resources;
+                gpu::BindingList bindings;
+                bindings.sampled(resources.view(inputs.surface), mSampler)
+                    .sampled(resources.view(inputs.motion), mSampler)
+                    .buffer(resources.buffer(data.outputs.listed.candidates))
+                    .buffer(resources.buffer(data.outputs.listed.counters))
+                    .buffer(resources.buffer(data.tiles.tiles))
+                    .buffer(resources.buffer(data.outputs.parts))
+                    .sampled(
+                        resources.view(inputs.ways.isValid() ? inputs.ways : inputs.surface),
+                        mSampler
+                    );
+                const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
+                dispatchList(context, pipeline.get(), bindings, params, data.tiles.arguments, 0);
+            }
+        )
+        .outputs;
+}
+
+} // namespace shutter::motion_blur

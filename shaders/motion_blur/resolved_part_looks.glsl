@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Looks of a block into this frame's raster where what deforms is concerned. Part of
+// resolved_looks.comp.
+#ifndef SHUTTER_RESOLVED_PART_LOOKS_GLSL
+#define SHUTTER_RESOLVED_PART_LOOKS_GLSL
+
+/// \return whether the part may be seen from the block at the instant
+bool isPartShown(ivec2 block, uint key, uint instant) {
+    TilePart part = uParts[key & ~kPartBit];
+    float s = timeOf(InstantMotionsRef(method.motions), instant);
+    vec4 bounds = boundsOf(part, wayAt(part, s));
+    const float kReachPx = 0.5f * float(kGroupSize) + kFetchMarginPx;
+    return all(greaterThan(centreOf(block), bounds.xy - kReachPx)) &&
+           all(lessThan(centreOf(block), bounds.zw + kReachPx));
+}
+
+/// Where a block looks if it sees nothing but the part; isAffine: that is known to
+/// `uniformMotionPx`.
+/// \param off how far off it may be, pixels
+PlaneMap mapPart(TilePart part, float s, ivec2 block, out float off) {
+    PartWay way = wayAt(part, s);
+    PartBack back = invertWay(part, way);
+    off = way.deviation * stretchOf(back);
+    PlaneMap map;
+    map.isAffine = back.isOfUse && off <= params.uniformMotionPx;
+    map.place = placeBack(back, centreOf(block));
+    map.perX = back.back[0];
+    map.perY = back.back[1];
+    map.pxPerAlong = 0.0f;
+    return map;
+}
+
+/// Greatest distance of two maps of a block.
+float mapGap(PlaneMap a, PlaneMap b) {
+    return distance(a.place, b.place) +
+           kHalfBlockPx * (distance(a.perX, b.perX) + distance(a.perY, b.perY));
+}
+
+bool showsKey(ivec2 block, uint key) {
+    BlockPlane plane = getPlane(block);
+    return plane.mover == kDeformedMover && plane.along == float(key);
+}
+
+/// \return whether all that the block looks at is of the entity
+bool isWithin(PlaneMap map, float off, uint key) {
+    vec2 reach = kHalfBlockPx * (abs(map.perX) + abs(map.perY)) + kFetchMarginPx + off;
+    vec2 first = map.place - reach;
+    vec2 last = map.place + reach;
+    // Written so that NaN is not within.
+    if (!(all(greaterThanEqual(first, vec2(0.0f))) && all(lessThan(last, vec2(params.sizePx)))))
+        return false;
+    ivec2 low = ivec2(first) / int(kGroupSize);
+    ivec2 high = ivec2(last) / int(kGroupSize);
+    if (any(greaterThanEqual(high - low, ivec2(kMostBlocksAcross)))) return false;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x)
+            if (!showsKey(ivec2(x, y), key)) return false;
+    return true;
+}
+
+/// Where a block looks that sees nothing but parts of one entity, which move there as one.
+/// \param shown the candidates that the block may see
+PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool standsStill) {
+    PlaneMap map;
+    map.isAffine = false;
+    uint key = kNoKey;
+    float farthest = 0.0f;
+    float s = timeOf(InstantMotionsRef(method.motions), instant);
+    for (; shown != 0u; shown &= shown - 1u) {
+        Candidate candidate = uRaster[tile].candidates[findLSB(shown)];
+        bool isFirst = key == kNoKey;
+        map.isAffine = map.isAffine || isFirst;
+        if (candidate.mover != kDeformedMover) map.isAffine = false;
+        if (!map.isAffine) return map;
+        TilePart part = uParts[candidate.key & ~kPartBit];
+        float off;
+        PlaneMap own = mapPart(part, s, block, off);
+        if (!isFirst) off += mapGap(own, map);
+        if (isFirst) map = own;
+        bool isOne = isFirst || keyOfPart(part) == key;
+        map.isAffine = own.isAffine && isOne && off <= params.uniformMotionPx;
+        key = keyOfPart(part);
+        farthest = max(farthest, off);
+    }
+    if (!map.isAffine) return map;
+    // What stands still is no candidate: it may hide some of what moves.
+    map.isAffine = (!standsStill || showsKey(block, key)) && isWithin(map, farthest, key);
+    return map;
+}
+
+#endif

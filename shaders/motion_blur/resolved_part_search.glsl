@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The search for what a pixel saw of a part of what deforms (resolved_parts_shared.h). Its fit says
+// where to begin; the pixels' own ways decide. Part of resolved_search.glsl.
+#ifndef SHUTTER_RESOLVED_PART_SEARCH_GLSL
+#define SHUTTER_RESOLVED_PART_SEARCH_GLSL
+
+/// Deviation from which a part may be seen at several places at once, pixels.
+const float kWideDeviationPx = 1.0f;
+/// Farthest from where the fit has it that a part is looked for, pixels.
+const float kMostDeviationReachPx = 8.0f;
+
+/// \return whether it is known where the layer's pixel is seen at shutter time s
+bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
+    vec2 uv = uvOf(vec2(texel) + 0.5f);
+    displacement = vec2(0.0f);
+    if (method.hasWays == 0u) {
+        vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
+        displacement = motion * (s - params.rasterTime);
+        return true;
+    }
+    uvec2 words = layer == kRasterLayer ? textureLod(uWays, uv, 0.0f).xy
+                                        : textureLod(uLastWays, uv, 0.0f).xy;
+    if (isSecond(layer)) words = textureLod(uSecondWays, uv, 0.0f).xy;
+    if (words.x == kNoWay) return false;
+    displacement = displacementAt(unpackWay(words), s);
+    return true;
+}
+
+/// What the searches for one part at one instant share.
+struct PartSearch {
+    uint layer;
+    uint key;
+    float s; // shutter time
+    vec2 x;
+    mat2 back; // how places in the layer move with the place that they are seen at
+};
+
+/// By Newton's steps from one place, each on the motion of the pixel there.
+/// \return whether the pixel sees the entity
+bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) {
+    for (uint step_ = 0u; step_ < kSteps; ++step_) {
+        if (!isInside(at)) return false;
+        ivec2 texel = ivec2(at);
+        Probe surface = fetchSurface(search.layer, texel);
+        if (surface.key != search.key) {
+            noteMiss(search.layer, search.key, at, doubt);
+            return false;
+        }
+        vec2 displacement;
+        if (!findDisplacement(search.layer, texel, search.s, displacement)) return false;
+        vec2 centre = vec2(texel) + 0.5f;
+        vec2 next = centre + search.back * (search.x - centre - displacement);
+        float way = distance(next, at);
+        at = next;
+        if (way > kArrivedPx && step_ + 1u < kSteps) continue;
+        if (way > kTolerancePx || !isInside(at)) return false;
+        if (ivec2(at) != texel && fetchSurface(search.layer, ivec2(at)).key != search.key) {
+            noteMiss(search.layer, search.key, at, doubt);
+            return false;
+        }
+        bool inner = ivec2(at) == texel && isInner(surface.innerCorners, at - vec2(texel));
+        keepNearer(best, Seen(true, search.layer, search.key, at, surface.depth, inner));
+        return true;
+    }
+    return false;
+}
+
+/// Looks for what the pixel sees of a part.
+/// \param id index of the part
+/// \param s shutter time
+void searchPart(
+    uint layer, uint id, float s, vec2 x, inout Seen best, inout Doubt doubt
+) {
+    TilePart part = uParts[id];
+    PartWay way = wayAt(part, s);
+    PartBack back = invertWay(part, way);
+    vec2 at = placeBack(back, x);
+    float reach = min(way.deviation * stretchOf(back), kMostDeviationReachPx);
+    vec4 box = boxOf(part);
+    if (any(lessThan(at, box.xy - reach - 1.0f)) || any(greaterThan(at, box.zw + reach + 1.0f)))
+        return;
+    PartSearch search = PartSearch(layer, keyOfPart(part), s, x, back.back);
+    bool isWide = way.deviation > kWideDeviationPx;
+    if (searchFrom(search, at, best, doubt) && !isWide) return;
+    vec2 inside = clamp(at, box.xy + 0.5f, box.zw - 0.5f);
+    if (inside != at && searchFrom(search, inside, best, doubt) && !isWide) return;
+    if (!isWide) return;
+    // The nearest of what is seen around it hides the rest: a leg before the other.
+    for (uint i = 0u; i < 4u; ++i) {
+        vec2 side = vec2((i & 1u) != 0u ? 1.0f : -1.0f, (i & 2u) != 0u ? 1.0f : -1.0f);
+        vec2 from = clamp(at + 0.7f * reach * side, box.xy + 0.5f, box.zw - 0.5f);
+        searchFrom(search, from, best, doubt);
+    }
+}
+
+#endif

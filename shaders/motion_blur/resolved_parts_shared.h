@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Parts of what deforms: what one tile of a layer shows of one entity, all of it or one of two
+// halves that move differently. A part's ways (common/pixel_way.glsl) are fitted by affine maps,
+// which say where to look for the part; where a sample is found is up to the pixels' own ways.
+#ifndef SHUTTER_RESOLVED_PARTS_SHARED_H
+#define SHUTTER_RESOLVED_PARTS_SHARED_H
+
+#include "common/shim.h"
+
+SHUTTER_SHADER_BEGIN
+
+/// Most parts of a tile, of all its entities.
+SHUTTER_CONST uint kPartsPerTile = 8u;
+/// Of Candidate::key: the other bits are the index of a TilePart.
+SHUTTER_CONST uint kPartBit = 0x80000000u;
+
+/// One of PixelWay's three vectors as an affine map of the place.
+struct PartVector {
+    vec2 shift;   // at the part's centre, pixels
+    uvec2 change; // per pixel, as halves: of x by x and y, of y by x and y
+};
+
+struct TilePart {
+    uint key; // of the entity; from bit kPartWidthShift on the box's width, from kPartHeightShift
+              // on its height, both less one
+    uint corner;      // least pixel of the box: x | y << 16
+    vec2 centre;      // mean of its pixels' centres
+    uvec2 deviations; // greatest, of a pixel from the fits, pixels: halves, open and close; bend
+    PartVector open;
+    PartVector close;
+    PartVector bend;
+};
+
+SHUTTER_CONST uint kPartWidthShift = 24u;
+SHUTTER_CONST uint kPartHeightShift = 28u;
+
+/// Head of the list of tiles in which something deforms; the tiles follow, x | y << 16.
+struct DeformingHeader {
+    uint count;
+};
+
+SHUTTER_SHADER_END
+
+#ifdef __cplusplus
+static_assert(sizeof(shutter::shader::TilePart) == 72);
+#endif
+
+#endif

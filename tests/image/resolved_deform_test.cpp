@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+// What `resolved` and `adaptive` make of what deforms: as good as of what is rigid.
+#include "engine/image/metrics.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/history.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
+#include "tests/support/deformed_meshes.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace shutter {
+namespace {
+
+using math::dvec3;
+using test::Placement;
+using test::SceneBuilder;
+using test::Shot;
+
+constexpr uint32_t kWidth = 192;
+constexpr uint32_t kHeight = 128;
+constexpr double kExposure = 1.0 / 48.0;
+
+class ResolvedDeform : public test::GpuTest {
+  protected:
+    static Shot shotOf(std::string_view method) {
+        Shot shot{
+            .method = method,
+            .width = kWidth,
+            .height = kHeight,
+            .exposureSeconds = kExposure,
+            .phase = scene::ShutterPhase::End,
+            .frameSeconds = 1.0 / 24.0,
+            .instants = 15};
+        shot.settings.raysPerPixel = 0.0f;
+        return shot;
+    }
+
+    /// A textured wall.
+    static SceneBuilder makeRoom() {
+        SceneBuilder scene;
+        scene.setPerspective(0.9);
+        scene.add(test::makeQuad(8, 6, scene.addWaves()), {.position = {0, 0, -5}});
+        return scene;
+    }
+
+    image::Image draw(const SceneBuilder& scene, const Shot& shot) {
+        return test::renderOnce(device(), scene, shot).color;
+    }
+
+    double compareWithTruth(const SceneBuilder& scene, const Shot& shot) {
+        Shot truth = shot;
+        truth.method = "accumulate";
+        truth.instants = 64;
+        return image::computePsnr(draw(scene, shot), draw(scene, truth));
+    }
+};
+
+/// A strip that waves as it crosses the picture.
+test::SkinnedEntity addWaver(SceneBuilder& scene, double turn, const dvec3& velocity) {
+    const std::array joints{
+        Placement{.position = {0.2, -0.8, -3}, .velocity = velocity},
+        Placement{.position = {0, 0.8, 0}, .angularVelocity = {0, 0, turn}}};
+    return test::addSkinned(
+        scene,
+        test::makeStrip(0.6, 1.6, 16, scene.addTextured(scene.addWaveTexture(), true)),
+        joints
+    );
+}
+
+TEST_F(ResolvedDeform, ASkinBlursOutsideItsSilhouette) {
+    SceneBuilder scene = makeRoom();
+    addWaver(scene, 6.0, {9, 0, 0});
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 36.0);
+    EXPECT_LT(compareWithTruth(scene, shotOf("sharp")), 26.0) << "the shot is hard";
+}
+
+/// A quad that a morph target moves by `way` over the seconds [-1, 1].
+ecs::Entity addShifted(SceneBuilder& scene, scene::Primitive quad, const dvec3& way) {
+    scene::MorphTarget target;
+    target.positions.assign(quad.positions.size(), math::vec3(way));
+    quad.morphTargets.push_back(target);
+    return test::addMorphed(
+        scene,
+        std::move(quad),
+        {.position = dvec3(0, 0, -10) - 0.5 * way},
+        {.from = {0.0f}, .to = {1.0f}}
+    );
+}
+
+/// Share of the exposure that a bar of `width` covers the pixel whose left border is `x` from the
+/// bar's left edge at shutter close, having come `way` from the left.
+double coverAnalytically(double x, double width, double way) {
+    constexpr int kSteps = 4096;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double left = -way * (1.0 - (i + 0.5) / kSteps);
+        sum += std::clamp(std::min(x + 1.0, left + width) - std::max(x, left), 0.0, 1.0);
+    }
+    return sum / kSteps;
+}
+
+TEST_F(ResolvedDeform, AMorphsEdgesHaveTheProfileOfAMovingEdge) {
+    // Two instants for each pixel: what is left of the copies of an edge is 1/60.
+    constexpr double kWay = 15.0;
+    constexpr double kBar = 40.5;
+    SceneBuilder scene;
+    scene.setPixelView(kHeight);
+    const math::dvec3 speed(2.0 * kWay / kExposure, 0, 0);
+    scene.add(
+        test::makeQuad(300, 300, scene.addColor(math::vec3(0.1f))), {.position = {0, 0, -20}}
+    );
+    addShifted(scene, test::makeQuad(kBar, 60, scene.addColor(math::vec3(1.0f))), speed);
+    for (const std::string_view method : {"resolved", "adaptive"}) {
+        if (method == "adaptive" && !device().hasRayQuery())
+            continue;
+        Shot shot = shotOf(method);
+        shot.instants = 30;
+        const image::Image picture = draw(scene, shot);
+        const double left = kWidth / 2.0 - kBar / 2.0;
+        for (int x = int(left - kWay) - 3; x < int(left + kBar) + 4; ++x) {
+            const double got = (picture.at(uint32_t(x), kHeight / 2, 0) - 0.1) / 0.9;
+            EXPECT_NEAR(got, coverAnalytically(x - left, kBar, kWay), 0.02) << method << " " << x;
+        }
+    }
+}
+
+TEST_F(ResolvedDeform, FramesHaveTheSameBitsInEachRunAndOrderOfEntities) {
+    const auto make = [](bool isReversed) {
+        SceneBuilder scene = makeRoom();
+        for (const bool first : {!isReversed, isReversed})
+            first ? addWaver(scene, 20.0, {6, 0, 0}) : addWaver(scene, -15.0, {-6, 1, 0.5});
+        return scene;
+    };
+    Shot shot = shotOf("resolved");
+    shot.settings.secondRaster = true;
+    const image::Image first = draw(make(false), shot);
+    for (int run = 0; run < 3; ++run)
+        EXPECT_TRUE(test::sameBits(draw(make(false), shot), first)) << run;
+    EXPECT_TRUE(test::sameBits(draw(make(true), shot), first)) << "in another order";
+}
+
+/// A body that tumbles as it crosses the picture: on its own, or bound to three joints.
+SceneBuilder makeTumbler(SceneBuilder scene, bool isSkinned, double side = 1.0) {
+    const Placement tumble{
+        .position = {side * -0.4, -0.1, -2.5},
+        .rotation = glm::angleAxis(side * 0.4, dvec3(0, 0.6, 0.8)),
+        .velocity = {side * 12.0, 2.0, 3.0},
+        .angularVelocity = {4.0, side * 20.0, side * 8.0}};
+    scene::Primitive body = test::makeBox({0.8, 0.6, 0.5}, scene.addWaves());
+    if (!isSkinned) {
+        scene.add(std::move(body), tumble);
+        return scene;
+    }
+    test::bindEqually(body, 3);
+    const std::array joints{
+        tumble,
+        Placement{.position = {0.1, 0.4, 0}, .rotation = glm::angleAxis(0.7, dvec3(0, 0, 1))},
+        Placement{.position = {0.0, 0.3, -0.2}}};
+    test::addSkinned(scene, std::move(body), joints);
+    return scene;
+}
+
+TEST_F(ResolvedDeform, ASkinWhoseJointsMoveAsOneIsTheRigidMover) {
+    Shot shot = shotOf("resolved");
+    shot.settings.secondRaster = true;
+    const image::Image rigid = draw(makeTumbler(makeRoom(), false), shot);
+    const image::Image skinned = draw(makeTumbler(makeRoom(), true), shot);
+    EXPECT_GT(image::computePsnr(skinned, rigid), 50.0);
+}
+
+/// A square that morph targets move and squeeze, and its mirror image for `side` -1.
+SceneBuilder makeSqueezed(double side) {
+    SceneBuilder scene;
+    scene.setPixelView(kHeight);
+    scene.add(
+        test::makeQuad(400, 300, scene.addColor({0.2f, 0.6f, 0.3f})), {.position = {0, 0, -20}}
+    );
+    scene::Primitive quad = test::makeQuad(41.3, 50.6, scene.addColor({0.9f, 0.1f, 0.4f}));
+    scene::MorphTarget target;
+    // From one second to the next: so far in an exposure.
+    const float perExposure = float(2.0 / kExposure);
+    for (const math::vec3& place : quad.positions)
+        target.positions.push_back(
+            perExposure * math::vec3(side * 12.3 - 0.3 * place.x, 0.2 * place.y, 0.0)
+        );
+    quad.morphTargets.push_back(target);
+    // At rest half way, where the exposure ends.
+    for (size_t i = 0; i < quad.positions.size(); ++i)
+        quad.positions[i] -= 0.5f * target.positions[i];
+    test::addMorphed(
+        scene, std::move(quad), {.position = {side * 5.2, 3.1, -10}}, {.from = {0.0f}, .to = {1.0f}}
+    );
+    return scene;
+}
+
+TEST_F(ResolvedDeform, AMirroredSceneMakesTheMirroredPicture) {
+    const image::Image direct = draw(makeSqueezed(1.0), shotOf("resolved"));
+    const image::Image across = draw(makeSqueezed(-1.0), shotOf("resolved"));
+    EXPECT_GT(image::computePsnr(direct, test::mirror(across)), 50.0);
+    EXPECT_LT(image::computePsnr(direct, across), 30.0) << "it is no mirror image of itself";
+    EXPECT_GT(compareWithTruth(makeSqueezed(1.0), shotOf("resolved")), 38.0);
+}
+
+TEST_F(ResolvedDeform, TheLastFrameAndTheSecondRasterHoldWhatThisOneHides) {
+    SceneBuilder scene = makeRoom();
+    addWaver(scene, 25.0, {4, 0, 0});
+    scene.add(test::makeBox({0.5, 3, 0.1}, scene.addWaves()), {.position = {0.3, 0, -2}});
+    Shot alone = shotOf("resolved");
+    alone.settings.history = false;
+    Shot all = shotOf("resolved");
+    all.settings.secondRaster = true;
+    const double least = compareWithTruth(scene, alone);
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), least + 0.5);
+    EXPECT_GT(compareWithTruth(scene, all), least + 1.0);
+    const auto counters = test::renderOnce(device(), scene, all).statistics.counters;
+    EXPECT_GT(counters.at("samples from the second raster"), 0u);
+}
+
+TEST_F(ResolvedDeform, AWayThatBendsIsFollowed) {
+    SceneBuilder scene = makeRoom();
+    // 1.7 radians in the exposure.
+    addWaver(scene, 80.0, {0, 0, 0});
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 32.0);
+    EXPECT_LT(compareWithTruth(scene, shotOf("sharp")), 24.0) << "the shot is hard";
+}
+
+TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreToldApart) {
+    SceneBuilder scene = makeRoom();
+    addWaver(scene, 8.0, {9, 0, 0});
+    const auto other = addWaver(scene, -8.0, {-9, 0, 0.4});
+    scene.world.registry.get<scene::MeshInstance>(other.entity).mesh = 1;
+    EXPECT_GT(compareWithTruth(scene, shotOf("resolved")), 32.0);
+}
+
+/// Shapes that are hard on a search by derivatives, each before a wall.
+TEST_F(ResolvedDeform, WhatCollapsesTurnsInsideOutOrIsDegenerateStaysFiniteAndNearTheTruth) {
+    struct Case {
+        std::string_view name;
+        double turn;
+        dvec3 scale;   ///< of the upper joint
+        double growth; ///< of a morph target that pulls all to the middle, per exposure
+    };
+
+    const Case cases[] = {
+        {"a joint of scale 0", 10.0, dvec3(0.0), 0.0},
+        {"a joint that mirrors", 10.0, dvec3(-1.0, 1.0, 1.0), 0.0},
+        {"collapses to a point", 0.0, dvec3(1.0), 1.0},
+        {"turns inside out", 0.0, dvec3(1.0), 2.0},
+        {"turns by three right angles", 225.0, dvec3(1.0), 0.0}};
+    for (const Case& one : cases) {
+        SceneBuilder scene = makeRoom();
+        scene::Primitive strip =
+            test::makeStrip(0.6, 1.6, 16, scene.addTextured(scene.addWaveTexture(), true));
+        // Triangles without an area, and one that is no triangle.
+        strip.indices.insert(strip.indices.end(), {0, 0, 1, 2, 2, 2});
+        scene::MorphTarget target;
+        for (const math::vec3& place : strip.positions)
+            target.positions.push_back(
+                float(one.growth * 2.0 / kExposure) * (math::vec3(0, 0.8f, 0) - place)
+            );
+        // As at rest when the exposure opens.
+        for (size_t i = 0; i < strip.positions.size(); ++i)
+            strip.positions[i] -= float(0.5 - 0.5 * kExposure) * target.positions[i];
+        strip.morphTargets.push_back(target);
+        const std::array joints{
+            Placement{.position = {0.2, -0.8, -3}, .velocity = {6, 0, 0}},
+            Placement{
+                .position = {0, 0.8, 0}, .scale = one.scale, .angularVelocity = {0, 0, one.turn}}};
+        const ecs::Entity morphed = test::addMorphed(
+            scene, strip, {.position = {0, 0, 500}}, {.from = {0.0f}, .to = {1.0f}}
+        );
+        const ecs::Entity entity = test::addSkinned(scene, strip, joints).entity;
+        scene.world.registry.add(
+            entity, scene::MorphWeights(scene.world.registry.get<scene::MorphWeights>(morphed))
+        );
+        Shot shot = shotOf("resolved");
+        shot.settings.secondRaster = true;
+        const image::Image picture = draw(scene, shot);
+        EXPECT_TRUE(test::allFinite(picture)) << one.name;
+        EXPECT_GT(compareWithTruth(scene, shot), compareWithTruth(scene, shotOf("sharp")))
+            << one.name;
+    }
+}
+
+TEST_F(ResolvedDeform, TheLightThatLeavesASilhouetteIsAllThere) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    const std::array joints{
+        Placement{.position = {0.2, -0.8, -3}, .velocity = {10, 0, 0}},
+        Placement{.position = {0, 0.8, 0}, .angularVelocity = {0, 0, 12}}};
+    test::addSkinned(
+        scene, test::makeStrip(0.6, 1.6, 16, scene.addColor(math::vec3(1.0f))), joints
+    );
+    const image::Image sharp = draw(scene, shotOf("sharp"));
+    Shot truthShot = shotOf("accumulate");
+    truthShot.instants = 64;
+    const auto sumOutside = [&](const image::Image& picture) {
+        double sum = 0.0;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+                sum += sharp.at(x, y, 0) > 0.5f ? 0.0 : double(picture.at(x, y, 0));
+        return sum;
+    };
+    const double truth = sumOutside(draw(scene, truthShot));
+    EXPECT_GT(truth, 300.0);
+    EXPECT_NEAR(sumOutside(draw(scene, shotOf("resolved"))), truth, 0.02 * truth);
+}
+
+/// Draws frames of a scene in any order, as an application does.
+class Frames {
+  public:
+    Frames(gpu::Device& device, SceneBuilder& scene)
+        : mScene(scene), mRenderer(device, scene.world.assets),
+          mBlur(device, mRenderer.scene(), {}) {}
+
+    render::FrameResult draw(int frame) {
+        motion_blur::MotionBlurSettings settings;
+        settings.method = &motion_blur::getMethod("resolved");
+        mBlur.configure(settings, {});
+        render::FrameRequest request;
+        request.view.camera = mScene.camera;
+        request.view.exposure = scene::computeExposure({kExposure}, frame / 24.0, 1.0 / 24.0);
+        request.view.width = kWidth;
+        request.view.height = kHeight;
+        render::PostEffect* effects[] = {&mBlur};
+        auto drawn = mRenderer.renderFrame(mScene.world, request, effects);
+        EXPECT_TRUE(drawn.ok());
+        return std::move(drawn.value());
+    }
+
+  private:
+    SceneBuilder& mScene;
+    render::Renderer mRenderer;
+    motion_blur::MotionBlurPlugin mBlur;
+};
+
+TEST_F(ResolvedDeform, ASequenceThatIsTakenUpAgainHasTheSameBits) {
+    SceneBuilder scene = makeRoom();
+    addWaver(scene, 20.0, {6, 0, 0});
+    Frames all(device(), scene);
+    for (int frame = -3; frame < 0; ++frame)
+        (void)all.draw(frame);
+    Frames resumed(device(), scene);
+    (void)resumed.draw(-1);
+    const auto expected = all.draw(0);
+    EXPECT_GT(expected.statistics.counters.at("samples from the last frame"), 0u);
+    EXPECT_TRUE(test::sameBits(resumed.draw(0).color, expected.color));
+}
+
+TEST_F(ResolvedDeform, ACharacterThatIsTeleportedOrAppearsHasNoPast) {
+    for (const bool appears : {false, true}) {
+        SceneBuilder scene = makeRoom();
+        const test::SkinnedEntity waver = addWaver(scene, 20.0, {6, 0, 0});
+        // Something has to move in the frame.
+        scene.add(
+            test::makeQuad(0.2, 0.2, scene.addWaves()),
+            {.position = {-1.5, 1.0, -4}, .velocity = {0, 0.1, 0}}
+        );
+        Frames frames(device(), scene);
+        (void)frames.draw(-1);
+        math::Transform elsewhere;
+        elsewhere.translation = {-0.6, -0.8, -3};
+        if (appears)
+            scene::appear(scene.world, waver.entity, -0.5 / 24.0);
+        else
+            scene::teleport(scene.world, waver.joints[0], elsewhere, -0.5 / 24.0);
+        const auto counters = frames.draw(0).statistics.counters;
+        EXPECT_LT(counters.at("samples from the last frame"), 200u) << "those of the quad";
+    }
+}
+
+} // namespace
+} // namespace shutter
