@@ -19,8 +19,8 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_rays.glsl"
 
-layout(binding = 20, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 21) uniform accelerationStructureEXT uScene;
+layout(binding = 22, scalar) readonly buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 23) uniform accelerationStructureEXT uScene;
 
 void main() {
     uint index = (gl_WorkGroupID.y * kListRow + gl_WorkGroupID.x) * kRevealThreads +

@@ -17,11 +17,11 @@ layout(push_constant, scalar) uniform Push {
 
 #include "motion_blur/resolved_hidden.glsl"
 
-#define SHUTTER_BLOCK_LIST_BINDING 20
+#define SHUTTER_BLOCK_LIST_BINDING 22
 #include "motion_blur/block_list.glsl"
 
-layout(binding = 21, scalar) buffer ListedPixels { uvec2 uListed[]; };
-layout(binding = 22, scalar) buffer ListArguments { DispatchArguments uListArguments; };
+layout(binding = 23, scalar) buffer ListedPixels { uvec2 uListed[]; };
+layout(binding = 24, scalar) buffer ListArguments { DispatchArguments uListArguments; };
 
 /// For the pass that traces: the pixel and which classes its samples have.
 void listPixel(ivec2 pixel, uint counts[kSampleClasses]) {

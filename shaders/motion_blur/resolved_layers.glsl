@@ -29,11 +29,13 @@ layout(binding = 12) uniform sampler2D uSecondColor;
 layout(binding = 13) uniform usampler2D uSecondSurface;
 layout(binding = 14, scalar) readonly buffer SecondCandidates { ReadTile uSecondTiles[]; };
 layout(binding = 15) uniform sampler2D uSecondColorLinear;
-layout(binding = 16, scalar) readonly buffer Parts { TilePart uParts[]; }; // of all layers
+layout(binding = 16, scalar) readonly buffer RasterParts { TilePart uRasterParts[]; };
+layout(binding = 17, scalar) readonly buffer LastParts { TilePart uLastParts[]; };
+layout(binding = 18, scalar) readonly buffer SecondParts { TilePart uSecondParts[]; };
 // Where what deforms goes (common/pixel_way.glsl); with ResolvedParams::hasWays.
-layout(binding = 17) uniform usampler2D uWays;
-layout(binding = 18) uniform usampler2D uLastWays;
-layout(binding = 19) uniform usampler2D uSecondWays;
+layout(binding = 19) uniform usampler2D uWays;
+layout(binding = 20) uniform usampler2D uLastWays;
+layout(binding = 21) uniform usampler2D uSecondWays;
 
 /// Whether the raster of the exposure's other end is a layer.
 layout(constant_id = 2) const bool kHasSecond = false;
@@ -178,6 +180,12 @@ Candidate getCandidate(uint layer, uint tile, uint slot) {
                                      : uRasterTiles[tile].candidates[slot];
     if (isSecond(layer)) read = uSecondTiles[tile].candidates[slot];
     return Candidate(read.x, read.y, read.z, read.w);
+}
+
+TilePart getTilePart(uint layer, uint id) {
+    if (isSecond(layer)) return uSecondParts[id];
+    if (layer == kLastLayer) return uLastParts[id];
+    return uRasterParts[id];
 }
 
 /// A bit for each candidate that the tile may see in that part of the exposure.

@@ -52,13 +52,15 @@ bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) 
         vec2 next = centre + search.back * (search.x - centre - displacement);
         float way = distance(next, at);
         at = next;
-        if (way > kArrivedPx && step_ + 1u < kSteps) continue;
-        if (way > kTolerancePx || !isInside(at)) return false;
-        if (ivec2(at) != texel && fetchSurface(search.layer, ivec2(at)).key != search.key) {
+        // A step from the same pixel would end at the same place.
+        bool isThere = isInside(at) && ivec2(at) == texel;
+        if (!isThere && way > kArrivedPx && step_ + 1u < kSteps) continue;
+        if ((!isThere && way > kTolerancePx) || !isInside(at)) return false;
+        if (!isThere && fetchSurface(search.layer, ivec2(at)).key != search.key) {
             noteMiss(search.layer, search.key, at, doubt);
             return false;
         }
-        bool inner = ivec2(at) == texel && isInner(surface.innerCorners, at - vec2(texel));
+        bool inner = isThere && isInner(surface.innerCorners, at - vec2(texel));
         keepNearer(best, Seen(true, search.layer, search.key, at, surface.depth, inner));
         return true;
     }
@@ -71,7 +73,7 @@ bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) 
 void searchPart(
     uint layer, uint id, float s, vec2 x, inout Seen best, inout Doubt doubt
 ) {
-    TilePart part = uParts[id];
+    TilePart part = getTilePart(layer, id);
     PartWay way = wayAt(part, s);
     PartBack back = invertWay(part, way);
     vec2 at = placeBack(back, x);

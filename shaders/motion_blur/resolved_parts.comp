@@ -357,7 +357,7 @@ void main() {
     uint count = findParts(tile);
     uvec2 tiles = countTiles();
     uint tileIndex = tile.y * tiles.x + tile.x;
-    uint first = firstPartOf(kLayer, tileIndex, tiles.x * tiles.y);
+    uint first = firstPartOf(tileIndex);
     barrier();
     for (uint i = gl_LocalInvocationIndex; i < count; i += kThreads) {
         uParts[first + i] = sParts[i];

@@ -8,10 +8,8 @@
 #include "motion_blur/resolved_parts_shared.h"
 #include "motion_blur/resolved_shared.h"
 
-/// Index of a tile's first part among those of all layers.
-uint firstPartOf(uint layer, uint tile, uint tileCount) {
-    return (layer * tileCount + tile) * kPartsPerTile;
-}
+/// Index of a tile's first part among those of its layer.
+uint firstPartOf(uint tile) { return tile * kPartsPerTile; }
 
 uint keyOfPart(TilePart part) { return part.key & kKeyBits; }
 

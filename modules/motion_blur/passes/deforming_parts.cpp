@@ -48,8 +48,7 @@ DeformingParts::DeformingParts(gpu::Device& device)
 graph::BufferHandle DeformingParts::create(graph::Graph& graph, const PassParams& params) {
     const glm::uvec2 tiles = countCandidateTiles(params);
     const VkDeviceSize count = VkDeviceSize(tiles.x) * tiles.y * shader::kPartsPerTile;
-    constexpr VkDeviceSize kLayers = 3;
-    return graph.createBuffer("parts", {kLayers * count * sizeof(shader::TilePart), kListUsage});
+    return graph.createBuffer("parts", {count * sizeof(shader::TilePart), kListUsage});
 }
 
 PartOutputs DeformingParts::add(

@@ -32,7 +32,7 @@ class DeformingParts {
   public:
     explicit DeformingParts(gpu::Device& device);
 
-    /// shader::TilePart[layer][tile][kPartsPerTile], which nothing has written.
+    /// shader::TilePart[tile][kPartsPerTile] of a layer, which nothing has written.
     [[nodiscard]] static graph::BufferHandle create(graph::Graph& graph, const PassParams& params);
 
     /// \param params with shader::ResolvedParams

@@ -9,7 +9,6 @@
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -65,12 +64,6 @@ struct Starts {
     std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
     std::array<DeformingTiles, 3> deforming;       ///< the same; invalid: nothing deforms
     SortedBlocks blocks;
-
-    [[nodiscard]] bool deforms() const {
-        return std::any_of(deforming.begin(), deforming.end(), [](const DeformingTiles& one) {
-            return one.tiles.isValid();
-        });
-    }
 };
 
 Starts createStarts(
@@ -114,9 +107,9 @@ Starts createStarts(
 } // namespace
 
 std::vector<VkDescriptorType> listSearchBindings() {
-    return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer,
-            kBuffer,  kBuffer,  kSampled, kSampled, kBuffer,  kSampled, kSampled,
-            kBuffer,  kSampled, kBuffer,  kSampled, kSampled, kSampled};
+    return {kSampled, kSampled, kSampled, kSampled, kSampled, kStorage, kBuffer, kBuffer,
+            kBuffer,  kSampled, kSampled, kBuffer,  kSampled, kSampled, kBuffer, kSampled,
+            kBuffer,  kBuffer,  kBuffer,  kSampled, kSampled, kSampled};
 }
 
 void SearchResources::use(graph::PassBuilder& builder) {
@@ -129,7 +122,13 @@ void SearchResources::use(graph::PassBuilder& builder) {
         if (image.isValid())
             builder.read(image, Access::SampledCompute);
     for (const graph::BufferHandle buffer :
-         {candidates.raster, candidates.second, candidates.last, looks, parts})
+         {candidates.raster,
+          candidates.second,
+          candidates.last,
+          looks,
+          parts[0],
+          parts[1],
+          parts[2]})
         if (buffer.isValid())
             builder.read(buffer, Access::StorageRead);
     counters = builder.write(counters, Access::StorageWrite);
@@ -158,8 +157,9 @@ gpu::BindingList SearchResources::bind(
     for (const graph::ImageHandle image : {second.color, second.surface})
         bindings.sampled(resources.view(image), device.nearestSampler());
     bindings.buffer(bufferOr(candidates.second, candidates.raster))
-        .sampled(resources.view(second.color), device.linearSampler())
-        .buffer(bufferOr(parts, counters));
+        .sampled(resources.view(second.color), device.linearSampler());
+    for (const graph::BufferHandle buffer : parts)
+        bindings.buffer(bufferOr(buffer, counters));
     for (const graph::ImageHandle image : ways)
         bindings.sampled(
             resources.view(image.isValid() ? image : layers.raster.surface), device.nearestSampler()
@@ -217,8 +217,6 @@ LookUpOutputs LookUp::add(
     Clears clears;
     const Starts starts =
         createStarts(graph, search.layers, params, mListsPixels, motions.deforms, clears);
-    if (starts.deforms())
-        search.parts = DeformingParts::create(graph, params);
     clears.declare(graph);
     outputs.listed = starts.listed;
     if (mListsPixels)
@@ -243,12 +241,12 @@ LookUpOutputs LookUp::add(
                  search.ways.at(at),
                  listed.deforming,
                  listed,
-                 search.parts},
+                 DeformingParts::create(graph, params)},
                 index,
                 params
             );
             listed = found.listed;
-            search.parts = found.parts;
+            search.parts.at(at) = found.parts;
         }
         search.counters = listed.counters;
         return listed.candidates;
@@ -262,7 +260,7 @@ LookUpOutputs LookUp::add(
         graph,
         raster,
         search.candidates,
-        search.parts,
+        search.parts[static_cast<size_t>(LayerIndex::Raster)],
         BlockSorter::getEmpty(starts.blocks, clears),
         params
     );

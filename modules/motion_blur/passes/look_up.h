@@ -19,16 +19,17 @@
 
 namespace shutter::motion_blur {
 
-/// What the search for a sample reads and counts into: bindings 0 to 19 of resolved_layers.glsl, of
+/// What the search for a sample reads and counts into: bindings 0 to 21 of resolved_layers.glsl, of
 /// which binding 5 is the picture.
 struct SearchResources {
     SurfaceLayersOutputs layers;
     graph::ImageHandle motionDepth; ///< of this frame's raster
     SortedCandidates candidates;
-    graph::BufferHandle looks;              ///< of BlockLooks
-    graph::BufferHandle parts;              ///< of DeformingParts; invalid: nothing deforms
-    std::array<graph::ImageHandle, 3> ways; ///< by LayerIndex, of DrawWays; invalid: not needed
-    graph::BufferHandle counters;           ///< shader::ResolvedCounters
+    graph::BufferHandle looks; ///< of BlockLooks
+    // By LayerIndex; invalid: nothing deforms there.
+    std::array<graph::BufferHandle, 3> parts; ///< of DeformingParts
+    std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
+    graph::BufferHandle counters;             ///< shader::ResolvedCounters
 
     /// Declares the reads; the counters are written.
     void use(graph::PassBuilder& builder);
@@ -100,7 +101,7 @@ class LookUp {
     uint64_t mHistoryBytes = 0;       ///< of the frame declared last
 };
 
-/// Bindings 0 to 19 of a pipeline that searches.
+/// Bindings 0 to 21 of a pipeline that searches.
 [[nodiscard]] std::vector<VkDescriptorType> listSearchBindings();
 
 } // namespace shutter::motion_blur
