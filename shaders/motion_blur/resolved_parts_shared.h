@@ -42,7 +42,9 @@ struct DeformingHeader {
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
+static_assert(sizeof(shutter::shader::PartVector) == 16);
 static_assert(sizeof(shutter::shader::TilePart) == 72);
+static_assert(sizeof(shutter::shader::DeformingHeader) == 4);
 #endif
 
 #endif
