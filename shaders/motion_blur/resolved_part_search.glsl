@@ -37,7 +37,7 @@ struct PartSearch {
 
 /// By Newton's steps from one place, each on the motion of the pixel there.
 /// \return whether the pixel sees the entity
-bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) {
+bool searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt) {
     for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
@@ -61,7 +61,8 @@ bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) 
             return false;
         }
         bool inner = isThere && isInner(surface.innerCorners, at - vec2(texel));
-        keepNearer(best, Seen(true, search.layer, search.key, at, surface.depth, inner));
+        Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner);
+        keepNearer(found, seen, search.x);
         return true;
     }
     return false;
@@ -71,7 +72,7 @@ bool searchFrom(PartSearch search, vec2 at, inout Seen best, inout Doubt doubt) 
 /// \param id index of the part
 /// \param s shutter time
 void searchPart(
-    uint layer, uint id, float s, vec2 x, inout Seen best, inout Doubt doubt
+    uint layer, uint id, float s, vec2 x, inout Seen found, inout Doubt doubt
 ) {
     TilePart part = getTilePart(layer, id);
     PartWay way = wayAt(part, s);
@@ -83,15 +84,15 @@ void searchPart(
         return;
     PartSearch search = PartSearch(layer, keyOfPart(part), s, x, back.back);
     bool isWide = way.deviation > kWideDeviationPx;
-    if (searchFrom(search, at, best, doubt) && !isWide) return;
+    if (searchFrom(search, at, found, doubt) && !isWide) return;
     vec2 inside = clamp(at, box.xy + 0.5f, box.zw - 0.5f);
-    if (inside != at && searchFrom(search, inside, best, doubt) && !isWide) return;
+    if (inside != at && searchFrom(search, inside, found, doubt) && !isWide) return;
     if (!isWide) return;
     // The nearest of what is seen around it hides the rest: a leg before the other.
     for (uint i = 0u; i < 4u; ++i) {
         vec2 side = vec2((i & 1u) != 0u ? 1.0f : -1.0f, (i & 2u) != 0u ? 1.0f : -1.0f);
         vec2 from = clamp(at + 0.7f * reach * side, box.xy + 0.5f, box.zw - 0.5f);
-        searchFrom(search, from, best, doubt);
+        searchFrom(search, from, found, doubt);
     }
 }
 

@@ -40,12 +40,19 @@ const Doubt kNoDoubt = Doubt(false, vec3(kMaxColor), vec3(0.0f));
 /// Depth that surfaces are compared by.
 float behindSky(uint key, float depth) { return key == kSkyKey ? kFarthest : depth; }
 
-void keepNearer(inout Seen best, Seen other) {
-    // Coplanar surfaces: the same one wins in whatever order they are met.
-    if (best.isFound && (other.depth > best.depth ||
-                         (other.depth == best.depth && other.key >= best.key)))
-        return;
-    best = other;
+/// \param x the pixel that sees them
+bool isNearer(Seen a, Seen b, vec2 x) {
+    if (a.depth != b.depth) return a.depth < b.depth;
+    // Coplanar: what has moved is in sight over what stands still. It goes by places alone, so that the
+    // rows of entities make no difference.
+    float wayA = distance(a.at, x);
+    float wayB = distance(b.at, x);
+    if (wayA != wayB) return wayA > wayB;
+    return a.at.y != b.at.y ? a.at.y < b.at.y : a.at.x < b.at.x;
+}
+
+void keepNearer(inout Seen best, Seen other, vec2 x) {
+    if (!best.isFound || isNearer(other, best, x)) best = other;
 }
 
 void addEdge(vec3 color, inout Doubt doubt) {
@@ -95,7 +102,7 @@ struct Guesses {
 /// \return whether it was found
 bool searchRigid(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, inout Seen best, inout Doubt doubt
+    float spreadPx, inout Seen found, inout Doubt doubt
 ) {
     uint key = guess.key;
     vec2 at = placeOn(ray, guess.along, perspective);
@@ -126,7 +133,7 @@ bool searchRigid(
             }
         }
         guess.along = along;
-        keepNearer(best, Seen(true, layer, key, at, behindSky(key, depth), false));
+        found = Seen(true, layer, key, at, behindSky(key, depth), false);
         return true;
     }
     return false;
@@ -140,7 +147,7 @@ const uint kUnclear = 2u; // it is there, but it takes more to say what is seen
 /// \return kFound, kMissed or kUnclear
 uint searchInner(
     uint layer, vec4 instantDepthRow, PixelRay ray, bool perspective, inout Guess guess,
-    float spreadPx, inout Seen best, inout Doubt doubt
+    float spreadPx, inout Seen found, inout Doubt doubt
 ) {
     vec2 at = placeOn(ray, guess.along, perspective);
     if (!isInside(at)) return kMissed;
@@ -158,7 +165,7 @@ uint searchInner(
     if (distance(place, at) > kArrivedPx || !isInside(place)) return kUnclear;
     if (perspective && depth < kLeastDepth) return kUnclear;
     guess.along = along;
-    keepNearer(best, Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true));
+    found = Seen(true, layer, guess.key, place, behindSky(guess.key, depth), true);
     return kFound;
 }
 
@@ -176,7 +183,7 @@ float alongAt(Candidate candidate, float share, bool perspective) {
 /// \param guess where it was found at the instant before, if it was this entity; where it is now
 void searchDepths(
     uint layer, Candidate candidate, InstantMotion motion, bool perspective, vec2 x,
-    inout Guess guess, inout Seen best, inout Doubt doubt
+    inout Guess guess, inout Seen found, inout Doubt doubt
 ) {
     if (motion.rasterFromInstant[2] == vec4(0.0f)) return;
     PixelRay ray = findRay(motion.rasterFromInstant, x, perspective);
@@ -189,13 +196,13 @@ void searchDepths(
     Guess tried =
         Guess(candidate.key, hasGuess ? guess.along : alongAt(candidate, 0.5f, perspective));
     uint first =
-        searchInner(layer, depthRow, ray, perspective, tried, way, best, doubt);
+        searchInner(layer, depthRow, ray, perspective, tried, way, found, doubt);
     if (first == kFound) {
         guess = tried;
         return;
     }
     if (first == kUnclear && (hasGuess || way < kSeedlessWayPx)) {
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, best, doubt)) {
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, found, doubt)) {
             guess = tried;
             return;
         }
@@ -205,7 +212,7 @@ void searchDepths(
     for (uint seed = 0u; seed < seeds; ++seed) {
         tried.along = alongAt(candidate, float(seed) / float(seeds - 1u), perspective);
         // From near to far: the first place found is, as a rule, the one that hides the others.
-        if (searchRigid(layer, depthRow, ray, perspective, tried, way, best, doubt)) {
+        if (searchRigid(layer, depthRow, ray, perspective, tried, way, found, doubt)) {
             guess = tried;
             return;
         }
@@ -291,7 +298,7 @@ void searchLayer(
             );
         if (!found.isFound) continue;
         if (index != kRasterLayer && isRefuted(pixel, instant, found)) continue;
-        keepNearer(best, found);
+        keepNearer(best, found, pixel.x);
     }
 }
 
