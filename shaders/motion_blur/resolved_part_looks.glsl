@@ -58,6 +58,34 @@ bool isWithin(PlaneMap map, float off, uint key) {
     return true;
 }
 
+/// \return whether all that the tile shows of the entity moves as the map
+bool movesAs(PlaneMap map, uint tile, uint key, float s, ivec2 block) {
+    bool isThere = false;
+    for (uint i = 0u; i < kPartsPerTile; ++i) {
+        TilePart part = uParts[firstPartOf(tile) + i];
+        if (part.key == kNoKey) break;
+        if (keyOfPart(part) != key) continue;
+        float off;
+        PlaneMap own = mapPart(part, s, block, off);
+        if (!own.isAffine || off + mapGap(own, map) > params.uniformMotionPx) return false;
+        isThere = true;
+    }
+    return isThere;
+}
+
+/// \return whether so does what the block looks at: parts that no pixel of the block sees may be among
+/// it, and hide there what moves as the map. isWithin() came before.
+bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
+    vec2 reach = kHalfBlockPx * (abs(map.perX) + abs(map.perY)) + kFetchMarginPx + off;
+    uvec2 low = uvec2(map.place - reach) / kCandidateTilePx;
+    uvec2 high = uvec2(map.place + reach) / kCandidateTilePx;
+    uint tilesAcross = (params.sizePx.x + kCandidateTilePx - 1u) / kCandidateTilePx;
+    for (uint y = low.y; y <= high.y; ++y)
+        for (uint x = low.x; x <= high.x; ++x)
+            if (!movesAs(map, y * tilesAcross + x, key, s, block)) return false;
+    return true;
+}
+
 /// Where a block looks that sees nothing but parts of one entity, which move there as one.
 /// \param shown the candidates that the block may see
 PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool standsStill) {
@@ -77,14 +105,14 @@ PlaneMap lookAtParts(ivec2 block, uint tile, uint shown, uint instant, bool stan
         PlaneMap own = mapPart(part, s, block, off);
         if (!isFirst) off += mapGap(own, map);
         if (isFirst) map = own;
-        bool isOne = isFirst || keyOfPart(part) == key;
-        map.isAffine = own.isAffine && isOne && off <= params.uniformMotionPx;
+        map.isAffine = own.isAffine && off <= params.uniformMotionPx;
         key = keyOfPart(part);
         farthest = max(farthest, off);
     }
     if (!map.isAffine) return map;
     // What stands still is no candidate: it may hide some of what moves.
-    map.isAffine = (!standsStill || showsKey(block, key)) && isWithin(map, farthest, key);
+    map.isAffine = (!standsStill || showsKey(block, key)) && isWithin(map, farthest, key) &&
+                   seesOneMotion(map, farthest, key, s, block);
     return map;
 }
 

@@ -358,6 +358,7 @@ void main() {
     uvec2 tiles = countTiles();
     uint tileIndex = tile.y * tiles.x + tile.x;
     uint first = firstPartOf(tileIndex);
+    if (count < kPartsPerTile && gl_LocalInvocationIndex == 0u) uParts[first + count].key = kNoKey;
     barrier();
     for (uint i = gl_LocalInvocationIndex; i < count; i += kThreads) {
         uParts[first + i] = sParts[i];

@@ -9,7 +9,7 @@
 
 SHUTTER_SHADER_BEGIN
 
-/// Most parts of a tile, of all its entities.
+/// Most parts of a tile, of all its entities. If there are fewer, one with kNoKey follows them.
 SHUTTER_CONST uint kPartsPerTile = 8u;
 /// Of Candidate::key: the other bits are the index of a TilePart.
 SHUTTER_CONST uint kPartBit = 0x80000000u;

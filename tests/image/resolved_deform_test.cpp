@@ -267,6 +267,90 @@ TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreToldApart) {
         EXPECT_GT(resolved, compareWithTruth(scene, shotOf(filter)) + 2.0) << filter;
 }
 
+/// Three limbs of one body that cross within a tile, each before the next.
+SceneBuilder makeLimbs() {
+    SceneBuilder scene;
+    scene.setPixelView(kHeight);
+    scene.add(
+        test::makeQuad(300, 300, scene.addColor({0.2f, 0.3f, 0.4f})), {.position = {0, 0, -20}}
+    );
+    scene::Primitive body;
+    body.material = scene.addTextured(scene.addWaveTexture(), true);
+    scene::MorphTarget target;
+    const float ways[] = {14.0f, -11.0f, 3.0f}; // pixels in the exposure
+    for (int limb = 0; limb < 3; ++limb) {
+        const scene::Primitive quad = test::makeQuad(5, 70, body.material);
+        const auto first = uint32_t(body.positions.size());
+        for (const math::vec3& place : quad.positions) {
+            const math::vec3 way(ways[limb] * float(2.0 / kExposure), 0, 0);
+            target.positions.push_back(way);
+            // At rest half way, where the exposure ends.
+            body.positions.push_back(place + math::vec3(6 * limb, 0, -limb) - 0.5f * way);
+        }
+        body.normals.insert(body.normals.end(), quad.normals.begin(), quad.normals.end());
+        body.uv0.insert(body.uv0.end(), quad.uv0.begin(), quad.uv0.end());
+        for (const uint32_t index : quad.indices)
+            body.indices.push_back(first + index);
+    }
+    body.morphTargets.push_back(target);
+    test::addMorphed(
+        scene, std::move(body), {.position = {2, 0, -10}}, {.from = {0.0f}, .to = {1.0f}}
+    );
+    return scene;
+}
+
+TEST_F(ResolvedDeform, LimbsThatCrossWithinATileAreAllFound) {
+    EXPECT_GT(
+        compareWithTruth(makeLimbs(), shotOf("resolved")),
+        compareWithTruth(makeLimbs(), shotOf("gather")) + 10.0
+    );
+}
+
+/// A sheet whose halves move apart like a pair of scissors: the border between them is that of
+/// tiles. A still post stands before it.
+SceneBuilder makeScissors() {
+    SceneBuilder scene;
+    scene.setPixelView(kHeight);
+    scene.add(test::makeQuad(300, 300, scene.addWaves()), {.position = {0, 0, -20}});
+    scene::Primitive sheet =
+        test::makeStrip(150, 96, 2, scene.addTextured(scene.addWaveTexture(), true));
+    // Two quads without common vertices.
+    sheet.influenceCount = 0;
+    sheet.joints.clear();
+    sheet.weights.clear();
+    for (const uint32_t vertex : {2u, 3u}) {
+        sheet.positions.push_back(sheet.positions[vertex]);
+        sheet.normals.push_back(sheet.normals[vertex]);
+        sheet.uv0.push_back(sheet.uv0[vertex]);
+    }
+    for (size_t i = 6; i < sheet.indices.size(); ++i)
+        if (sheet.indices[i] < 4)
+            sheet.indices[i] += 4;
+    scene::MorphTarget target;
+    for (uint32_t vertex = 0; vertex < sheet.positions.size(); ++vertex) {
+        const float way = (vertex < 4 ? 26.0f : -22.0f) * float(2.0 / kExposure);
+        target.positions.push_back({way, 0, 0});
+        sheet.positions[vertex].x -= 0.5f * way;
+    }
+    sheet.morphTargets.push_back(target);
+    test::addMorphed(
+        scene, std::move(sheet), {.position = {0, -48, -10}}, {.from = {0.0f}, .to = {1.0f}}
+    );
+    scene.add(
+        test::makeQuad(24, 128, scene.addColor({0.9f, 0.2f, 0.1f})), {.position = {0, 0, -5}}
+    );
+    return scene;
+}
+
+TEST_F(ResolvedDeform, BlocksThatLookWithoutASearchSeeWhatASearchFinds) {
+    const SceneBuilder scene = makeScissors();
+    Shot searched = shotOf("resolved");
+    searched.settings.uniformMotionPx = 0.0f;
+    const auto fast = test::renderOnce(device(), scene, shotOf("resolved"));
+    EXPECT_GT(fast.statistics.counters.at("blocks uniform"), 10u);
+    EXPECT_GT(image::computePsnr(fast.color, draw(scene, searched)), 50.0);
+}
+
 /// A shape that is hard on a search by derivatives.
 struct HardShape {
     std::string_view name;
