@@ -7,7 +7,6 @@
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
 #include "game/replay/replay_command.h"
-#include "game/soak/soak_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -33,7 +32,6 @@ int main(int argc, char** argv) {
     game::addInfoCommand(app, exitStatus);
     bench::addBenchCommand(app, exitStatus);
     game::addPlayCommand(app, exitStatus);
-    soak::addSoakCommand(app, exitStatus);
     replay::addReplayCommand(app, exitStatus);
     try {
         app.parse(argc, argv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/soak/soak_script.h"
+#include "tests/stability/soak_script.h"
 
 #include "game/demos/random.h"
 
@@ -10,7 +10,7 @@
 #include <array>
 #include <map>
 
-namespace shutter::soak {
+namespace shutter::stability {
 
 namespace {
 
@@ -135,4 +135,4 @@ ordered_json makeSoakSettings() {
         {"showPanel", false}};
 }
 
-} // namespace shutter::soak
+} // namespace shutter::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/soak/storm_stage.h"
+#include "tests/stability/storm_stage.h"
 
 #include "engine/scene/history.h"
 #include "engine/scene/motion.h"
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace shutter::game {
+namespace shutter::stability {
 
 namespace {
 
@@ -43,7 +43,7 @@ std::vector<Model> listModels(const scene::World& world) {
     return small.empty() ? all : small;
 }
 
-dvec3 chooseVector(Random& random, const dvec3& most) {
+dvec3 chooseVector(game::Random& random, const dvec3& most) {
     // One after another: the order in which arguments are evaluated is the compiler's.
     dvec3 chosen;
     for (int axis = 0; axis < 3; ++axis)
@@ -51,9 +51,9 @@ dvec3 chooseVector(Random& random, const dvec3& most) {
     return chosen;
 }
 
-class StormStage : public Stage {
+class StormStage : public game::Stage {
   public:
-    StormStage(std::unique_ptr<Stage> stage, uint32_t count)
+    StormStage(std::unique_ptr<game::Stage> stage, uint32_t count)
         : mStage(std::move(stage)), mModels(listModels(mStage->world())),
           mCount(mModels.empty() ? 0 : count) {}
 
@@ -63,9 +63,9 @@ class StormStage : public Stage {
 
     [[nodiscard]] ecs::Entity camera() const override { return mStage->camera(); }
 
-    [[nodiscard]] DemoLook look() const override { return mStage->look(); }
+    [[nodiscard]] game::DemoLook look() const override { return mStage->look(); }
 
-    void advance(const app::InputState& input, const StageFrame& frame) override {
+    void advance(const app::InputState& input, const game::StageFrame& frame) override {
         mStage->advance(input, frame);
         if (frame.paused)
             return;
@@ -82,7 +82,7 @@ class StormStage : public Stage {
 
     [[nodiscard]] double startSeconds() const override { return mStage->startSeconds(); }
 
-    [[nodiscard]] std::vector<HudLine> hud() const override { return mStage->hud(); }
+    [[nodiscard]] std::vector<game::HudLine> hud() const override { return mStage->hud(); }
 
     [[nodiscard]] bool isOver() const override { return mStage->isOver(); }
 
@@ -92,7 +92,7 @@ class StormStage : public Stage {
     void spawn(double seconds) {
         scene::World& into = mStage->world();
         const math::dmat4 worldFromCamera = scene::worldFromEntity(into, mStage->camera(), seconds);
-        Random random(mFrame);
+        game::Random random(mFrame);
         for (uint32_t i = 0; i < mCount; ++i) {
             const Model& model =
                 mModels[static_cast<size_t>(random.next() * double(mModels.size()))];
@@ -121,7 +121,7 @@ class StormStage : public Stage {
             scene::despawn(mStage->world(), entity);
     }
 
-    std::unique_ptr<Stage> mStage;
+    std::unique_ptr<game::Stage> mStage;
     std::vector<Model> mModels;
     uint32_t mCount;
     uint32_t mFrame = 0; ///< that were not paused
@@ -130,8 +130,8 @@ class StormStage : public Stage {
 
 } // namespace
 
-std::unique_ptr<Stage> makeStormStage(std::unique_ptr<Stage> stage, uint32_t count) {
+std::unique_ptr<game::Stage> makeStormStage(std::unique_ptr<game::Stage> stage, uint32_t count) {
     return std::make_unique<StormStage>(std::move(stage), count);
 }
 
-} // namespace shutter::game
+} // namespace shutter::stability

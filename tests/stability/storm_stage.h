@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace shutter::game {
+namespace shutter::stability {
 
 /// Frames from one storm to the next.
 inline constexpr uint32_t kStormFrames = 25;
@@ -15,6 +15,7 @@ inline constexpr uint32_t kStormFrames = 25;
 /// Plays `stage`. Every kStormFrames frames that are not paused, `count` copies of its smaller
 /// meshes appear before the camera, every other one moving and turning; half a storm later all are
 /// despawned. Where they appear depends on the frame alone.
-[[nodiscard]] std::unique_ptr<Stage> makeStormStage(std::unique_ptr<Stage> stage, uint32_t count);
+[[nodiscard]] std::unique_ptr<game::Stage>
+makeStormStage(std::unique_ptr<game::Stage> stage, uint32_t count);
 
-} // namespace shutter::game
+} // namespace shutter::stability

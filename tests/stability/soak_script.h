@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a soak's player does: an input script that switches everything that can be switched.
+// What the player of a soak does: an input script that switches everything that can be switched.
 #pragma once
 
 #include "game/options/option_rows.h"
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace shutter::soak {
+namespace shutter::stability {
 
 /// Frames after which the same is done again. At a cycle's end everything is set as at its start,
 /// so that what is held in memory then may be compared.
@@ -35,4 +35,4 @@ pictureFile(const std::filesystem::path& folder, uint32_t frame);
 /// which draw many frames for a picture take no longer than others.
 [[nodiscard]] nlohmann::ordered_json makeSoakSettings();
 
-} // namespace shutter::soak
+} // namespace shutter::stability
