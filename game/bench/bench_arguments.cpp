@@ -18,9 +18,8 @@ namespace {
 using core::Status;
 using game::MethodInfo;
 
-constexpr auto kSizeRow = game::makeRow<&BenchArguments::size>(
-    "--size", "picture size WxH; default 640x360, for demand 1280x720"
-);
+constexpr auto kSizeRow =
+    game::makeRow<&game::ShotArguments::size>("--size", "picture size WxH; default 640x360");
 
 /// Leaves the cases that --case names, all where it names none. Error: the names there are.
 template <class T>
@@ -54,13 +53,11 @@ Status checkFilmSize(const game::PictureSize& size) {
     );
 }
 
-/// Sets the size, too, if no option does.
-core::Result<Suite> chooseSuite(BenchArguments& arguments) {
+core::Result<Suite> chooseSuite(const BenchArguments& arguments) {
     auto suite =
         arguments.suite.empty() ? core::Result<Suite>(Suite()) : findSuite(arguments.suite);
     if (!suite)
         return suite;
-    arguments.shot.size = arguments.size.value_or(suite.value().size);
     if (arguments.suite.empty())
         return makeOwnSuite(arguments.shot);
     const auto applySize = [&](Case& shot) {
@@ -77,17 +74,10 @@ core::Result<Suite> chooseSuite(BenchArguments& arguments) {
     if (!chosen.sequences.empty())
         if (const Status even = checkFilmSize(arguments.shot.size); !even)
             return even.error();
-    const bool isHeld = !chosen.hardCases.empty() || !chosen.claims.empty();
-    Status kept = !chosen.hardCases.empty()   ? keepCases(chosen.hardCases, arguments, chosen.name)
-                  : !chosen.claims.empty()    ? keepCases(chosen.claims, arguments, chosen.name)
-                  : !chosen.sequences.empty() ? keepCases(chosen.sequences, arguments, chosen.name)
-                                              : keepCases(chosen.cases, arguments, chosen.name);
+    Status kept = chosen.sequences.empty() ? keepCases(chosen.cases, arguments, chosen.name)
+                                           : keepCases(chosen.sequences, arguments, chosen.name);
     if (!kept)
         return kept.error();
-    if (isHeld && !arguments.methods.empty())
-        return core::makeError(
-            "--methods has no meaning for the suite {}: its cases choose their own", chosen.name
-        );
     return suite;
 }
 
@@ -114,7 +104,7 @@ chooseMethods(const BenchArguments& arguments, bool areFilms) {
 
 } // namespace
 
-core::Result<BenchTask> interpretBench(BenchArguments& arguments) {
+core::Result<BenchTask> interpretBench(const BenchArguments& arguments) {
     for (const CLI::Option* option : arguments.shotOptions)
         if (option->count() > 0 && arguments.shot.scene.empty())
             return core::makeError(
@@ -122,7 +112,6 @@ core::Result<BenchTask> interpretBench(BenchArguments& arguments) {
             );
     if (arguments.shot.scene.empty() == arguments.suite.empty())
         return core::makeError("bench needs --suite or a SCENE, and not both");
-    SHUTTER_TRY(parts::checkJobs(arguments.jobs));
     auto suite = chooseSuite(arguments);
     if (!suite)
         return suite.error();
@@ -132,19 +121,12 @@ core::Result<BenchTask> interpretBench(BenchArguments& arguments) {
     auto shot = game::interpret(arguments.shot);
     if (!shot)
         return shot.error();
-    const size_t sequenceCount = suite.value().sequences.size();
-    return BenchTask{
-        std::move(suite.value()),
-        sequenceCount,
-        std::move(methods.value()),
-        std::move(shot.value())};
+    return BenchTask{std::move(suite.value()), std::move(methods.value()), std::move(shot.value())};
 }
 
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     command.add_option("scene", arguments.shot.scene, "a scene of one's own, instead of --suite");
-    command.add_option(
-        "--suite", arguments.suite, "suite: paper, hard, scaling, stability, demand or sequence"
-    );
+    command.add_option("--suite", arguments.suite, "suite: paper, hard, scaling or sequence");
     command.add_option("--out", arguments.out, "folder for results.json and index.html")
         ->required();
     command
@@ -178,7 +160,7 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
         ->check(CLI::Range(2u, 1000u));
     command.add_flag("--restart", arguments.restart, "discard what an earlier run measured");
     command.add_flag("--report-only", arguments.reportOnly, "only make the page from results.json");
-    kSizeRow.define(command, kSizeRow, arguments);
+    kSizeRow.define(command, kSizeRow, arguments.shot);
     game::defineDeviceOptions(command, arguments.device);
     const std::vector<CLI::Option*> before = command.get_options();
     game::defineShotOptions(command, arguments.shot);
@@ -187,10 +169,6 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
         if (option->get_name() != "--unlit" &&
             std::find(before.begin(), before.end(), option) == before.end())
             arguments.shotOptions.push_back(option->group("Shot (with a SCENE)"));
-    for (const CLI::Option* option : command.get_options())
-        if (option->get_name() != "--help")
-            arguments.benchOptions.push_back(option);
-    parts::defineJobOptions(command, arguments.jobs);
 }
 
 } // namespace shutter::bench

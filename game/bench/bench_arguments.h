@@ -6,7 +6,6 @@
 #include "engine/gpu/device.h"
 #include "game/bench/suites/suite.h"
 #include "game/options/render_arguments.h"
-#include "game/parts/job_options.h"
 #include "game/shot/methods.h"
 
 #include <cstddef>
@@ -19,9 +18,10 @@
 namespace shutter::bench {
 
 struct BenchArguments {
+    BenchArguments() { shot.size = {640, 360}; }
+
     game::ShotArguments shot;
     gpu::DeviceOptions device;
-    std::optional<game::PictureSize> size; ///< nothing: the suite's
     std::string suite;
     std::filesystem::path out;
     std::vector<std::string> methods;
@@ -32,16 +32,13 @@ struct BenchArguments {
     uint32_t frames = 48;
     bool restart = false;
     bool reportOnly = false;
-    parts::JobOptions jobs;
 
-    std::vector<CLI::Option*> shotOptions;        ///< which only a scene of one's own has
-    std::vector<const CLI::Option*> benchOptions; ///< all but those of `jobs`
+    std::vector<CLI::Option*> shotOptions; ///< which only a scene of one's own has
 };
 
 /// What is to be measured.
 struct BenchTask {
     Suite suite;
-    size_t sequenceCount = 0; ///< of the whole suite, of which a part has one
     std::vector<const game::MethodInfo*> methods;
     game::ShotOptions shot;
 };
@@ -49,7 +46,6 @@ struct BenchTask {
 void defineBenchOptions(CLI::App& command, BenchArguments& arguments);
 
 /// Error: names the option.
-/// \param arguments gets the suite's size, if no option sets one
-[[nodiscard]] core::Result<BenchTask> interpretBench(BenchArguments& arguments);
+[[nodiscard]] core::Result<BenchTask> interpretBench(const BenchArguments& arguments);
 
 } // namespace shutter::bench

@@ -3,24 +3,17 @@
 #include "engine/gpu/device.h"
 #include "engine/io/video.h"
 #include "game/bench/bench_arguments.h"
-#include "game/bench/bench_parts.h"
 #include "game/bench/bench_run.h"
 #include "game/bench/report/report_page.h"
 #include "game/options/program.h"
-#include "game/parts/part_commands.h"
-#include "game/parts/part_device.h"
-#include "game/parts/part_processes.h"
-#include "game/parts/part_slurm.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <csignal>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 namespace shutter::bench {
@@ -73,7 +66,7 @@ SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const Bench
     options.frames = arguments.frames;
     options.truth.mostInstants = arguments.truthSamples.value_or(options.truth.mostInstants);
     options.folder = arguments.out;
-    const auto films = double(task.sequenceCount * (task.methods.size() + 1));
+    const auto films = double(task.suite.sequences.size() * (task.methods.size() + 1));
     const double seconds = std::max(options.frames / kFramesPerSecond, 1.0);
     const auto kilobits = uint32_t(kFilmBytes * 8.0 / 1000.0 / (films * seconds));
     auto encoder =
@@ -85,29 +78,15 @@ SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const Bench
     return options;
 }
 
-/// \param workFolder of a run in parts; empty: it is none
-/// \param part of the run, where it is one
-Status measureTask(
-    const BenchArguments& arguments,
-    BenchTask task,
-    const fs::path& workFolder = {},
-    uint32_t part = 0
-) {
+Status measureTask(const BenchArguments& arguments, BenchTask task) {
     gpu::DeviceOptions deviceOptions = arguments.device;
     deviceOptions.cacheFolder = game::findCacheFolder();
     deviceOptions.keptPipelines = 256; // each case has renderers of its own
     auto device = gpu::Device::create(deviceOptions);
     if (!device)
         return device.error();
-    const gpu::DeviceInfo& info = device.value()->info();
-    RunOptions options;
-    if (!workFolder.empty()) {
-        SHUTTER_TRY(
-            parts::settleDevice(parts::deviceFile(workFolder), {info.name, info.driver}, kBenchNoun)
-        );
-        options.partFile = partResults(workFolder, part);
-    }
     SHUTTER_TRY(makeFolders(arguments));
+    RunOptions options;
     std::signal(SIGINT, stopOnInterrupt);
     if (!task.suite.sequences.empty())
         options.sequence = makeSequenceOptions(arguments, task);
@@ -129,24 +108,7 @@ Status measureTask(
     return done;
 }
 
-Status measureInParts(const BenchArguments& arguments, const Suite& suite) {
-    constexpr std::array<std::string_view, 1> kLeft = {"--restart"};
-    auto plan = makeBenchPlan(
-        parts::listTypedWords(arguments.benchOptions, kLeft), listBenchParts(suite), arguments.jobs
-    );
-    if (!plan)
-        return plan.error();
-    SHUTTER_TRY(makeFolders(arguments));
-    const fs::path folder = findBenchFolder(arguments.out);
-    SHUTTER_TRY(keepBenchPlan(plan.value(), folder, arguments.restart));
-    const parts::PartWork work = describeBenchWork(plan.value(), folder);
-    if (arguments.jobs.slurm)
-        return parts::runBySlurm(work, arguments.jobs);
-    SHUTTER_TRY(parts::runHere(work, arguments.jobs));
-    return finishBench(plan.value(), folder);
-}
-
-int runBench(BenchArguments& arguments) {
+int runBench(const BenchArguments& arguments) {
     if (arguments.reportOnly) {
         const Status made = remakeReportPage(arguments.out);
         return made ? game::kExitDone : game::fail(game::kExitFailed, made.error());
@@ -158,37 +120,8 @@ int runBench(BenchArguments& arguments) {
     // Hours of measuring are worth their figures even without a page.
     if (const Status page = checkReportPageCanBeMade(); !page)
         core::logWarning("{}; results.json is written alone", page.error().message);
-    const parts::JobOptions& jobs = arguments.jobs;
-    const bool isInParts = jobs.jobs > 1 || jobs.slurm || !jobs.devices.empty();
-    const Status done = isInParts ? measureInParts(arguments, task.value().suite)
-                                  : measureTask(arguments, std::move(task.value()));
+    const Status done = measureTask(arguments, std::move(task).value());
     return done ? game::kExitDone : game::fail(game::kExitFailed, done.error());
-}
-
-Status measurePart(const parts::PartArguments& part) {
-    const fs::path folder = fs::absolute(part.folder).lexically_normal();
-    const auto plan = openBenchPlan(folder);
-    if (!plan)
-        return plan.error();
-    SHUTTER_TRY(parts::checkPart(part.part, plan.value().parts.size(), kBenchNoun));
-    CLI::App app;
-    BenchArguments arguments;
-    defineBenchOptions(app, arguments);
-    if (const Status parsed = parts::parseWords(app, plan.value().words); !parsed)
-        return core::makeError("{}: {}", benchPlanFile(folder).string(), parsed.error().message);
-    auto task = interpretBench(arguments);
-    if (!task)
-        return task.error();
-    if (!part.device.empty())
-        arguments.device.wanted = part.device;
-    task.value().suite = keepBenchPart(std::move(task.value().suite), part.part);
-    return measureTask(arguments, std::move(task.value()), folder, part.part);
-}
-
-Status finishPlanned(const parts::PartArguments& part) {
-    const fs::path folder = fs::absolute(part.folder).lexically_normal();
-    const auto plan = openBenchPlan(folder);
-    return plan ? finishBench(plan.value(), folder) : Status(plan.error());
 }
 
 } // namespace
@@ -198,12 +131,6 @@ void addBenchCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<BenchArguments>();
     defineBenchOptions(*command, *arguments);
     command->callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
-
-    parts::addPartCommands(
-        app,
-        exitStatus,
-        {kBenchNoun, kBenchPartCommand, kBenchFinishCommand, measurePart, finishPlanned}
-    );
 }
 
 } // namespace shutter::bench

@@ -6,11 +6,7 @@
 #include "game/bench/results.h"
 #include "game/bench/sequence_results.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <string_view>
 
@@ -21,22 +17,12 @@ namespace {
 using core::Status;
 using nlohmann::json;
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// The method at whose time all others are compared: the first of these that is measured.
 constexpr const char* kReferences[] = {"resolved", "hybrid"};
 /// What the headline compares it with.
 constexpr const char* kBaseline = "gather";
 
 constexpr const char* kResultsFile = "results.json";
-
-Status writeJson(const json& results, const std::filesystem::path& file) {
-    return io::writeFileText(file, results.dump(1) + "\n");
-}
 
 /// A run of one suite.
 class BenchRun {
@@ -45,7 +31,7 @@ class BenchRun {
         : mDevice(device), mSuite(options.suite), mMethods(options.methods), mShot(options.shot),
           mStop(stop), mSweep(makeSweep(mMethods, mSuite.maxRays)),
           mScalingPoints(makeScalingPoints(mMethods)), mOptions(options.measure),
-          mTimesOnly(mOptions), mSequence(options.sequence), mPartFile(options.partFile) {
+          mTimesOnly(mOptions), mSequence(options.sequence) {
         mTimesOnly.comparePictures = false;
     }
 
@@ -65,19 +51,9 @@ class BenchRun {
             SHUTTER_TRY(measureAxis(axis, progress));
         for (const SequenceCase& film : mSuite.sequences)
             SHUTTER_TRY(measureFilm(film, progress));
-        for (const stability::HardCase& hard : mSuite.hardCases) {
-            SHUTTER_TRY(measureHardCase(hard));
-            progress.advance();
-        }
-        for (const demand::Claim& claim : mSuite.claims) {
-            SHUTTER_TRY(measureClaim(claim));
-            progress.advance();
-        }
         mRoot["complete"] = true;
-        if (!mPartFile.empty())
-            return writeJson(mRoot, mPartFile);
-        SHUTTER_TRY(writeReport(mRoot, mOptions.folder));
-        return judgeResults(mRoot);
+        SHUTTER_TRY(writeResults());
+        return checkReportPageCanBeMade() ? writeReportPage(mRoot, mOptions.folder) : Status();
     }
 
   private:
@@ -90,7 +66,7 @@ class BenchRun {
                 mSuite.sequences.size() *
                 countPictures(planSequence(mMethods, mSequence.frames, mSequence.truth.mostInstants)
                 );
-        return steps + mSuite.hardCases.size() + mSuite.claims.size();
+        return steps;
     }
 
     bool isMeasured(std::string_view name) const {
@@ -126,10 +102,6 @@ class BenchRun {
             {"tonemap",
              mShot.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
                                                             : "sRGB"}};
-        if (!mSuite.hardCases.empty())
-            mRoot["stability"] = json::array();
-        if (!mSuite.claims.empty())
-            mRoot["demand"] = json::array();
         if (!mSuite.sequences.empty()) {
             mRoot["sequences"] = json::array();
             mRoot["temporalMetrics"] = describeTemporalMetrics();
@@ -177,37 +149,11 @@ class BenchRun {
         return writeResults();
     }
 
-    Status measureHardCase(const stability::HardCase& hard) {
-        const Clock::time_point start = Clock::now();
-        HeldCase held{&hard, hard.measure(mDevice)};
-        held.seconds = secondsSince(start);
-        mRoot["stability"].push_back(describeHardCase(held));
-        return mStop() ? stopEarly() : writeResults();
-    }
-
-    Status measureClaim(const demand::Claim& claim) {
-        demand::DemandOptions options;
-        options.width = mShot.width;
-        options.height = mShot.height;
-        options.rounds = mOptions.repeats;
-        options.folder = mOptions.folder / "scenes";
-        const Clock::time_point start = Clock::now();
-        MeasuredClaim measured{&claim, claim.measure(mDevice, options)};
-        measured.seconds = secondsSince(start);
-        mRoot["demand"].push_back(describeClaim(measured));
-        return mStop() ? stopEarly() : writeResults();
-    }
-
-    /// A part's file is there once all of it is measured.
     Status writeResults() const {
-        return mPartFile.empty() ? writeJson(mRoot, mOptions.folder / kResultsFile) : Status();
+        return io::writeFileText(mOptions.folder / kResultsFile, mRoot.dump(1) + "\n");
     }
 
-    /// Measurements are kept for the next run, except those of hard cases and claims: of these only
-    /// whole parts are.
-    Status stopEarly() const {
-        if (mPartFile.empty() && (!mSuite.hardCases.empty() || !mSuite.claims.empty()))
-            return core::makeError("stopped; the suite {} starts anew each time", mSuite.name);
+    static Status stopEarly() {
         return core::makeError("stopped; the same command goes on where it was");
     }
 
@@ -221,37 +167,10 @@ class BenchRun {
     MeasureOptions mOptions;
     MeasureOptions mTimesOnly;
     const SequenceOptions& mSequence;
-    std::filesystem::path mPartFile;
     json mRoot;
 };
 
 } // namespace
-
-Status judgeResults(const json& results) {
-    for (const auto& [list, noun] :
-         {std::pair("stability", "hard cases"), std::pair("demand", "claims")}) {
-        if (!results.contains(list))
-            continue;
-        std::vector<std::string> broken;
-        for (const json& entry : results.at(list))
-            if (!entry.at("held").get<bool>())
-                broken.push_back(entry.at("name"));
-        if (!broken.empty())
-            return core::makeError(
-                "{} of {} {} left their bounds: {}",
-                broken.size(),
-                results.at(list).size(),
-                noun,
-                fmt::join(broken, ", ")
-            );
-    }
-    return {};
-}
-
-Status writeReport(const json& results, const std::filesystem::path& folder) {
-    SHUTTER_TRY(writeJson(results, folder / kResultsFile));
-    return checkReportPageCanBeMade() ? writeReportPage(results, folder) : Status();
-}
 
 Status runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop) {
     return BenchRun(device, options, stop).run();

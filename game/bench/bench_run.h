@@ -7,9 +7,6 @@
 #include "game/bench/suites/suite.h"
 #include "game/shot/shot_options.h"
 
-#include <nlohmann/json_fwd.hpp>
-
-#include <filesystem>
 #include <vector>
 
 namespace CLI {
@@ -24,21 +21,10 @@ struct RunOptions {
     game::ShotOptions shot; ///< what the suite's cases leave open: size, tone map
     MeasureOptions measure;
     SequenceOptions sequence; ///< for suites that have sequences
-    /// Where the results go when all is measured, in place of results.json and the page, whatever
-    /// left its bounds: those of a part. Empty: it is no part.
-    std::filesystem::path partFile;
 };
 
-/// Error: names the hard cases or claims of results that left their bounds.
-[[nodiscard]] core::Status judgeResults(const nlohmann::json& results);
-
-/// Writes results.json of a report's folder and its page, unless the program makes none.
-[[nodiscard]] core::Status
-writeReport(const nlohmann::json& results, const std::filesystem::path& folder);
-
 /// Measures a suite into results.json and index.html of the report's folder, whose parts exist.
-/// Error: a scene or a file; that `stop` ended it, which leaves what was measured; or, once all is
-/// written, that a hard case or a claim left its bounds.
+/// Error: a scene or a file; or that `stop` ended it, which leaves what was measured.
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
 

@@ -103,51 +103,6 @@ json describeDisplay(const game::ShotArguments& shot) {
         {"exposureValue", shown.exposureValue}};
 }
 
-bool holdAll(const stability::Measurements& checks) {
-    return !checks.empty() && std::all_of(checks.begin(), checks.end(), stability::holds);
-}
-
-json describeChecks(const stability::Measurements& checks) {
-    json rows = json::array();
-    for (const stability::Measured& row : checks)
-        rows.push_back(
-            {{"check", row.check},
-             {"worst", std::isfinite(row.worst) ? json(row.worst) : json()},
-             {"bound", row.bound},
-             {"unit", row.unit},
-             {"samples", row.samples},
-             {"notFinite", row.notFinite},
-             {"held", stability::holds(row)},
-             {"note", row.note}}
-        );
-    return rows;
-}
-
-json describeCurve(const demand::Curve& curve) {
-    json points = json::array();
-    for (const demand::Point& point : curve.points)
-        points.push_back(
-            {{"x", point.x},
-             {"label", point.label},
-             {"median", point.y.median},
-             {"q1", point.y.q1},
-             {"q3", point.y.q3}}
-        );
-    json described = {
-        {"name", curve.name},
-        {"title", curve.title},
-        {"x", {{"title", curve.xTitle}, {"unit", curve.xUnit}}},
-        {"y", {{"title", curve.yTitle}, {"unit", curve.yUnit}}},
-        {"points", points},
-        {"line", nullptr}};
-    if (curve.line)
-        described["line"] = {
-            {"slope", curve.line->slope},
-            {"intercept", curve.line->intercept},
-            {"r2", curve.line->r2}};
-    return described;
-}
-
 } // namespace
 
 json packSampleCount(uint32_t samples) {
@@ -317,45 +272,6 @@ json describeMethods(const std::vector<const game::MethodInfo*>& methods) {
              {"usesRays", method->rays != game::RayNeed::None}}
         );
     return rows;
-}
-
-bool holds(const HeldCase& held) {
-    return held.found && holdAll(held.found.value());
-}
-
-json describeHardCase(const HeldCase& held) {
-    json described = {
-        {"name", held.hard->name},
-        {"title", held.hard->title},
-        {"description", held.hard->description},
-        {"seconds", held.seconds},
-        {"held", holds(held)},
-        {"checks", held.found ? describeChecks(held.found.value()) : json::array()}};
-    if (!held.found)
-        described["failure"] = held.found.error().message;
-    return described;
-}
-
-bool holds(const MeasuredClaim& measured) {
-    return measured.found && holdAll(measured.found.value().checks);
-}
-
-json describeClaim(const MeasuredClaim& measured) {
-    json curves = json::array();
-    if (measured.found)
-        for (const demand::Curve& curve : measured.found.value().curves)
-            curves.push_back(describeCurve(curve));
-    json described = {
-        {"name", measured.claim->name},
-        {"title", measured.claim->title},
-        {"description", measured.claim->description},
-        {"seconds", measured.seconds},
-        {"held", holds(measured)},
-        {"checks", measured.found ? describeChecks(measured.found.value().checks) : json::array()},
-        {"curves", curves}};
-    if (!measured.found)
-        described["failure"] = measured.found.error().message;
-    return described;
 }
 
 json describeMetrics() {

@@ -56,30 +56,6 @@ struct MeasuredPoint {
 
 [[nodiscard]] nlohmann::json describeMethods(const std::vector<const game::MethodInfo*>& methods);
 
-/// One hard case against its bounds.
-struct HeldCase {
-    const stability::HardCase* hard = nullptr;
-    core::Result<stability::Measurements> found; ///< or why it could not be drawn
-    double seconds = 0.0;                        ///< wall time that it took
-};
-
-/// Whether it was drawn and every measurement is within its bound.
-[[nodiscard]] bool holds(const HeldCase& held);
-
-[[nodiscard]] nlohmann::json describeHardCase(const HeldCase& held);
-
-/// One claim against its bounds.
-struct MeasuredClaim {
-    const demand::Claim* claim = nullptr;
-    core::Result<demand::Findings> found; ///< or why it could not be measured
-    double seconds = 0.0;                 ///< wall time that it took
-};
-
-/// Whether it was measured and every check is within its bound.
-[[nodiscard]] bool holds(const MeasuredClaim& measured);
-
-[[nodiscard]] nlohmann::json describeClaim(const MeasuredClaim& measured);
-
 /// How metrics are named and which way is better.
 [[nodiscard]] nlohmann::json describeMetrics();
 

@@ -57,11 +57,8 @@ const std::vector<Row> kEngineRows = {
     {"app", kUpToRender},
 };
 
-constexpr std::string_view kTestKit = "tests/kit";
-
-/// Which rooms of the program a room may see; each sees all of engine/ and modules/. The suites of
-/// checks in tests/conformance are shown by `shutter bench` and count as a room, and so does
-/// tests/kit, which they and the tests share.
+/// Which rooms of the program a room may see; each sees all of engine/ and modules/, and none of
+/// tests/.
 const std::vector<Row> kGameRows = {
     {"shot", {}},
     {"output", {"shot"}},
@@ -71,23 +68,13 @@ const std::vector<Row> kGameRows = {
     {"play/panel", {"shot", "demos"}},
     {"play/loop", {"shot", "output", "options", "demos", "play/panel"}},
     {"bench/report", {}},
-    {"bench/suites", {"shot", "options", "tests/conformance"}},
-    {"bench/sequence",
-     {"shot", "options", "demos", "play/loop", "bench/suites", "tests/conformance"}},
-    {"bench",
-     {"shot",
-      "options",
-      "parts",
-      "bench/report",
-      "bench/suites",
-      "bench/sequence",
-      "tests/conformance"}},
+    {"bench/suites", {"shot", "options"}},
+    {"bench/sequence", {"shot", "options", "demos", "play/loop", "bench/suites"}},
+    {"bench", {"shot", "options", "bench/report", "bench/suites", "bench/sequence"}},
     {"replay", {"shot", "output", "options"}},
     {"film", {"shot", "output", "options", "parts"}},
     {"cli", {"shot", "output", "options", "film", "play/panel", "play/loop", "bench", "replay"}},
     {"examples", {}},
-    {kTestKit, {}},
-    {"tests/conformance", {"shot", "options", kTestKit}},
 };
 
 /// Rooms that shaders/render belongs to: what is extracted on the CPU, put on the device, traced
@@ -145,11 +132,9 @@ const Row* findEngineRow(std::string_view folder) {
     return row == kEngineRows.end() ? nullptr : &*row;
 }
 
-/// The room that a path below game/ or a suite of checks lies in: the longest name that fits.
+/// The room that a path below game/ lies in: the longest name that fits.
 const Row* findGameRow(std::string_view path) {
-    constexpr std::string_view kGame = "game/";
-    if (path.starts_with(kGame))
-        path.remove_prefix(kGame.size());
+    path.remove_prefix(std::string_view("game/").size());
     const Row* best = nullptr;
     for (const Row& row : kGameRows)
         if (path.starts_with(row.from) && path.substr(row.from.size()).starts_with('/') &&
@@ -180,7 +165,7 @@ Part findPart(std::string_view path) {
         const bool isEffect = kModulesWithEffect.contains(name) && !isPlugin;
         return {isEffect ? Kind::Effect : Kind::Module, name, isPlugin};
     }
-    if (top == "game" || (top == "tests" && (name == "conformance" || name == "kit"))) {
+    if (top == "game") {
         const Row* room = findGameRow(path);
         return room ? Part{Kind::Game, std::string(room->from)} : Part{};
     }
@@ -204,7 +189,7 @@ std::string describe(const Part& part) {
     case Kind::Module:
         return "modules/" + part.name + (part.isPlugin ? "/plugin" : "");
     case Kind::Game:
-        return part.name.starts_with("tests/") ? part.name : "game/" + part.name;
+        return "game/" + part.name;
     case Kind::Generator:
         return "assets/generator";
     case Kind::Shaders:
@@ -297,7 +282,7 @@ bool maySee(const Part& from, const Part& to, std::string_view path) {
     case Kind::Game:
         return from.kind == Kind::Game && maySeeRoom(from, to);
     case Kind::Generator:
-        return from.kind == Kind::Game && from.name != kTestKit; // `bench` makes its scenes
+        return from.kind == Kind::Game && from.name.starts_with("bench"); // it makes its scenes
     default:
         return false;
     }

@@ -49,8 +49,6 @@ TEST(Layering, TheModulesKeepTheOrderOfDependence) {
 
 TEST(Layering, TheGameKeepsTheOrderOfDependence) {
     expectNoViolationBelow("game");
-    expectNoViolationBelow("tests/conformance");
-    expectNoViolationBelow("tests/kit");
 }
 
 TEST(Layering, TheAssetGeneratorKeepsTheOrderOfDependence) {

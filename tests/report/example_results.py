@@ -17,7 +17,7 @@ import zlib
 
 WIDTH, HEIGHT = 160, 90
 
-SUITES = ("paper", "hard", "scaling", "stability", "demand", "soak", "sequence")
+SUITES = ("paper", "hard", "scaling", "sequence")
 FRAMES = 24
 
 # name, title, publication, sample unit, default, rays, sample counts n, ms = a + b * n,
@@ -295,57 +295,6 @@ def scaling():
     ]
 
 
-def hard_case(name, checks, failure=None):
-    held = failure is None and all(row["held"] for row in checks)
-    case = {"name": name, "title": f"Title of {name}", "description": "A synthetic case.",
-            "seconds": 1.25, "held": held, "checks": checks}
-    return {**case, "failure": failure} if failure else case
-
-
-def check(name, worst, bound, unit="", not_finite=0, note=""):
-    held = worst is not None and worst <= bound and not_finite == 0
-    return {"check": name, "worst": worst, "bound": bound, "unit": unit, "samples": 4096,
-            "notFinite": not_finite, "held": held, "note": note}
-
-
-def stability():
-    """Two cases that hold, one out of bounds, one not finite, one that could not be drawn."""
-    return [
-        hard_case("Holds", [check("finite", 0, 0), check("error", 0.25, 1, "half ulp")]),
-        hard_case("Tiny", [check("share", 3.2e-7, 1e-5, "share of rays", note="gather")]),
-        hard_case("Beyond", [check("error", 1.5, 1, "px"), check("finite", 0, 0)]),
-        hard_case("Broken", [check("finite", None, 0, not_finite=12)]),
-        hard_case("Undrawn", [], failure="the device has too little memory"),
-    ]
-
-
-def curve(name, points, line=None, x=("tiles that move", "%")):
-    return {"name": name, "title": f"Curve {name}",
-            "x": {"title": x[0], "unit": x[1]}, "y": {"title": "effect", "unit": "ms"},
-            "points": [{"x": at, "label": f"at {at}", **quartiles(y)} for at, y in points],
-            "line": line}
-
-
-def demand():
-    """A claim that holds, with two curves; one out of bounds; one that could not be measured."""
-    line = {"slope": 0.5, "intercept": 0.25, "r2": 0.999}
-    return [
-        {**hard_case("Share", [check("gather: 5 %", 0.05, 0.1, "of the full screen's cost",
-                                     note="7 rounds, quartiles 0.049 to 0.051")]),
-         "curves": [curve("gather", [(0, 0), (50, 25), (100, 50.5)], line),
-                    curve("entities", [(11, 0.2), (1000, 9), (10000, 90)],
-                          x=("entities", ""))]},
-        {**hard_case("Ratio", [check("frame", 1.6, 1.4, "of gather's")]), "curves": []},
-        {**hard_case("Rays", [], failure="the device traces no rays"), "curves": []},
-    ]
-
-
-def soak():
-    """A demo that holds, with what it took over its frames."""
-    return [{**hard_case("gallery", [check("run 1: buffers gained", 0, 0)]),
-             "curves": [curve("process", [(250, 300), (500, 301)], x=("frame", ""))]}]
-
-
 TEMPORAL = [("psnr", "PSNR", "dB", "higher"), ("ssim", "SSIM", "", "higher"),
             ("flip", "FLIP", "", "lower"), ("hdrFlip", "HDR-FLIP", "", "lower"),
             ("flicker", "Flicker", "", "lower"),
@@ -442,12 +391,6 @@ def make(suite):
         results["paper"] = PAPER
     if suite == "scaling":
         results["scaling"] = scaling()
-    if suite == "stability":
-        results["stability"] = stability()
-    if suite == "demand":
-        results["demand"] = demand()
-    if suite == "soak":
-        results["soak"] = soak()
     if suite == "sequence":
         results["methods"].append(
             {"name": "resolved", "title": "What the pixel saw", "publication": "",

@@ -26,12 +26,12 @@ if "llvmpipe" not in devices.stdout:
 
 
 class Measured(unittest.TestCase):
-    def measure(self, *options, statuses=(0,), size="32x18"):
+    def measure(self, *options, size="32x18"):
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run(
                 [SHUTTER, "bench", "--out", folder, "--size", size, "--repeats", "1",
                  "--truth-samples", "2", *options, *ON_SOFTWARE], check=False)
-            self.assertIn(done.returncode, statuses)
+            self.assertEqual(done.returncode, 0)
             return json.loads((pathlib.Path(folder) / "results.json").read_text(encoding="utf-8"))
 
     def validate(self, results):
@@ -61,15 +61,6 @@ class Measured(unittest.TestCase):
         self.assertEqual([c["name"] for c in results["cases"]], ["spin"])
         self.assertEqual(results["equalTime"], [])
 
-    def test_a_stability_case(self):
-        results = self.measure("--suite", "stability", "--case", "ZeroMotion",
-                               "--case", "TooManyEntities")
-        self.validate(results)
-        self.assertEqual([c["name"] for c in results["stability"]],
-                         ["ZeroMotion", "TooManyEntities"])
-        self.assertTrue(all(c["held"] for c in results["stability"]))
-        self.assertEqual(results["cases"], [])
-
     def test_a_played_sequence(self):
         results = self.measure("--suite", "sequence", "--case", "rally-play", "--frames", "3",
                                "--methods", "sharp,gather,accumulate,truth", size="64x36")
@@ -79,37 +70,6 @@ class Measured(unittest.TestCase):
                          [("sharp", None), ("gather", 15), ("accumulate", 8), ("truth", 4)])
         self.assertEqual(len(film["measurements"][0]["curves"]["psnr"]), 3)
         self.assertEqual(results["cases"], [])
-
-    def test_the_claims_about_cost(self):
-        # So small and once only, times say nothing: claims may break, but each is measured. Toggles
-        # has a test of its own.
-        names = ["Still", "MovingShare", "Reveal", "Entities", "FullScreen", "MethodsAgainstGather",
-                 "RevealTraversal", "Instants", "Lit"]
-        cases = [word for name in names for word in ("--case", name)]
-        results = self.measure("--suite", "demand", *cases, statuses=(0, 1), size="160x90")
-        self.validate(results)
-        self.assertEqual([c["name"] for c in results["demand"]], names)
-        claims = {c["name"]: c for c in results["demand"]}
-        for claim in results["demand"]:
-            self.assertNotIn("failure", claim)
-            self.assertTrue(claim["checks"])
-        for check in claims["Still"]["checks"]:
-            if "time" not in check["check"]:
-                self.assertTrue(check["held"], check)
-        for check in claims["Instants"]["checks"]:
-            if "time" not in check["check"]:
-                self.assertTrue(check["held"], check)
-        for check in claims["Lit"]["checks"]:
-            self.assertTrue(check["held"], check)
-        shares = [[p["x"] for p in curve["points"]] for curve in claims["MovingShare"]["curves"]]
-        self.assertEqual(len(shares), 6)
-        self.assertEqual([shares[0][0], shares[0][-1]], [0, 100])
-        self.assertEqual(shares[0], sorted(shares[0]))
-        masked = [p["x"] for p in claims["Reveal"]["curves"][0]["points"]]
-        self.assertEqual(masked, sorted(set(masked)))
-        self.assertGreaterEqual(len(masked), 5)
-        self.assertEqual([p["x"] for p in claims["Entities"]["curves"][0]["points"]],
-                         [11, 100, 1000, 10000])
 
 
 if __name__ == "__main__":

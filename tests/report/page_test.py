@@ -32,73 +32,6 @@ class Page(PageCase):
         for button in self.find_all('#tradeoff-legend [aria-pressed="false"]'):
             button.click()
 
-    # Hard cases
-
-    def test_shows_every_check_beside_its_bound_and_verdict(self):
-        self.open("stability")
-        rows = [[cell.text for cell in row.find_elements(By.CSS_SELECTOR, "th, td")]
-                for row in self.find_all("#stability-table tbody tr")]
-        cases = self.results["stability"]["stability"]
-        self.assertEqual(len(rows), sum(max(len(c["checks"]), 1) for c in cases))
-        verdicts = [row["held"] for c in cases for row in c["checks"] or [c]]
-        self.assertEqual([row[8] for row in rows],
-                         ["holds" if held else "broken" for held in verdicts])
-        self.assertEqual(rows[0], ["Title of Holds", "finite", "0", "0", "", "", "0", "4,096",
-                                   "holds", "1.25"])
-        self.assertEqual(rows[1][1:6], ["error", "0.25", "1", "half ulp", "25 %"])
-        self.assertEqual(rows[2][2:4], ["3.2e-7", "1.0e-5"])
-        self.assertEqual(rows[5][2:7], ["not finite", "0", "", "", "12"])
-        self.assertEqual(rows[6][1], "the device has too little memory")
-
-    def test_says_how_many_cases_hold_and_which_do_not(self):
-        self.open("stability")
-        self.assertEqual(self.find("#headline").text,
-                         "2 of 5 hard cases keep within their bounds.")
-        self.assertEqual(self.find("#stability-broken").text,
-                         "Out of bounds: Title of Beyond; Title of Broken; Title of Undrawn.")
-        self.assertIn("24,576 values, pixels and rays in 6 checks, 12 of them NaN",
-                      self.find("#stability-note").text)
-        self.assertNotIn("160×90", self.find("#overline").text)
-
-    # Claims about cost
-
-    def test_shows_every_claim_with_its_checks(self):
-        self.open("demand")
-        self.assertEqual(self.find("#headline").text, "1 of 3 claims about cost holds.")
-        self.assertEqual(self.find("#demand-broken").text,
-                         "Out of bounds: Title of Ratio; Title of Rays.")
-        rows = [[cell.text for cell in row.find_elements(By.CSS_SELECTOR, "th, td")]
-                for row in self.find_all("#demand-claims tbody tr")]
-        self.assertEqual(rows[0], ["gather: 5 %", "0.05", "0.1", "of the full screen's cost",
-                                   "50 %", "holds", "7 rounds, quartiles 0.049 to 0.051"])
-        self.assertEqual(rows[1][1:6], ["1.6", "1.4", "of gather's", "114 %", "broken"])
-        self.assertEqual(rows[2][0], "the device traces no rays")
-        self.assertEqual(rows[2][5], "broken")
-
-    def test_curves_have_whiskers_and_their_fitted_line(self):
-        self.open("demand")
-        sets = self.datasets("#demand-Share-gather")
-        points = self.results["demand"]["demand"][0]["curves"][0]["points"]
-        self.assertEqual(sets["Curve gather"], [[p["x"], p["median"]] for p in points])
-        self.assertEqual(sets["Curve gather, line"], [[0, 0.25], [100, 50.25]])
-        whiskers = self.js(CHART + "[0].data.map((p) => p.quartiles)", "#demand-Share-gather")
-        self.assertEqual(whiskers, [[p["q1"], p["q3"]] for p in points])
-        self.assertIn("y = 0.25 + 0.5 x, r² 0.999", self.find("#demand-Share").text)
-        # Without a line the points are joined, on logarithmic axes where they span decades.
-        self.assertEqual(list(self.datasets("#demand-Share-entities")), ["Curve entities"])
-        scales = "return Chart.getChart(document.querySelector(arguments[0])).options.scales.%s.type"
-        self.assertEqual(self.js(scales % "x", "#demand-Share-entities"), "logarithmic")
-        self.assertEqual(self.js(scales % "x", "#demand-Share-gather"), "linear")
-
-    # What grows over many frames
-
-    def test_shows_what_a_soak_took_over_its_frames(self):
-        self.open("soak")
-        self.assertEqual(self.find("#headline").text, "Nothing grows over the frames of the soak.")
-        self.assertEqual(self.datasets("#soak-gallery-process"),
-                         {"Curve process": [[250, 300], [500, 301]]})
-        self.assertIn("run 1: buffers gained", self.find("#soak-claims tbody tr").text)
-
     # The whole page
 
     def test_asks_nothing_of_the_network(self):
@@ -117,9 +50,6 @@ class Page(PageCase):
             "paper": {"ladder", "tradeoff", "pictures", "slider", "viewer", "tables", "equal-time", "about"},
             "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "viewer", "equal-time", "about"},
             "scaling": {"scaling", "about"},
-            "stability": {"stability", "about"},
-            "demand": {"demand", "about"},
-            "soak": {"soak", "about"},
             "sequence": {"sequences", "about"} |
                         ({"player"} if shutil.which("ffmpeg") else set()),
         }
@@ -288,14 +218,6 @@ class Page(PageCase):
         self.assertTrue(self.find("#incomplete").is_displayed())
         self.open("paper")
         self.assertFalse(self.find("#incomplete").is_displayed())
-
-    def test_says_when_times_were_taken_beside_others(self):
-        self.open("paper")
-        self.assertFalse(self.find("#parallel").is_displayed())
-        self.make_page("parallel", lambda results: results.update(
-            parallel={"processes": 4, "slurm": True, "machines": ["CPU a", "CPU b"]}))
-        self.assertIn("by Slurm, by up to 4 processes at once on machines of 2 kinds: times are of "
-                      "shared machines", self.find("#parallel").text)
 
     def test_text_of_the_results_stays_text(self):
         self.open("paper")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every hard case keeps within its bounds, under validation. What each draws and measures stands in
-// game/bench/stability; README.md beside this file says which row of the design each is.
+// Every hard case keeps within its bounds, under validation. What each draws and measures is in
+// tests/conformance/stability; README.md beside this file says which row of the design each is.
 #include "tests/conformance/stability/measured.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -24,7 +24,7 @@ TEST_P(HardCases, Hold) {
         EXPECT_GT(row.samples, 0u) << row.check << ": nothing was looked at";
         EXPECT_EQ(row.notFinite, 0u) << row.check << ": NaN or infinity";
         EXPECT_LE(row.worst, row.bound) << row.check << ", " << row.unit << " (" << row.note << ")";
-        RecordProperty(row.check, std::to_string(row.worst));
+        RecordProperty(row.check, describe(row));
     }
 }
 

@@ -14,9 +14,8 @@ TEST_F(ToggleLaw, TwoThousandFramesLeaveNothingBehind) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found.value().size(), 8u);
     for (const stability::Measured& row : found.value()) {
-        EXPECT_TRUE(stability::holds(row)) << row.check << ": " << row.worst << " " << row.unit
-                                           << ", at most " << row.bound << " (" << row.note << ")";
-        RecordProperty(row.check, std::to_string(row.worst));
+        EXPECT_TRUE(stability::holds(row)) << row.check << ": " << describe(row);
+        RecordProperty(row.check, describe(row));
     }
 }
 

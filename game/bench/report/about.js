@@ -18,27 +18,13 @@ function listFacts() {
         ["Machine", `${machine.cpu}, ${machine.cores} cores, ${formatNumber(gib, 1)} GiB, ` +
             machine.os],
         ["Revision", `${revision.git}${revision.dirty ? " with changes not committed" : ""}`],
-        ["Settings", results.stability ? "the cases' own"
-            : [`${settings.width}×${settings.height}`, ...others].join(", ")],
+        ["Settings", [`${settings.width}×${settings.height}`, ...others].join(", ")],
         ["Taken", `${results.created}, suite ${results.suite}`],
     ];
 }
 
 function describeMeasuring() {
-    if (results.stability)
-        return el("ul", {}, el("li", {}, "Each case draws and measures as its checks say; what is " +
-            "looked at is counted under samples. Nothing is timed but the case as a whole."));
-    if (results.soak)
-        return el("ul", {}, el("li", {}, "The demo is played by a script that repeats itself; " +
-            "memory is read at the end of each repetition, when the device is idle."),
-            el("li", {}, "The first repetition does not count. Of the others, the last third is " +
-                "held against the first third."));
     const {repeats, tonemap} = results.settings;
-    if (results.demand)
-        return el("ul", {}, el("li", {}, "Times of passes are the GPU's timestamps; what the CPU " +
-            "does is said where it counts."), el("li", {}, "What is compared took turns within " +
-            `one run, ${countOf(repeats, "round")} or a multiple of it, each variant with a ` +
-            "renderer of its own, after two pictures that do not count."));
     const timed = results.sequences
         ? "Each picture is timed once; figures of a film are medians over its frames."
         : `Each figure is the median of ${repeats} repeats unless it says otherwise, ` +

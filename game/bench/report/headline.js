@@ -120,38 +120,24 @@ function writeEqualTimeSentence(metric) {
             `${reached}.`;
 }
 
-/** What times are worth that were taken beside others; empty where each had the machine alone. */
-function describeParallel() {
-    const {parallel} = results;
-    if (!parallel) return "";
-    const where = parallel.slurm ? "by Slurm, " : "";
-    const machines = parallel.machines.length > 1
-        ? ` on machines of ${countOf(parallel.machines.length, "kind")}` : "";
-    return `Measured ${where}by up to ${parallel.processes} processes at once${machines}: times ` +
-        "are of shared machines and compare with no other run's. Metrics are not affected.";
-}
-
 function drawHeadline() {
     const metric = results.metrics[0];
     const pair = metric && findHeadlinePair();
     const pairSentence = pair && writePairSentence(pair, metric);
-    const headline = pairSentence ?? writeScalingSentence() ?? writeStabilitySentence() ??
-        writeDemandSentence() ?? writeSoakSentence() ?? writeSequenceSentence() ??
+    const headline = pairSentence ?? writeScalingSentence() ?? writeSequenceSentence() ??
         writeCountSentence();
     const {width, height} = results.settings;
     byId("overline").textContent = [
         `Shutter benchmark, suite ${results.suite}`,
-        results.stability ? "" : `${width}×${height}`, // hard cases have sizes of their own
+        `${width}×${height}`,
         results.device.name,
-    ].filter(Boolean).join(" · ");
+    ].join(" · ");
     byId("headline").textContent = headline;
     document.title = `Shutter benchmark: ${results.suite}`;
     const lede = pairSentence
         ? writeNextSentence(pair, metric) + writeEqualTimeSentence(metric) : "";
     byId("lede").textContent = lede;
     byId("lede").hidden = lede === "";
-    byId("parallel").textContent = describeParallel();
-    byId("parallel").hidden = !results.parallel;
     byId("incomplete").hidden = results.complete;
     byId("incomplete").textContent =
         "This run was stopped before its end: measurements are missing, and figures may change.";

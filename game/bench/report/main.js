@@ -46,8 +46,6 @@ function drawChosen() {
 fillToolbar();
 drawHeadline();
 drawTables();
-drawStability();
-drawClaims();
 drawAbout();
 startSequences();
 startPlayer();
@@ -56,7 +54,6 @@ onChoice(drawChosen);
 onTheme(() => {
     drawTradeoff();
     drawScaling();
-    drawClaimCharts();
     drawSequenceCurves();
 });
 byId("save").addEventListener("click", saveResults);

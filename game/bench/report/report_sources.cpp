@@ -2,7 +2,6 @@
 #include "game/bench/report/about_js.h"
 #include "game/bench/report/chart_js.h"
 #include "game/bench/report/charts_js.h"
-#include "game/bench/report/claims_js.h"
 #include "game/bench/report/data_js.h"
 #include "game/bench/report/equal_time_js.h"
 #include "game/bench/report/exr_js.h"
@@ -21,7 +20,6 @@
 #include "game/bench/report/scaling_js.h"
 #include "game/bench/report/sequences_js.h"
 #include "game/bench/report/slider_js.h"
-#include "game/bench/report/stability_js.h"
 #include "game/bench/report/style_css.h"
 #include "game/bench/report/tables_js.h"
 #include "game/bench/report/tradeoff_js.h"
@@ -60,8 +58,8 @@ std::string joinReportScripts() {
         viewOf(k_matrix_js),    viewOf(k_viewport_js),   viewOf(k_pictures_js),
         viewOf(k_slider_js),    viewOf(k_viewer_js),     viewOf(k_viewer_input_js),
         viewOf(k_tables_js),    viewOf(k_equal_time_js), viewOf(k_scaling_js),
-        viewOf(k_stability_js), viewOf(k_claims_js),     viewOf(k_sequences_js),
-        viewOf(k_player_js),    viewOf(k_about_js),      viewOf(k_main_js),
+        viewOf(k_sequences_js), viewOf(k_player_js),     viewOf(k_about_js),
+        viewOf(k_main_js),
     };
     std::string joined;
     for (const std::string_view script : kScripts)

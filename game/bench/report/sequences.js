@@ -47,7 +47,7 @@ function makeMeasureTable(film) {
             content: formatTemporal(metric.id, m.metrics[metric.id]),
             class: isBestOf(metric, m, film.measurements) ? "n better" : "n",
         }))]);
-    return makeTable(columns, rows, {class: "stability"});
+    return makeTable(columns, rows, {class: "checks"});
 }
 
 /** Rows by rising time of the first error; methods that miss it come last. */

@@ -16,8 +16,6 @@ constexpr std::array kSuites = {
     SuiteRow{"paper", makePaperSuite},
     SuiteRow{"hard", makeHardSuite},
     SuiteRow{"scaling", makeScalingSuite},
-    SuiteRow{"stability", makeStabilitySuite},
-    SuiteRow{"demand", makeDemandSuite},
     SuiteRow{"sequence", makeSequenceSuite},
 };
 

@@ -5,8 +5,6 @@
 #include "assets/generator/gltf_writer.h"
 #include "engine/core/result.h"
 #include "game/options/shot_arguments.h"
-#include "tests/conformance/demand/claim.h"
-#include "tests/conformance/stability/measured.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -60,15 +58,12 @@ struct SequenceCase {
 
 struct Suite {
     std::string name;
-    std::vector<Case> cases;                    ///< compared with the truth
-    std::vector<ScalingAxis> axes;              ///< timed only
-    std::vector<stability::HardCase> hardCases; ///< measured against bounds
-    std::vector<demand::Claim> claims;          ///< about cost, measured against bounds
-    std::vector<SequenceCase> sequences;        ///< compared with the truth frame by frame
-    game::PictureSize size{640, 360};           ///< of its pictures, unless --size says otherwise
-    uint32_t repeats = 7;                       ///< timed pictures of each method and sample count
-    double limitSeconds = 60.0; ///< sample counts whose picture takes longer are skipped
-    uint32_t maxRays = 256;     ///< largest sample count of methods that count rays
+    std::vector<Case> cases;             ///< compared with the truth
+    std::vector<ScalingAxis> axes;       ///< timed only
+    std::vector<SequenceCase> sequences; ///< compared with the truth frame by frame
+    uint32_t repeats = 7;                ///< timed pictures of each method and sample count
+    double limitSeconds = 60.0;          ///< sample counts whose picture takes longer are skipped
+    uint32_t maxRays = 256;              ///< largest sample count of methods that count rays
 };
 
 /// Error: lists the names of all suites.
@@ -87,10 +82,6 @@ makeWriter(std::function<generator::GltfWriter()> build);
 [[nodiscard]] Suite makeHardSuite();
 /// Resolution, entities, triangles, moving share of the screen, exposure.
 [[nodiscard]] Suite makeScalingSuite();
-/// Hard cases against the bounds that keep them numerically stable.
-[[nodiscard]] Suite makeStabilitySuite();
-/// The cost of a frame against the demands of its scene.
-[[nodiscard]] Suite makeDemandSuite();
 /// Three flights and three played demos, judged in time.
 [[nodiscard]] Suite makeSequenceSuite();
 

@@ -9,12 +9,7 @@ std::vector<Claim> listClaims() {
         makeMovingShareClaim(),
         makeRevealClaim(),
         makeEntitiesClaim(),
-        makeFullScreenClaim(),
-        makeMethodsClaim(),
-        makeTraversalClaim(),
-        makeInstantsClaim(),
-        makeLitClaim(),
-        makeTogglesClaim()};
+        makeLitClaim()};
 }
 
 } // namespace shutter::demand

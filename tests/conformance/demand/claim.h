@@ -5,13 +5,11 @@
 
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
-#include "engine/math/statistics.h"
 #include "tests/conformance/stability/measured.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,26 +22,9 @@ struct DemandOptions {
     std::filesystem::path folder; ///< generated scenes go there; it exists
 };
 
-struct Point {
-    double x = 0.0;
-    math::Quartiles y; ///< over the rounds
-    std::string label;
-};
-
-struct Curve {
-    std::string name; ///< unique in its claim; letters, digits, -
-    std::string title;
-    std::string xTitle;
-    std::string xUnit; ///< may be empty: a count
-    std::string yTitle;
-    std::string yUnit;
-    std::vector<Point> points;           ///< by rising x, at least one
-    std::optional<math::LineFit> line{}; ///< through the medians, where it says something
-};
-
 struct Findings {
-    stability::Measurements checks;
-    std::vector<Curve> curves;
+    stability::Measurements counts; ///< the same in every run
+    stability::Measurements times;  ///< medians over the rounds, which other programs disturb
 };
 
 struct Claim {
@@ -54,18 +35,13 @@ struct Claim {
     std::function<core::Result<Findings>(gpu::Device&, const DemandOptions&)> measure;
 };
 
-/// Every claim there is, in the order in which the report shows them.
+/// Every claim there is.
 [[nodiscard]] std::vector<Claim> listClaims();
 
 [[nodiscard]] Claim makeStillClaim();
 [[nodiscard]] Claim makeMovingShareClaim();
 [[nodiscard]] Claim makeRevealClaim();
 [[nodiscard]] Claim makeEntitiesClaim();
-[[nodiscard]] Claim makeFullScreenClaim();
-[[nodiscard]] Claim makeMethodsClaim();
-[[nodiscard]] Claim makeTraversalClaim();
-[[nodiscard]] Claim makeInstantsClaim();
 [[nodiscard]] Claim makeLitClaim();
-[[nodiscard]] Claim makeTogglesClaim();
 
 } // namespace shutter::demand

@@ -2,8 +2,6 @@
 #include "assets/generator/scaling_scenes.h"
 #include "tests/conformance/demand/figures.h"
 
-#include <iterator>
-
 namespace shutter::demand {
 
 namespace {
@@ -19,8 +17,7 @@ struct Variant {
     bool merged; ///< what stands still is one mesh of one entity
 };
 
-constexpr Variant kVariants[] = {
-    {kMostEntities, true}, {100, false}, {1000, false}, {kMostEntities, false}};
+constexpr Variant kVariants[] = {{kMostEntities, true}, {kMostEntities, false}};
 
 core::Result<std::unique_ptr<Stage>>
 loadVariant(const DemandOptions& options, const Variant& variant) {
@@ -57,21 +54,6 @@ std::string describeParts(const Frames& frames) {
     return text + fmt::format("builds ms {:.3g}", builds.median);
 }
 
-Curve drawCurve(const std::vector<Frames>& frames) {
-    Curve curve{
-        "entities", "Work for entities", "entities in the picture", "", "CPU and builds", "ms", {}};
-    for (size_t i = 0; i < std::size(kVariants); ++i) {
-        const bool isMerged = kVariants[i].merged;
-        const int count = isMerged ? kMovers + 1 : kVariants[i].count;
-        curve.points.push_back(
-            {double(count),
-             summarize(frames[i], entityWork),
-             isMerged ? fmt::format("{} and all others merged", kMovers) : fmt::format("{}", count)}
-        );
-    }
-    return curve;
-}
-
 core::Result<Findings> measureEntities(gpu::Device& device, const DemandOptions& options) {
     const char* method = device.hasRays() ? "hybrid" : "gather";
     std::vector<std::unique_ptr<Stage>> stages;
@@ -94,7 +76,7 @@ core::Result<Findings> measureEntities(gpu::Device& device, const DemandOptions&
     const Frames& merged = frames.value().front();
     const Frames& all = frames.value().back();
     Findings findings;
-    findings.checks.push_back(checkMedian(
+    findings.times.push_back(checkMedian(
         fmt::format("{} entities, {} of which move", kMostEntities, kMovers),
         compare(all, merged, entityWork, entityWork),
         kWorkRatio,
@@ -102,7 +84,6 @@ core::Result<Findings> measureEntities(gpu::Device& device, const DemandOptions&
         all.size(),
         fmt::format("{}; merged: {}", describeParts(all), describeParts(merged))
     ));
-    findings.curves.push_back(drawCurve(frames.value()));
     return findings;
 }
 

@@ -35,14 +35,6 @@ Figure effectOf(const game::MethodInfo& method) {
     };
 }
 
-Figure frameTime() {
-    return game::sumFrameMilliseconds;
-}
-
-bool isTileMax(const render::PassTime& pass) {
-    return pass.name.starts_with("tile max") || pass.name.starts_with("neighbour max");
-}
-
 bool isMaskOrReveal(const render::PassTime& pass) {
     const bool isNamedSo =
         contains(pass.name, "edge") || contains(pass.name, "mask") || contains(pass.name, "reveal");
@@ -90,32 +82,21 @@ stability::Measured checkMedian(
     return {std::move(check), quartiles.median, bound, std::move(unit), rounds, 0, std::move(note)};
 }
 
-stability::Measured checkLine(std::string check, const Curve& curve) {
+stability::Measured
+checkLine(std::string check, const std::vector<math::CurvePoint>& points, std::string_view unit) {
     constexpr double kUnexplained = 0.02;
-    stability::Measured row{std::move(check), 0.0, kUnexplained, "1 - r²", curve.points.size()};
+    stability::Measured row{std::move(check), 0.0, kUnexplained, "1 - r²", points.size()};
     // Any two points lie on a line.
     constexpr size_t kLeastPoints = 4;
-    if (!curve.line || curve.points.size() < kLeastPoints) {
+    const auto line = math::fitLine(points);
+    if (!line || points.size() < kLeastPoints) {
         row.worst = std::numeric_limits<double>::quiet_NaN();
         row.note = "too few points for a line";
         return row;
     }
-    row.worst = std::max(1.0 - curve.line->r2, 0.0);
-    row.note = fmt::format(
-        "{:.4g} {} and {:.4g} a unit of {}",
-        curve.line->intercept,
-        curve.yUnit,
-        curve.line->slope,
-        curve.xTitle
-    );
+    row.worst = std::max(1.0 - line->r2, 0.0);
+    row.note = fmt::format("{:.4g} ms and {:.4g} a {}", line->intercept, line->slope, unit);
     return row;
-}
-
-void addLine(Curve& curve) {
-    std::vector<math::CurvePoint> points;
-    for (const Point& point : curve.points)
-        points.push_back({point.x, point.y.median});
-    curve.line = math::fitLine(points);
 }
 
 GraphParts readDump(std::string_view dump) {

@@ -2,6 +2,7 @@
 // What is read off frames, figures and the parts of their graphs, and what is said of it.
 #pragma once
 
+#include "engine/math/statistics.h"
 #include "tests/conformance/demand/claim.h"
 #include "tests/conformance/demand/subject.h"
 
@@ -22,11 +23,6 @@ using Figure = std::function<double(const render::FrameStatistics&)>;
 
 /// GPU milliseconds that a method adds to the sharp frame, as everywhere in the benchmark.
 [[nodiscard]] Figure effectOf(const game::MethodInfo& method);
-/// GPU milliseconds from the G-buffer to the linear picture.
-[[nodiscard]] Figure frameTime();
-
-/// Longest motion of tiles and of their neighbourhoods.
-[[nodiscard]] bool isTileMax(const render::PassTime& pass);
 /// Finding what will be revealed, and revealing it; what `hybrid` does beyond `gather`, apart from
 /// the top level and the second layer of the last pass.
 [[nodiscard]] bool isMaskOrReveal(const render::PassTime& pass);
@@ -54,10 +50,10 @@ compare(const Frames& a, const Frames& b, const Figure& ofA, const Figure& ofB);
 
 /// How far the points are from a line: 1 - r2 of its fit, at most 0.02 (r2 0.98 and more). Broken
 /// where there is no fit.
-[[nodiscard]] stability::Measured checkLine(std::string check, const Curve& curve);
-
-/// The medians' line.
-void addLine(Curve& curve);
+/// \param points milliseconds against a quantity, by rising quantity
+/// \param unit of the quantity, for the note
+[[nodiscard]] stability::Measured
+checkLine(std::string check, const std::vector<math::CurvePoint>& points, std::string_view unit);
 
 /// What a frame was made of: a line each, as it stands in graph::dump().
 struct GraphParts {

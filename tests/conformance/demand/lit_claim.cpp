@@ -192,7 +192,7 @@ addCase(Findings& findings, gpu::Device& device, const DemandOptions& options, c
             ? countBeyond(with.images, without.images)
             : with.images.size() - std::min(with.images.size(), without.images.size() + 1);
     const auto add = [&](const char* check, uint64_t found, uint64_t samples) {
-        findings.checks.push_back(
+        findings.counts.push_back(
             {fmt::format("{}: {}", wanted.name, check), double(found), 0.0, "", samples}
         );
     };

@@ -17,19 +17,7 @@ struct Limit {
 
 constexpr Limit kLimits[] = {{0.05, 0.10}, {0.25, 0.32}};
 
-struct TiledMethod {
-    const char* name;
-    bool isHeld; ///< against the limits; the others are shown beside
-};
-
-constexpr TiledMethod kMethods[] = {
-    {"gather", true},
-    {"hybrid", true},
-    {"resolved", true},
-    {"mcguire2012", false},
-    {"guertin2014", false},
-    {"jimenez2014", false},
-};
+constexpr const char* kMethods[] = {"gather", "hybrid", "resolved"};
 
 /// At `share`, on the straight line between the regions beside it, of what one round took.
 /// \param regions by rising share, from 0 to 1
@@ -73,21 +61,14 @@ stability::Measured checkLimit(
     );
 }
 
-Curve drawCurve(
-    const std::string& method,
-    const std::vector<RegionStage>& regions,
-    const std::vector<Frames>& frames,
-    const Figure& effect
+/// Medians of the effect against the share of the tiles.
+std::vector<math::CurvePoint> listMedians(
+    const std::vector<RegionStage>& regions, const std::vector<Frames>& frames, const Figure& effect
 ) {
-    Curve curve{method, method, "tiles that move", "%", "effect", "ms", {}};
-    for (size_t i = 0; i < regions.size(); ++i) {
-        const double percent = 100.0 * regions[i].tileShare;
-        curve.points.push_back(
-            {percent, summarize(frames[i], effect), fmt::format("{:.1f} %", percent)}
-        );
-    }
-    addLine(curve);
-    return curve;
+    std::vector<math::CurvePoint> points;
+    for (size_t i = 0; i < regions.size(); ++i)
+        points.push_back({100.0 * regions[i].tileShare, summarize(frames[i], effect).median});
+    return points;
 }
 
 core::Result<Findings> measureShares(gpu::Device& device, const DemandOptions& options) {
@@ -95,28 +76,26 @@ core::Result<Findings> measureShares(gpu::Device& device, const DemandOptions& o
     if (!regions)
         return regions.error();
     Findings findings;
-    for (const TiledMethod& tiled : kMethods) {
-        const game::MethodInfo& method = *game::findMethod(tiled.name).value();
+    for (const char* name : kMethods) {
+        const game::MethodInfo& method = *game::findMethod(name).value();
         if (!game::canRun(method, device))
             continue;
-        auto subjects = makeSubjects(device, regions.value(), tiled.name, options);
+        auto subjects = makeSubjects(device, regions.value(), name, options);
         if (!subjects)
             return subjects.error();
         auto frames = takeTurns(subjects.value(), options.rounds);
         if (!frames)
             return frames.error();
         const Figure effect = effectOf(method);
-        Curve curve = drawCurve(tiled.name, regions.value(), frames.value(), effect);
-        if (tiled.isHeld) {
-            for (const Limit& limit : kLimits)
-                findings.checks.push_back(
-                    checkLimit(tiled.name, limit, regions.value(), frames.value(), effect)
-                );
-            findings.checks.push_back(
-                checkLine(fmt::format("{}: distance from a line", tiled.name), curve)
+        for (const Limit& limit : kLimits)
+            findings.times.push_back(
+                checkLimit(name, limit, regions.value(), frames.value(), effect)
             );
-        }
-        findings.curves.push_back(std::move(curve));
+        findings.times.push_back(checkLine(
+            fmt::format("{}: distance from a line", name),
+            listMedians(regions.value(), frames.value(), effect),
+            "percent of the tiles"
+        ));
     }
     return findings;
 }

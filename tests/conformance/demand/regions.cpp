@@ -15,7 +15,6 @@ struct Region {
     int rows = 0;
 };
 
-constexpr Region kFullScreen{generator::kPanelColumns, generator::kPanelRows};
 constexpr std::array kRegions = {
     Region{0, 0},
     Region{1, 1},
@@ -25,7 +24,7 @@ constexpr std::array kRegions = {
     Region{6, 5},
     Region{9, 7},
     Region{12, 8},
-    kFullScreen,
+    Region{generator::kPanelColumns, generator::kPanelRows},
 };
 
 core::Result<std::unique_ptr<Stage>> loadRegion(const DemandOptions& options, Region region) {
@@ -73,10 +72,6 @@ loadRegions(gpu::Device& device, const DemandOptions& options) {
         regions.push_back({std::move(stage).value(), share.value()});
     }
     return regions;
-}
-
-core::Result<std::unique_ptr<Stage>> loadFullScreen(const DemandOptions& options) {
-    return loadRegion(options, kFullScreen);
 }
 
 core::Result<Subjects> makeSubjects(

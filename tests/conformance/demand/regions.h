@@ -21,9 +21,6 @@ struct RegionStage {
 [[nodiscard]] core::Result<std::vector<RegionStage>>
 loadRegions(gpu::Device& device, const DemandOptions& options);
 
-/// The full screen alone.
-[[nodiscard]] core::Result<std::unique_ptr<Stage>> loadFullScreen(const DemandOptions& options);
-
 /// One subject a region, in their order.
 [[nodiscard]] core::Result<Subjects> makeSubjects(
     gpu::Device& device,

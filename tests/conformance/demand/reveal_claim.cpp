@@ -14,23 +14,17 @@ double countMasked(const render::FrameStatistics& frame) {
     return found == frame.counters.end() ? 0.0 : double(found->second);
 }
 
-Curve drawCurve(
-    std::string name,
-    std::string title,
-    const std::vector<Frames>& frames,
-    bool (*counts)(const render::PassTime&)
-) {
-    Curve curve{std::move(name), std::move(title), "pixels masked", "", "time", "ms", {}};
-    const Figure time = [counts](const render::FrameStatistics& frame) {
-        return sumPasses(frame, counts);
-    };
-    for (const Frames& one : frames) {
-        const double masked = countMasked(one.back());
-        if (masked > 0.0)
-            curve.points.push_back({masked, summarize(one, time), fmt::format("{:.0f}", masked)});
-    }
-    addLine(curve);
-    return curve;
+/// Medians of the reveal's time against the pixels that are masked.
+std::vector<math::CurvePoint> listMedians(const std::vector<Frames>& frames) {
+    std::vector<math::CurvePoint> points;
+    for (const Frames& one : frames)
+        if (const double masked = countMasked(one.back()); masked > 0.0) {
+            const auto time = summarize(one, [](const render::FrameStatistics& frame) {
+                return sumPasses(frame, isReveal);
+            });
+            points.push_back({masked, time.median});
+        }
+    return points;
 }
 
 /// A sheet that fills the picture, before and after it moves, in front of a wall that rays could
@@ -71,7 +65,7 @@ core::Status addEmptyMask(
         return sumPasses(frame, isMaskOrReveal);
     });
     const auto effect = summarize(own, effectOf(subjects.front()->method()));
-    findings.checks.push_back(checkMedian(
+    findings.times.push_back(checkMedian(
         name + ": mask and reveal",
         time,
         kEmptyMaskMilliseconds,
@@ -79,11 +73,11 @@ core::Status addEmptyMask(
         own.size(),
         fmt::format("the whole effect takes {:.4g} ms", effect.median)
     ));
-    findings.checks.push_back(
+    findings.counts.push_back(
         {name + ": pixels masked", countMasked(own.back()), 0.0, "", own.size()}
     );
     // Without this an effect that did not run would count as a cheap one.
-    findings.checks.push_back(
+    findings.counts.push_back(
         {name + ": frames without the effect", effect.median > 0.0 ? 0.0 : 1.0, 0.0, "", own.size()}
     );
     return {};
@@ -102,14 +96,13 @@ core::Result<Findings> measureReveal(gpu::Device& device, const DemandOptions& o
     if (!frames)
         return frames.error();
     Findings findings;
-    findings.curves = {
-        drawCurve("reveal", "The reveal", frames.value(), isReveal),
-        drawCurve("mask-and-reveal", "Edge, mask and reveal", frames.value(), isMaskOrReveal)};
-    if (findings.curves.front().points.empty())
+    const std::vector<math::CurvePoint> medians = listMedians(frames.value());
+    if (medians.empty())
         return core::makeError(
             "no pixel was masked in any picture of {}x{}", options.width, options.height
         );
-    findings.checks.push_back(checkLine("the reveal's distance from a line", findings.curves[0]));
+    findings.times.push_back(checkLine("the reveal's distance from a line", medians, "masked pixel")
+    );
     // About 24 px at 1280x720 in both, everywhere alike or from 0 in the middle.
     SHUTTER_TRY(
         addEmptyMask(findings, device, options, "a sheet that slides", {.velocity = {9.7, 0, 0}})

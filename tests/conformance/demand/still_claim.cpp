@@ -87,7 +87,7 @@ core::Status addParts(Findings& findings, const Film& film) {
     const GraphParts blurred = readDump(drawn[1].dump);
     const uint64_t passCount = blurred.passes.size();
     const auto add = [&](const char* check, uint64_t found, const char* unit, uint64_t samples) {
-        findings.checks.push_back({film.nameCheck(check), double(found), 0.0, unit, samples});
+        findings.counts.push_back({film.nameCheck(check), double(found), 0.0, unit, samples});
     };
     add("passes beyond sharp's", countBeyond(blurred.passes, sharp.passes), "", passCount);
     add("images beyond sharp's",
@@ -128,7 +128,7 @@ core::Status addTime(Findings& findings, const Film& film) {
     };
     const Frames& sharp = frames.value()[0];
     const Frames& blurred = frames.value()[1];
-    findings.checks.push_back(checkMedian(
+    findings.times.push_back(checkMedian(
         film.nameCheck("time of the frame"),
         compare(blurred, sharp, time, time),
         kFrameRatio,

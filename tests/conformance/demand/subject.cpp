@@ -69,14 +69,12 @@ core::Result<std::unique_ptr<Subject>> Subject::create(
     const Stage& stage,
     std::string_view method,
     uint32_t width,
-    uint32_t height,
-    std::vector<std::string> settings
+    uint32_t height
 ) {
     auto shot = makeShot(stage, width, height);
     if (!shot)
         return shot.error();
-    auto options = game::interpret(game::MethodArguments{
-        .method = std::string(method), .settings = std::move(settings)});
+    auto options = game::interpret(game::MethodArguments{.method = std::string(method)});
     if (!options)
         return options.error();
     SHUTTER_TRY(game::PictureDrawer::check(device, options.value(), width, height));

@@ -49,15 +49,13 @@ struct Stage {
 class Subject {
   public:
     /// \param stage outlives this
-    /// \param settings of the method, NAME=VALUE as `--set` takes them
-    /// Error: the method needs rays and the device has none; a setting is none of the method's.
+    /// Error: the method needs rays and the device has none.
     [[nodiscard]] static core::Result<std::unique_ptr<Subject>> create(
         gpu::Device& device,
         const Stage& stage,
         std::string_view method,
         uint32_t width,
-        uint32_t height,
-        std::vector<std::string> settings = {}
+        uint32_t height
     );
 
     /// An effect of the caller's in the place of a method's.
@@ -78,9 +76,6 @@ class Subject {
     void setIntermediates(std::set<std::string> names) { mIntermediates = std::move(names); }
 
     void setDump(bool wanted) { mWantsDump = wanted; }
-
-    /// MethodOptions::maxStepPx; accumulate only.
-    void setMaxStep(double px) { mMethod.maxStepPx = px; }
 
     /// By how much a picture's time is later than that of the one before; 0 at first.
     void setStep(double seconds) { mStepSeconds = seconds; }

@@ -5,6 +5,8 @@
 #include "engine/core/result.h"
 #include "engine/gpu/device.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -25,6 +27,19 @@ struct Measured {
 [[nodiscard]] inline bool holds(const Measured& measured) {
     // Written so that NaN fails.
     return measured.samples > 0 && measured.notFinite == 0 && measured.worst <= measured.bound;
+}
+
+/// "0.25 half ulp of at most 1 (gather)".
+[[nodiscard]] inline std::string describe(const Measured& measured) {
+    return fmt::format(
+        "{:.6g}{}{} of at most {:.6g}{}{}",
+        measured.worst,
+        measured.unit.empty() ? "" : " ",
+        measured.unit,
+        measured.bound,
+        measured.notFinite > 0 ? fmt::format(", {} not finite", measured.notFinite) : "",
+        measured.note.empty() ? "" : " (" + measured.note + ")"
+    );
 }
 
 using Measurements = std::vector<Measured>;

@@ -49,21 +49,6 @@ TEST(Suites, SequencesAreThreeFlightsAndThreePlayedDemos) {
     EXPECT_EQ(demos, (std::set<std::string>{"gallery", "rally", "spin"}));
 }
 
-TEST(Suites, ClaimsAreToldApartAndSayWhatTheyCompare) {
-    const auto suite = findSuite("demand");
-    ASSERT_TRUE(suite.ok());
-    EXPECT_EQ(suite.value().size.width, 1280u);
-    EXPECT_EQ(suite.value().size.height, 720u);
-    std::set<std::string> names;
-    for (const demand::Claim& claim : suite.value().claims) {
-        EXPECT_TRUE(names.insert(claim.name).second) << claim.name;
-        EXPECT_FALSE(claim.title.empty()) << claim.name;
-        EXPECT_TRUE(claim.description.ends_with('.')) << claim.name;
-        EXPECT_TRUE(claim.measure) << claim.name;
-    }
-    EXPECT_EQ(names.size(), 10u);
-}
-
 TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     const auto found = findSuite("nosuch");
     ASSERT_FALSE(found.ok());
