@@ -126,11 +126,10 @@ int runBench(const BenchArguments& arguments) {
 
 } // namespace
 
-void addBenchCommand(CLI::App& app, int& exitStatus) {
-    CLI::App* command = app.add_subcommand("bench", "what accuracy costs in time");
+void defineBench(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<BenchArguments>();
-    defineBenchOptions(*command, *arguments);
-    command->callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
+    defineBenchOptions(app, *arguments);
+    app.callback([arguments, &exitStatus] { exitStatus = runBench(*arguments); });
 }
 
 } // namespace shutter::bench

@@ -28,7 +28,7 @@ struct RunOptions {
 [[nodiscard]] core::Status
 runSuite(gpu::Device& device, const RunOptions& options, const StopQuestion& stop);
 
-/// Adds `shutter bench`, which leaves its exit status (game/options/program.h).
-void addBenchCommand(CLI::App& app, int& exitStatus);
+/// Makes `app` the command `shutter bench`, which leaves its exit status (game/options/program.h).
+void defineBench(CLI::App& app, int& exitStatus);
 
 } // namespace shutter::bench

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "game/options/program.h"
 
+#include "engine/core/log.h"
+#include "engine/gpu/vulkan.h"
+
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <system_error>
 
 namespace shutter::game {
@@ -47,6 +53,34 @@ int finishOutput(int status) {
             why != 0 ? std::generic_category().message(why) : "some of it is lost"
         )
     );
+}
+
+int runProgram(CLI::App& app, int argc, char** argv, int& exitStatus) {
+    bool verbose = false;
+    app.add_flag("-v,--verbose", verbose, "log what was chosen and found");
+    app.parse_complete_callback([&] {
+        if (verbose)
+            core::setLogLevel(core::LogLevel::Info);
+    });
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) { // --help
+        return finishOutput(app.exit(success));
+    } catch (const CLI::ParseError& error) {
+        return fail(kExitUsage, {error.what()});
+    } catch (const gpu::DeviceError& error) {
+        return fail(kExitFailed, {error.what()});
+    } catch (const std::system_error& error) { // what printing throws where there is no room
+        return fail(
+            kExitFailed,
+            std::ferror(stdout) != 0
+                ? core::makeError("cannot write to standard output: {}", error.code().message())
+                : core::Error{error.what()}
+        );
+    } catch (const std::bad_alloc&) {
+        return fail(kExitFailed, {"out of main memory"});
+    }
+    return finishOutput(exitStatus);
 }
 
 fs::path findCacheFolder() {

@@ -8,6 +8,10 @@
 #include <filesystem>
 #include <string>
 
+namespace CLI {
+class App;
+}
+
 namespace shutter::game {
 
 /// `text` on one line without control characters: names from files and arguments are printed as
@@ -27,6 +31,12 @@ inline constexpr int kExitUsage = 2;  ///< the command line was wrong
 
 /// Returns `status`, or kExitFailed with a sentence where something printed to stdout was lost.
 [[nodiscard]] int finishOutput(int status);
+
+/// Parses the command line, which runs what it names, and gives the program -v.
+/// \param exitStatus what the commands of `app` leave
+/// \return what the program returns: kExitUsage with a sentence where the command line is wrong,
+///         kExitFailed with one where the device, the memory or the output fails
+[[nodiscard]] int runProgram(CLI::App& app, int argc, char** argv, int& exitStatus);
 
 /// The user's cache folder for this program: XDG_CACHE_HOME/shutter, else ~/.cache/shutter (XDG
 /// base directory specification). Empty if neither variable is set.

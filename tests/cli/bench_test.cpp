@@ -2,6 +2,7 @@
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/folder_watch.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <csignal>
@@ -65,6 +66,16 @@ TEST_F(BenchCommand, NeedsASuiteOrASceneAndNotBoth) {
     expectRefusal(
         {"bench", "a.glb", "--suite", "paper", "--out", path("x")}, 2, {"--suite", "SCENE"}
     );
+}
+
+TEST_F(BenchCommand, ASentenceSaysHowToBuildItsProgramWhereThereIsNone) {
+    isolateProgram();
+    expectRefusal(
+        {"bench", "--suite", "paper", "--out", path("x")},
+        1,
+        {"bench is a program of its own and was not built", "--target shutter_bench"}
+    );
+    EXPECT_NE(expectSuccess({"--help"}).out.find("bench"), std::string::npos);
 }
 
 TEST_F(BenchCommand, WrongNamesAreAnsweredWithTheKnownOnes) {

@@ -126,6 +126,13 @@ void Cli::requireDevice() const {
         GTEST_SKIP() << "lavapipe is not installed";
 }
 
+void Cli::isolateProgram() {
+    const fs::path copy = mFolder.parent_path() / "alone" / "shutter";
+    fs::create_directory(copy.parent_path());
+    fs::copy_file(mProgram.back(), copy);
+    mProgram.back() = copy;
+}
+
 void Cli::requirePermissions() {
     if (geteuid() != 0)
         return;

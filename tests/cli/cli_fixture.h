@@ -54,6 +54,9 @@ class Cli : public testing::Test {
     /// Skips the test where there is no lavapipe to draw on.
     void requireDevice() const;
 
+    /// From now on a copy of the program is run that lies alone in a folder.
+    void isolateProgram();
+
     /// From now on the program is held to the permissions of files even if root runs it. Skips the
     /// test where root may not give up its capabilities.
     void requirePermissions();

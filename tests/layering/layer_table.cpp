@@ -73,7 +73,7 @@ const std::vector<Row> kGameRows = {
     {"bench", {"shot", "options", "bench/report", "bench/suites", "bench/sequence"}},
     {"replay", {"shot", "output", "options"}},
     {"film", {"shot", "output", "options", "parts"}},
-    {"cli", {"shot", "output", "options", "film", "play/panel", "play/loop", "bench", "replay"}},
+    {"cli", {"shot", "output", "options", "film", "play/panel", "play/loop", "replay"}},
     {"examples", {}},
 };
 
