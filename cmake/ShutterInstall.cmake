@@ -131,6 +131,11 @@ function(shutter_install_package)
 
     if(TARGET shutter)
         install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)
+        install(PROGRAMS ${CMAKE_BINARY_DIR}/shutter_film DESTINATION ${CMAKE_INSTALL_BINDIR}
+                COMPONENT Runtime)
+        # Where it was built.
+        install(TARGETS shutter_bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime
+                OPTIONAL)
     endif()
     foreach(component Development Runtime)
         install(FILES ${SHUTTER_ROOT}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}

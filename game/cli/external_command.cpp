@@ -29,6 +29,7 @@ constexpr ExternalCommand kCommands[] = {
      "what accuracy costs in time",
      "shutter_bench",
      "cmake --build --preset release --target shutter_bench"},
+    {"film", "draw a film in parts, by many processes", "shutter_film", "cmake --preset release"},
 };
 
 /// \param words the program's name in front and null at the end

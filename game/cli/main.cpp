@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "game/cli/commands.h"
 #include "game/cli/external_command.h"
-#include "game/film/film_command.h"
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
 #include "game/replay/replay_command.h"
@@ -17,7 +16,6 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     int exitStatus = game::kExitDone;
     game::addRenderCommand(app, exitStatus);
-    film::addFilmCommands(app, exitStatus);
     game::addCompareCommand(app, exitStatus);
     game::addInfoCommand(app, exitStatus);
     game::addPlayCommand(app, exitStatus);

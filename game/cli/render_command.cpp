@@ -4,6 +4,7 @@
 #include "game/options/program.h"
 #include "game/options/render_arguments.h"
 #include "game/output/sequence.h"
+#include "game/output/sequence_journal.h"
 
 #include <CLI/CLI.hpp>
 
@@ -14,6 +15,25 @@
 namespace shutter::game {
 
 namespace {
+
+/// What a script that has the frames drawn by several processes needs to know.
+core::Status printPlan(RenderOptions& options) {
+    auto shot = loadShot(options.shot);
+    if (!shot)
+        return shot.error();
+    SHUTTER_TRY(planClipFrames(shot.value().world, options.shot));
+    fmt::print("frames: {}\n", options.shot.frameTimes.size());
+    if (!options.shot.isSequence)
+        return {};
+    std::filesystem::path journal = journalFile(options.output.out);
+    fmt::print("journal: {}\n", journal.string());
+    const std::filesystem::path& film = options.output.film;
+    fmt::print(
+        "work: {}\n",
+        film.empty() ? journal.replace_extension(".parts").string() : film.string() + ".parts"
+    );
+    return {};
+}
 
 int runRender(const RenderArguments& arguments) {
     auto options = interpret(arguments);
@@ -29,6 +49,10 @@ int runRender(const RenderArguments& arguments) {
         if (!found)
             return fail(kExitFailed, found.error());
         encoder = std::move(found).value();
+    }
+    if (options.value().output.dryRun) {
+        const core::Status planned = printPlan(options.value());
+        return planned ? kExitDone : fail(kExitFailed, planned.error());
     }
     gpu::DeviceOptions deviceOptions = options.value().device;
     deviceOptions.cacheFolder = findCacheFolder();

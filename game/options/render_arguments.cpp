@@ -69,6 +69,16 @@ constexpr std::array kOutputRows = {
         "print for each frame why each effect and pass ran or was skipped",
         Matters::ToNoPicture
     ),
+    makeRow<&O::part>(
+        "--part",
+        "K/N: of N parts of a sequence draw the Kth, each Nth frame, and make no film",
+        Matters::ToNoPicture
+    ),
+    makeRow<&O::dryRun>(
+        "--dry-run",
+        "check options and files, print the number of frames and draw nothing",
+        Matters::ToNoPicture
+    ),
 };
 
 bool isFilm(const std::filesystem::path& out) {
@@ -182,9 +192,54 @@ Status interpretOut(const RenderArguments& all, const ShotOptions& shot, OutputO
     return {};
 }
 
+/// An option that has every frame drawn, complete or not: a part could not go on where it stopped.
+const char* findRedrawOption(const OutputArguments& arguments) {
+    if (!arguments.stats.empty())
+        return "--stats";
+    if (arguments.dumpGraph)
+        return "--dump-graph";
+    if (arguments.explain)
+        return "--explain";
+    return arguments.repeat > 1 ? "--repeat" : nullptr;
+}
+
+Status interpretPart(
+    const RenderArguments& all,
+    const ShotOptions& shot,
+    const MethodOptions& method,
+    OutputOptions& options
+) {
+    const std::string& text = all.output.part;
+    if (text.empty())
+        return {};
+    static const std::regex kShape("([0-9]{1,5})/([0-9]{1,5})");
+    std::smatch match;
+    const bool isShaped = std::regex_match(text, match, kShape);
+    const auto part = isShaped ? uint32_t(std::stoul(match[1])) : 0;
+    const auto count = isShaped ? uint32_t(std::stoul(match[2])) : 0;
+    if (part < 1 || part > count)
+        return makeError("--part '{}' is not K/N with K from 1 to N", text);
+    if (!shot.isSequence)
+        return makeError("--part needs --frames or --flythrough");
+    if (const char* option = findRedrawOption(all.output))
+        return makeError("--part and {} exclude each other", option);
+    if (count > 1 && !method.budget.isUnlimited())
+        return makeError(
+            "--budget makes a frame depend on how fast those before were drawn, which parts do not "
+            "share"
+        );
+    if (count > 1 && shot.antiAliasing == AntiAliasing::Taa)
+        return makeError(
+            "--aa taa makes a frame depend on all before it, which parts do not share: use --aa box"
+        );
+    options.part = FramePart{part - 1, count};
+    return {};
+}
+
 core::Result<OutputOptions>
-interpretOutput(const RenderArguments& all, const ShotOptions& shot, const MethodInfo& method) {
+interpretOutput(const RenderArguments& all, const ShotOptions& shot, const MethodOptions& method) {
     OutputOptions options;
+    options.dryRun = all.output.dryRun;
     options.restart = all.output.restart;
     options.stats = all.output.stats;
     options.hashPasses = all.output.hashPasses;
@@ -193,8 +248,9 @@ interpretOutput(const RenderArguments& all, const ShotOptions& shot, const Metho
     options.dumpGraph = all.output.dumpGraph;
     options.explain = all.output.explain;
     options.repeat = all.output.repeat;
-    SHUTTER_TRY(interpretAovs(all.output, method, options));
+    SHUTTER_TRY(interpretAovs(all.output, *method.method, options));
     SHUTTER_TRY(interpretOut(all, shot, options));
+    SHUTTER_TRY(interpretPart(all, shot, method, options));
     return options;
 }
 
@@ -272,7 +328,7 @@ core::Result<RenderOptions> interpret(const RenderArguments& arguments) {
     options.method = std::move(method).value();
     SHUTTER_TRY(checkPixel(options.shot, *options.method.method));
     SHUTTER_TRY(checkAntiAliasing(options.shot, *options.method.method));
-    auto output = interpretOutput(arguments, options.shot, *options.method.method);
+    auto output = interpretOutput(arguments, options.shot, options.method);
     if (!output)
         return output.error();
     options.output = std::move(output).value();

@@ -27,6 +27,8 @@ struct OutputArguments {
     bool dumpGraph = false;
     bool explain = false;
     uint32_t repeat = 1;
+    std::string part; ///< "K/N"; empty: all frames
+    bool dryRun = false;
 };
 
 struct RenderArguments {

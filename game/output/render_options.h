@@ -6,12 +6,21 @@
 #include "engine/io/video.h"
 #include "game/shot/shot_options.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 
 namespace shutter::game {
+
+/// The frames that one of several processes draws: each `count`th, from the `index`th on. Costs of
+/// successive frames are alike, so all have about the same work.
+struct FramePart {
+    uint32_t index = 0; ///< below `count`
+    uint32_t count = 1;
+};
 
 /// What is written and printed.
 struct OutputOptions {
@@ -26,8 +35,10 @@ struct OutputOptions {
     std::filesystem::path stats;  ///< empty: none
     std::filesystem::path hashPasses; ///< JSON of what each pass wrote; empty: none
     bool dumpGraph = false;
-    bool explain = false; ///< print why each effect and pass ran or was skipped
-    uint32_t repeat = 1;  ///< pictures that are timed
+    bool explain = false;            ///< print why each effect and pass ran or was skipped
+    uint32_t repeat = 1;             ///< pictures that are timed
+    std::optional<FramePart> part{}; ///< draws these frames alone, and no film
+    bool dryRun = false;             ///< checks, and draws nothing
 
     /// Whether a film's frames have 16 bits a channel, since 8 would not fill its own.
     [[nodiscard]] bool isDeep() const { return !film.empty() && video.bitDepth > 8; }

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -85,15 +86,32 @@ bool maySkip(const RenderOptions& options) {
            !options.output.dumpGraph && options.output.repeat == 1;
 }
 
+/// The journal of a part beside that of the whole.
+std::filesystem::path partJournal(const std::filesystem::path& whole, uint32_t part) {
+    return whole.string() + fmt::format(".part_{}", part + 1);
+}
+
+/// Those that are there.
+std::vector<std::filesystem::path> listPartJournals(const std::filesystem::path& whole) {
+    std::error_code ignored;
+    const std::filesystem::path folder = whole.has_parent_path() ? whole.parent_path() : ".";
+    const std::string prefix = whole.filename().string() + ".part_";
+    std::vector<std::filesystem::path> journals;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+        if (const std::string name = entry.path().filename().string(); name.starts_with(prefix))
+            journals.push_back(whole.parent_path() / name);
+    return journals;
+}
+
 /// A sequence on its way, with its journal; a single picture has none.
 class Sequence {
   public:
-    explicit Sequence(const RenderOptions& options)
-        : mOptions(options), mCount(options.shot.frameTimes.size()) {}
-
-    /// \param part draws this alone
-    Sequence(const RenderOptions& options, const FramePart& part)
-        : mOptions(options), mFirst(part.first), mCount(part.count) {}
+    /// \param options their frames are planned
+    explicit Sequence(const RenderOptions& options) : mOptions(options) {
+        const FramePart part = options.output.part.value_or(FramePart());
+        for (size_t i = part.index; i < options.shot.frameTimes.size(); i += part.count)
+            mFrames.push_back(i);
+    }
 
     /// Error: the device cannot draw this. Nothing was written yet.
     core::Status prepare(gpu::Device& device, const Shot& shot) {
@@ -110,60 +128,71 @@ class Sequence {
         return {};
     }
 
-    /// Looks for what an earlier run left, and says so.
-    core::Status openJournal(const std::filesystem::path& file, const std::string& fingerprint) {
-        auto opened = SequenceJournal::open(file, fingerprint);
+    /// Looks for what earlier runs and other processes left, and says so.
+    core::Status openJournal(const std::string& fingerprint) {
+        const OutputOptions& output = mOptions.output;
+        const std::filesystem::path whole = journalFile(output.out);
+        const std::filesystem::path own =
+            output.part ? partJournal(whole, output.part->index) : whole;
+        mPartJournals = listPartJournals(whole);
+        std::vector<std::filesystem::path> files = mPartJournals;
+        if (output.part)
+            files.push_back(whole);
+        std::vector<SequenceJournal> others;
+        for (const std::filesystem::path& file : files) {
+            auto other = readOther(file, fingerprint);
+            if (!other)
+                return other.error();
+            others.push_back(std::move(other).value());
+        }
+        auto opened = SequenceJournal::open(own, fingerprint);
         if (!opened)
             return opened.error();
         mJournal = std::move(opened).value();
         if (mJournal->before() == SequenceJournal::Before::OtherPictures)
             fmt::print(
                 "{}: the frames on disk were drawn otherwise; all are drawn anew\n",
-                mOptions.output.out.string()
+                output.out.string()
             );
         if (!maySkip(mOptions))
             return {};
-        for (size_t i = mFirst; i < mFirst + mCount; ++i)
-            mIsComplete.push_back(
-                mJournal->isComplete(numberOfFrame(mOptions, i), fileOfFrame(mOptions, i))
-            );
+        for (const size_t frame : mFrames) {
+            const auto complete = takeFrame(others, frame);
+            if (!complete)
+                return complete.error();
+            mIsComplete.push_back(complete.value());
+        }
         if (countComplete() > 0)
             fmt::print(
                 "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
-                mOptions.output.out.string(),
+                output.out.string(),
                 countComplete(),
-                mCount
+                mFrames.size()
             );
         return {};
     }
 
-    /// Takes over what an unbroken run left of the part.
-    core::Status takeFrames(const SequenceJournal& whole) {
-        for (size_t i = mFirst; i < mFirst + mCount; ++i) {
-            const int number = numberOfFrame(mOptions, i);
-            const std::filesystem::path file = fileOfFrame(mOptions, i);
-            if (mJournal->isComplete(number, file) || !whole.isComplete(number, file))
-                continue;
-            SHUTTER_TRY(mJournal->addFrom(whole, number));
-            mIsComplete[i - mFirst] = true;
-        }
-        return {};
+    /// Once the whole has taken over what they hold.
+    void removePartJournals() const {
+        std::error_code ignored;
+        for (const std::filesystem::path& journal : mPartJournals)
+            std::filesystem::remove(journal, ignored);
     }
 
     /// Draws and writes what is not complete.
     core::Status draw() {
         bool hasKeptPipelines = false;
         const uint64_t draws = mOptions.output.repeat > 1 ? mOptions.output.repeat + 1 : 1;
-        const size_t count = mCount - countComplete();
+        const size_t count = mFrames.size() - countComplete();
         if (count == 0)
             return {};
         core::Progress progress(
             "rendering",
             count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.antiAliasing) * draws
         );
-        for (size_t i = mFirst; i < mFirst + mCount; ++i)
-            if (!isComplete(i)) {
-                SHUTTER_TRY(drawFrame(i, progress));
+        for (size_t i = 0; i < mFrames.size(); ++i)
+            if (mIsComplete.empty() || !mIsComplete[i]) {
+                SHUTTER_TRY(drawFrame(mFrames[i], progress));
                 if (count > 1 && !std::exchange(hasKeptPipelines, true))
                     mDevice->savePipelineCache(); // a long sequence may be stopped at any frame
             }
@@ -203,8 +232,36 @@ class Sequence {
         return result;
     }
 
-    [[nodiscard]] bool isComplete(size_t frame) const {
-        return !mIsComplete.empty() && mIsComplete[frame - mFirst];
+    /// The journal of another process, which is refused where it tells of other pictures: a part
+    /// that was drawn otherwise, or by another driver, does not belong to this film.
+    [[nodiscard]] core::Result<SequenceJournal>
+    readOther(const std::filesystem::path& file, const std::string& fingerprint) const {
+        auto other = SequenceJournal::read(file, fingerprint);
+        if (!other || other.value().before() != SequenceJournal::Before::OtherPictures)
+            return other;
+        if (!mOptions.output.restart)
+            return core::makeError(
+                "--out: frames of '{}' were drawn otherwise: with other options, of another scene, "
+                "or by another program, device or driver; --restart draws all anew",
+                mOptions.output.out.string()
+            );
+        std::error_code ignored;
+        std::filesystem::remove(file, ignored);
+        return other;
+    }
+
+    /// Whether the frame is complete; then it is in the own journal, too.
+    core::Result<bool> takeFrame(const std::vector<SequenceJournal>& others, size_t frame) {
+        const int number = numberOfFrame(mOptions, frame);
+        const std::filesystem::path file = fileOfFrame(mOptions, frame);
+        if (mJournal->isComplete(number, file))
+            return true;
+        for (const SequenceJournal& other : others)
+            if (other.isComplete(number, file)) {
+                SHUTTER_TRY(mJournal->addFrom(other, number));
+                return true;
+            }
+        return false;
     }
 
     [[nodiscard]] size_t countComplete() const {
@@ -234,8 +291,7 @@ class Sequence {
     }
 
     const RenderOptions& mOptions;
-    size_t mFirst = 0; ///< of the frames that are drawn
-    size_t mCount = 0;
+    std::vector<size_t> mFrames; ///< those to be drawn: indices among the shot's frame times
     gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
@@ -243,7 +299,8 @@ class Sequence {
     std::optional<tonemap::Tonemap> mTonemap;
     std::optional<PictureDrawer> mDrawer;
     std::optional<SequenceJournal> mJournal;
-    std::vector<bool> mIsComplete; ///< one per frame that is drawn; empty: none is
+    std::vector<std::filesystem::path> mPartJournals;
+    std::vector<bool> mIsComplete; ///< one for each of `mFrames`; empty: none is
     std::vector<PictureStatistics> mPictures;
 };
 
@@ -283,12 +340,24 @@ core::Status renderFilm(
         return {};
     }
     SHUTTER_TRY(makeFilmFolder(options));
-    SHUTTER_TRY(sequence.openJournal(journalFile(options.output.out), fingerprint));
+    SHUTTER_TRY(sequence.openJournal(fingerprint));
     SHUTTER_TRY(sequence.draw());
+    if (options.output.part)
+        return {};
     SHUTTER_TRY(encodeFilm(encoder, options));
     // Known to be complete before its frames go: a run that ends here draws nothing again.
     SHUTTER_TRY(journal.value().add(0, {options.output.film}));
+    sequence.removePartJournals();
     removeFilmFrames(options, sequence.journal()->file());
+    return {};
+}
+
+core::Status
+drawPictures(const RenderOptions& options, const std::string& fingerprint, Sequence& sequence) {
+    SHUTTER_TRY(sequence.openJournal(fingerprint));
+    SHUTTER_TRY(sequence.draw());
+    if (!options.output.part)
+        sequence.removePartJournals();
     return {};
 }
 
@@ -303,29 +372,6 @@ std::filesystem::path fileOfFrame(const RenderOptions& options, size_t frame) {
 
 int numberOfFrame(const RenderOptions& options, size_t frame) {
     return static_cast<int>(frame) + options.shot.firstFrame;
-}
-
-core::Status drawFrames(
-    const RenderOptions& options,
-    const Shot& shot,
-    const FramePart& part,
-    const std::string& fingerprint,
-    gpu::Device& device
-) {
-    SHUTTER_CHECK(
-        part.first + part.count <= options.shot.frameTimes.size(),
-        "frames {} and {} more",
-        part.first,
-        part.count
-    );
-    Sequence sequence(options, part);
-    SHUTTER_TRY(sequence.prepare(device, shot));
-    SHUTTER_TRY(sequence.openJournal(part.journal, fingerprint));
-    const auto whole = SequenceJournal::read(journalFile(options.output.out), fingerprint);
-    if (!whole)
-        return whole.error();
-    SHUTTER_TRY(sequence.takeFrames(whole.value()));
-    return sequence.draw();
 }
 
 core::Status renderSequence(
@@ -346,12 +392,8 @@ core::Status renderSequence(
         const std::string fingerprint = addDevice(pictures.value(), drawing.name, drawing.driver);
         if (encoder)
             drawn = renderFilm(*encoder, options, fingerprint, sequence);
-        else if (core::Status opened =
-                     sequence.openJournal(journalFile(options.output.out), fingerprint);
-                 !opened)
-            drawn = opened;
         else
-            drawn = sequence.draw();
+            drawn = drawPictures(options, fingerprint, sequence);
     } else {
         drawn = sequence.draw();
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Draws frames one after another, each written to disk before the next, and skips those that are
 // there already. The frames of a film (`--out FILE.mp4`) are PNG files in the folder
-// FILE.mp4.frames.
+// FILE.mp4.frames. Several processes may each draw a part: each has a journal of its own beside
+// that of the whole, which takes over what they hold.
 #pragma once
 
 #include "engine/core/result.h"
@@ -17,29 +18,12 @@
 
 namespace shutter::game {
 
-/// Draws every frame of `options` and writes the files that they name, the film included.
+/// Draws every frame of `options`, or those of its part, and writes the files that they name; a
+/// part makes no film. Error: among others, that frames on disk were drawn otherwise, where other
+/// processes may be drawing them.
 /// \param encoder makes the film, if there is to be one
 [[nodiscard]] core::Status renderSequence(
     RenderOptions options, const std::optional<io::VideoEncoder>& encoder, gpu::Device& device
-);
-
-/// Frames that one of several processes draws.
-struct FramePart {
-    size_t first = 0; ///< index among the shot's frame times
-    size_t count = 0;
-    std::filesystem::path journal; ///< its own, beside journalFile() of the pictures
-};
-
-/// Draws the frames of a part that are complete neither by its journal nor by that of the whole,
-/// and writes their files, not the film.
-/// \param shot loaded from `options.shot`, its frames planned
-/// \param fingerprint of the pictures, by the device
-[[nodiscard]] core::Status drawFrames(
-    const RenderOptions& options,
-    const Shot& shot,
-    const FramePart& part,
-    const std::string& fingerprint,
-    gpu::Device& device
 );
 
 /// The file of a frame. A film's files count from 0.

@@ -63,7 +63,6 @@ const std::vector<Row> kGameRows = {
     {"shot", {}},
     {"output", {"shot"}},
     {"options", {"shot", "output"}},
-    {"parts", {"options"}},
     {"demos", {}},
     {"play/panel", {"shot", "demos"}},
     {"play/loop", {"shot", "output", "options", "demos", "play/panel"}},
@@ -72,8 +71,7 @@ const std::vector<Row> kGameRows = {
     {"bench/sequence", {"shot", "options", "demos", "play/loop", "bench/suites"}},
     {"bench", {"shot", "options", "bench/report", "bench/suites", "bench/sequence"}},
     {"replay", {"shot", "output", "options"}},
-    {"film", {"shot", "output", "options", "parts"}},
-    {"cli", {"shot", "output", "options", "film", "play/panel", "play/loop", "replay"}},
+    {"cli", {"shot", "output", "options", "play/panel", "play/loop", "replay"}},
     {"examples", {}},
 };
 

@@ -75,6 +75,33 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_TRUE(options.output.aovs.empty());
 }
 
+TEST_F(RenderOptionsTest, APartIsOneOfSeveralAndDrawsWhatOthersNeedNot) {
+    const auto part = [&](Words more) {
+        more.insert(more.begin(), {"--out=" + (mFolder / "f_%d.exr").string(), "--frames=0:3"});
+        return more;
+    };
+    const RenderOptions options = accept(part({"--part=3/4"}));
+    ASSERT_TRUE(options.output.part);
+    EXPECT_EQ(options.output.part->index, 2u);
+    EXPECT_EQ(options.output.part->count, 4u);
+    EXPECT_EQ(options.fingerprint, accept(part({})).fingerprint) << "its pictures are the whole's";
+    accept(part({"--part=1/1", "--aa=taa"}));
+    for (const char* wrong :
+         {"--part=0/2",
+          "--part=3/2",
+          "--part=1",
+          "--part=1/2/3",
+          "--part=a/b",
+          "--part=-1/2",
+          "--part=1/100000"})
+        refuse("--part", part({wrong}));
+    refuse("--part", {"--part=1/2"}); // a single picture
+    for (const char* other : {"--stats=s.json", "--explain", "--dump-graph", "--repeat=2"})
+        refuse("--part", part({"--part=1/2", other}));
+    refuse("--aa taa", part({"--part=1/2", "--aa=taa"}));
+    refuse("--budget", part({"--part=1/2", "--budget=8"}));
+}
+
 TEST_F(RenderOptionsTest, AFilmsCodecTellsItsDepthAndWhatItLiesIn) {
     const auto film = [&](Words more, const std::string& file = "film.mp4") {
         more.insert(more.begin(), {"--out=" + (mFolder / file).string(), "--frames=0:3"});
