@@ -57,7 +57,7 @@ fs::path makeTruthCache() {
     return failure ? fs::path() : cache / "truth";
 }
 
-/// Films that all fit into a page of 20 MB, in base64 beside all else. Without an encoder of such
+/// Films that take 10.5 MB together, which the page holds in base64. Without an encoder of such
 /// films there are none, and all is measured.
 SequenceOptions makeSequenceOptions(const BenchArguments& arguments, const BenchTask& task) {
     constexpr double kFilmBytes = 10.5e6;

@@ -94,15 +94,6 @@ double findExposure(const game::ShotArguments& shot) {
                    : 0.0;
 }
 
-/// What turns a linear picture of the case into the one that is compared.
-json describeDisplay(const game::ShotArguments& shot) {
-    const auto settings = game::interpretTonemap(shot);
-    const tonemap::TonemapSettings shown = settings ? settings.value() : tonemap::TonemapSettings();
-    return {
-        {"operator", shown.op == tonemap::Operator::Neutral ? "neutral" : "none"},
-        {"exposureValue", shown.exposureValue}};
-}
-
 } // namespace
 
 json packSampleCount(uint32_t samples) {
@@ -137,7 +128,6 @@ json describeCase(
              core::getRow(scene::listShutterRows(), "phase"), shot.shot.shutter.shutter
          )},
         {"camera", shot.shot.camera},
-        {"display", describeDisplay(shot.shot)},
         {"measurements", json::array()},
         {"skipped", json::array()},
         {"crops", json::array()}};

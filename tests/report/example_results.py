@@ -103,42 +103,6 @@ def png(pixels):
             chunk(b"IEND", b""))
 
 
-def decode_srgb(value):
-    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
-
-
-def exr(width, height, channels):
-    """An EXR of half floats in ZIP blocks; `channels`: name to values, row by row."""
-    names = sorted(channels)
-
-    def attribute(name, kind, data):
-        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(data)) + data
-
-    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    listed = b"".join(name.encode() + b"\0" + struct.pack("<IIii", 1, 0, 1, 1) for name in names)
-    header = struct.pack("<II", 20000630, 2) + b"".join([
-        attribute("channels", "chlist", listed + b"\0"), attribute("compression", "compression", b"\3"),
-        attribute("dataWindow", "box2i", box), attribute("displayWindow", "box2i", box),
-        attribute("lineOrder", "lineOrder", b"\0"),
-        attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
-        attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
-        attribute("screenWindowWidth", "float", struct.pack("<f", 1))]) + b"\0"
-    blocks = []
-    for first in range(0, height, 16):
-        raw = b"".join(struct.pack(f"<{width}e", *channels[name][y * width:(y + 1) * width])
-                       for y in range(first, min(first + 16, height)) for name in names)
-        halves = raw[0::2] + raw[1::2]
-        packed = zlib.compress(halves[:1] + bytes((b - a + 128) & 255
-                                                  for a, b in zip(halves, halves[1:])))
-        data = packed if len(packed) < len(raw) else raw
-        blocks.append(struct.pack("<iI", first, len(data)) + data)
-    offset, table = len(header) + 8 * len(blocks), b""
-    for block in blocks:
-        table += struct.pack("<Q", offset)
-        offset += len(block)
-    return header + table + b"".join(blocks)
-
-
 def coverage(x, y, blur):
     """How much of the exposure a disc that moved by `blur` pixels to the right covers a pixel."""
     half = math.sqrt(max(0.0, 28.0 ** 2 - (y - 45.0) ** 2))
@@ -174,15 +138,6 @@ def error_values(error):
 def error_map(errors):
     return png([[(min(1, v * 2.2), max(0, v * 1.6 - 0.5), 0.25 * v + 0.02) for v in row]
                 for row in errors])
-
-
-def linear_picture(rows, errors=None):
-    """The light that `picture_rows` are when nothing is tone mapped, and what its errors are."""
-    channels = {name: [decode_srgb(max(0, pixel[c])) for row in rows for pixel in row]
-                for c, name in enumerate("RGB")}
-    if errors:
-        channels["flip"] = [value for row in errors for value in row]
-    return exr(WIDTH, HEIGHT, channels)
 
 
 def quartiles(value, spread=0.02):
@@ -221,7 +176,6 @@ def measurement(method, samples, case, index, keep_pictures):
     if keep_pictures and samples == default:
         stem = f"images/{case}.{name}"
         result["image"], result["errorMap"] = f"{stem}.png", f"{stem}.error.png"
-        result["linear"] = f"{stem}.exr"
     return result
 
 
@@ -232,10 +186,8 @@ def make_case(name, title, index, methods, keep_pictures):
         "name": name, "title": title,
         "description": f"a synthetic disc moves before stripes ({title}).",
         "time": 0, "exposure": 1 / 60, "phase": "end", "camera": "main",
-        "display": {"operator": "none", "exposureValue": 0},
         "truth": {"method": "accumulate", "samples": 256, "hash": "synthetic",
-                  **({"image": f"images/{name}.reference.png",
-                      "linear": f"images/{name}.reference.exr"}
+                  **({"image": f"images/{name}.reference.png"}
                      if keep_pictures else {}),
                   "check": {"method": "truth", "samples": 64, "psnr": 46.1}},
         "crops": [{"x": 40, "y": 20, "width": 32, "height": 24, "label": "trailing edge"},
@@ -419,7 +371,6 @@ def write(suite, folder):
         if "image" in case["truth"]:
             truth = picture_rows(24, 0)
             (folder / case["truth"]["image"]).write_bytes(png(truth))
-            (folder / case["truth"]["linear"]).write_bytes(linear_picture(truth))
         for m in case["measurements"]:
             if "image" not in m:
                 continue
@@ -428,7 +379,6 @@ def write(suite, folder):
             rows, errors = picture_rows(blur, error / 4), error_values(error)
             (folder / m["image"]).write_bytes(png(rows))
             (folder / m["errorMap"]).write_bytes(error_map(errors))
-            (folder / m["linear"]).write_bytes(linear_picture(rows, errors))
     return results
 
 

@@ -47,8 +47,8 @@ class Page(PageCase):
 
     def test_shows_sections_that_have_data_and_no_others(self):
         expected = {
-            "paper": {"ladder", "tradeoff", "pictures", "slider", "viewer", "tables", "equal-time", "about"},
-            "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "viewer", "equal-time", "about"},
+            "paper": {"ladder", "tradeoff", "pictures", "slider", "tables", "equal-time", "about"},
+            "hard": {"ladder", "tradeoff", "matrix", "pictures", "slider", "equal-time", "about"},
             "scaling": {"scaling", "about"},
             "sequence": {"sequences", "about"} |
                         ({"player"} if shutil.which("ffmpeg") else set()),

@@ -37,7 +37,6 @@ function drawChosen() {
     drawMatrix();
     drawPictures();
     drawSlider();
-    drawViewer();
     drawEqualTime();
     drawScaling();
     fillContents();

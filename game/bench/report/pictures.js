@@ -26,11 +26,6 @@ function choosePanels(list) {
     return panels;
 }
 
-/** What paintLayers() calls what a panel shows. */
-function modeOf(kind) {
-    return kind === "errorMap" ? "flip" : "picture";
-}
-
 function captionOf(picture) {
     if (!picture.measurement) return "what the others are compared with";
     const time = formatMs(timeOf(picture.measurement).median);
@@ -59,8 +54,7 @@ function makePanel(theCase, list, picture, place, kind) {
     addCropFrames(whole, theCase);
     figure.append(whole, el("figcaption", {}, captionOf(picture)));
     (theCase.crops ?? []).forEach((crop, i) => {
-        const box = makeViewport(file, crop, `${picture.label}, ${crop.label}`,
-            {picture, theCase, mode: modeOf(kind)});
+        const box = makeViewport(file, crop, `${picture.label}, ${crop.label}`);
         figure.append(el("button", {
             type: "button", class: "crop-button", title: "Enlarge",
             "aria-label": `Enlarge ${crop.label} of ${picture.label}`,
@@ -75,8 +69,7 @@ function openZoom(theCase, list, crop, kind) {
     const dialog = byId("zoom");
     const panels = choosePanels(list).filter((picture) => picture[kind]);
     const figures = panels.map((picture) => el("figure", {},
-        makeViewport(picture[kind], crop, `${picture.label}, ${crop.label}`,
-            {picture, theCase, mode: modeOf(kind)}),
+        makeViewport(picture[kind], crop, `${picture.label}, ${crop.label}`),
         el("figcaption", {}, picture.label)));
     dialog.replaceChildren(
         el("div", {class: "zoom-head"}, el("strong", {}, `${theCase.title}: ${crop.label}`),

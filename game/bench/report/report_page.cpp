@@ -20,8 +20,6 @@ using nlohmann::json;
 
 constexpr const char* kSchema = "shutter-bench";
 constexpr int kVersion = 2;
-/// For the names of pictures and the braces around them.
-constexpr size_t kSpareBytes = 200'000;
 constexpr uint64_t kMaxResultsBytes = 256ULL << 20;
 /// Nested objects and arrays; what walks them calls itself for each. Results have eight.
 constexpr int kMaxDepth = 32;
@@ -60,7 +58,7 @@ core::Status checkReportPageCanBeMade() {
     return {};
 }
 
-core::Status writeReportPage(const json& results, const fs::path& folder, size_t maxPageBytes) {
+core::Status writeReportPage(const json& results, const fs::path& folder) {
     SHUTTER_TRY(checkReportPageCanBeMade());
     SHUTTER_TRY(checkResults(results));
     const std::string resultsText = toScript(results);
@@ -70,18 +68,10 @@ core::Status writeReportPage(const json& results, const fs::path& folder, size_t
     if (!films)
         return films.error();
     const std::string filmsText = toScript(films.value());
-    const size_t textBytes = getReportPage().size() + style.size() + getChartJs().size() +
-                             resultsText.size() + filmsText.size() + scripts.size();
-    const size_t budgetBytes = maxPageBytes - std::min(maxPageBytes, textBytes + kSpareBytes);
-    const auto pictures = encodePictures(results, folder, budgetBytes);
+    const auto pictures = encodePictures(results, folder);
     if (!pictures)
         return core::makeError("a picture of the report: {}", pictures.error().message);
-    if (pictures.value().bytes > budgetBytes)
-        core::logWarning(
-            "the report's page takes more than {:.1f} MB even with its pictures at their smallest",
-            double(maxPageBytes) / 1e6
-        );
-    const std::string picturesText = toScript(pictures.value().files);
+    const std::string picturesText = toScript(pictures.value());
     const auto page = fillPage(
         getReportPage(),
         {{"style", style},
@@ -96,7 +86,7 @@ core::Status writeReportPage(const json& results, const fs::path& folder, size_t
     return io::writeFileText(folder / "index.html", page.value());
 }
 
-core::Status remakeReportPage(const fs::path& folder, size_t maxPageBytes) {
+core::Status remakeReportPage(const fs::path& folder) {
     const fs::path file = folder / "results.json";
     const auto bytes = io::readFileBytes(file, kMaxResultsBytes + 1);
     if (!bytes)
@@ -115,7 +105,7 @@ core::Status remakeReportPage(const fs::path& folder, size_t maxPageBytes) {
         );
     if (results.is_discarded())
         return core::makeError("'{}' is not valid JSON", file.string());
-    core::Status written = writeReportPage(results, folder, maxPageBytes);
+    core::Status written = writeReportPage(results, folder);
     if (!written)
         return core::makeError("'{}': {}", file.string(), written.error().message);
     return {};

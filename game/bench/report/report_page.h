@@ -7,30 +7,20 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <cstddef>
 #include <filesystem>
 
 namespace shutter::bench {
-
-/// What a page may weigh: most mail still carries it.
-inline constexpr size_t kMaxPageBytes = 20'000'000;
 
 /// Error: the program was built without Chart.js; names the package.
 [[nodiscard]] core::Status checkReportPageCanBeMade();
 
 /// Writes folder/index.html, atomically, with every film and picture that `results` names (files
-/// relative to `folder`) inside it, pictures as exact as the size of the page allows
-/// (page_pictures.h). Error: no Chart.js, `results` is not of this schema and version, a file is
-/// missing or not what its name says, or the page cannot be written. \param maxPageBytes of
-/// index.html; a page of the least detail may be larger, with a warning
-[[nodiscard]] core::Status writeReportPage(
-    const nlohmann::json& results,
-    const std::filesystem::path& folder,
-    size_t maxPageBytes = kMaxPageBytes
-);
+/// relative to `folder`) inside it (page_pictures.h). Error: no Chart.js, `results` is not of this
+/// schema and version, a file is missing or not what its name says, or the page cannot be written.
+[[nodiscard]] core::Status
+writeReportPage(const nlohmann::json& results, const std::filesystem::path& folder);
 
 /// The same from folder/results.json. Error: also where that file is missing or is not JSON.
-[[nodiscard]] core::Status
-remakeReportPage(const std::filesystem::path& folder, size_t maxPageBytes = kMaxPageBytes);
+[[nodiscard]] core::Status remakeReportPage(const std::filesystem::path& folder);
 
 } // namespace shutter::bench

@@ -4,11 +4,8 @@
 #include "game/bench/report/charts_js.h"
 #include "game/bench/report/data_js.h"
 #include "game/bench/report/equal_time_js.h"
-#include "game/bench/report/exr_js.h"
 #include "game/bench/report/format_js.h"
 #include "game/bench/report/headline_js.h"
-#include "game/bench/report/layers_js.h"
-#include "game/bench/report/light_js.h"
 #include "game/bench/report/main_js.h"
 #include "game/bench/report/marks_js.h"
 #include "game/bench/report/matrix_js.h"
@@ -23,8 +20,6 @@
 #include "game/bench/report/style_css.h"
 #include "game/bench/report/tables_js.h"
 #include "game/bench/report/tradeoff_js.h"
-#include "game/bench/report/viewer_input_js.h"
-#include "game/bench/report/viewer_js.h"
 #include "game/bench/report/viewport_js.h"
 
 namespace shutter::bench {
@@ -52,13 +47,22 @@ std::string_view getChartJs() {
 
 std::string joinReportScripts() {
     constexpr std::string_view kScripts[] = {
-        viewOf(k_data_js),      viewOf(k_marks_js),      viewOf(k_format_js),
-        viewOf(k_exr_js),       viewOf(k_light_js),      viewOf(k_layers_js),
-        viewOf(k_charts_js),    viewOf(k_headline_js),   viewOf(k_tradeoff_js),
-        viewOf(k_matrix_js),    viewOf(k_viewport_js),   viewOf(k_pictures_js),
-        viewOf(k_slider_js),    viewOf(k_viewer_js),     viewOf(k_viewer_input_js),
-        viewOf(k_tables_js),    viewOf(k_equal_time_js), viewOf(k_scaling_js),
-        viewOf(k_sequences_js), viewOf(k_player_js),     viewOf(k_about_js),
+        viewOf(k_data_js),
+        viewOf(k_marks_js),
+        viewOf(k_format_js),
+        viewOf(k_charts_js),
+        viewOf(k_headline_js),
+        viewOf(k_tradeoff_js),
+        viewOf(k_matrix_js),
+        viewOf(k_viewport_js),
+        viewOf(k_pictures_js),
+        viewOf(k_slider_js),
+        viewOf(k_tables_js),
+        viewOf(k_equal_time_js),
+        viewOf(k_scaling_js),
+        viewOf(k_sequences_js),
+        viewOf(k_player_js),
+        viewOf(k_about_js),
         viewOf(k_main_js),
     };
     std::string joined;

@@ -71,9 +71,9 @@ core::Result<Crops> readCrops(const json& theCase) {
     return crops;
 }
 
-void addLinear(const json& value, const Crops& crops, ShownPictures& shown) {
-    if (const std::string path = findText(value, "linear"); !path.empty())
-        shown.linear[path] = crops;
+void addCrops(const json& value, const Crops& crops, ShownPictures& shown) {
+    if (const std::string path = findText(value, "image"); !path.empty() && !crops.empty())
+        shown.crops[path] = crops;
 }
 
 } // namespace
@@ -87,9 +87,9 @@ core::Result<ShownPictures> findShownPictures(const json& results) {
         if (!crops)
             return crops.error();
         if (theCase.is_object() && theCase.contains("truth"))
-            addLinear(theCase.at("truth"), crops.value(), shown);
+            addCrops(theCase.at("truth"), crops.value(), shown);
         for (const json& measurement : findArray(theCase, "measurements"))
-            addLinear(measurement, crops.value(), shown);
+            addCrops(measurement, crops.value(), shown);
         cropsByCase[findText(theCase, "name")] = std::move(crops.value());
     }
     for (const json& entry : findArray(results, "equalTime")) {
@@ -97,7 +97,7 @@ core::Result<ShownPictures> findShownPictures(const json& results) {
         for (const json& row : findArray(entry, "rows")) {
             const std::string path = findText(row, "image");
             if (!path.empty() && !crops.empty() && !shown.whole.contains(path))
-                shown.parts[path] = crops.front();
+                shown.crops[path] = {crops.front()};
         }
     }
     return shown;

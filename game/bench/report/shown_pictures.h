@@ -25,11 +25,9 @@ struct PictureRegion {
 /// Files are named as the results name them, relative to their folder.
 struct ShownPictures {
     std::set<std::string> whole; ///< PNG: `image` and `errorMap`, wherever they are
-    /// PNG of which no more is shown than the first crop of their case: rows at equal time whose
-    /// sample count is no default.
-    std::map<std::string, PictureRegion> parts;
-    /// EXR, `linear`: and the crops of their case.
-    std::map<std::string, std::vector<PictureRegion>> linear;
+    /// The regions of PNG that are shown enlarged: those of a case in its `image`s. Of a row at
+    /// equal time whose sample count is no default, the first is all that is shown.
+    std::map<std::string, std::vector<PictureRegion>> crops;
 };
 
 /// Error: a crop is not four numbers above or equal to 0, or has no pixels.

@@ -18,13 +18,11 @@ function listLayers(theCase) {
     return picturesOf(theCase).flatMap((picture) => {
         const layers = [{
             id: picture.id, label: picture.label, file: picture.image, picture,
-            exact: {picture, theCase, mode: "picture"},
         }];
         if (picture.errorMap) {
             layers.push({
                 id: `${picture.id}: error`, label: `${picture.label}: FLIP error map`,
                 file: picture.errorMap, picture: null,
-                exact: {picture, theCase, mode: "flip"},
             });
         }
         return layers;
@@ -49,9 +47,9 @@ function drawSlider() {
     fillSelect(byId("slider-region"), [{value: "whole", label: "whole picture"},
         ...crops.map((crop, i) => ({value: String(i), label: `${i + 1}: ${crop.label}`}))],
         region ? comparison.region : "whole");
-    byId("slider-over").replaceChildren(makeViewport(left.file, region, left.label, left.exact),
+    byId("slider-over").replaceChildren(makeViewport(left.file, region, left.label),
         el("span", {class: "tag left"}, left.label));
-    byId("slider-under").replaceChildren(makeViewport(right.file, region, right.label, right.exact),
+    byId("slider-under").replaceChildren(makeViewport(right.file, region, right.label),
         el("span", {class: "tag right"}, right.label));
     placeSlider(comparison.percent);
 }

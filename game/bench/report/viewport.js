@@ -14,7 +14,6 @@ function picturesOf(theCase) {
             method: null,
             label: `the truth (${nameMeasurement(truth.method, truth.samples)})`,
             image: truth.image,
-            linear: truth.linear,
             measurement: null,
         });
     }
@@ -27,41 +26,26 @@ function picturesOf(theCase) {
             label,
             image: measurement.image,
             errorMap: measurement.errorMap,
-            linear: measurement.linear,
             measurement,
         });
     }
     return list;
 }
 
-/** A file's part in this page, with `uri` or `exr`, that is or holds a region. */
-function findPart(file, region) {
-    return findHolder(pictureFiles.parts[file] ?? [], region);
-}
-
-/** A region of a picture, or of its error map, from its floats. */
-function makeExactCrop(picture, region, description, {theCase, mode}) {
-    const canvas = el("canvas", {
-        width: region.width, height: region.height, role: "img", "aria-label": description});
-    const look = {...makeLook(theCase, mode), isExactOnly: true};
-    loadLayers(picture).then((layers) => {
-        canvas.getContext("2d").putImageData(
-            paintLayers(layers, null, look), -region.x, -region.y);
-        canvas.dataset.drawn = "true";
-    }).catch((error) => tellFailure(`${description}: ${error.message}`));
-    return el("div", {class: "viewport crop"}, canvas);
+/** Whether a region lies within another. */
+function holds(outer, inner) {
+    return outer.x <= inner.x && outer.y <= inner.y &&
+        outer.x + outer.width >= inner.x + inner.width &&
+        outer.y + outer.height >= inner.y + inner.height;
 }
 
 /**
  * A box that shows `region` ({x, y, width, height} in pixels; null: all) of a picture file.
- * Enlarged pixels stay squares. `exact`: {picture, theCase, mode}, by which a region is painted
- * from floats where the file itself is in this page as a JPEG.
+ * Enlarged pixels stay squares.
  */
-function makeViewport(file, region, description, exact = null) {
-    const part = region ? findPart(file, region) : null;
-    const isCompressed = pictureFiles.detail.jpegQuality !== null;
-    if (region && exact && isCompressed && findPart(exact.picture.linear, region))
-        return makeExactCrop(exact.picture, region, description, exact);
+function makeViewport(file, region, description) {
+    const part = region
+        ? (pictureFiles.parts[file] ?? []).find((one) => holds(one, region)) : null;
     const image = el("img", {alt: description, draggable: "false"});
     const box = el("div", {class: region ? "viewport crop" : "viewport"}, image);
     if (region) {

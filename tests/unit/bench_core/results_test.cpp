@@ -92,17 +92,6 @@ TEST(Results, OnlyDefaultsCarryPictures) {
             EXPECT_EQ(row.contains(picture), row.at("isDefault").get<bool>()) << row.at("samples");
 }
 
-TEST(Results, ACaseSaysHowItsLinearPicturesAreShown) {
-    Case shot;
-    shot.shot.scene = "a.glb";
-    EXPECT_EQ(
-        describeCase(shot, {}, {}, {}).at("display"),
-        nlohmann::json({{"operator", "neutral"}, {"exposureValue", 0.0}})
-    );
-    shot.shot.exposureValue = -1.5;
-    EXPECT_EQ(describeCase(shot, {}, {}, {}).at("display").at("exposureValue"), -1.5);
-}
-
 TEST(Results, AMethodWithoutSamplesHasNull) {
     CaseResult result;
     result.records["sharp/0"] = makeRecord(0.0, 20.0);
