@@ -2,6 +2,7 @@
 #include "game/bench/bench_arguments.h"
 
 #include "game/bench/contenders.h"
+#include "game/options/option_rows.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

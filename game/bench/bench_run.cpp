@@ -6,6 +6,8 @@
 #include "game/bench/results.h"
 #include "game/bench/sequence_results.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <iterator>
 #include <string_view>

@@ -5,6 +5,8 @@
 #include "engine/scene/shutter.h"
 #include "game/shot/methods.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>

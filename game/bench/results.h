@@ -7,7 +7,7 @@
 #include "game/bench/measure.h"
 #include "game/bench/suites/suite.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <functional>
 #include <string>

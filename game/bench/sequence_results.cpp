@@ -5,6 +5,8 @@
 #include "game/bench/results.h"
 #include "game/bench/sequence/temporal_error.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <limits>
 

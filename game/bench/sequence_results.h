@@ -4,7 +4,7 @@
 
 #include "game/bench/sequence_run.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace shutter::bench {
 

@@ -3,6 +3,7 @@
 
 #include "engine/io/file_bytes.h"
 #include "engine/scene/shutter.h"
+#include "game/options/option_rows.h"
 #include "game/shot/shot.h"
 
 #include <array>

@@ -3,13 +3,20 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "game/options/option_rows.h"
+#include "game/options/picture_size.h"
 #include "game/options/shutter_options.h"
 #include "game/shot/shot_options.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+namespace CLI {
+class App;
+class Option;
+} // namespace CLI
 
 namespace shutter::game {
 

@@ -2,7 +2,7 @@
 // What the player of a soak does: an input script that switches everything that can be switched.
 #pragma once
 
-#include "game/options/option_rows.h"
+#include "game/options/picture_size.h"
 
 #include <nlohmann/json_fwd.hpp>
 
