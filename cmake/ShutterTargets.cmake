@@ -67,6 +67,10 @@ function(shutter_precompile target)
     target_precompile_headers(${target} PRIVATE ${SHUTTER_PRECOMPILED_HEADERS} ${ARG_HEADERS})
 endfunction()
 
+# The presets `release` and `fuzz` compile several sources of a library as one (a unity build), which
+# instantiates the templates that they share once. Names in unnamed namespaces must therefore differ
+# within a library; a source that cannot have it so is compiled alone (SKIP_UNITY_BUILD_INCLUSION).
+
 # shutter_library(<name> SOURCES ... HEADERS ... LINKS ... PRIVATE_LINKS ...)
 # One folder, one library `shutter_<name>`; LINKS are public and are the folder's allowed includes.
 # Those of engine/ and modules/ are installed.

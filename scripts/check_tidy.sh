@@ -116,11 +116,19 @@ main() {
     fi
     [[ -e $build/compile_commands.json ]] ||
         die "$build is not configured; scripts/setup.sh --with-tests builds what is checked"
-    # clang-tidy can read no header that GCC has precompiled: each file's own includes must do.
     database=$(mktemp -d)
     trap 'rm -rf "$database"' EXIT
+    cp "$build/compile_commands.json" "$database/all.json"
+    # Where several sources are compiled as one, a build that is only configured knows each one's
+    # command; what is generated lies in the one that was built.
+    if grep -q '/Unity/unity_' "$database/all.json"; then
+        cmake --preset release -B "$database/plain" -DCMAKE_UNITY_BUILD=OFF >/dev/null
+        sed "s#$database/plain/generated#$root/$build/generated#g" \
+            "$database/plain/compile_commands.json" >"$database/all.json"
+    fi
+    # clang-tidy can read no header that GCC has precompiled: each file's own includes must do.
     sed -E 's/ -Winvalid-pch -include [^ ]+cmake_pch\.hxx//; s/ -fpch-preprocess//' \
-        "$build/compile_commands.json" >"$database/compile_commands.json"
+        "$database/all.json" >"$database/compile_commands.json"
     export root database clang_tidy
     export -f check_file
     # The argument is the inner shell's to expand.

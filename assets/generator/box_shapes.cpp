@@ -11,7 +11,7 @@ namespace shutter::generator {
 
 namespace {
 
-constexpr float kPi = glm::pi<float>();
+constexpr float kHalfTurn = glm::pi<float>();
 
 /// The six faces of a box: outward axis and the axes of u (right) and v (up) seen from outside.
 struct Face {
@@ -42,7 +42,7 @@ void addRoundedFace(
     const float innerUp = glm::dot(glm::abs(face.up), inner);
     const auto angleOf = [&](int line) {
         const int step = line <= steps ? line - steps : line - steps - 1;
-        return static_cast<float>(step) / static_cast<float>(steps) * kPi / 4.0f;
+        return static_cast<float>(step) / static_cast<float>(steps) * kHalfTurn / 4.0f;
     };
     const auto sideOf = [&](int line) { return line <= steps ? -1.0f : 1.0f; };
     for (int row = 0; row < lineCount; ++row) {
@@ -108,7 +108,7 @@ Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize) {
     Shape sheet;
     const auto width = static_cast<size_t>(gridSize) + 1;
     const auto angleOf = [&](size_t line) {
-        return kPi * (static_cast<float>(line) / static_cast<float>(gridSize) - 0.5f);
+        return kHalfTurn * (static_cast<float>(line) / static_cast<float>(gridSize) - 0.5f);
     };
     for (size_t row = 0; row < width; ++row) {
         for (size_t column = 0; column < width; ++column) {
@@ -140,7 +140,7 @@ Shape pillow(glm::vec3 halfExtents, float pinch, int gridSize) {
     }
     smoothNormals(sheet);
     Shape shape = sheet;
-    append(shape, sheet, glm::rotate(glm::mat4(1.0f), kPi, glm::vec3(0.0f, 1.0f, 0.0f)));
+    append(shape, sheet, glm::rotate(glm::mat4(1.0f), kHalfTurn, glm::vec3(0.0f, 1.0f, 0.0f)));
     return shape;
 }
 

@@ -97,7 +97,7 @@ Shape plain() {
 }
 
 /// A ring of slopes that face the middle.
-Shape hills(float radius, float lowest, float highest, int seed) {
+Shape farHills(float radius, float lowest, float highest, int seed) {
     constexpr int kColumns = 64;
     Shape shape;
     for (int i = 0; i <= kColumns; ++i) {
@@ -267,9 +267,9 @@ void addRallyLand(GltfWriter& writer, const RallyLand& land) {
         MeshPart{
             .shape = wood.oaks,
             .material = addTextured(writer, "oaks", leaves({0.36f, 0.55f, 0.22f}), 0.95f)},
-        MeshPart{.shape = hills(150.0f, 5.0f, 16.0f, 341), .material = near},
+        MeshPart{.shape = farHills(150.0f, 5.0f, 16.0f, 341), .material = near},
         MeshPart{.shape = plain(), .material = grass},
-        MeshPart{.shape = hills(190.0f, 14.0f, 34.0f, 342), .material = far},
+        MeshPart{.shape = farHills(190.0f, 14.0f, 34.0f, 342), .material = far},
     };
     constexpr std::array kClothes = {
         vec3(0.70f, 0.12f, 0.08f),

@@ -20,17 +20,17 @@ namespace {
 // Shot computes speeds from the one exposure.
 static_assert(static_cast<float>(kScalingExposureSeconds) == kExposureSeconds);
 
-const Shot kShot{.position = {0.0f, 0.0f, 0.0f}, .yFov = 0.7f};
+const Shot kScalingShot{.position = {0.0f, 0.0f, 0.0f}, .yFov = 0.7f};
 constexpr float kMoverDepth = 4.0f; ///< metres along the view axis
 constexpr float kWallDepth = 6.0f;
 
 /// Half the picture's width and height at a depth, metres.
 vec2 halfView(float depth) {
-    return kPictureSizePx / 2.0f / kShot.focalLengthPx() * depth;
+    return kPictureSizePx / 2.0f / kScalingShot.focalLengthPx() * depth;
 }
 
 void addStage(GltfWriter& writer) {
-    writer.addNode({.name = "main", .camera = writer.addCamera("main", kShot.yFov, 0.05f)});
+    writer.addNode({.name = "main", .camera = writer.addCamera("main", kScalingShot.yFov, 0.05f)});
     writer.addNode(
         {.name = "sun",
          .rotation = rotationTowards({0.5f, -0.6f, -0.8f}),
@@ -124,7 +124,9 @@ class BoxGrid {
     [[nodiscard]] static vec3 velocityOf(int i) {
         const float angle = glm::two_pi<float>() * hash(i, 0, 3);
         const float pixels = 12.0f + 8.0f * hash(i, 1, 3);
-        return kShot.velocityFor(pixels * vec2(std::cos(angle), std::sin(angle)), depthOf(i));
+        return kScalingShot.velocityFor(
+            pixels * vec2(std::cos(angle), std::sin(angle)), depthOf(i)
+        );
     }
 
   private:
@@ -208,7 +210,7 @@ GltfWriter buildTrianglesScene(int count) {
         writer,
         {.name = "mover",
          .translation = {0.0f, 0.0f, -kMoverDepth},
-         .linearVelocity = kShot.velocityFor({32.0f, 10.0f}, kMoverDepth)},
+         .linearVelocity = kScalingShot.velocityFor({32.0f, 10.0f}, kMoverDepth)},
         mover,
         addTextured(writer, "chevrons", chevrons(), 0.7f)
     );
@@ -242,7 +244,7 @@ GltfWriter buildMovingShareScene(float share) {
              .translation = {place, -kMoverDepth},
              .mesh = mesh,
              .linearVelocity =
-                 kShot.velocityFor({row % 2 == 0 ? 24.0f : -24.0f, 0.0f}, kMoverDepth)}
+                 kScalingShot.velocityFor({row % 2 == 0 ? 24.0f : -24.0f, 0.0f}, kMoverDepth)}
         );
     }
     return writer;
@@ -269,8 +271,9 @@ GltfWriter buildMovingRegionScene(int columns, int rows) {
                 .translation = {-half + cell * (vec2(column, row) + 0.5f), -kMoverDepth},
                 .mesh = mesh};
             if (column < columns && row < rows)
-                panel.linearVelocity =
-                    kShot.velocityFor({row % 2 == 0 ? kMotionPx : -kMotionPx, 0.0f}, kMoverDepth);
+                panel.linearVelocity = kScalingShot.velocityFor(
+                    {row % 2 == 0 ? kMotionPx : -kMotionPx, 0.0f}, kMoverDepth
+                );
             writer.addNode(panel);
         }
     return writer;

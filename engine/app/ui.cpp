@@ -29,7 +29,7 @@ static_assert(offsetof(ImDrawVert, col) == offsetof(shader::UiVertex, color));
 /// ImGui takes no time of 0.
 constexpr double kShortestFrame = 1.0e-5;
 
-gpu::GraphicsPipelineDesc describePipeline(VkFormat format) {
+gpu::GraphicsPipelineDesc describeUiPipeline(VkFormat format) {
     gpu::GraphicsPipelineDesc desc;
     desc.name = "user interface";
     desc.vertexSpirv = app_ui_vert;
@@ -172,7 +172,7 @@ void Ui::State::copy(const ImDrawData& data, Slot& slot) {
 const gpu::Pipeline& Ui::State::findPipeline(VkFormat format) {
     auto found = pipelines.find(format);
     if (found == pipelines.end())
-        found = pipelines.emplace(format, gpu::Pipeline(device, describePipeline(format))).first;
+        found = pipelines.emplace(format, gpu::Pipeline(device, describeUiPipeline(format))).first;
     return found->second;
 }
 

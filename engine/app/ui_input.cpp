@@ -42,7 +42,7 @@ bool isHeld(const InputState& input, MouseButton button) {
 }
 
 // ImGui's order of buttons.
-constexpr MouseButton kButtons[] = {MouseButton::Left, MouseButton::Right, MouseButton::Middle};
+constexpr MouseButton kUiButtons[] = {MouseButton::Left, MouseButton::Right, MouseButton::Middle};
 
 } // namespace
 
@@ -69,7 +69,7 @@ void feedInput(const InputState& input) {
         static_cast<float>(input.pointerPx.x), static_cast<float>(input.pointerPx.y)
     );
     for (int i = 0; i < 3; ++i)
-        io.AddMouseButtonEvent(i, isHeld(input, kButtons[i]));
+        io.AddMouseButtonEvent(i, isHeld(input, kUiButtons[i]));
     if (input.wheel != 0.0)
         io.AddMouseWheelEvent(0.0f, static_cast<float>(input.wheel));
     io.AddKeyEvent(kShift, isHeld(input, Key::Shift));
@@ -93,7 +93,7 @@ void feedInput(const InputState& input) {
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = {static_cast<float>(input.pointerPx.x), static_cast<float>(input.pointerPx.y)};
     for (int i = 0; i < 3; ++i)
-        io.MouseDown[i] = isHeld(input, kButtons[i]);
+        io.MouseDown[i] = isHeld(input, kUiButtons[i]);
     io.MouseWheel += static_cast<float>(input.wheel);
     io.KeyShift = isHeld(input, Key::Shift);
     io.KeyCtrl = isHeld(input, Key::Control);

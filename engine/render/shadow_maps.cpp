@@ -19,7 +19,7 @@ namespace shutter::render {
 
 namespace {
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 /// Width of the image that maps are drawn into, unless one map is wider.
 constexpr uint32_t kImageWidth = 4096;
 /// Width of one that needs no more. Images are kept for other frames by their size, and maps and
@@ -38,11 +38,11 @@ gpu::GraphicsPipelineDesc describeCasters(const gpu_scene::GpuScene& scene, bool
     desc.interface.pushConstantBytes = sizeof(shader::ShadowDraw);
     desc.interface.sceneLayout = scene.textureLayout();
     desc.specialization = {masked};
-    desc.depthFormat = kDepthFormat;
+    desc.depthFormat = kShadowFormat;
     return desc;
 }
 
-VkDeviceSize alignTable(VkDeviceSize bytes) {
+VkDeviceSize alignShadowTable(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
 }
 
@@ -55,7 +55,7 @@ class TableWriter {
 
     size_t addBytes(const void* data, size_t bytes) {
         const size_t at = mBytes.size();
-        mBytes.resize(at + alignTable(bytes));
+        mBytes.resize(at + alignShadowTable(bytes));
         if (bytes > 0)
             std::memcpy(mBytes.data() + at, data, bytes);
         return at;
@@ -92,9 +92,9 @@ shader::ShadowCascade makeCascade(const extract::PlannedMap& map, const math::dv
 }
 
 /// Records the draws of one map after another.
-class Recorder {
+class ShadowRecorder {
   public:
-    Recorder(
+    ShadowRecorder(
         graph::PassContext& context,
         const ShadowPipelines& pipelines,
         const extract::ExtractedFrame& frame,
@@ -296,7 +296,7 @@ const gpu::Image* ShadowMaps::prepareImage(VkExtent2D size) {
     gpu::ImageDesc desc;
     desc.width = size.width;
     desc.height = size.height;
-    desc.format = kDepthFormat;
+    desc.format = kShadowFormat;
     desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     const auto found = std::find_if(mImages.begin(), mImages.end(), [&](const gpu::Image& image) {
         return image.desc() == desc;
@@ -346,7 +346,7 @@ graph::BufferHandle ShadowMaps::declare(
         [this, &pipelines, &frame, &scene, frameConstants](
             const Casters&, graph::PassContext& context
         ) {
-            Recorder recorder(context, pipelines, frame, scene, frameConstants);
+            ShadowRecorder recorder(context, pipelines, frame, scene, frameConstants);
             for (const Drawn& drawn : mDrawn) {
                 const extract::PlannedMap& map = mPlan.maps[drawn.map];
                 recorder.begin(map.view, drawn.place, map.shapeShift);

@@ -17,6 +17,8 @@
 
 namespace shutter::game {
 
+inline constexpr double kGravity = 9.81; ///< m/s^2
+
 inline constexpr int kDemoStepsPerSecond = 120;
 inline constexpr double kDemoStepSeconds = 1.0 / kDemoStepsPerSecond;
 

@@ -13,7 +13,6 @@ using math::dvec3;
 
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kRestitution = 0.62;
 constexpr double kGrip = 0.25;     // of the sliding speed that a bounce turns into spin
 constexpr double kMostSpin = 60.0; // rad/s

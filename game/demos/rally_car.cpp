@@ -14,7 +14,6 @@ using math::Transform;
 
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr double kWheelBase = 2.44;    // metres
 constexpr double kThrust = 9.5;        // m/s^2 at rest
 constexpr double kReverseSpeed = 7.0;  // m/s

@@ -15,14 +15,13 @@ using math::dvec3;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kRestitution = 0.35;
+constexpr double kPostRestitution = 0.35;
 constexpr double kLeastBounce = 0.6; // m/s: slower contacts do not bounce
-constexpr double kFriction = 0.55;
-constexpr double kMostSpin = 60.0;  // rad/s: far below half a turn per step
-constexpr double kAirDrag = 0.25;   // 1/s, of the spin
-constexpr double kRestSpeed = 0.25; // m/s, of the middle and of the ends
-constexpr double kRestAfter = 0.4;  // s
+constexpr double kPostFriction = 0.55;
+constexpr double kPostMostSpin = 60.0; // rad/s: far below half a turn per step
+constexpr double kAirDrag = 0.25;      // 1/s, of the spin
+constexpr double kRestSpeed = 0.25;    // m/s, of the middle and of the ends
+constexpr double kRestAfter = 0.4;     // s
 const dvec3 kUp(0.0, 1.0, 0.0);
 
 double inertiaOf(const Rod& rod) {
@@ -48,7 +47,7 @@ void meetGround(Rod& rod, const dvec3& arm) {
     const dvec3 speed = rod.velocity + glm::cross(rod.spin, arm);
     if (speed.y >= 0.0)
         return;
-    const double bounce = -speed.y > kLeastBounce ? kRestitution : 0.0;
+    const double bounce = -speed.y > kLeastBounce ? kPostRestitution : 0.0;
     const double push = -(1.0 + bounce) * speed.y / softness(rod, arm, kUp);
     applyImpulse(rod, arm, kUp * push);
     const dvec3 after = rod.velocity + glm::cross(rod.spin, arm);
@@ -58,7 +57,7 @@ void meetGround(Rod& rod, const dvec3& arm) {
         return;
     const dvec3 direction = sliding / slide;
     const double stop = slide / softness(rod, arm, direction);
-    applyImpulse(rod, arm, direction * -std::min(stop, kFriction * push));
+    applyImpulse(rod, arm, direction * -std::min(stop, kPostFriction * push));
 }
 
 constexpr double kSpeedTaken = 0.03; // of the car's, by a post of a two-hundredth of its mass
@@ -90,8 +89,8 @@ void stepRod(Rod& rod) {
     rod.velocity.y -= kGravity * dt;
     rod.spin *= 1.0 - kAirDrag * dt;
     const double turning = glm::length(rod.spin);
-    if (turning > kMostSpin)
-        rod.spin *= kMostSpin / turning;
+    if (turning > kPostMostSpin)
+        rod.spin *= kPostMostSpin / turning;
     rod.place += rod.velocity * dt;
     rod.rotation = glm::normalize(math::integrateRotation(rod.spin, dt) * rod.rotation);
     const dvec3 half = rod.rotation * (kUp * rod.halfLength);

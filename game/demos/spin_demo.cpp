@@ -17,13 +17,13 @@ using math::dvec3;
 
 namespace {
 
-constexpr double kRoundSeconds = 45.0;
+constexpr double kRideSeconds = 45.0;
 constexpr double kOrbitRate = 0.5; // rad/s
 constexpr double kMostOrbit = 0.7; // radians
 constexpr double kBob = 0.20;      // metres that a seat rises and sinks
 constexpr double kBobsPerTurn = 2.0;
-const dvec3 kY(0.0, 1.0, 0.0);
-const dvec3 kZ(0.0, 0.0, 1.0);
+const dvec3 kVertical(0.0, 1.0, 0.0);
+const dvec3 kAhead(0.0, 0.0, 1.0);
 
 } // namespace
 
@@ -69,19 +69,23 @@ void SpinDemo::placeParts() {
         pose.translation = translation;
         pose.rotation = turn * part.rest.rotation;
     };
-    place(mParts.carousel, mParts.carousel.rest.translation, glm::angleAxis(mRide.carousel, kY));
-    place(mParts.fan, mParts.fan.rest.translation, glm::angleAxis(-mRide.fan, kZ));
-    place(mParts.mill, mParts.mill.rest.translation, glm::angleAxis(-mRide.mill, kZ));
+    place(
+        mParts.carousel, mParts.carousel.rest.translation, glm::angleAxis(mRide.carousel, kVertical)
+    );
+    place(mParts.fan, mParts.fan.rest.translation, glm::angleAxis(-mRide.fan, kAhead));
+    place(mParts.mill, mParts.mill.rest.translation, glm::angleAxis(-mRide.mill, kAhead));
     for (size_t i = 0; i < mParts.seats.size(); ++i) {
         const Part& seat = mParts.seats[i];
         // Neighbours rise and sink by turns.
         const double phase =
             kBobsPerTurn * mRide.carousel + std::numbers::pi * static_cast<double>(i % 2);
         place(
-            seat, seat.rest.translation + kY * (kBob * std::sin(phase)), dquat(1.0, 0.0, 0.0, 0.0)
+            seat,
+            seat.rest.translation + kVertical * (kBob * std::sin(phase)),
+            dquat(1.0, 0.0, 0.0, 0.0)
         );
     }
-    const dquat round = glm::angleAxis(mOrbit, kY);
+    const dquat round = glm::angleAxis(mOrbit, kVertical);
     const dvec3 middle = mParts.carousel.rest.translation;
     place(mParts.front, middle + round * (mParts.front.rest.translation - middle), round);
 }
@@ -103,7 +107,7 @@ DemoLook SpinDemo::look() const {
 }
 
 bool SpinDemo::isOver() const {
-    return seconds() > kRoundSeconds;
+    return seconds() > kRideSeconds;
 }
 
 std::vector<HudLine> SpinDemo::hud() const {
@@ -115,7 +119,7 @@ std::vector<HudLine> SpinDemo::hud() const {
     const bool isKept = std::abs(mRide.rate - mRules.targetRate) <= kRateTolerance;
     return {
         {fmt::format("{}", score()), true, "Score"},
-        {fmt::format("{:.1f} s", std::max(kRoundSeconds - seconds(), 0.0)), false, "Left"},
+        {fmt::format("{:.1f} s", std::max(kRideSeconds - seconds(), 0.0)), false, "Left"},
         {fmt::format("{:.1f}", mRide.rate * kPerMinute), isKept, "Turns a minute"},
         {fmt::format("{:.1f}", mRules.targetRate * kPerMinute), isKept, isKept ? "Kept" : "Keep"},
         rings};

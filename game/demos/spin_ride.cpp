@@ -10,9 +10,9 @@ namespace shutter::game {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kThrust = 1.1;    // rad/s^2
-constexpr double kBrake = 1.8;     // rad/s^2
-constexpr double kFriction = 0.06; // 1/s
+constexpr double kRideThrust = 1.1;    // rad/s^2
+constexpr double kBrake = 1.8;         // rad/s^2
+constexpr double kRideFriction = 0.06; // 1/s
 constexpr double kPointsPerSecond = 20.0;
 constexpr double kRingPoints = 40.0; // for each rad/s at which it is caught
 constexpr double kMissPoints = -15.0;
@@ -33,8 +33,8 @@ double wrapAngle(double radians) {
 
 void stepRide(Ride& ride, const DemoControls& controls) {
     constexpr double dt = kDemoStepSeconds;
-    const double force = controls.drive > 0.0 ? kThrust : kBrake;
-    ride.rate += (controls.drive * force - kFriction * ride.rate) * dt;
+    const double force = controls.drive > 0.0 ? kRideThrust : kBrake;
+    ride.rate += (controls.drive * force - kRideFriction * ride.rate) * dt;
     ride.rate = std::clamp(ride.rate, 0.0, kMostRideRate);
     ride.carousel = turnBy(ride.carousel, ride.rate * dt);
     ride.fan = turnBy(ride.fan, kFanGear * ride.rate * dt);

@@ -24,29 +24,29 @@ constexpr double kLeastStepPx = 1.0e-3;
 constexpr double kMostStepPx = 1.0e3;
 constexpr uint32_t kMostInstants = 1024; ///< of `--instants auto` without --samples
 
-using A = MethodArguments;
+using M = MethodArguments;
 
 constexpr std::array kRows = {
-    makeRow<&A::method>("--method", "method, see `shutter info --methods`; default resolved"),
-    makeRow<&A::preset>(
+    makeRow<&M::method>("--method", "method, see `shutter info --methods`; default resolved"),
+    makeRow<&M::preset>(
         "--preset", "off, performance, balanced, quality or paper: a method and its settings"
     ),
-    makeRow<&A::samples>(
+    makeRow<&M::samples>(
         "--samples",
         "taps (filters), instants (resolved, adaptive, accumulate) or rays per pixel (truth, "
         "denoised)"
     ),
-    makeRow<&A::error>("--error", "stop truth at this standard error (linear RMS)"),
-    makeRow<&A::instants>(
+    makeRow<&M::error>("--error", "stop truth at this standard error (linear RMS)"),
+    makeRow<&M::instants>(
         "--instants",
         "auto: accumulate takes as many instants as the frame moves, --samples at most"
     ),
-    makeRow<&A::maxStepPx>(
+    makeRow<&M::maxStepPx>(
         "--max-step",
         "with --instants auto: what nothing moves farther than between two of them, pixels; "
         "default 1"
     ),
-    makeRow<&A::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
+    makeRow<&M::settings>("--set", "change a setting of the method, NAME=VALUE (repeatable)"),
 };
 
 /// The method and its settings, before any of them is changed.
@@ -122,7 +122,7 @@ Status interpretInstants(const MethodArguments& arguments, MethodOptions& option
 } // namespace
 
 void defineMethodOptions(CLI::App& command, MethodArguments& arguments) {
-    defineRows(command, OptionRows<A>(kRows), arguments);
+    defineRows(command, OptionRows<M>(kRows), arguments);
     command.get_option("--preset")->excludes("--method");
     defineSettingOptions(command, motion_blur::listBudgetRows(), arguments.budget, arguments.typed);
 }
@@ -166,7 +166,7 @@ Status applySetting(
 }
 
 std::string describe(const MethodArguments& arguments) {
-    return describeRows(OptionRows<A>(kRows), arguments) +
+    return describeRows(OptionRows<M>(kRows), arguments) +
            core::describeValues(motion_blur::listBudgetRows(), arguments.budget);
 }
 

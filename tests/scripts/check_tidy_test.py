@@ -62,7 +62,7 @@ class CheckTidy(unittest.TestCase):
         the files whose names begin with b."""
         programs = self.folder / "bin"
         programs.mkdir()
-        for name in ("bash", "cat", "comm", "dirname", "git", "grep", "mktemp", "nproc", "rm", "sed",
+        for name in ("bash", "cat", "comm", "cp", "dirname", "git", "grep", "mktemp", "nproc", "rm", "sed",
                      "sort", "wc", "xargs"):
             (programs / name).symlink_to(shutil.which(name))
         if version:
