@@ -4,7 +4,6 @@
 #include "modules/motion_blur/motion_blur.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/still_pixels.h"
-#include "modules/motion_blur/passes/tap_floor.h"
 #include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -230,38 +229,6 @@ TEST_F(BlockFilters, WhatLiesBeyondTheDepthLimitCountsAsStill) {
             << method->name;
         EXPECT_EQ(effect.countBlocks("still"), 12u * 8u) << method->name;
     }
-}
-
-TEST_F(BlockFilters, TheFloorAveragesTheGathersTaps) {
-    // Nothing but its own place to fetch: twice the taps of one texel.
-    MotionBlurSettings settings;
-    settings.jitter = 0.0f;
-    Image motion(40, 24, 4);
-    for (uint32_t y = 0; y < 24; ++y)
-        for (uint32_t x = 0; x < 40; ++x) {
-            motion.at(x, y, 0) = x == 0 ? 0.7f : 0.5f; // within the pixel, and not uniform
-            motion.at(x, y, 2) = 0.25f;
-        }
-    const auto params = motion_blur::resolve(settings, 40, 24, 0.5);
-    test::GraphRig rig(device());
-    const motion_blur::TileMotion tileMotion(device());
-    const motion_blur::BlockSorter sorter(device());
-    const motion_blur::TapFloor tapFloor(device());
-    const auto motionDepth = rig.upload(motion);
-    const auto color = rig.uploadColor(makePicture(40, 24, 2.0f));
-    const auto tiles = tileMotion.add(rig.graph, motionDepth, params);
-    const auto lists = sorter.add(rig.graph, tiles, params, false).lists;
-    const size_t ticket =
-        rig.want(tapFloor.add(rig.graph, {color, motionDepth, tiles.dominant}, lists, params));
-    run(rig);
-    const Image mean = rig.take(ticket);
-    // Stored as a half float, of which those of [2, 4) are 2^-9 apart: either neighbour.
-    constexpr float kStored = 0x1p-9f;
-    for (uint32_t y = 0; y < 24; ++y)
-        for (uint32_t x = 0; x < 40; ++x) {
-            ASSERT_NEAR(mean.at(x, y, 0), 2.0f + motion.at(x, y, 0), kStored);
-            ASSERT_NEAR(mean.at(x, y, 2), 2.25f, kStored);
-        }
 }
 
 } // namespace
