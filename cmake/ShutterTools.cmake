@@ -63,35 +63,23 @@ function(shutter_shaders target)
         file(MAKE_DIRECTORY ${output_dir})
         set(module ${CMAKE_BINARY_DIR}/generated/spirv/${shader}.spv)
         add_custom_command(
-            OUTPUT ${module}.raw
+            # In front, as the file of its dependencies names it.
+            OUTPUT ${module}.raw ${module} ${output}
             COMMAND
                 ${SHUTTER_GLSLANG} -V --target-env vulkan1.3 --quiet -I${ARG_ROOT}
                 -I${SHUTTER_SHADER_DIR} --depfile ${module}.d -o ${module}.raw ${source}
-            DEPENDS ${source}
-            DEPFILE ${module}.d
-            COMMENT "GLSL ${shader}"
-            VERBATIM)
-        add_custom_command(
-            OUTPUT ${output} ${module}
             COMMAND ${SHUTTER_SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout
                     ${SHUTTER_SPIRV_PASSES} ${module}.raw -o ${module}
             COMMAND ${SHUTTER_SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${module}
             COMMAND ${CMAKE_COMMAND} -DSOURCE=${module} -DOUTPUT=${output} -DSYMBOL=${symbol} -P
                     ${SHUTTER_TOOLS_DIR}/EmbedWords.cmake
-            DEPENDS ${module}.raw ${SHUTTER_TOOLS_DIR}/EmbedWords.cmake
-            COMMENT "SPIR-V ${shader}"
+            DEPENDS ${source} ${SHUTTER_TOOLS_DIR}/EmbedWords.cmake
+            DEPFILE ${module}.d
+            COMMENT "GLSL ${shader}"
             VERBATIM)
         list(APPEND outputs ${output})
-        list(APPEND modules ${module})
     endforeach()
     _shutter_add_generated(${target} ${outputs})
-    # Shaders alone, for who reloads them while the program runs.
-    add_custom_target(${target}_spirv DEPENDS ${modules})
-    add_dependencies(${target} ${target}_spirv)
-    if(NOT TARGET shutter_spirv)
-        add_custom_target(shutter_spirv)
-    endif()
-    add_dependencies(shutter_spirv ${target}_spirv)
 endfunction()
 
 # shutter_embed(<target> <header> <symbol> <file>)
