@@ -3,7 +3,6 @@
 
 #include "engine/core/check.h"
 #include "engine/gpu/pipeline_key.h"
-#include "engine/gpu/replaced_shader.h"
 #include "engine/gpu/shader_reflection.h"
 
 #include <algorithm>
@@ -18,9 +17,8 @@ namespace {
 /// A shader module that lives while a pipeline is made.
 class LoadedShader {
   public:
-    LoadedShader(Device& device, std::span<const uint32_t> own, const std::string& name)
+    LoadedShader(Device& device, std::span<const uint32_t> spirv, const std::string& name)
         : mDevice(device) {
-        const std::span<const uint32_t> spirv = findShader(own);
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = spirv.size_bytes();
         info.pCode = spirv.data();
@@ -129,8 +127,7 @@ template <typename Desc> bool Pipeline::takeKept(const Desc& desc) {
 }
 
 void Pipeline::
-    addShader(std::span<const uint32_t> own, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
-    const std::span<const uint32_t> spirv = findShader(own);
+    addShader(std::span<const uint32_t> spirv, VkShaderStageFlagBits stage, const PipelineInterface& interface) {
     const core::Status fits = checkInterface(spirv, stage, interface);
     SHUTTER_CHECK(fits.ok(), "pipeline '{}': {}", mName, fits.error().message);
     const std::vector<VkFormat> formats = reflectStorageFormats(spirv);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu/pipeline_key.h"
 
-#include "engine/gpu/replaced_shader.h"
-
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -27,8 +25,6 @@ class Key {
         mBytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     }
 
-    void addShader(std::span<const uint32_t> own) { addList(findShader(own)); }
-
     /// What all kinds have.
     template <typename Desc> void addShared(const Desc& desc) {
         addList(std::span<const char>(desc.name));
@@ -49,15 +45,15 @@ class Key {
 std::string makePipelineKey(const ComputePipelineDesc& desc) {
     Key key('c');
     key.addShared(desc);
-    key.addShader(desc.spirv);
+    key.addList(desc.spirv);
     return key.take();
 }
 
 std::string makePipelineKey(const GraphicsPipelineDesc& desc) {
     Key key('g');
     key.addShared(desc);
-    key.addShader(desc.vertexSpirv);
-    key.addShader(desc.fragmentSpirv);
+    key.addList(desc.vertexSpirv);
+    key.addList(desc.fragmentSpirv);
     key.addList(std::span(desc.colorFormats.data(), desc.colorFormats.size()));
     key.add(desc.depthFormat);
     key.add(desc.depthCompare);
@@ -69,10 +65,10 @@ std::string makePipelineKey(const GraphicsPipelineDesc& desc) {
 std::string makePipelineKey(const RayPipelineDesc& desc) {
     Key key('r');
     key.addShared(desc);
-    key.addShader(desc.raygenSpirv);
-    key.addShader(desc.missSpirv);
-    key.addShader(desc.closestHitSpirv);
-    key.addShader(desc.anyHitSpirv);
+    key.addList(desc.raygenSpirv);
+    key.addList(desc.missSpirv);
+    key.addList(desc.closestHitSpirv);
+    key.addList(desc.anyHitSpirv);
     return key.take();
 }
 

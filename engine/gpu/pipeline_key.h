@@ -8,7 +8,7 @@
 namespace shutter::gpu {
 
 /// All that a pipeline is made of, as bytes: equal for two descriptions exactly where one pipeline
-/// serves both. Shaders count as they are now (replaced_shader.h). Scene layouts count by handle,
+/// serves both. Scene layouts count by handle,
 /// so they must live as long as the pipelines are kept.
 [[nodiscard]] std::string makePipelineKey(const ComputePipelineDesc& desc);
 [[nodiscard]] std::string makePipelineKey(const GraphicsPipelineDesc& desc);

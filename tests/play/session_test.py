@@ -2,9 +2,6 @@
 """What holds of sessions without a display: the same film twice, scores, settings, bad input."""
 
 import json
-import os
-import pathlib
-import shutil
 import sys
 import unittest
 
@@ -130,19 +127,6 @@ class Session(PlayCase):
         self.assertEqual(score, score_flown)
         self.assertTrue((after_still[60:] == after_flown[60:]).all())
 
-    def test_f8_has_renderdoc_capture_one_frame_where_it_is_there(self):
-        script = Script().wait(4).tap("f8").wait(3).add(window="quit")
-        log = self.folder / "calls.txt"
-        self.play("spin", script, display=False)  # without RenderDoc: a sentence on the screen
-        self.assertFalse(log.exists())
-        os.environ["SHUTTER_CAPTURE_LOG"] = str(log)
-        os.environ["LD_PRELOAD"] = os.environ["SHUTTER_FAKE_RENDERDOC"]
-        self.addCleanup(os.environ.pop, "SHUTTER_CAPTURE_LOG")
-        self.addCleanup(os.environ.pop, "LD_PRELOAD")
-        result = self.play("spin", script, display=False)
-        self.assertEqual(result["validationMessages"], 0)
-        self.assertEqual(log.read_text(encoding="utf-8").split(), ["start", "end"])
-
     def test_settings_are_kept_and_wrong_ones_refused(self):
         script = Script().wait(2).tap("x").tap("f5").wait().add(window="quit")
         self.play("spin", script, display=False)
@@ -243,43 +227,6 @@ class Effects(PlayCase):
                 passes, _ = shoot("", "--aa", "taa", "--shadows", "blurred", "--bloom", "0.04",
                                   rays=rays)
                 self.assertLessEqual({"taa", "shadow maps", "bloom down", "bloom up"}, passes)
-
-    def test_f7_reloads_shaders_and_keeps_the_old_ones_where_the_compiler_refuses(self):
-        root = pathlib.Path(__file__).parents[2]
-        folder = self.folder / "build" / "spirv"
-        module = folder / "tonemap" / "tonemap.comp.spv"
-        module.parent.mkdir(parents=True)
-        shutil.copy(pathlib.Path(os.environ["SHUTTER_SPIRV"]) / "tonemap/tonemap.comp.spv", module)
-        (self.folder / "build" / "CMakeCache.txt").touch()
-        # In place of a build: the first call compiles an edited shader, the second one a wrong one.
-        source = (root / "shaders/tonemap/tonemap.comp").read_text(encoding="utf-8")
-        edited = source.replace("encodeSrgb3(color)", "1.0f - encodeSrgb3(color)")
-        self.assertNotEqual(edited, source)
-        (self.folder / "1.comp").write_text(edited, encoding="utf-8")
-        (self.folder / "2.comp").write_text(source.replace("color", "colour", 1), encoding="utf-8")
-        cmake = self.folder / "bin" / "cmake"
-        cmake.parent.mkdir()
-        cmake.write_text(
-            "#!/bin/sh\n"
-            f"cd {self.folder}; echo x >> calls; n=$(wc -l < calls)\n"
-            f"exec {os.environ['SHUTTER_GLSLANG']} -V --target-env vulkan1.3 --quiet"
-            f" -I{root / 'shaders'} -o {module} $n.comp\n", encoding="utf-8")
-        cmake.chmod(0o755)
-        path = os.environ["PATH"]
-        os.environ["PATH"] = f"{cmake.parent}:{path}"
-        self.addCleanup(os.environ.__setitem__, "PATH", path)
-        script = Script().wait(2).tap("p").wait().add(screenshot="before.png").wait()
-        script.tap("f7").wait().add(screenshot="after.png").wait()
-        script.tap("f7").wait().add(screenshot="kept.png").wait(2).add(window="quit")
-        self.play("spin", script, "--method", "sharp", "--shader-folder", str(folder),
-                  size="320x180", display=False)
-        # Where the head-up display writes nothing.
-        before, after, kept = (
-            skimage.io.imread(self.folder / f"{name}.png")[60:120, 230:310].astype(int)
-            for name in ("before", "after", "kept")
-        )
-        self.assertTrue((abs(before + after - 255) <= 1).all())
-        self.assertTrue((kept == after).all())
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ def toggle_everything(script):
     script.tap("x")
     for _ in range(13):
         script.tap("v")
-    for key in ("p", "period", "p", "comma", "slash", "b", "b", "1", "3", "f1", "f1", "f2", "f8", "t", "q", "t", "p", "c", "e"):
+    for key in ("p", "period", "p", "comma", "slash", "b", "b", "1", "3", "f1", "f1", "f2", "t", "q", "t", "p", "c", "e"):
         script.tap(key)
 
 

@@ -90,8 +90,6 @@ PanelWishes applyHotkeys(
     wishes.togglePause = input.wasPressed(Key::P) || input.wasPressed(PadButton::Start);
     wishes.togglePhoto = input.wasPressed(Key::T);
     wishes.savePicture = input.wasPressed(Key::F2);
-    wishes.captureFrame = input.wasPressed(Key::F8);
-    wishes.reloadShaders = input.wasPressed(Key::F7);
     wishes.singleStep = input.wasPressed(Key::Period);
     wishes.toggleRecording = input.wasPressed(Key::R);
     wishes.toggleFullScreen = input.wasPressed(Key::F11);

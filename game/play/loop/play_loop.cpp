@@ -51,8 +51,6 @@ PanelWishes join(const PanelWishes& panel, const PanelWishes& keys) {
     both.load = panel.load || keys.load;
     both.togglePause = panel.togglePause || keys.togglePause;
     both.savePicture = panel.savePicture || keys.savePicture;
-    both.captureFrame = panel.captureFrame || keys.captureFrame;
-    both.reloadShaders = panel.reloadShaders || keys.reloadShaders;
     both.singleStep = panel.singleStep || keys.singleStep;
     both.togglePhoto = panel.togglePhoto || keys.togglePhoto;
     both.toggleRecording = panel.toggleRecording || keys.toggleRecording;
@@ -102,8 +100,6 @@ core::Status PlayLoop::openScript() {
 }
 
 core::Status PlayLoop::openScreen() {
-    if (!mOptions.shaderFolder.empty())
-        SHUTTER_TRY(mShaders.open(mOptions.shaderFolder));
     SHUTTER_TRY(mScreen.open(mOptions, mSettings.vsync));
     if (mKeeper.isFirstSession() && mScreen.device().info().kind == "software")
         mMessage = SettingsKeeper::slowDown(mOptions, mSettings);
@@ -223,7 +219,6 @@ core::Status PlayLoop::advance() {
         {mTime, wallSeconds, double(size.y), mClock.isPaused()}
     );
     SHUTTER_TRY(drawPicture(mTime.duration));
-    endCapture();
     if (mOptions.frames > 0 && mRecord.pictureCount() >= mOptions.frames)
         mQuit = true;
     SHUTTER_TRY(mFiles.takePictures(*mRenderer));
@@ -331,10 +326,6 @@ void PlayLoop::apply(const PanelWishes& wishes) {
         mClock.setSpeed(*wishes.speed);
     if (wishes.savePicture)
         savePicture();
-    if (wishes.captureFrame)
-        mMessage = mCapture.request();
-    if (wishes.reloadShaders)
-        mMessage = reloadShaders();
     if (wishes.singleStep) {
         turnPhotoMode(false);
         mClock.setPaused(true);
@@ -369,26 +360,6 @@ void PlayLoop::turnPhotoMode(bool on) {
             mScreen.device().info().name,
             mSettings.method
         );
-}
-
-std::string PlayLoop::reloadShaders() {
-    if (!mShaders.isOpen())
-        return "no shaders to reload: --shader-folder names the folder of their .spv files";
-    const auto changed = mShaders.reload();
-    if (!changed) {
-        core::logWarning("{}", changed.error().message);
-        return changed.error().message;
-    }
-    if (changed.value().empty())
-        return "no shader has changed";
-    turnPhotoMode(false); // its rays went into a picture that goes
-    mRenderer->finishAll();
-    if (const core::Status taken = mFiles.takePictures(*mRenderer); !taken)
-        return taken.error().message;
-    mRenderer = std::make_unique<PlayRenderer>(mScreen.device(), mStage->world().assets);
-    const std::string message = fmt::format("reloaded {}", fmt::join(changed.value(), ", "));
-    core::logInfo("{}", message);
-    return message;
 }
 
 ecs::Entity PlayLoop::camera() const {
@@ -454,7 +425,6 @@ core::Status PlayLoop::drawPicture(double duration) {
         return {};
     const PlaySettings settings = chooseSettings();
     mRenderer->makeRoom(settings);
-    mCapture.begin();
     const gpu::Swapchain* swapchain = mScreen.swapchain();
     std::optional<gpu::SwapchainImage> shown;
     if (swapchain) {
@@ -491,14 +461,6 @@ core::Status PlayLoop::drawPicture(double duration) {
         mScreen.present(*shown);
     notePicture();
     return {};
-}
-
-void PlayLoop::endCapture() {
-    if (!mCapture.isUnderWay())
-        return;
-    mRenderer->finishAll();
-    mMessage = mCapture.end();
-    core::logInfo("{}", mMessage);
 }
 
 PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {

@@ -5,7 +5,6 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "game/play/loop/flythrough_recorder.h"
-#include "game/play/loop/frame_capture.h"
 #include "game/play/loop/photo_camera.h"
 #include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
@@ -13,7 +12,6 @@
 #include "game/play/loop/play_screen.h"
 #include "game/play/loop/session_watch.h"
 #include "game/play/loop/settings_keeper.h"
-#include "game/play/loop/shader_reload.h"
 #include "game/play/loop/stage.h"
 #include "game/play/panel/panel.h"
 
@@ -59,8 +57,6 @@ class PlayLoop {
     [[nodiscard]] PanelFacts describeSession() const;
     void apply(const PanelWishes& wishes);
     core::Status drawPicture(double duration);
-    /// Ends a capture that drawPicture() began, whatever became of the picture.
-    void endCapture();
     [[nodiscard]] PlayPicture makePicture(const math::uvec2& sizePx);
     /// Records that a picture was submitted.
     void notePicture();
@@ -75,8 +71,6 @@ class PlayLoop {
     void turnPhotoMode(bool on);
     /// The camera that is looked through: photo mode's, or the stage's.
     [[nodiscard]] ecs::Entity camera() const;
-    /// Remakes all that draws of shaders that changed. \return what to tell
-    [[nodiscard]] std::string reloadShaders();
     /// Asks for the next picture as a file.
     void savePicture();
     /// With which the next picture is drawn.
@@ -105,8 +99,6 @@ class PlayLoop {
     FlythroughRecorder mRecorder;
     PhotoMode mPhoto;
     PhotoCamera mPhotoCamera;
-    FrameCapture mCapture;
-    ShaderReload mShaders;
     double mUiScale = 1.0;     ///< that is shown: it follows the setting when no button is held
     double mHintSeconds = 0.0; ///< for which the keys are shown yet
     bool mDraggingDivider = false;

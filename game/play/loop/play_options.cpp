@@ -138,11 +138,6 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
         "--stats", a.stats, "write frame times, score and more to a JSON file at the end"
     );
     command.add_option("--assets", a.assets, "folder of the demos' scenes");
-    command.add_option(
-        "--shader-folder",
-        a.shaderFolder,
-        "reload shaders by F7 from the .spv files of the program's build, <build>/generated/spirv"
-    );
     command.add_flag(
         "--no-window", a.noWindow, "draw without a display; needs --script or --frames"
     );
@@ -187,7 +182,6 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     options.assets =
         arguments.assets.empty() ? findAssetFolder() : std::filesystem::path(arguments.assets);
     options.stats = arguments.stats;
-    options.shaderFolder = arguments.shaderFolder;
     options.hasWindow = !arguments.noWindow;
     options.frames = arguments.frames;
     if (!options.hasWindow && options.script.empty() && options.frames == 0)

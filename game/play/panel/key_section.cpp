@@ -34,8 +34,6 @@ const std::array<KeyHelp, 19> kAllKeys = {{
     {"R", "record the camera's flight"},
     {"F1", "this panel"},
     {"F5, F9", "save, load the settings"},
-    {"F7", "reload shaders (--shader-folder)"},
-    {"F8", "capture the next frame with RenderDoc"},
     {"F11", "full screen"},
     {"Esc", "quit"},
 }};

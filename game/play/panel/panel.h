@@ -51,8 +51,6 @@ struct PanelWishes {
     bool togglePause = false;
     bool togglePhoto = false;
     bool savePicture = false;
-    bool captureFrame = false;
-    bool reloadShaders = false;
     bool singleStep = false;
     bool toggleRecording = false;
     bool toggleFullScreen = false;

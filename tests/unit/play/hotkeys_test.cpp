@@ -116,7 +116,6 @@ TEST_F(Hotkeys, WhatIsNotASettingIsAWish) {
     EXPECT_TRUE(press({Key::Period}).singleStep);
     EXPECT_TRUE(press({Key::R}).toggleRecording);
     EXPECT_TRUE(press({Key::F2}).savePicture);
-    EXPECT_TRUE(press({Key::F8}).captureFrame);
     EXPECT_TRUE(press({Key::F5}).save);
     EXPECT_TRUE(press({Key::F9}).load);
     EXPECT_TRUE(press({Key::F11}).toggleFullScreen);
