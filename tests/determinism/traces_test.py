@@ -25,12 +25,18 @@ class Traces(unittest.TestCase):
         self.assertIsNone(traces.find_difference(rows("a", "b"), rows("a", "b")))
         self.assertIn("differs is 'pass 1'", traces.find_difference(rows("a", "b", "c"),
                                                                    rows("a", "x", "y")))
-        self.assertIsNone(traces.find_difference(rows("a", None), rows("a", "x")))
         self.assertIn("only one of them has the pass 'pass 1'",
                       traces.find_difference(rows("a"), rows("a", "b")))
         renamed = rows("a", "b")
         renamed[0]["pass"] = "another"
         self.assertIn("differ from 'pass 0' on", traces.find_difference(renamed, rows("a", "b")))
+
+    def test_one_hash_tells_every_image_that_is_written_whole(self):
+        self.assertEqual(traces.hash_all(rows("a", "b")), traces.hash_all(rows("a", "b")))
+        self.assertNotEqual(traces.hash_all(rows("a", "b")), traces.hash_all(rows("a", "x")))
+        partly = rows("a", "b")
+        partly[1]["image"] = "reveal color"
+        self.assertEqual(traces.hash_all(partly), traces.hash_all(rows("a")))
 
     def test_two_runs_write_the_same(self):
         for method in ("gather", "resolved"):
