@@ -31,7 +31,7 @@ def check_lengths():
 
 
 def check_installed(prefix):
-    for file in ("bin/shutter", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
+    for file in ("bin/shutter", "bin/shutter_film", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
                  "include/shutter/modules/motion_blur/embedding/embedded_motion_blur.h",
                  "include/shutter_motion_blur.h",
                  "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
