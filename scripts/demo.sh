@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Sets up, renders the generated scenes with every method and compares each with `accumulate`.
+# Sets up, renders a first picture, then the generated scenes with every method, and compares each with
+# `accumulate`.
 set -euo pipefail
 
 script_name=demo
@@ -13,7 +14,9 @@ reference=accumulate
 shutter=build/release/shutter
 out=build/demo
 size=1280x720
+first=resolved # its picture of the first scene comes before all others
 failed=()
+begun=0 drawn=0 total=0
 
 usage() {
     cat <<TEXT
@@ -31,11 +34,24 @@ render() {
     # Its 256 take minutes on a software device; 16 show what it is.
     [[ $method != truth ]] || rays=(--samples 16)
     stem=$out/$(basename "$scene" .glb)_$method
-    say "$(basename "$scene"), method $method"
+    drawn=$((drawn + 1))
+    say "picture $drawn of $total: $(basename "$scene"), method $method$(describe_time_left)"
     # What an earlier run left must not be taken for this run's.
     rm -f "$stem.png" "$stem.json"
     "$shutter" render "$scene" --method "$method" --size "$size" --out "$stem.png" \
         --stats "$stem.json" "${rays[@]}" "$@"
+}
+
+# What pictures take differs by method, so this is known about.
+describe_time_left() {
+    ((drawn > 2)) || return 0
+    local left=$(((SECONDS - begun) * (total - drawn + 1) / (drawn - 1)))
+    printf ' (about %d:%02d min left)' $((left / 60)) $((left % 60))
+}
+
+# Draws scene $1 with the method that $2 names and the options that follow, and goes on where it fails.
+try() {
+    render "$@" || failed+=("$(basename "$1" .glb) $2")
 }
 
 # Compares every picture of scene $1 that was rendered with the reference's.
@@ -79,8 +95,15 @@ main() {
     ((${#methods[@]})) || die "\`$shutter info --methods\` names no method"
     for scene in "${scenes[@]}"; do
         [[ -e $scene ]] || die "$scene is missing although the build went through"
+    done
+    total=$((${#scenes[@]} * ${#methods[@]}))
+    begun=$SECONDS
+    try "${scenes[0]}" "$first" "${extra[@]}"
+    say "the first picture is there: $root/$out/$(basename "${scenes[0]}" .glb)_$first.png"
+    for scene in "${scenes[@]}"; do
         for method in "${methods[@]}"; do
-            render "$scene" "$method" "${extra[@]}" || failed+=("$(basename "$scene" .glb) $method")
+            [[ $scene == "${scenes[0]}" && $method == "$first" ]] ||
+                try "$scene" "$method" "${extra[@]}"
         done
     done
     for scene in "${scenes[@]}"; do

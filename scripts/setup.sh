@@ -25,17 +25,19 @@ SHUTTER_WERROR=ON in the environment makes compiler warnings errors, OFF no long
 TEXT
 }
 
-# Whether the build folder is configured, by today's presets, as SHUTTER_WERROR asks. Ninja itself
-# notices changed CMakeLists.txt.
+# Whether the build folder is configured, by today's presets, for the tests if $1 is not empty, and as
+# SHUTTER_WERROR asks. Ninja itself notices changed CMakeLists.txt.
 is_configured() {
     local folder=build/release
     [[ -e $folder/build.ninja && ! CMakePresets.json -nt $folder/build.ninja ]] || return 1
+    [[ -z $1 ]] || grep -qx SHUTTER_TESTS:BOOL=ON "$folder/CMakeCache.txt" || return 1
     [[ -z ${SHUTTER_WERROR:-} ]] ||
         grep -qx "SHUTTER_WERROR:BOOL=$SHUTTER_WERROR" "$folder/CMakeCache.txt"
 }
 
 configure() {
-    is_configured || cmake --preset release ${SHUTTER_WERROR:+"-DSHUTTER_WERROR=$SHUTTER_WERROR"}
+    is_configured "$1" || cmake --preset release -DSHUTTER_TESTS="$([[ -n $1 ]] && echo ON || echo OFF)" \
+        ${SHUTTER_WERROR:+"-DSHUTTER_WERROR=$SHUTTER_WERROR"}
 }
 
 main() {
@@ -60,7 +62,7 @@ main() {
     cd "$root"
     [[ $packages == no ]] || ensure_packages "$tests" "$checks"
     if [[ $build == yes ]]; then
-        configure
+        configure "$tests"
         if [[ -n $tests ]]; then
             cmake --build --preset release
         else
