@@ -2,11 +2,11 @@
 // What leaks, creeps or depends on chance shows after thousands of frames: a demo is played without
 // a window, twice, by one script that switches everything, and neither run may grow or differ.
 // SHUTTER_SOAK_FRAMES makes it longer, SHUTTER_SOAK_DEMO plays another demo.
-#include "engine/core/process_use.h"
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_file.h"
 #include "engine/scene/history.h"
 #include "game/play/loop/play_loop.h"
+#include "tests/kit/process_use.h"
 #include "tests/stability/soak_script.h"
 #include "tests/stability/storm_stage.h"
 #include "tests/support/gpu_fixture.h"
@@ -76,7 +76,7 @@ class SoakWatch : public game::SessionWatch {
             return;
         finish();
         device.collectIdle();
-        mCycles.push_back({core::findResidentBytes().value_or(0), device.living()});
+        mCycles.push_back({test::findResidentBytes().value_or(0), device.living()});
     }
 
     [[nodiscard]] const std::vector<Holdings>& cycles() const { return mCycles; }
@@ -207,7 +207,7 @@ TEST_F(Soak, NothingGrowsAndBothRunsShowTheSame) {
         std::max(uint32_t(std::stoul(readEnvironment("SHUTTER_SOAK_FRAMES", "0"))), kShortestSoak);
     const std::vector<SoakRun> runs = playTwice(frames);
     ASSERT_EQ(runs.size(), kRuns);
-    ASSERT_TRUE(core::findResidentBytes()) << "the system does not tell the memory of a process";
+    ASSERT_TRUE(test::findResidentBytes()) << "the system does not tell the memory of a process";
     EXPECT_EQ(countPicturesThatDiffer(runs[0], runs[1], frames), 0u);
     for (const SoakRun& run : runs)
         EXPECT_EQ(listGrowth(run), std::vector<std::string>()) << run.pictures;

@@ -2,8 +2,8 @@
 #include "tests/conformance/demand/subject.h"
 
 #include "assets/generator/scaling_scenes.h"
-#include "engine/core/process_use.h"
 #include "game/options/method_arguments.h"
+#include "tests/kit/process_use.h"
 
 namespace shutter::demand {
 
@@ -123,9 +123,9 @@ core::Result<std::vector<Frames>> takeTurns(const Subjects& subjects, uint32_t r
     for (uint32_t round = 0; round < kUncounted + rounds; ++round)
         for (size_t i = 0; i < subjects.size(); ++i) {
             const size_t at = round % 2 == 0 ? i : subjects.size() - 1 - i;
-            const double before = core::countProcessorMilliseconds();
+            const double before = test::countProcessorMilliseconds();
             auto drawn = subjects[at]->draw();
-            const double spent = core::countProcessorMilliseconds() - before;
+            const double spent = test::countProcessorMilliseconds() - before;
             if (!drawn)
                 return drawn.error();
             if (round < kUncounted)

@@ -2,10 +2,10 @@
 #include "tests/conformance/demand/toggle_law.h"
 
 #include "engine/core/check.h"
-#include "engine/core/process_use.h"
 #include "game/shot/picture_drawer.h"
 #include "tests/conformance/stability/pictures.h"
 #include "tests/conformance/stability/shapes.h"
+#include "tests/kit/process_use.h"
 
 #include <fmt/format.h>
 
@@ -241,12 +241,12 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         options.frames
     );
     const std::vector<Moment> cycle = listCycle(device);
-    const std::optional<uint64_t> before = core::findResidentBytes();
+    const std::optional<uint64_t> before = test::findResidentBytes();
     const auto expected = drawUntoggled(device, options, cycle);
     if (!expected)
         return expected.error();
     device.collectIdle();
-    Measurements rows{weighRenderers(before, core::findResidentBytes(), cycle.size())};
+    Measurements rows{weighRenderers(before, test::findResidentBytes(), cycle.size())};
     Rig rig(device, options);
     Measured differing{"pictures that differ from a run without toggling", 0.0, 0.0, ""};
     std::optional<Holdings> first;
@@ -266,7 +266,7 @@ core::Result<Measurements> measureToggles(gpu::Device& device, const ToggleOptio
         if (at + 1 < kToggleCycle)
             continue;
         device.waitIdle();
-        last = {device.living(), core::findResidentBytes()};
+        last = {device.living(), test::findResidentBytes()};
         if (!first)
             first = last;
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "engine/core/process_use.h"
+#include "tests/kit/process_use.h"
 
 #include <ctime>
 #include <fstream>
 #include <string>
 
-namespace shutter::core {
+namespace shutter::test {
 
 std::optional<uint64_t> findResidentBytes() {
     std::ifstream file("/proc/self/status");
@@ -22,4 +22,4 @@ double countProcessorMilliseconds() {
     return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
 }
 
-} // namespace shutter::core
+} // namespace shutter::test

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace shutter::core {
+namespace shutter::test {
 
 /// Bytes of this process in main memory; nothing where the system does not say (it does on Linux).
 [[nodiscard]] std::optional<uint64_t> findResidentBytes();
@@ -14,4 +14,4 @@ namespace shutter::core {
 /// together, a software device's included.
 [[nodiscard]] double countProcessorMilliseconds();
 
-} // namespace shutter::core
+} // namespace shutter::test
