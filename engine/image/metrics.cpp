@@ -31,13 +31,42 @@ template <typename Visit> void forEachValue(const Image& a, const Image& b, Visi
     }
 }
 
-/// Luminance of a pixel from its clamped channels; NaN where one of them is.
-double luminanceAt(const Image& image, uint32_t x, uint32_t y) {
-    const double first = clampToUnit(image.at(x, y, 0));
-    if (image.channels < 3)
-        return first;
-    return 0.2126 * first + 0.7152 * clampToUnit(image.at(x, y, 1)) +
-           0.0722 * clampToUnit(image.at(x, y, 2));
+/// What is compared of a pixel, in both pictures.
+struct ValuePair {
+    double a = 0.0;
+    double b = 0.0;
+};
+
+/// Rec. 709; of less than three channels the first.
+ValuePair computeLuminance(uint32_t channels, const std::array<ValuePair, 3>& values) {
+    if (channels < 3)
+        return values[0];
+    ValuePair sum;
+    constexpr std::array kWeights{0.2126, 0.7152, 0.0722};
+    for (size_t c = 0; c < values.size(); ++c) {
+        sum.a += kWeights[c] * values[c].a;
+        sum.b += kWeights[c] * values[c].b;
+    }
+    return sum;
+}
+
+/// Luminances of a pixel from its clamped channels; NaN where one of them is.
+ValuePair readDisplayed(const Image& a, const Image& b, size_t pixel) {
+    std::array<ValuePair, 3> values;
+    for (size_t c = 0; c < std::min(a.channels, 3u); ++c) {
+        const size_t i = pixel * a.channels + c;
+        values[c] = {clampToUnit(double(a.pixels[i])), clampToUnit(double(b.pixels[i]))};
+    }
+    return computeLuminance(a.channels, values);
+}
+
+/// Two values for a peak of 1; infinity is no difference to itself.
+ValuePair readStored(const Image& a, const Image& b, size_t index, double peak) {
+    const double va = a.pixels[index];
+    const double vb = b.pixels[index];
+    if (std::isinf(va) && va == vb)
+        return {};
+    return {va / peak, vb / peak};
 }
 
 /// The part of one window that lies inside the picture, along one axis; the weights sum to 1.
@@ -98,26 +127,55 @@ double scoreWindow(const Moments& m) {
     return std::isnan(score) ? 0.0 : score;
 }
 
-/// Row y filtered along x; `scratch` holds a row of the picture.
+/// A row of moments filtered along x.
 void filterRow(
-    const Image& a,
-    const Image& b,
-    uint32_t y,
+    const std::vector<Moments>& row,
     const std::vector<Taps>& columns,
-    std::vector<Moments>& scratch,
     std::vector<Moments>& filtered
 ) {
-    for (uint32_t x = 0; x < a.width; ++x) {
-        const double va = luminanceAt(a, x, y);
-        const double vb = luminanceAt(b, x, y);
-        scratch[x] = {va, vb, va * va, vb * vb, va * vb};
-    }
     for (size_t i = 0; i < columns.size(); ++i) {
         Moments sum;
         for (uint32_t tap = 0; tap < columns[i].count; ++tap)
-            sum.add(scratch[columns[i].first + tap], columns[i].weights[tap]);
+            sum.add(row[columns[i].first + tap], columns[i].weights[tap]);
         filtered[i] = sum;
     }
+}
+
+/// Mean score of the windows of two pictures. \param read the pair of values of a pixel, by its
+/// index
+template <typename Read> double computeMeanScore(uint32_t width, uint32_t height, Read read) {
+    const std::vector<Taps> columns = buildTaps(width);
+    const std::vector<Taps> rows = buildTaps(height);
+
+    // Windows never reach over more rows than this ring holds, so memory does not grow with height.
+    std::array<std::vector<Moments>, kWindowSize> ring;
+    ring.fill(std::vector<Moments>(columns.size()));
+    std::vector<Moments> scratch(width);
+    uint32_t rowsFiltered = 0;
+    double sum = 0.0;
+    for (const Taps& row : rows) {
+        for (; rowsFiltered < row.first + row.count; ++rowsFiltered) {
+            for (uint32_t x = 0; x < width; ++x) {
+                const ValuePair v = read(size_t(rowsFiltered) * width + x);
+                scratch[x] = {v.a, v.b, v.a * v.a, v.b * v.b, v.a * v.b};
+            }
+            filterRow(scratch, columns, ring[rowsFiltered % kWindowSize]);
+        }
+        for (size_t i = 0; i < columns.size(); ++i) {
+            Moments window;
+            for (uint32_t tap = 0; tap < row.count; ++tap)
+                window.add(ring[(row.first + tap) % kWindowSize][i], row.weights[tap]);
+            sum += scoreWindow(window);
+        }
+    }
+    return sum / (double(rows.size()) * double(columns.size()));
+}
+
+/// Of `count` squared errors for a peak of 1.
+double toDecibels(double squaredSum, size_t count) {
+    if (squaredSum == 0.0)
+        return std::numeric_limits<double>::infinity();
+    return 10.0 * std::log10(double(count) / squaredSum);
 }
 
 } // namespace
@@ -131,35 +189,57 @@ double computePsnr(const Image& a, const Image& b) {
         squaredSum += std::isnan(difference) ? 1.0 : difference * difference;
         ++count;
     });
-    if (squaredSum == 0.0)
-        return std::numeric_limits<double>::infinity();
-    return 10.0 * std::log10(double(count) / squaredSum);
+    return toDecibels(squaredSum, count);
 }
 
 double computeSsim(const Image& a, const Image& b) {
     checkComparable(a, b);
     if (a.pixels.empty())
         return 1.0;
-    const std::vector<Taps> columns = buildTaps(a.width);
-    const std::vector<Taps> rows = buildTaps(a.height);
+    return computeMeanScore(a.width, a.height, [&](size_t pixel) {
+        return readDisplayed(a, b, pixel);
+    });
+}
 
-    // Windows never reach over more rows than this ring holds, so memory does not grow with height.
-    std::array<std::vector<Moments>, kWindowSize> ring;
-    ring.fill(std::vector<Moments>(columns.size()));
-    std::vector<Moments> scratch(a.width);
-    uint32_t rowsFiltered = 0;
-    double sum = 0.0;
-    for (const Taps& row : rows) {
-        for (; rowsFiltered < row.first + row.count; ++rowsFiltered)
-            filterRow(a, b, rowsFiltered, columns, scratch, ring[rowsFiltered % kWindowSize]);
-        for (size_t i = 0; i < columns.size(); ++i) {
-            Moments window;
-            for (uint32_t tap = 0; tap < row.count; ++tap)
-                window.add(ring[(row.first + tap) % kWindowSize][i], row.weights[tap]);
-            sum += scoreWindow(window);
-        }
+double findPeak(const Image& reference) {
+    double peak = 1.0;
+    for (const float value : reference.pixels)
+        if (std::isfinite(value))
+            peak = std::max(peak, std::abs(double(value)));
+    return peak;
+}
+
+double computeStoredPsnr(const Image& picture, const Image& reference) {
+    checkComparable(picture, reference);
+    const double peak = findPeak(reference);
+    double squaredSum = 0.0;
+    for (size_t i = 0; i < picture.pixels.size(); ++i) {
+        const ValuePair v = readStored(picture, reference, i, peak);
+        const double difference = v.a - v.b;
+        squaredSum += std::isfinite(difference) ? difference * difference : 1.0;
     }
-    return sum / (double(rows.size()) * double(columns.size()));
+    return toDecibels(squaredSum, picture.pixels.size());
+}
+
+double computeStoredSsim(const Image& picture, const Image& reference, bool isColor) {
+    checkComparable(picture, reference);
+    if (picture.pixels.empty())
+        return 1.0;
+    const double peak = findPeak(reference);
+    const uint32_t channels = picture.channels;
+    if (isColor && channels == 3)
+        return computeMeanScore(picture.width, picture.height, [&](size_t pixel) {
+            std::array<ValuePair, 3> values;
+            for (size_t c = 0; c < values.size(); ++c)
+                values[c] = readStored(picture, reference, pixel * channels + c, peak);
+            return computeLuminance(channels, values);
+        });
+    double sum = 0.0;
+    for (uint32_t c = 0; c < channels; ++c)
+        sum += computeMeanScore(picture.width, picture.height, [&](size_t pixel) {
+            return readStored(picture, reference, pixel * channels + c, peak);
+        });
+    return sum / channels;
 }
 
 double computeMaxDifference(const Image& a, const Image& b) {

@@ -22,6 +22,21 @@ namespace shutter::image {
 /// the part of its window that lies inside, renormalised. A window that holds a NaN scores 0.
 [[nodiscard]] double computeSsim(const Image& a, const Image& b);
 
+/// The largest magnitude of a picture's finite values, 1 at least: the peak of values that no
+/// display bounds, such as motion or light.
+[[nodiscard]] double findPeak(const Image& reference);
+
+/// As computePsnr(), but of all channels, of values as they are, and for a peak of
+/// findPeak(reference). A NaN, or an infinity that is not the same in both, counts as an error of
+/// the peak.
+[[nodiscard]] double computeStoredPsnr(const Image& picture, const Image& reference);
+
+/// As computeSsim(), but of values as they are, for L = findPeak(reference), and the mean over the
+/// channels unless these are a colour. A window that holds a NaN, or an infinity that is not the
+/// same in both, scores 0. \param isColor three channels are red, green and blue, of which the
+/// luminance is compared
+[[nodiscard]] double computeStoredSsim(const Image& picture, const Image& reference, bool isColor);
+
 /// Largest absolute difference of any channel (not clamped). NaN counts as infinity; infinity
 /// equals itself.
 [[nodiscard]] double computeMaxDifference(const Image& a, const Image& b);

@@ -44,8 +44,11 @@ class HeaderReader {
 
     std::string check() {
         (void)readU32(); // the signature
-        if ((readU32() & (kDeepBit | kManyPartsBit)) != 0)
-            return "it is not a flat picture";
+        const uint32_t flags = readU32();
+        if ((flags & kDeepBit) != 0)
+            return "it is a deep EXR, not a flat picture";
+        if ((flags & kManyPartsBit) != 0)
+            return "it is an EXR of many parts, not a flat picture of one";
         for (std::string name = readName(); mStream && !name.empty(); name = readName()) {
             const std::string type = readName();
             const uint64_t bytes = readU32();

@@ -63,7 +63,7 @@ bool hasUintChannel(const ImageSpec& spec) {
 }
 
 /// OpenImageIO would divide unsigned integers by their largest value; an id must stay an id.
-bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, std::vector<float>& values) {
+bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, FloatPixels& out) {
     const size_t count = size_t(spec.width) * size_t(spec.height);
     const size_t channels = size_t(spec.nchannels);
     std::vector<float> floats(count);
@@ -76,7 +76,12 @@ bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, std::vector<
         if (!input.read_image(0, 0, channel, channel + 1, type, data))
             return false;
         for (size_t i = 0; i < count; ++i) {
-            values[i * channels + c] = isUint ? float(integers[i]) : floats[i];
+            const float value = isUint ? float(integers[i]) : floats[i];
+            out.values[i * channels + c] = value;
+            if (!isUint || double(value) == double(integers[i]))
+                continue;
+            out.remainders.resize(out.values.size(), 0.0f);
+            out.remainders[i * channels + c] = float(double(integers[i]) - double(value));
         }
     }
     return true;
@@ -86,6 +91,18 @@ bool readChannelByChannel(ImageInput& input, const ImageSpec& spec, std::vector<
 std::string refuseClaim(const ImageSpec& spec, uint64_t bytes) {
     return "it claims " + std::to_string(spec.width) + "x" + std::to_string(spec.height) +
            " pixels in " + std::to_string(bytes) + " bytes";
+}
+
+/// Formats other than EXR have no windows: what readers make of their resolutions and offsets, no
+/// viewer goes by.
+void readWindows(const ImageInput& input, const ImageSpec& spec, FloatPixels& out) {
+    out.display = {0, 0, spec.width, spec.height};
+    if (std::string_view(input.format_name()) != "openexr")
+        return;
+    out.left = spec.x;
+    out.top = spec.y;
+    out.display = {spec.full_x, spec.full_y, spec.full_width, spec.full_height};
+    out.pixelAspect = spec.get_float_attribute("PixelAspectRatio", 1.0f);
 }
 
 std::string readOpened(ImageInput& input, uint64_t fileBytes, FloatPixels& out) {
@@ -103,12 +120,13 @@ std::string readOpened(ImageInput& input, uint64_t fileBytes, FloatPixels& out) 
     out.width = uint32_t(spec.width);
     out.height = uint32_t(spec.height);
     out.channels = uint32_t(spec.nchannels);
+    readWindows(input, spec, out);
     out.channelNames.assign(spec.channelnames.begin(), spec.channelnames.end());
     out.isShortInteger = spec.format == TypeDesc::UINT8 || spec.format == TypeDesc::UINT16;
     out.values.resize(count);
     const bool done =
         hasUintChannel(spec)
-            ? readChannelByChannel(input, spec, out.values)
+            ? readChannelByChannel(input, spec, out)
             : input.read_image(0, 0, 0, spec.nchannels, TypeDesc::FLOAT, out.values.data());
     return done ? std::string() : oneLine(input.geterror(), "its pixels cannot be decoded");
 }
@@ -238,6 +256,12 @@ ImageSpec makeWriteSpec(const EncodeRequest& request, TypeDesc memoryType) {
         if (request.timecode) {
             const std::array<uint32_t, 2> words = {*request.timecode, 0}; // no user data
             spec.attribute("smpte:TimeCode", OIIO::TypeTimeCode, words.data());
+        }
+        if (request.frameRate) {
+            const std::array<int32_t, 2> terms = {
+                request.frameRate->first, int32_t(request.frameRate->second)};
+            // OpenEXR's name: of its own, FramesPerSecond, OpenImageIO 2.4 makes another attribute.
+            spec.attribute("framesPerSecond", OIIO::TypeRational, terms.data());
         }
     }
     return spec;

@@ -3,6 +3,7 @@
 // copy of fmt of their own, which must not meet ours in one source file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,10 +17,17 @@ namespace shutter::io::oiio {
 struct FloatPixels {
     uint32_t width = 0;
     uint32_t height = 0;
+    int32_t left = 0; ///< of the first pixel, in the coordinates of the display window
+    int32_t top = 0;
+    std::array<int32_t, 4> display{}; ///< display window: left, top, width, height
+    float pixelAspect = 1.0f;         ///< width of a pixel over its height
     uint32_t channels = 0;
     std::vector<float> values;
     std::vector<std::string> channelNames;
     bool isShortInteger = false; ///< stored in 8 or 16 bits, not as floats or 32-bit integers
+    /// What the 32-bit integers that no float holds have above `values`; empty where there are
+    /// none.
+    std::vector<float> remainders;
 };
 
 struct Rgba8Pixels {
@@ -42,7 +50,9 @@ struct EncodeRequest {
     const void* pixels = nullptr;
     std::vector<std::pair<std::string, std::string>> texts; ///< of PNG: key and text
     std::optional<uint32_t> timecode; ///< of EXR: packed as SMPTE 12M-1 has it
-    int jpegQuality = 0;              ///< of JPEG: 1 to 100
+    /// Of EXR: frames a second, numerator and denominator.
+    std::optional<std::pair<int32_t, uint32_t>> frameRate;
+    int jpegQuality = 0; ///< of JPEG: 1 to 100
 };
 
 /// Reads PNG, JPEG, EXR and Radiance HDR, told apart by content: OpenImageIO has readers of thirty

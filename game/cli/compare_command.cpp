@@ -4,9 +4,9 @@
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/commands.h"
+#include "game/cli/compare_pictures.h"
 #include "game/options/program.h"
 #include "game/options/shot_arguments.h"
-#include "game/output/extra_files.h"
 #include "modules/tonemap/tonemap.h"
 
 #include <CLI/CLI.hpp>
@@ -21,76 +21,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace shutter::game {
 
 namespace {
-
-// What is compared: both pictures brought to the display alike.
-
-struct CompareInput {
-    image::Image image;        ///< colour alone: alpha does not change how a picture looks
-    bool isDisplay = false;    ///< values are display values, sRGB
-    bool isToneMapped = false; ///< they were tone mapped here
-};
-
-/// "R" of "R" and of "layer.R".
-std::string_view lastPart(std::string_view channelName) {
-    return channelName.substr(channelName.find_last_of('.') + 1);
-}
-
-/// Whether the channels are red, green, blue or grey, by name. Motion and depth are not colours.
-bool isColor(const image::Image& picture) {
-    const auto& names = picture.channelNames;
-    if (picture.channels == 1)
-        return names.empty() || lastPart(names[0]) == "Y";
-    constexpr std::array<std::string_view, 3> kRgb{"R", "G", "B"};
-    return picture.channels == 3 &&
-           (names.empty() ||
-            std::equal(kRgb.begin(), kRgb.end(), names.begin(), [](auto a, auto& b) {
-                return a == lastPart(b);
-            }));
-}
-
-image::Image dropAlpha(image::Image picture) {
-    if (picture.channels == 2 && picture.channelNames.size() == 2 &&
-        lastPart(picture.channelNames[1]) == "A")
-        return selectChannels(picture, {{0, "Y"}});
-    if (picture.channels <= 3)
-        return picture;
-    std::vector<std::string> names = std::move(picture.channelNames);
-    image::Image color = selectChannels(picture, {{0, "R"}, {1, "G"}, {2, "B"}});
-    if (names.size() >= 3)
-        color.channelNames.assign(names.begin(), names.begin() + 3);
-    return color;
-}
-
-/// Reads a picture. One that is not stored for a display (EXR, HDR) is tone mapped, unless `stored`
-/// keeps the values as they are. Error: names the file; channels that are not colours cannot be
-/// tone mapped.
-core::Result<CompareInput>
-readCompareInput(const std::string& path, bool stored, const tonemap::TonemapSettings& settings) {
-    auto file = io::readStoredImage(path);
-    if (!file)
-        return file.error();
-    CompareInput input;
-    input.image = dropAlpha(std::move(file.value().image));
-    input.isDisplay = file.value().isDisplayEncoded;
-    if (input.isDisplay || stored)
-        return input;
-    if (!isColor(input.image))
-        return core::makeError(
-            "'{}' holds no colour that can be tone mapped but {}: compare its values with --linear",
-            path,
-            fmt::join(input.image.channelNames, ", ")
-        );
-    input.image = tonemap::computeDisplayImage(input.image, settings);
-    input.isDisplay = true;
-    input.isToneMapped = true;
-    return input;
-}
 
 struct CompareArguments {
     std::string a;
@@ -102,19 +36,11 @@ struct CompareArguments {
     bool json = false;
 };
 
-/// Both pictures, and how they came to be comparable.
-struct Comparison {
-    CompareInput a;
-    CompareInput b;
-    tonemap::TonemapSettings tonemap;
-
-    [[nodiscard]] bool isDisplay() const { return a.isDisplay && b.isDisplay; }
-};
-
 struct Metrics {
     double psnrDb = 0.0; ///< infinity: equal
     double ssim = 0.0;
-    double maxDifference = 0.0;
+    double peak = 1.0;    ///< that the first two are for
+    bool isEqual = false; ///< nothing that was compared differs
     std::optional<image::FlipResult>
         flip; ///< of display values only: it models what a display shows
 };
@@ -127,6 +53,8 @@ image::Image makeHeatMap(const image::Image& a, const image::Image& b) {
         for (uint32_t x = 0; x < a.width; ++x) {
             float error = 0.0f;
             for (uint32_t c = 0; c < channels; ++c) {
+                if (a.at(x, y, c) == b.at(x, y, c))
+                    continue; // infinite, too
                 const float difference = std::abs(a.at(x, y, c) - b.at(x, y, c));
                 error = difference <= error ? error : difference; // takes a NaN
                 if (std::isnan(error))
@@ -141,31 +69,6 @@ image::Image makeHeatMap(const image::Image& a, const image::Image& b) {
     return heat;
 }
 
-core::Status checkComparable(const CompareArguments& arguments, const Comparison& pictures) {
-    const image::Image& a = pictures.a.image;
-    const image::Image& b = pictures.b.image;
-    if (a.width != b.width || a.height != b.height)
-        return core::makeError(
-            "'{}' is {}x{} and '{}' is {}x{}: pictures of one size can be compared",
-            arguments.a,
-            a.width,
-            a.height,
-            arguments.b,
-            b.width,
-            b.height
-        );
-    if (a.channels != b.channels)
-        return core::makeError(
-            "'{}' has {} channels and '{}' has {}", arguments.a, a.channels, arguments.b, b.channels
-        );
-    if (arguments.map == "flip" && !pictures.isDisplay())
-        return core::makeError(
-            "--map flip needs display values, which --linear does not make of '{}'",
-            pictures.a.isDisplay ? arguments.b : arguments.a
-        );
-    return {};
-}
-
 /// The words alone: what it finds is wrong usage.
 core::Status checkArguments(const CompareArguments& arguments) {
     if (!arguments.map.empty() && arguments.map != "flip" && arguments.map != "difference")
@@ -175,35 +78,46 @@ core::Status checkArguments(const CompareArguments& arguments) {
     return {};
 }
 
-core::Result<Comparison>
-readPictures(const CompareArguments& arguments, const tonemap::TonemapSettings& tonemap) {
-    auto a = readCompareInput(arguments.a, arguments.linear, tonemap);
-    if (!a)
-        return a.error();
-    auto b = readCompareInput(arguments.b, arguments.linear, tonemap);
-    if (!b)
-        return b.error();
-    Comparison pictures{std::move(a.value()), std::move(b.value()), tonemap};
-    SHUTTER_TRY(checkComparable(arguments, pictures));
-    return pictures;
+core::Status checkMap(const CompareArguments& arguments, const Comparison& pictures) {
+    if (arguments.map != "flip" || pictures.isDisplay())
+        return {};
+    return core::makeError(
+        "--map flip needs display values, which --linear does not make of '{}'",
+        pictures.a.isDisplay ? arguments.b : arguments.a
+    );
 }
 
 Metrics measure(const Comparison& pictures) {
     const image::Image& a = pictures.a.image;
     const image::Image& b = pictures.b.image;
     Metrics metrics;
-    metrics.psnrDb = image::computePsnr(a, b);
-    metrics.ssim = image::computeSsim(a, b);
-    metrics.maxDifference = image::computeMaxDifference(a, b);
-    if (pictures.isDisplay())
+    metrics.isEqual =
+        pictures.maxDifference == 0.0 && pictures.storedDifference.value_or(0.0) == 0.0 &&
+        std::all_of(pictures.others.begin(), pictures.others.end(), [](const OtherChannel& other) {
+            return other.maxDifference == 0.0;
+        });
+    if (pictures.isDisplay()) {
+        metrics.psnrDb = image::computePsnr(a, b);
+        metrics.ssim = image::computeSsim(a, b);
         metrics.flip = image::computeFlip(a, b);
+    } else {
+        metrics.peak = image::findPeak(b);
+        metrics.psnrDb = image::computeStoredPsnr(a, b);
+        metrics.ssim = image::computeStoredSsim(a, b, pictures.isColor);
+    }
     return metrics;
 }
 
 /// Which values the metrics are of.
-std::string describeValues(const CompareArguments& arguments, const Comparison& pictures) {
+std::string describeValues(const Comparison& pictures, const Metrics& metrics) {
     if (!pictures.isDisplay())
-        return "values as stored, clamped to [0, 1]";
+        return fmt::format(
+            "values as stored{}, peak {:g}",
+            pictures.isColor
+                ? std::string()
+                : fmt::format(" of {}", fmt::join(pictures.a.image.channelNames, ", ")),
+            metrics.peak
+        );
     const bool both = pictures.a.isToneMapped && pictures.b.isToneMapped;
     if (!pictures.a.isToneMapped && !pictures.b.isToneMapped)
         return "display values as stored";
@@ -214,7 +128,7 @@ std::string describeValues(const CompareArguments& arguments, const Comparison& 
     );
     if (!both)
         text += fmt::format(
-            " of '{}' alone", toOneLine(pictures.a.isToneMapped ? arguments.a : arguments.b)
+            " of '{}' alone", toOneLine(pictures.a.isToneMapped ? pictures.a.name : pictures.b.name)
         );
     return text;
 }
@@ -233,28 +147,45 @@ nlohmann::json describeTonemap(const Comparison& pictures) {
         {"applied_to", applied}};
 }
 
-void printJson(const Comparison& pictures, const Metrics& metrics) {
-    // JSON has no infinity: equal pictures have a null PSNR and "equal": true.
-    const bool equal = std::isinf(metrics.psnrDb);
-    nlohmann::json result = {{"ssim", metrics.ssim}, {"equal", equal}};
-    result["psnr_db"] = equal ? nlohmann::json() : nlohmann::json(metrics.psnrDb);
-    result["flip"] = metrics.flip ? nlohmann::json(metrics.flip->mean) : nlohmann::json();
-    result["max_difference"] = metrics.maxDifference;
-    result["values"] = pictures.isDisplay() ? "display" : "stored";
-    result["tonemap"] = describeTonemap(pictures);
-    fmt::print("{}\n", result.dump());
+/// JSON has no infinity: null.
+nlohmann::json describeNumber(double number) {
+    return std::isfinite(number) ? nlohmann::json(number) : nlohmann::json();
 }
 
-void printText(
-    const CompareArguments& arguments, const Comparison& pictures, const Metrics& metrics
-) {
+void printJson(const Comparison& pictures, const Metrics& metrics) {
+    nlohmann::json result = {{"ssim", metrics.ssim}, {"equal", metrics.isEqual}};
+    result["psnr_db"] = describeNumber(metrics.psnrDb);
+    result["peak"] = metrics.peak;
+    result["flip"] = metrics.flip ? nlohmann::json(metrics.flip->mean) : nlohmann::json();
+    result["max_difference"] = describeNumber(pictures.maxDifference);
+    result["stored_max_difference"] =
+        pictures.storedDifference ? describeNumber(*pictures.storedDifference) : nlohmann::json();
+    nlohmann::json& others = result["other_channels"] = nlohmann::json::object();
+    for (const OtherChannel& other : pictures.others)
+        others[other.name] = describeNumber(other.maxDifference);
+    result["notes"] = pictures.notes;
+    result["values"] = pictures.isDisplay() ? "display" : "stored";
+    result["tonemap"] = describeTonemap(pictures);
+    fmt::print("{}\n", result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void printText(const Comparison& pictures, const Metrics& metrics) {
     fmt::print(
         "PSNR {:.2f} dB  SSIM {:.4f}{}  ({})\n",
         metrics.psnrDb,
         metrics.ssim,
         metrics.flip ? fmt::format("  FLIP {:.4f}", metrics.flip->mean) : std::string(),
-        describeValues(arguments, pictures)
+        describeValues(pictures, metrics)
     );
+    for (const OtherChannel& other : pictures.others)
+        if (other.maxDifference > 0.0)
+            fmt::print(
+                "{} differs by up to {:g}, which no metric is of\n",
+                toOneLine(other.name),
+                other.maxDifference
+            );
+    for (const std::string& note : pictures.notes)
+        fmt::print("{}\n", toOneLine(note));
 }
 
 core::Status
@@ -275,14 +206,15 @@ runCompare(const CompareArguments& arguments, const tonemap::TonemapSettings& to
     if (!arguments.out.empty())
         if (core::Status writable = io::checkWritable(arguments.out); !writable)
             return core::makeError("--out: {}", writable.error().message);
-    const auto pictures = readPictures(arguments, tonemap);
+    const auto pictures = readComparison(arguments.a, arguments.b, arguments.linear, tonemap);
     if (!pictures)
         return pictures.error();
+    SHUTTER_TRY(checkMap(arguments, pictures.value()));
     const Metrics metrics = measure(pictures.value());
     if (arguments.json)
         printJson(pictures.value(), metrics);
     else
-        printText(arguments, pictures.value(), metrics);
+        printText(pictures.value(), metrics);
     return arguments.out.empty() ? core::Status() : writeMap(arguments, pictures.value(), metrics);
 }
 
@@ -309,7 +241,7 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
     CLI::Option* linear = command->add_flag(
         "--linear",
         arguments->linear,
-        "compare values as stored, clamped to [0, 1], without tone mapping"
+        "compare values as stored, whatever their size, without tone mapping"
     );
     for (CLI::Option* option : defineTonemapOptions(*command, arguments->display))
         option->excludes(linear);

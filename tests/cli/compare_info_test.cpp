@@ -5,8 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <regex>
+#include <utility>
 
 namespace shutter::cli {
 
@@ -30,6 +33,30 @@ class CliCompare : public Cli {
         picture.channelNames = channelNames;
         const core::Status written = io::writeImage(path(name), picture);
         ASSERT_TRUE(written.ok()) << written.error().message;
+    }
+
+    /// `from` with another value in one of its channels.
+    void writeChanged(
+        const std::string& name, const std::string& from, uint32_t channel, float value
+    ) const {
+        auto picture = io::readImage(path(from));
+        ASSERT_TRUE(picture.ok()) << picture.error().message;
+        image::Image& image = picture.value();
+        for (size_t i = channel; i < image.pixels.size(); i += image.channels)
+            image.pixels[i] = value;
+        ASSERT_TRUE(io::writeImage(path(name), image));
+    }
+
+    /// 16x16 pixels at 0,0 of an EXR whose display window has these corners.
+    void writeInDisplay(const std::string& name, const std::array<int32_t, 4>& corners) const {
+        writePicture(name, 16, 3, 0.5f);
+        std::string exr = readFile(name);
+        const std::string attribute("displayWindow\0box2i\0\x10\0\0\0", 24);
+        const size_t place = exr.find(attribute);
+        ASSERT_NE(place, std::string::npos);
+        for (size_t i = 0; i < 16; ++i)
+            exr[place + attribute.size() + i] = char(uint32_t(corners[i / 4]) >> (8 * (i % 4)));
+        writeFile(name, exr);
     }
 
     [[nodiscard]] nlohmann::json compareAsJson(Arguments arguments) const {
@@ -67,8 +94,196 @@ TEST_F(CliCompare, PicturesOfTwoSizesAreRefusedWithBoth) {
 
 TEST_F(CliCompare, PicturesOfTwoKindsAreRefused) {
     writePicture("a.exr", 16, 3, 0.5f);
-    writePicture("b.exr", 16, 1, 0.5f);
-    expectRefusal({"compare", "a.exr", "b.exr"}, kFailed, {"a.exr", "b.exr", "channels"});
+    writePicture("b.exr", 16, 1, 0.5f, {"Z"});
+    expectRefusal(
+        {"compare", "a.exr", "b.exr", "--linear"},
+        kFailed,
+        {"a.exr", "b.exr", "the channels R, G, B", "Z", "none that both have"}
+    );
+}
+
+TEST_F(CliCompare, GreyIsTheColourOfThreeEqualChannels) {
+    writePicture("grey.png", 16, 1, 0.5f);
+    writePicture("colour.png", 16, 3, 0.5f);
+    writePicture("other.png", 16, 3, 0.6f);
+    EXPECT_EQ(compareAsJson({"grey.png", "colour.png"}).at("equal"), true);
+    EXPECT_EQ(compareAsJson({"colour.png", "grey.png"}).at("equal"), true);
+    EXPECT_EQ(compareAsJson({"grey.png", "other.png"}).at("equal"), false);
+    writePicture("grey.exr", 16, 1, 3.0f);
+    writePicture("colour.exr", 16, 3, 3.0f);
+    EXPECT_EQ(compareAsJson({"grey.exr", "colour.exr", "--linear"}).at("equal"), true);
+    // Grey and alpha, too.
+    writePicture("alpha.exr", 16, 2, 1.0f, {"Y", "A"});
+    writePicture("white.exr", 16, 3, 1.0f);
+    EXPECT_EQ(compareAsJson({"alpha.exr", "white.exr"}).at("equal"), true);
+}
+
+TEST_F(CliCompare, AlphaCountsAndAPictureWithoutIsOpaque) {
+    const std::vector<std::string> names = {"R", "G", "B", "A"};
+    writePicture("opaque.exr", 16, 4, 1.0f, names);
+    writePicture("plain.exr", 16, 3, 1.0f);
+    writeChanged("clear.exr", "opaque.exr", 3, 0.25f);
+    EXPECT_EQ(compareAsJson({"opaque.exr", "plain.exr"}).at("equal"), true);
+    for (const auto& more : {Arguments{}, Arguments{"--linear"}})
+        for (const char* other : {"opaque.exr", "plain.exr"}) {
+            Arguments arguments = {"clear.exr", other};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            const auto json = compareAsJson(arguments);
+            EXPECT_EQ(json.at("equal"), false) << other;
+            EXPECT_EQ(json.at("other_channels").at("A"), 0.75) << other;
+            EXPECT_TRUE(json.at("psnr_db").is_null()) << "the colours are equal";
+        }
+    const std::string text = expectSuccess({"compare", "clear.exr", "opaque.exr"}).out;
+    EXPECT_NE(text.find("\nA differs by up to 0.75, which no metric is of\n"), std::string::npos)
+        << text;
+}
+
+TEST_F(CliCompare, ChannelsBesideTheColourAreComparedOrTold) {
+    const std::vector<std::string> names = {"R", "G", "B", "Z", "motion.x"};
+    writePicture("a.exr", 16, 5, 0.5f, names);
+    writeChanged("b.exr", "a.exr", 3, 7.0f);
+    writePicture("plain.exr", 16, 3, 0.5f);
+    const auto json = compareAsJson({"a.exr", "b.exr"});
+    EXPECT_EQ(json.at("equal"), false);
+    EXPECT_EQ(json.at("max_difference"), 0.0);
+    EXPECT_EQ(json.at("other_channels"), nlohmann::json({{"Z", 6.5}, {"motion.x", 0.0}}));
+    EXPECT_EQ(json.at("notes"), nlohmann::json::array());
+    const auto told = compareAsJson({"a.exr", "plain.exr"});
+    EXPECT_EQ(told.at("equal"), true) << "of what both have";
+    EXPECT_EQ(
+        told.at("notes"),
+        nlohmann::json::array({"only 'a.exr' has Z, motion.x, which are left out"})
+    );
+    const std::string text = expectSuccess({"compare", "plain.exr", "a.exr"}).out;
+    EXPECT_NE(text.find("only 'a.exr' has Z, motion.x"), std::string::npos) << text;
+}
+
+TEST_F(CliCompare, ChannelsAreMatchedByNameWhateverTheirOrder) {
+    image::Image picture(16, 16, 2);
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+        picture.pixels[i] = i % 2 == 0 ? 3.0f : 40.0f;
+    picture.channelNames = {"motion.x", "motion.y"};
+    ASSERT_TRUE(io::writeImage(path("a.exr"), picture));
+    picture.channelNames = {"motion.y", "motion.x"};
+    ASSERT_TRUE(io::writeImage(path("b.exr"), picture));
+    const auto json = compareAsJson({"a.exr", "b.exr", "--linear"});
+    EXPECT_EQ(json.at("max_difference"), 37.0);
+}
+
+TEST_F(CliCompare, ValuesOfAnySizeAreCompared) {
+    for (const auto& [name, value] :
+         {std::pair{"five.exr", 5.0f},
+          {"fifty.exr", 50.0f},
+          {"left.exr", -9.0f},
+          {"far.exr", -90.0f}})
+        writePicture(name, 16, 2, value, {"motion.x", "motion.y"});
+    const auto json = compareAsJson({"five.exr", "fifty.exr", "--linear"});
+    EXPECT_EQ(json.at("equal"), false);
+    EXPECT_EQ(json.at("max_difference"), 45.0);
+    EXPECT_EQ(json.at("peak"), 50.0) << "the reference's";
+    EXPECT_NEAR(json.at("psnr_db").get<double>(), 20.0 * std::log10(50.0 / 45.0), 1e-9);
+    EXPECT_LT(json.at("ssim").get<double>(), 0.5);
+    const auto back = compareAsJson({"left.exr", "far.exr", "--linear"});
+    EXPECT_EQ(back.at("equal"), false);
+    EXPECT_NEAR(back.at("psnr_db").get<double>(), 20.0 * std::log10(90.0 / 81.0), 1e-9);
+    const std::string text = expectSuccess({"compare", "five.exr", "fifty.exr", "--linear"}).out;
+    EXPECT_NE(text.find("(values as stored of motion.x, motion.y, peak 50)"), std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("inf"), std::string::npos) << text;
+}
+
+TEST_F(CliCompare, LightThatADisplayCutsOffIsTold) {
+    writePicture("a.exr", 16, 3, 5.0f);
+    writePicture("b.exr", 16, 3, 50.0f);
+    const auto json = compareAsJson({"a.exr", "b.exr", "--tonemap", "none"});
+    EXPECT_EQ(json.at("equal"), false);
+    EXPECT_EQ(json.at("max_difference"), 0.0);
+    EXPECT_EQ(json.at("stored_max_difference"), 45.0);
+    EXPECT_EQ(json.at("notes").size(), 1u);
+    const std::string text = expectSuccess({"compare", "a.exr", "b.exr", "--tonemap", "none"}).out;
+    EXPECT_NE(text.find("stored values differ by up to 45"), std::string::npos) << text;
+    EXPECT_EQ(compareAsJson({"a.exr", "a.exr"}).at("stored_max_difference"), 0.0);
+}
+
+TEST_F(CliCompare, InfinityEqualsItselfAndEachValueThatIsNotFiniteIsCounted) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    writePicture("depth.exr", 16, 1, 7.0f, {"Z"});
+    writeChanged("sky.exr", "depth.exr", 0, kInfinity);
+    const auto same = compareAsJson({"sky.exr", "sky.exr", "--linear"});
+    EXPECT_EQ(same.at("equal"), true);
+    EXPECT_EQ(same.at("ssim"), 1.0);
+    EXPECT_EQ(same.at("notes").at(0), "'sky.exr' has 256 values that are NaN or infinite");
+    const auto other = compareAsJson({"sky.exr", "depth.exr", "--linear", "--out", "map.exr"});
+    EXPECT_EQ(other.at("equal"), false);
+    EXPECT_TRUE(other.at("max_difference").is_null());
+    EXPECT_EQ(other.at("psnr_db"), 0.0) << "errors of the peak everywhere";
+    EXPECT_EQ(other.at("ssim"), 0.0);
+    EXPECT_EQ(io::readImage(path("map.exr")).value().at(3, 4, 0), 1.0f);
+    expectSuccess({"compare", "sky.exr", "sky.exr", "--linear", "--out", "map.exr"});
+    EXPECT_EQ(io::readImage(path("map.exr")).value().at(3, 4, 0), 0.0f);
+}
+
+TEST_F(CliCompare, CropsOfOtherPlacesAreNotOnePicture) {
+    writePicture("whole.exr", 16, 3, 0.5f);
+    writeInDisplay("left.exr", {0, 0, 31, 15});
+    writeInDisplay("right.exr", {-16, 0, 15, 15});
+    expectRefusal(
+        {"compare", "left.exr", "right.exr"},
+        kFailed,
+        {"left.exr", "0,0 to 15,15", "right.exr", "16,0 to 31,15"}
+    );
+    expectRefusal({"compare", "left.exr", "whole.exr"}, kFailed, {"32x16", "16x16"});
+    const auto json = compareAsJson({"left.exr", "left.exr"});
+    EXPECT_EQ(json.at("equal"), true);
+    EXPECT_EQ(
+        json.at("notes").at(0),
+        "of the display windows, 32x16, the pixels 0,0 to 15,15 are there and compared"
+    );
+    writeInDisplay("beside.exr", {16, 0, 31, 15});
+    expectRefusal({"compare", "beside.exr", "beside.exr"}, kFailed, {"no pixels in its display"});
+}
+
+TEST_F(CliCompare, PixelsAroundTheDisplayWindowAreLeftOutAndTold) {
+    writePicture("inner.exr", 8, 3, 0.5f);
+    writeInDisplay("around.exr", {4, 4, 11, 11});
+    const auto json = compareAsJson({"around.exr", "inner.exr"});
+    EXPECT_EQ(json.at("equal"), true);
+    EXPECT_EQ(
+        json.at("notes"),
+        nlohmann::json::array(
+            {"of 'around.exr', 192 pixels outside its display window are left out",
+             "the display windows begin at 4,4 and 0,0; both are compared from their corners"}
+        )
+    );
+}
+
+TEST_F(CliCompare, PixelsOfAnotherShapeAreTold) {
+    writePicture("square.exr", 16, 3, 0.5f);
+    std::string wide = readFile("square.exr");
+    const std::string attribute("pixelAspectRatio\0float\0\4\0\0\0", 27);
+    const size_t place = wide.find(attribute);
+    ASSERT_NE(place, std::string::npos);
+    wide.replace(place + attribute.size(), 4, std::string("\0\0\0\x40", 4));
+    writeFile("wide.exr", wide);
+    const auto json = compareAsJson({"square.exr", "wide.exr"});
+    EXPECT_EQ(json.at("notes"), nlohmann::json::array({"the pixel aspect ratios differ: 1 and 2"}));
+}
+
+TEST_F(CliCompare, WholeNumbersThatNoFloatHoldsAreComparedExactly) {
+    image::Image ids(16, 16, 1);
+    ids.channelNames = {"id"};
+    ids.pixels[0] = 33554432.0f; // 2^25
+    ASSERT_TRUE(io::writeImage(path("even.exr"), ids, io::SampleType::Uint));
+    EXPECT_EQ(compareAsJson({"even.exr", "even.exr", "--linear"}).at("notes").size(), 0u);
+    ids.pixels[0] = 4294967296.0f; // stored as one less, the largest
+    ASSERT_TRUE(io::writeImage(path("odd.exr"), ids, io::SampleType::Uint));
+    const auto json = compareAsJson({"even.exr", "odd.exr", "--linear"});
+    EXPECT_EQ(json.at("notes").size(), 1u);
+    EXPECT_EQ(json.at("max_difference"), 4294967295.0 - 33554432.0);
+    ids.pixels[0] = 4294967040.0f; // the float below
+    ASSERT_TRUE(io::writeImage(path("below.exr"), ids, io::SampleType::Uint));
+    EXPECT_EQ(compareAsJson({"below.exr", "odd.exr", "--linear"}).at("max_difference"), 255.0)
+        << "no float is one below 2^32";
 }
 
 TEST_F(CliCompare, AHeatMapThatCannotBeWrittenIsRefused) {
@@ -219,6 +434,12 @@ TEST_F(CliCompare, TheErrorMapIsBlackWhereEqualAndBrightWhereNot) {
     EXPECT_EQ(io::readImage(path("equal.exr")).value().at(3, 4, 0), 0.0f);
 }
 
+TEST_F(Cli, TheVersionIsOneLineOfTheProgramsNameAndThreeNumbers) {
+    const std::string version = expectSuccess({"--version"}).out;
+    EXPECT_TRUE(std::regex_match(version, std::regex("shutter [0-9]+\\.[0-9]+\\.[0-9]+\n")))
+        << version;
+}
+
 TEST_F(Cli, InfoNeedsToKnowWhatAbout) {
     expectRefusal({"info"}, kUsage, {"SCENE", "--devices", "--methods"});
 }
@@ -285,9 +506,9 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
           "bounds 0 0 0 to 4 0 0 m",
           "camera 0: ",
           "eye",
-          "clip nod: 0 s, 1 channels",
+          "clip nod: 0 s, 1 channel\n",
           "skin rig: 2 joints",
-          "mesh face: 1 morph targets"})
+          "mesh face: 1 morph target\n"})
         EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
 }
 
