@@ -1,54 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/file_bytes.h"
 
+#include "engine/core/whole_file.h"
+
 #include <OpenImageIO/hash.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cerrno>
 #include <fstream>
 #include <limits>
 #include <system_error>
-#include <unistd.h>
 
 namespace shutter::io {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-constexpr std::string_view kTemporaryPrefix = ".shutter-";
-
-/// Returns an empty string, or why it failed.
-std::string writeBytes(const fs::path& path, std::span<const uint8_t> bytes) {
-    errno = 0;
-    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    stream.close(); // a full disk may only show here
-    if (stream)
-        return {};
-    return errno != 0 ? std::generic_category().message(errno) : "writing failed";
-}
-
-} // namespace
-
-fs::path makeTemporaryPath(const fs::path& path) {
-    static std::atomic<uint32_t> sCounter{0};
-    const std::string name =
-        fmt::format("{}{}-{}.tmp", kTemporaryPrefix, ::getpid(), sCounter.fetch_add(1));
-    return (path.has_parent_path() ? path.parent_path() : fs::path(".")) / name;
-}
-
-void removeTemporaryFiles(const fs::path& folder) {
-    std::error_code ignored;
-    std::vector<fs::path> left;
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().filename().string().starts_with(kTemporaryPrefix))
-            left.push_back(entry.path());
-    for (const fs::path& file : left)
-        fs::remove(file, ignored);
-}
 
 core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t maxBytes) {
     std::error_code failure;
@@ -80,22 +45,10 @@ core::Result<std::vector<uint8_t>> readFileBytes(const fs::path& path, uint64_t 
 }
 
 core::Status writeFileBytes(const fs::path& path, std::span<const uint8_t> bytes) {
-    std::error_code failure;
-    const fs::file_type type = fs::status(path, failure).type();
-    const bool isPlain = type == fs::file_type::regular || type == fs::file_type::not_found;
-    const fs::path target = isPlain ? makeTemporaryPath(path) : path;
-    const std::string why = writeBytes(target, bytes);
-    failure.clear();
-    if (isPlain && why.empty())
-        fs::rename(target, path, failure);
-    if (why.empty() && !failure)
-        return {};
-    std::error_code ignored;
-    if (isPlain)
-        fs::remove(target, ignored);
-    return core::makeError(
-        "cannot write '{}': {}", path.string(), why.empty() ? failure.message() : why
-    );
+    const core::Status written = core::writeWholeFile(path, std::as_bytes(bytes));
+    return written
+               ? written
+               : core::makeError("cannot write '{}': {}", path.string(), written.error().message);
 }
 
 core::Status writeFileText(const fs::path& path, std::string_view text) {

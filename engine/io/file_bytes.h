@@ -13,21 +13,12 @@
 
 namespace shutter::io {
 
-/// A unique name for a file that will be renamed to `path`: in the same folder, so that the rename
-/// is atomic; short, so that it is allowed wherever the final name is.
-[[nodiscard]] std::filesystem::path makeTemporaryPath(const std::filesystem::path& path);
-
-/// Removes the temporary files in a folder that killed processes left, and those of running ones.
-void removeTemporaryFiles(const std::filesystem::path& folder);
-
 /// The first `maxBytes` bytes of a regular file (all of it when it is shorter). An Error says in
 /// one sentence that the path is missing, a folder, not a regular file or not readable.
 [[nodiscard]] core::Result<std::vector<uint8_t>>
 readFileBytes(const std::filesystem::path& path, uint64_t maxBytes);
 
-/// Writes a temporary file beside `path` and renames it, so that an interrupted write never leaves
-/// half a file under this name. A pipe or a device is written to as it is, not replaced. An Error
-/// names the file and why; then nothing is left behind.
+/// Whole or not at all: core::writeWholeFile(). Error: names the file and why.
 [[nodiscard]] core::Status
 writeFileBytes(const std::filesystem::path& path, std::span<const uint8_t> bytes);
 

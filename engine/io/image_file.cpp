@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/image_file.h"
 
+#include "engine/core/whole_file.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/oiio_codec.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 namespace shutter::io {
@@ -20,18 +19,6 @@ namespace fs = std::filesystem;
 
 /// Larger textures are refused: no device of ours takes them, and a 100-byte file may claim them.
 constexpr uint32_t kMaxTextureSide = 16384;
-
-std::string lowerExtension(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-        return char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return extension;
-}
-
-fs::path folderOf(const fs::path& path) {
-    return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
 
 /// From [0, 1] to all values of the integer.
 template <class Integer> Integer toInteger(float value) {
@@ -81,7 +68,7 @@ struct Encoding {
     DisplayDepth depth = DisplayDepth::Bytes;
     int jpegQuality = kJpegQuality;
     std::span<const PictureText> texts{};
-    std::optional<Timecode> timecode{};
+    const FrameStamp* stamp = nullptr; ///< null: none
 };
 
 std::string encode(
@@ -110,8 +97,12 @@ std::string encode(
         request.pixels = bytes.data();
         return oiio::encode(request, out);
     }
-    if (encoding.timecode)
-        request.timecode = pack(*encoding.timecode);
+    if (encoding.stamp) {
+        if (encoding.stamp->timecode)
+            request.timecode = pack(*encoding.stamp->timecode);
+        if (const auto rate = core::findRational(encoding.stamp->rate))
+            request.frameRate = {rate->numerator, rate->denominator};
+    }
     request.channels = image.channels;
     request.channelNames = image.channelNames;
     if (encoding.type == SampleType::Uint) {
@@ -125,6 +116,18 @@ std::string encode(
         encoding.type == SampleType::Half ? oiio::Storage::Half : oiio::Storage::Float;
     request.pixels = image.pixels.data();
     return oiio::encode(request, out);
+}
+
+image::Image
+cropImage(const image::Image& all, uint32_t left, uint32_t top, uint32_t width, uint32_t height) {
+    image::Image cropped(width, height, all.channels);
+    cropped.channelNames = all.channelNames;
+    const size_t rowValues = size_t(width) * all.channels;
+    for (uint32_t y = 0; rowValues > 0 && y < height; ++y) {
+        const size_t first = (size_t(top) + y) * all.width + left;
+        std::copy_n(&all.pixels[first * all.channels], rowValues, &cropped.pixels[y * rowValues]);
+    }
+    return cropped;
 }
 
 void checkImage(const image::Image& image) {
@@ -145,6 +148,14 @@ void checkImage(const image::Image& image) {
 }
 
 } // namespace
+
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+        return char(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return extension;
+}
 
 core::Result<image::Image> readImage(const fs::path& path) {
     core::Result<StoredImage> stored = readStoredImage(path);
@@ -177,7 +188,34 @@ core::Result<StoredImage> readStoredImage(const fs::path& path) {
     stored.image.pixels = std::move(pixels.values);
     stored.image.channelNames = std::move(pixels.channelNames);
     stored.isDisplayEncoded = pixels.isShortInteger;
+    if (!pixels.remainders.empty()) {
+        stored.remainder = image::Image(pixels.width, pixels.height, pixels.channels);
+        stored.remainder.pixels = std::move(pixels.remainders);
+    }
+    stored.data = {pixels.left, pixels.top, pixels.width, pixels.height};
+    const auto [left, top, width, height] = pixels.display;
+    stored.display = {left, top, uint32_t(width), uint32_t(height)};
+    stored.pixelAspect = pixels.pixelAspect;
     return stored;
+}
+
+void cropToDisplay(StoredImage& stored) {
+    const PixelWindow& data = stored.data;
+    const PixelWindow& display = stored.display;
+    PixelWindow inside{std::max(data.x, display.x), std::max(data.y, display.y)};
+    const auto length = [](int64_t begin, int64_t end) {
+        return uint32_t(std::max(end - begin, int64_t(0)));
+    };
+    inside.width = length(inside.x, std::min(data.x + data.width, display.x + display.width));
+    inside.height = length(inside.y, std::min(data.y + data.height, display.y + display.height));
+    if (inside == data)
+        return;
+    const uint32_t left = uint32_t(inside.x - data.x);
+    const uint32_t top = uint32_t(inside.y - data.y);
+    stored.image = cropImage(stored.image, left, top, inside.width, inside.height);
+    if (!stored.remainder.pixels.empty())
+        stored.remainder = cropImage(stored.remainder, left, top, inside.width, inside.height);
+    stored.data = inside;
 }
 
 core::Result<bool> isDisplayFormat(const fs::path& path, std::string_view known) {
@@ -195,22 +233,8 @@ core::Status checkWritable(const fs::path& path) {
     const core::Result<bool> known = isDisplayFormat(path);
     if (!known)
         return known.error();
-    std::error_code ignored;
-    const fs::path folder = folderOf(path);
-    if (!fs::is_directory(folder, ignored)) {
-        return core::makeError(
-            "cannot write '{}': the folder '{}' does not exist", path.string(), folder.string()
-        );
-    }
-    if (fs::is_directory(path, ignored)) {
-        return core::makeError("cannot write '{}': it is a folder", path.string());
-    }
-    // The picture is renamed into place, so it is the folder that has to allow it.
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-        return core::makeError(
-            "cannot write '{}': no permission to write in '{}'", path.string(), folder.string()
-        );
-    }
+    if (const core::Status able = core::checkOutput(path); !able)
+        return core::makeError("cannot write '{}': {}", path.string(), able.error().message);
     return {};
 }
 
@@ -263,18 +287,19 @@ core::Status writePngWithTexts(
 }
 
 core::Status
-writeImageWithTimecode(const fs::path& path, const image::Image& image, const Timecode& timecode) {
+writeStampedImage(const fs::path& path, const image::Image& image, const FrameStamp& stamp) {
     SHUTTER_CHECK(lowerExtension(path) == ".exr", "'{}' is no EXR", path.string());
-    SHUTTER_CHECK(
-        timecode.hours < 24 && timecode.minutes < 60 && timecode.seconds < 60 &&
-            timecode.frames < kMaxTimecodeRate,
-        "{}:{}:{}:{}",
-        timecode.hours,
-        timecode.minutes,
-        timecode.seconds,
-        timecode.frames
-    );
-    return write(path, image, {.timecode = timecode});
+    if (const auto& timecode = stamp.timecode)
+        SHUTTER_CHECK(
+            timecode->hours < 24 && timecode->minutes < 60 && timecode->seconds < 60 &&
+                timecode->frames < kMaxTimecodeRate,
+            "{}:{}:{}:{}",
+            timecode->hours,
+            timecode->minutes,
+            timecode->seconds,
+            timecode->frames
+        );
+    return write(path, image, {.stamp = &stamp});
 }
 
 core::Result<scene::TextureImage>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 #include "engine/image/image.h"
 #include "engine/scene/assets.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,18 +16,42 @@
 
 namespace shutter::io {
 
+/// ".png" of "a.PNG": what a file's name says of its format.
+[[nodiscard]] std::string lowerExtension(const std::filesystem::path& path);
+
 /// Reads a PNG, JPEG, EXR or Radiance HDR, told apart by content, as floats (8-bit formats: value /
-/// 255, not linearised). Error: names the file and why.
+/// 255, not linearised). Of an EXR the pixels of the data window, wherever it lies:
+/// readStoredImage() tells. Error: names the file and why.
 [[nodiscard]] core::Result<image::Image> readImage(const std::filesystem::path& path);
 
-/// A picture and what its file says of the values.
+/// A rectangle of pixels; x to the right, y down.
+struct PixelWindow {
+    int64_t x = 0;
+    int64_t y = 0;
+    uint32_t width = 0;
+    uint32_t height = 0;
+
+    bool operator==(const PixelWindow&) const = default;
+};
+
+/// A picture and what its file says of the values and of their place.
 struct StoredImage {
-    image::Image image;
+    image::Image image;            ///< the pixels that there are: those of the data window
     bool isDisplayEncoded = false; ///< 8 or 16 bits: sRGB; else (EXR, HDR) linear light, or data
+    /// What whole numbers above 2^24, which became the nearest float, have above `image`; empty
+    /// where all values are what the file holds.
+    image::Image remainder{};
+    PixelWindow data;         ///< where in the picture the pixels lie
+    PixelWindow display;      ///< the picture; only an EXR's may differ from `data`
+    float pixelAspect = 1.0f; ///< width of a pixel over its height
 };
 
 /// As readImage.
 [[nodiscard]] core::Result<StoredImage> readStoredImage(const std::filesystem::path& path);
+
+/// Leaves out the pixels outside of the display window: `data` lies inside it then, and has no
+/// pixels where none of them did.
+void cropToDisplay(StoredImage& stored);
 
 /// True where the extension stores values in [0, 1] for display (.png .jpg .jpeg), false for .exr.
 /// An Error names the extension when it is neither.
@@ -79,10 +105,16 @@ struct Timecode {
 /// Frames that a second of a picture's time code may have.
 inline constexpr uint32_t kMaxTimecodeRate = 30;
 
-/// writeImage() of a .exr (CHECKed) as floats, with a time code (CHECKed) as its attribute
-/// `timeCode`.
-[[nodiscard]] core::Status writeImageWithTimecode(
-    const std::filesystem::path& path, const image::Image& image, const Timecode& timecode
+/// What the picture of a sequence says of its place in time.
+struct FrameStamp {
+    core::FrameRate rate;
+    std::optional<Timecode> timecode{};
+};
+
+/// writeImage() of a .exr (CHECKed) as floats, with the attributes `framesPerSecond`, unless the
+/// rate is too large or small for one, and `timeCode` (CHECKed).
+[[nodiscard]] core::Status writeStampedImage(
+    const std::filesystem::path& path, const image::Image& image, const FrameStamp& stamp
 );
 
 /// A key of at most 79 letters, and what a PNG file says under it (tEXt).

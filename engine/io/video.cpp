@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "engine/io/video.h"
 
-#include "engine/io/file_bytes.h"
+#include "engine/core/whole_file.h"
+#include "engine/io/image_file.h"
 #include "engine/io/process.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <optional>
 #include <string_view>
@@ -73,10 +73,7 @@ const CodecRow& findCodec(const VideoEncoder& encoder) {
 
 /// By the file's name: .mov or .webm, else .mp4.
 const char* findContainer(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-        return char(std::tolower(c));
-    });
+    const std::string extension = lowerExtension(file);
     if (extension == ".webm")
         return "webm";
     return extension == ".mov" ? "mov" : "mp4";
@@ -103,7 +100,7 @@ std::vector<std::string> listArguments(
     const auto add = [&](const std::vector<std::string>& more) {
         words.insert(words.end(), more.begin(), more.end());
     };
-    add({"-framerate", fmt::format("{}", frames.framesPerSecond), "-start_number", "0"});
+    add({"-framerate", core::describe(frames.framesPerSecond), "-start_number", "0"});
     add({"-i", frames.pattern, "-frames:v", fmt::format("{}", frames.count), "-an"});
     add({"-c:v", codec.name});
     add(codec.options);
@@ -133,6 +130,21 @@ std::vector<std::string> listArguments(
         add({"-movflags", "+faststart"});
     add({"-f", container, "file:" + target.string()});
     return words;
+}
+
+/// The file that becomes the film, links followed. Error: names the file and why.
+core::Result<fs::path> findFilmPlace(const fs::path& file) {
+    const auto fail = [&](std::string_view why) {
+        return core::makeError("cannot write '{}': {}", file.string(), why);
+    };
+    if (const core::Status able = core::checkOutput(file); !able)
+        return fail(able.error().message);
+    const auto place = core::findOutputPlace(file);
+    if (!place)
+        return fail(place.error().message);
+    if (place.value().isStream) // the encoder goes back to the file's beginning
+        return fail("it is a pipe or a device, and a film needs a file");
+    return place.value().path;
 }
 
 std::optional<fs::path> findMissingFrame(const VideoFrames& frames) {
@@ -189,10 +201,18 @@ core::Result<VideoEncoder> findVideoEncoder(const fs::path& named, const VideoFo
     );
 }
 
+core::Status checkFilmWritable(const fs::path& file) {
+    const auto place = findFilmPlace(file);
+    return place ? core::Status() : core::Status(place.error());
+}
+
 core::Status
 encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::path& file) {
+    const auto place = findFilmPlace(file);
+    if (!place)
+        return place.error();
     std::error_code failure;
-    const fs::path target = fs::absolute(makeTemporaryPath(file), failure);
+    const fs::path target = fs::absolute(core::makeTemporaryPath(place.value()), failure);
     const auto fail = [&](std::string_view why) {
         std::error_code ignored;
         fs::remove(target, ignored);
@@ -221,8 +241,8 @@ encodeVideo(const VideoEncoder& encoder, const VideoFrames& frames, const fs::pa
         return fail(fmt::format("the frame '{}' is missing", missing->string()));
     if (fs::file_size(target, failure) == 0 || failure)
         return fail("ffmpeg wrote nothing");
-    fs::rename(target, file, failure);
-    return failure ? core::Status(fail(failure.message())) : core::Status();
+    const core::Status replaced = core::replaceFile(target, place.value());
+    return replaced ? replaced : fail(replaced.error().message);
 }
 
 } // namespace shutter::io

@@ -2,6 +2,7 @@
 // Pictures to a film, by the program ffmpeg.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 
 #include <cstdint>
@@ -43,14 +44,17 @@ findVideoEncoder(const std::filesystem::path& named, const VideoFormat& format =
 /// Numbered PNG files of one folder and size; width and height are even.
 struct VideoFrames {
     std::filesystem::path folder;
-    std::string pattern;           ///< file names as printf takes them, e.g. frame_%06d.png
-    uint32_t count = 0;            ///< numbered from 0, all there
-    double framesPerSecond = 24.0; ///< above 0
+    std::string pattern; ///< file names as printf takes them, e.g. frame_%06d.png
+    uint32_t count = 0;  ///< numbered from 0, all there
+    core::FrameRate framesPerSecond;
 };
 
+/// Error: encodeVideo() cannot write there; names the file and why.
+[[nodiscard]] core::Status checkFilmWritable(const std::filesystem::path& file);
+
 /// Writes an .mp4, or a .mov or .webm where the file is called so: BT.709, no metadata except the
-/// time code; the same frames give the same bits with the same ffmpeg. Renamed into place when it
-/// is complete. Error: ffmpeg's last line.
+/// time code; the same frames give the same bits with the same ffmpeg. Takes the place of the file
+/// that `file` leads to when it is complete. Error: ffmpeg's last line.
 [[nodiscard]] core::Status encodeVideo(
     const VideoEncoder& encoder, const VideoFrames& frames, const std::filesystem::path& file
 );

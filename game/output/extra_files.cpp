@@ -108,11 +108,10 @@ core::Status writeIntermediate(
     const std::filesystem::path& path,
     const std::string& aov,
     const image::Image& image,
-    const std::optional<io::Timecode>& timecode
+    const std::optional<io::FrameStamp>& stamp
 ) {
     const image::Image chosen = selectChannels(image, channelTable().at(aov));
-    return timecode ? io::writeImageWithTimecode(path, chosen, *timecode)
-                    : io::writeImage(path, chosen);
+    return stamp ? io::writeStampedImage(path, chosen, *stamp) : io::writeImage(path, chosen);
 }
 
 core::Status writeStatistics(

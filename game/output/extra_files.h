@@ -35,12 +35,12 @@ selectChannels(const image::Image& image, const std::vector<Channel>& channels);
 
 /// Writes an intermediate with the channels that mean something, named.
 /// \param aov one that canWriteIntermediate()
-/// \param timecode of its frame, if that has one
+/// \param stamp of its frame, if that is one of a sequence
 [[nodiscard]] core::Status writeIntermediate(
     const std::filesystem::path& path,
     const std::string& aov,
     const image::Image& image,
-    const std::optional<io::Timecode>& timecode = {}
+    const std::optional<io::FrameStamp>& stamp = {}
 );
 
 struct PictureStatistics {

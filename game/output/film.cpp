@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/log.h"
-#include "engine/io/file_bytes.h"
-#include "engine/io/image_file.h"
+#include "engine/core/whole_file.h"
 #include "game/output/sequence.h"
 #include "game/output/timecode.h"
 
@@ -34,20 +33,8 @@ fs::path filmFrames(const fs::path& film) {
 }
 
 core::Result<io::VideoEncoder> prepareFilm(const RenderOptions& options) {
-    std::error_code ignored;
-    if (fs::is_directory(options.output.film, ignored))
-        return core::makeError(
-            "--out: cannot write '{}': it is a folder", options.output.film.string()
-        );
-    // Checked with the name of a picture: only the folder matters.
-    const fs::path folder =
-        options.output.film.has_parent_path() ? options.output.film.parent_path() : ".";
-    if (core::Status writable = io::checkWritable(folder / "frame.png"); !writable)
-        return core::makeError(
-            "--out: cannot write '{}': the folder '{}' does not exist or cannot be written",
-            options.output.film.string(),
-            folder.string()
-        );
+    if (const core::Status able = io::checkFilmWritable(options.output.film); !able)
+        return core::makeError("--out: {}", able.error().message);
     const auto format = resolveFormat(options);
     if (!format)
         return format.error();
@@ -89,7 +76,7 @@ void removeFilmFrames(const RenderOptions& options, const fs::path& framesJourna
     for (size_t i = 0; i < options.shot.frameTimes.size(); ++i)
         fs::remove(frameFile(options.output.out, int(i)), ignored);
     fs::remove(framesJournal, ignored);
-    io::removeTemporaryFiles(folder);
+    core::removeTemporaryFiles(folder);
     fs::remove(folder, ignored);
     if (fs::exists(folder, ignored))
         core::logWarning("'{}' holds other files and is kept", folder.string());

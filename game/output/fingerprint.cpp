@@ -27,7 +27,7 @@ core::Result<std::string> computeFingerprint(const RenderOptions& options, const
         program.value(),
         options.shot.flythroughHash,
         options.shot.flythroughClip,
-        options.shot.fps,
+        core::describe(options.shot.fps),
         options.output.film.empty() ? 0 : options.shot.firstFrame,
         shot.framedAt ? fmt::format("at {}", *shot.framedAt) : "by none",
         options.fingerprint

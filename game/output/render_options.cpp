@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "game/output/render_options.h"
 
+#include "engine/core/whole_file.h"
 #include "engine/io/image_file.h"
 #include "game/output/timecode.h"
 
 #include <regex>
-#include <system_error>
-#include <unistd.h>
 
 namespace shutter::game {
 
@@ -20,23 +19,11 @@ using core::Status;
 Status checkJsonWritable(const char* option, const fs::path& file) {
     if (file.empty())
         return {};
-    std::error_code ignored;
-    const auto folder = file.has_parent_path() ? file.parent_path() : ".";
-    if (fs::is_directory(file, ignored))
-        return makeError("{}: cannot write '{}': it is a folder", option, file.string());
-    if (!fs::is_directory(folder, ignored))
-        return makeError(
-            "{}: cannot write '{}': the folder '{}' does not exist",
-            option,
-            file.string(),
-            folder.string()
-        );
-    // A file is renamed into place, so its folder has to allow it; a pipe or a device is written
-    // to.
-    const bool isOther = fs::exists(file, ignored) && !fs::is_regular_file(file, ignored);
-    if (::access(isOther ? file.c_str() : folder.c_str(), W_OK) != 0)
-        return makeError("{}: cannot write '{}': permission denied", option, file.string());
-    return {};
+    const Status able = core::checkOutput(file);
+    return able ? able
+                : makeError(
+                      "{}: cannot write '{}': {}", option, file.string(), able.error().message
+                  );
 }
 
 } // namespace
@@ -56,13 +43,24 @@ core::Status checkOutputs(const RenderOptions& options) {
 }
 
 fs::path frameFile(const fs::path& pattern, int frameNumber) {
-    static const std::regex kNumber("%0?([0-9]?)d");
-    const std::string text = pattern.string();
-    std::smatch match;
-    if (!std::regex_search(text, match, kNumber))
-        return pattern;
-    const int width = match[1].length() > 0 ? std::stoi(match[1]) : 0;
-    return match.prefix().str() + fmt::format("{:0{}}", frameNumber, width) + match.suffix().str();
+    static const std::regex kSpecial("%(?:%|0?([0-9]{0,2})d)");
+    const std::string name = pattern.filename().string();
+    std::string made;
+    auto rest = name.cbegin();
+    for (std::sregex_iterator found(name.begin(), name.end(), kSpecial), end; found != end;
+         ++found) {
+        const std::smatch& match = *found;
+        made.append(rest, match[0].first);
+        if (match.str() == "%%")
+            made += '%';
+        else
+            made += fmt::format(
+                "{:0{}}", frameNumber, match.length(1) > 0 ? std::stoi(match.str(1)) : 0
+            );
+        rest = match[0].second;
+    }
+    made.append(rest, name.cend());
+    return made == name ? pattern : fs::path(pattern).replace_filename(made);
 }
 
 } // namespace shutter::game

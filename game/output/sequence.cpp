@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/core/words.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/output/extra_files.h"
@@ -25,13 +26,30 @@ namespace shutter::game {
 
 namespace {
 
+/// Why an intermediate that the method has is not one of a frame's; continues "because".
+std::string
+explainMissing(const std::string& aov, const std::vector<render::Explanation>& explanations) {
+    const core::Decision* blur = render::findDecision(explanations, "motion blur");
+    if (!blur)
+        return "one ray per pixel shows no error";
+    if (!blur->run)
+        return "motion blur was skipped: " + blur->reason;
+    if (aov == "last")
+        return "the effect holds no frame before this one";
+    if (aov == "second")
+        return "the setting secondRaster is off";
+    const core::Decision* rays = render::findDecision(explanations, "ray reveal");
+    return rays && !rays->run ? "no rays were traced: " + rays->reason
+                              : "motion blur did without it";
+}
+
 /// \return the files that were written
 core::Result<std::vector<std::filesystem::path>>
 writePicture(const RenderOptions& options, size_t frame, const render::FrameResult& result) {
     const std::filesystem::path file = fileOfFrame(options, frame);
-    const auto timecode = findTimecode(options, frame);
-    if (!timecode)
-        return timecode.error();
+    const auto stamp = findStamp(options, frame);
+    if (!stamp)
+        return stamp.error();
     std::vector<std::filesystem::path> files = {file};
     const bool isDisplay = options.output.displayOut && !options.output.isDeep();
     const image::Image& drawn = isDisplay ? result.display : result.color;
@@ -40,25 +58,22 @@ writePicture(const RenderOptions& options, size_t frame, const render::FrameResu
         SHUTTER_TRY(
             io::writeDeepPng(file, tonemap::computeDisplayImage(picture, options.shot.tonemap))
         );
-    else if (timecode.value() && !options.output.displayOut)
-        SHUTTER_TRY(io::writeImageWithTimecode(file, picture, *timecode.value()));
+    else if (stamp.value() && !options.output.displayOut)
+        SHUTTER_TRY(io::writeStampedImage(file, picture, *stamp.value()));
     else
         SHUTTER_TRY(io::writeImage(file, picture));
     for (const std::string& aov : options.output.aovs) {
         const auto found = result.intermediates.find(aov);
         if (found == result.intermediates.end()) {
-            const core::Decision* blur =
-                render::findDecision(result.statistics.explanations, "motion blur");
             core::logWarning(
-                "--aov {} is not written: {}",
+                "--aov {} is not written, because {}",
                 aov,
-                blur ? "motion blur was " + core::describe(*blur)
-                     : "one ray per pixel shows no error"
+                explainMissing(aov, result.statistics.explanations)
             );
             continue;
         }
         files.push_back(intermediateFile(file, aov));
-        SHUTTER_TRY(writeIntermediate(files.back(), aov, found->second, timecode.value()));
+        SHUTTER_TRY(writeIntermediate(files.back(), aov, found->second, stamp.value()));
     }
     return files;
 }
@@ -164,10 +179,13 @@ class Sequence {
         }
         if (countComplete() > 0)
             fmt::print(
-                "{}: {} of {} frames are complete on disk and skipped (--restart draws them)\n",
+                "{}: {} of {} complete on disk and skipped (--restart draws {})\n",
                 output.out.string(),
                 countComplete(),
-                mFrames.size()
+                core::countOf(
+                    mFrames.size(), "frame is", countComplete() == 1 ? "frames is" : "frames are"
+                ),
+                countComplete() == 1 ? "it" : "them"
             );
         return {};
     }

@@ -80,18 +80,10 @@ core::Status appendLine(const fs::path& file, const std::string& line) {
 } // namespace
 
 fs::path journalFile(const fs::path& pattern) {
-    // Above the first part that holds the frame's number: each frame may have its own folder.
-    fs::path folder;
-    for (const fs::path& part : pattern.parent_path()) {
-        if (frameFile(part, 0) != part)
-            break;
-        folder /= part;
-    }
-    std::string name = pattern.lexically_relative(folder.empty() ? "." : folder).string();
-    std::replace(name.begin(), name.end(), '/', '_');
+    std::string name = pattern.filename().string();
     if (name.size() > kMaxNameBytes)
         name = io::computeContentHash(name);
-    return folder / ("." + name + ".journal");
+    return pattern.parent_path() / ("." + name + ".journal");
 }
 
 core::Result<SequenceJournal> SequenceJournal::open(fs::path file, const std::string& fingerprint) {
@@ -204,6 +196,9 @@ core::Status SequenceJournal::addFrom(const SequenceJournal& other, int frame) {
 core::Status SequenceJournal::add(int frame, const std::vector<fs::path>& files) {
     std::vector<File> complete;
     for (const fs::path& file : files) {
+        std::error_code ignored;
+        if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+            return {}; // a pipe keeps nothing: the frame is drawn again
         auto hash = io::computeFileHash(file);
         if (!hash)
             return hash.error();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/output/timecode.h"
 
+#include "engine/core/words.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +33,9 @@ core::Result<int64_t> countFrames(const RenderOptions& options, int64_t rate) {
         return core::makeError("--timecode {}: a day has 24 hours, numbered from 0", text);
     if (readPair(text, 3) >= rate)
         return core::makeError(
-            "--timecode {}: a second has {} frames, numbered from 0", text, rate
+            "--timecode {}: a second has {}, numbered from 0",
+            text,
+            core::countOf(uint64_t(rate), "frame")
         );
     return ((readPair(text, 0) * 60 + readPair(text, 1)) * 60 + readPair(text, 2)) * rate +
            readPair(text, 3);
@@ -42,12 +46,12 @@ core::Result<int64_t> countFrames(const RenderOptions& options, int64_t rate) {
 core::Result<std::optional<io::Timecode>> findTimecode(const RenderOptions& options, size_t frame) {
     if (options.output.video.timecode.empty())
         return std::optional<io::Timecode>();
-    const int64_t rate = std::max<int64_t>(1, std::llround(options.shot.fps));
+    const int64_t rate = std::max<int64_t>(1, std::llround(options.shot.fps.perSecond()));
     if (options.output.film.empty() && rate > io::kMaxTimecodeRate)
         return core::makeError(
             "--timecode: an EXR's counts {} frames a second at most, and --fps is {}",
             io::kMaxTimecodeRate,
-            options.shot.fps
+            core::describe(options.shot.fps)
         );
     const auto first = countFrames(options, rate);
     if (!first)
@@ -59,6 +63,15 @@ core::Result<std::optional<io::Timecode>> findTimecode(const RenderOptions& opti
         uint32_t(second / 60 % 60),
         uint32_t(second % 60),
         uint32_t(count % rate)});
+}
+
+core::Result<std::optional<io::FrameStamp>> findStamp(const RenderOptions& options, size_t frame) {
+    const auto timecode = findTimecode(options, frame);
+    if (!timecode)
+        return timecode.error();
+    if (!options.shot.isSequence)
+        return std::optional<io::FrameStamp>();
+    return std::optional(io::FrameStamp{options.shot.fps, timecode.value()});
 }
 
 std::string describe(const io::Timecode& timecode) {

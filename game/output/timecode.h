@@ -18,6 +18,12 @@ namespace shutter::game {
 [[nodiscard]] core::Result<std::optional<io::Timecode>>
 findTimecode(const RenderOptions& options, size_t frame);
 
+/// What the EXR pictures of a frame of a sequence say of their place in time; a single picture has
+/// none. \param frame index among the sequence's frames
+/// Error: names --timecode.
+[[nodiscard]] core::Result<std::optional<io::FrameStamp>>
+findStamp(const RenderOptions& options, size_t frame);
+
 /// "01:00:00:00"
 [[nodiscard]] std::string describe(const io::Timecode& timecode);
 

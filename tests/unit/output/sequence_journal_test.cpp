@@ -202,8 +202,7 @@ TEST(JournalFile, LiesHiddenBesideThePictures) {
     EXPECT_EQ(journalFile("f_%04d.png"), ".f_%04d.png.journal");
     EXPECT_EQ(journalFile("out/f_%04d.png"), "out/.f_%04d.png.journal");
     EXPECT_EQ(journalFile("/a/b/f_%d.exr"), "/a/b/.f_%d.exr.journal");
-    EXPECT_EQ(journalFile("out/%04d/f.png"), "out/.%04d_f.png.journal");
-    EXPECT_EQ(journalFile("%04d/f.png"), ".%04d_f.png.journal");
+    EXPECT_EQ(journalFile("out %d/f_%04d.png"), "out %d/.f_%04d.png.journal");
     const std::string longest(251, 'x');
     EXPECT_LE(journalFile(longest).string().size(), 255u);
 }

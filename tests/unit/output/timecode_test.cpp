@@ -8,7 +8,7 @@
 namespace shutter::game {
 namespace {
 
-RenderOptions makeOptions(const std::string& timecode, double fps) {
+RenderOptions makeOptions(const std::string& timecode, core::FrameRate fps) {
     RenderOptions options;
     options.output.video.timecode = timecode;
     options.shot.fps = fps;
@@ -32,6 +32,7 @@ TEST(TimecodeTest, CountsFramesSecondsMinutesHoursAndDays) {
     EXPECT_EQ(find(options, 4), "01:02:04:00");
     EXPECT_EQ(find(options, 24 * 57), "01:03:00:20");
     EXPECT_EQ(find(makeOptions("23:59:59:29", 29.97), 1), "00:00:00:00");
+    EXPECT_EQ(find(makeOptions("00:59:59:20", {24000.0, 1001.0}), 24), "01:00:00:20");
     EXPECT_EQ(find(makeOptions("", 24.0), 5), "-");
 }
 
@@ -57,9 +58,34 @@ TEST(TimecodeTest, WhatNoClockShowsIsRefused) {
         find(makeOptions("00:00:00:00", 60.0), 0),
         "--timecode: an EXR's counts 30 frames a second at most, and --fps is 60"
     );
+    EXPECT_EQ(
+        find(makeOptions("00:00:00:00", {60000.0, 1001.0}), 0),
+        "--timecode: an EXR's counts 30 frames a second at most, and --fps is 60000/1001"
+    );
+    EXPECT_EQ(
+        find(makeOptions("00:00:00:01", 1.0), 0),
+        "--timecode 00:00:00:01: a second has 1 frame, numbered from 0"
+    );
     RenderOptions film = makeOptions("00:00:00:59", 60.0);
     film.output.film = "film.mp4";
     EXPECT_EQ(find(film, 1), "00:00:01:00");
+}
+
+TEST(FrameStampTest, IsOfFramesOfASequenceAlone) {
+    RenderOptions options = makeOptions("01:02:03:20", {24000.0, 1001.0});
+    options.shot.isSequence = true;
+    const auto stamp = findStamp(options, 4);
+    ASSERT_TRUE(stamp.ok() && stamp.value());
+    EXPECT_EQ(stamp.value()->rate, core::FrameRate(24000.0, 1001.0));
+    EXPECT_EQ(describe(stamp.value()->timecode.value()), "01:02:04:00");
+    options.output.video.timecode.clear();
+    const auto untimed = findStamp(options, 0);
+    ASSERT_TRUE(untimed.ok() && untimed.value());
+    EXPECT_FALSE(untimed.value()->timecode);
+    options.shot.isSequence = false;
+    const auto single = findStamp(options, 0);
+    ASSERT_TRUE(single.ok());
+    EXPECT_FALSE(single.value());
 }
 
 } // namespace shutter::game
