@@ -6,6 +6,9 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 namespace shutter::core {
 
@@ -14,6 +17,20 @@ namespace shutter::core {
 
 /// A number that no other running process has.
 [[nodiscard]] uint64_t getProcessId();
+
+/// Why this process may not write to a file or a device, or add files to a folder; 0: it may.
+[[nodiscard]] std::error_code testWriting(const std::filesystem::path& path);
+
+/// Gives a file the owner and the group of another, or one of the two, as far as we may.
+void copyOwner(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// The file descriptor of this process that the path names, as /dev/fd/1 does. A link to such a
+/// path is none.
+[[nodiscard]] std::optional<int> findOwnDescriptor(const std::filesystem::path& path);
+
+/// A stream of its own that writes where the descriptor stands; null, and errno set, where it is
+/// closed.
+[[nodiscard]] std::FILE* openDescriptor(int descriptor);
 
 /// Loads a shared library by the name that the system looks it up by. It is never unloaded. The
 /// error is the system's own sentence.

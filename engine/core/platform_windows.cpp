@@ -15,6 +15,25 @@ uint64_t getProcessId() {
     return GetCurrentProcessId();
 }
 
+std::error_code testWriting(const std::filesystem::path& path) {
+    constexpr int kWrite = 2;
+    const bool mayWrite = _waccess(path.c_str(), kWrite) == 0;
+    return mayWrite ? std::error_code() : std::make_error_code(std::errc::permission_denied);
+}
+
+void copyOwner(const std::filesystem::path& /*from*/, const std::filesystem::path& /*to*/) {
+    // A file inherits access from its folder.
+}
+
+std::optional<int> findOwnDescriptor(const std::filesystem::path& /*path*/) {
+    return std::nullopt; // descriptors have no paths
+}
+
+std::FILE* openDescriptor(int descriptor) {
+    const int own = _dup(descriptor);
+    return own < 0 ? nullptr : _fdopen(own, "wb");
+}
+
 Result<void*> openLibrary(const char* name) {
     const HMODULE library = LoadLibraryA(name);
     if (!library) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/core/check.h"
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ struct NumberRange {
     double step = 0.0;          ///< distance between values, from `lowest` on; 0: any value
     bool isLowestValid = true;  ///< false: values must be above `lowest`
     bool isUnlimited = false;   ///< infinity is valid too and is written "unlimited"
+    bool isRate = false;        ///< frames a second: text may be a fraction, "24000/1001"
     bool isLogarithmic = false; ///< sliders move by factors
     /// Limits of a slider that shows a part of the range only; NaN: the range's own.
     double sliderLowest = std::numeric_limits<double>::quiet_NaN();
@@ -149,8 +151,11 @@ parseValue(const SettingRow<Owner>& row, const std::string& text, Owner& owner) 
         return makeError("'{}' is not {}", text, describeValues(row));
     }
     const bool isInfinite = row.range.isUnlimited && text == kUnlimited;
-    const std::optional<double> number =
+    std::optional<double> number =
         isInfinite ? std::numeric_limits<double>::infinity() : parseNumber(text);
+    if (!number && row.range.isRate)
+        if (const auto rate = parseFrameRate(text))
+            number = rate.value().perSecond();
     if (!number)
         return makeError("'{}' is not a number", text);
     if (!setNumber(row, owner, *number))

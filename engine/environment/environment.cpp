@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/environment/environment.h"
 
+#include "engine/core/words.h"
 #include "engine/environment/directions.h"
 #include "engine/environment/irradiance.h"
 #include "engine/environment/prefilter.h"
@@ -25,8 +26,8 @@ core::Status validate(const image::Image& picture, const EnvironmentSettings& se
         return makeError("a rotation of {} must lie in [-360, 360]", settings.rotationDegrees);
     if (picture.width < kLeastPictureWidth || picture.width > kMostPictureWidth)
         return makeError(
-            "it is {} pixels wide; an environment is {} to {}",
-            picture.width,
+            "it is {} wide; an environment is {} to {}",
+            core::countOf(picture.width, "pixel"),
             kLeastPictureWidth,
             kMostPictureWidth
         );

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/demand.h"
 
+#include "engine/core/words.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/math/bounds.h"
 
@@ -92,10 +93,6 @@ template <class Visit> bool visitRows(const std::vector<DrawItem>& draws, Visit&
     return false;
 }
 
-std::string countOf(size_t count, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
 } // namespace
 
 core::Decision decideReveal(const ExtractedFrame& frame, const SceneLayout& layout) {
@@ -134,17 +131,16 @@ SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {
     if (!frame.deformed.empty())
         demand.deformation = {
             true,
-            countOf(frame.deformed.size(), "drawn entity", "drawn entities") +
+            core::countOf(frame.deformed.size(), "drawn entity", "drawn entities") +
                 " with a skin or morph targets"};
     demand.alphaMask = {false, "no surface in the picture has an alpha mask"};
     if (masked > 0)
         demand.alphaMask = {
-            true, countOf(masked, "draw", "draws") + " in the picture with an alpha mask"};
+            true, core::countOf(masked, "draw") + " in the picture with an alpha mask"};
     demand.blending = {false, "no surface in the picture is blended"};
     if (!frame.blended.empty())
         demand.blending = {
-            true,
-            countOf(frame.blended.size(), "blended draw", "blended draws") + " in the picture"};
+            true, core::countOf(frame.blended.size(), "blended draw") + " in the picture"};
     return demand;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/extract/shadow_plan.h"
 
 #include "engine/core/check.h"
+#include "engine/core/words.h"
 #include "engine/extract/frame_view.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/extract/shadow_casters.h"
@@ -108,11 +109,9 @@ class Planner {
         return {
             true,
             fmt::format(
-                "{} light{} and {} caster{}",
-                mLights.size(),
-                mLights.size() == 1 ? "" : "s",
-                casters,
-                casters == 1 ? "" : "s"
+                "{} and {}",
+                core::countOf(mLights.size(), "light"),
+                core::countOf(casters, "caster")
             )};
     }
 
@@ -347,11 +346,12 @@ class Planner {
             mPlan.blur = {
                 true,
                 fmt::format(
-                    "{} caster{} in motion, {} instants{}",
-                    mMoving,
-                    mMoving == 1 ? "" : "s",
-                    mPlan.instantCount,
-                    mSharpMovers == 0 ? "" : fmt::format("; {} more stay sharp", mSharpMovers)
+                    "{} in motion, {}{}",
+                    core::countOf(mMoving, "caster"),
+                    core::countOf(mPlan.instantCount, "instant"),
+                    mSharpMovers == 0
+                        ? std::string()
+                        : "; " + core::countOf(mSharpMovers, "more stays sharp", "more stay sharp")
                 )};
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/timed_tables.h"
 
+#include "engine/core/words.h"
 #include "engine/extract/frame_view.h"
 #include "engine/math/transform.h"
 #include "engine/scene/exposure_motion.h"
@@ -304,12 +305,15 @@ class Builder {
         }
         if (bytes > kMaxDeformedBytes)
             return core::makeError(
-                "{} skinned or morphed entities with up to {} shapes each need {} MiB for rays "
-                "that "
-                "each have their own time, more than the {} MiB there may be: shorten the exposure",
-                mTables.shapes.size(),
-                mostKeys,
+                "rays that each have their own time need {} MiB for {} with up to {} each, more "
+                "than the {} MiB there may be: shorten the exposure",
                 bytes >> 20,
+                core::countOf(
+                    mTables.shapes.size(),
+                    "skinned or morphed entity",
+                    "skinned or morphed entities"
+                ),
+                core::countOf(mostKeys, "shape"),
                 kMaxDeformedBytes >> 20
             );
         return {};

@@ -59,6 +59,10 @@ math::dquat readRotation(const json::JsonNode& node) {
     return rotation;
 }
 
+ordered_json describeRate(const core::FrameRate& rate) {
+    return rate.denominator == 1.0 ? ordered_json(rate.numerator) : ordered_json(describe(rate));
+}
+
 FlythroughShutter readShutter(const json::JsonNode& node) {
     FlythroughShutter shutter;
     const json::JsonObject object = node.readObject({"exposure", "shutterAngle", "phase"});
@@ -130,7 +134,7 @@ Flythrough readRoot(const json::JsonNode& root) {
     if (const auto name = object.find("name"))
         flythrough.name = name->readString(256);
     if (const auto fps = object.find("fps"))
-        flythrough.fps = fps->readNumber(kRates);
+        flythrough.fps = json::readRate(*fps, kRates);
     if (const auto interpolation = object.find("interpolation"))
         flythrough.interpolation = interpolation->readChoice(kInterpolations);
     if (const auto ease = object.find("ease"))
@@ -194,7 +198,7 @@ ordered_json describe(const Flythrough& flythrough) {
     described["version"] = 1;
     if (!flythrough.name.empty())
         described["name"] = flythrough.name;
-    described["fps"] = flythrough.fps;
+    described["fps"] = describeRate(flythrough.fps);
     described["interpolation"] = findName(kInterpolations, flythrough.interpolation);
     described["ease"] = findName(kEases, flythrough.ease);
     described["up"] = describeVector(flythrough.up);
@@ -239,7 +243,7 @@ core::Result<Flythrough> parseFlythrough(std::string_view text, std::string name
 }
 
 core::Status validateFlythrough(const Flythrough& flythrough) {
-    if (!std::isfinite(flythrough.fps) || !isFinite(flythrough.up))
+    if (!std::isfinite(flythrough.fps.perSecond()) || !isFinite(flythrough.up))
         return core::makeError("flythrough: fps and up must be finite");
     for (size_t i = 0; i < flythrough.keys.size(); ++i)
         if (!isFinite(flythrough.keys[i]))

@@ -3,6 +3,7 @@
 // through a scene, exactly, at any time.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 #include "engine/math/math.h"
 #include "engine/scene/camera.h"
@@ -38,8 +39,8 @@ struct FlythroughKey {
 };
 
 struct Flythrough {
-    std::string name;  ///< may be empty
-    double fps = 24.0; ///< frames per second, (0, 1000]
+    std::string name;    ///< may be empty
+    core::FrameRate fps; ///< frames per second, (0, 1000]
     scene::PathInterpolation interpolation = scene::PathInterpolation::CatmullRom;
     scene::PathEase ease = scene::PathEase::None;
     math::dvec3 up{0.0, 1.0, 0.0};   ///< up direction where keys look at a point

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_values.h"
 
 #include <algorithm>
@@ -60,14 +61,13 @@ Elements locate(
                       (count - 1) <= (view.byteLength - offset - size) / stride;
     if (!fits) {
         failGltf(
-            "{} reads past bufferViews[{}]: {} elements of {} bytes at offset {}, but it has {} "
-            "bytes",
+            "{} reads past bufferViews[{}]: {} of {} at offset {}, but it has {}",
             path,
             viewIndex,
-            count,
-            size,
+            core::countOf(count, "element"),
+            core::countOf(size, "byte"),
             offset,
-            view.byteLength
+            core::countOf(view.byteLength, "byte")
         );
     }
     const std::span<const uint8_t> buffer = context.resources.buffer(size_t(view.buffer));
@@ -102,7 +102,10 @@ SparseElements locateSparse(const GltfContext& context, size_t index) {
     }
     if (sparse.count < 1 || size_t(sparse.count) > accessor.count) {
         failGltf(
-            "{}.count is {}, but the accessor has {} elements", path, sparse.count, accessor.count
+            "{}.count is {}, but the accessor has {}",
+            path,
+            sparse.count,
+            core::countOf(accessor.count, "element")
         );
     }
     const auto count = uint64_t(sparse.count);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 
@@ -139,11 +140,11 @@ class ClipReader {
         const tinygltf::AnimationChannel& source = mSource.channels[index];
         if (size_t(source.sampler) >= mSource.samplers.size()) {
             failGltf(
-                "{}.channels[{}].sampler is {}, but there are {} samplers",
+                "{}.channels[{}].sampler is {}, but {}",
                 mPath,
                 index,
                 source.sampler,
-                mSource.samplers.size()
+                core::thereAre(mSource.samplers.size(), "sampler")
             );
         }
         const std::optional<scene::AnimationPath> path = readPath(source.target_path);
@@ -213,10 +214,10 @@ class ClipReader {
         const size_t expected = channel.times.size() * valueCount * (isCubic ? 3 : 1);
         if (channel.values.size() != expected) {
             failGltf(
-                "{} has {} values for {} keys, {} are needed",
+                "{} has {} for {}, not {}",
                 path,
-                channel.values.size(),
-                channel.times.size(),
+                core::countOf(channel.values.size(), "value"),
+                core::countOf(channel.times.size(), "key"),
                 expected
             );
         }

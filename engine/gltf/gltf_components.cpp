@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 
@@ -93,7 +94,7 @@ scene::Light readLight(const GltfContext& context, size_t index) {
     scene::Light light;
     light.kind = readLightKind(source.type, path);
     if (!source.color.empty() && source.color.size() != 3) {
-        failGltf("{}.color has {} numbers, not 3", path, source.color.size());
+        failGltf("{}.color has {}, not 3", path, core::countOf(source.color.size(), "number"));
     }
     constexpr double kMaxIntensity = 1e30;
     for (size_t i = 0; i < source.color.size(); ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_document.h"
 
+#include "engine/core/words.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -50,7 +52,11 @@ GltfChunks splitGlb(std::span<const uint8_t> bytes) {
         failGltf("the GLB container has version {}, only 2 is supported", version);
     const uint32_t length = readU32(bytes, 8);
     if (length > bytes.size()) {
-        failGltf("the GLB header says {} bytes but the file has {}", length, bytes.size());
+        failGltf(
+            "the GLB header says {} but the file has {}",
+            core::countOf(length, "byte"),
+            bytes.size()
+        );
     }
     if (length < kHeaderBytes + kChunkHeaderBytes)
         failGltf("the GLB holds no JSON chunk");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/environment/cube.h"
 #include "engine/environment/environment.h"
 #include "engine/gltf/gltf_parts.h"
@@ -33,7 +34,7 @@ std::optional<uint32_t> findSceneLight(const tinygltf::Model& model) {
 const tinygltf::Value&
 itemOf(const tinygltf::Value& array, size_t index, size_t count, const std::string& path) {
     if (!array.IsArray() || array.ArrayLen() < count)
-        failGltf("{} is not an array of {} and more", path, count);
+        failGltf("{} is not an array of at least {}", path, core::countOf(count, "element"));
     return array.Get(int(index));
 }
 
@@ -49,7 +50,11 @@ image::Image readSide(GltfContext& context, const tinygltf::Value& value, const 
     const double number = value.IsNumber() ? value.GetNumberAsDouble() : -1.0;
     if (!(number >= 0.0 && number < double(context.resources.imageCount()) &&
           number == std::floor(number)))
-        failGltf("{} is no index of one of {} images", path, context.resources.imageCount());
+        failGltf(
+            "{} is no index of an image: {}",
+            path,
+            core::thereAre(context.resources.imageCount(), "image")
+        );
     const scene::TextureImage stored = decodeImage(context, size_t(number));
     context.spendImageBytes(stored.rgba.size());
     if (stored.width != stored.height)

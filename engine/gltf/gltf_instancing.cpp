@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 #include "engine/math/transform.h"
@@ -60,12 +61,22 @@ class InstanceReader {
             const size_t accessorCount = mContext.model.accessors.size();
             if (*accessor >= accessorCount) {
                 failGltf(
-                    "{}.{} is {}, but there are {} accessors", mPath, name, *accessor, accessorCount
+                    "{}.{} is {}, but {}",
+                    mPath,
+                    name,
+                    *accessor,
+                    core::thereAre(accessorCount, "accessor")
                 );
             }
             const size_t found = mContext.model.accessors[*accessor].count;
             if (count && *count != found) {
-                failGltf("{}.{} has {} instances, others have {}", mPath, name, found, *count);
+                failGltf(
+                    "{}.{} has {}, others have {}",
+                    mPath,
+                    name,
+                    core::countOf(found, "instance"),
+                    *count
+                );
             }
             count = found;
         }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_geometry.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
@@ -80,7 +81,12 @@ class PrimitiveReader {
         const size_t count = mContext.model.accessors[index].count;
         const size_t expected = positionCount();
         if (count != expected) {
-            failGltf("{} has {} elements, POSITION has {}", attributePath(name), count, expected);
+            failGltf(
+                "{} has {}, POSITION has {}",
+                attributePath(name),
+                core::countOf(count, "element"),
+                expected
+            );
         }
         return index;
     }
@@ -173,7 +179,12 @@ class PrimitiveReader {
             );
             const auto largest = std::max_element(indices.begin(), indices.end());
             if (*largest >= vertexCount) {
-                failGltf("{} holds {}, but there are {} vertices", path, *largest, vertexCount);
+                failGltf(
+                    "{} holds {}, but {}",
+                    path,
+                    *largest,
+                    core::thereAre(vertexCount, "vertex", "vertices")
+                );
             }
         } else {
             mContext.spendVertexBytes(vertexCount * sizeof(uint32_t));
@@ -198,7 +209,9 @@ class PrimitiveReader {
             return;
         const size_t removed = removeNonFiniteTriangles(mPrimitive);
         mContext.warnings.add(fmt::format(
-            "{} has positions that are not finite: {} triangles are not drawn", mPath, removed
+            "{} has positions that are not finite: {} not drawn",
+            mPath,
+            core::countOf(removed, "triangle is", "triangles are")
         ));
     }
 
@@ -213,7 +226,9 @@ class PrimitiveReader {
             makeFlatNormals(mPrimitive);
         } else if (const size_t repaired = repairNormals(mPrimitive); repaired != 0) {
             mContext.warnings.add(fmt::format(
-                "{} NORMAL holds {} vectors without direction: replaced", mPath, repaired
+                "{} NORMAL holds {} without direction: replaced",
+                mPath,
+                core::countOf(repaired, "vector")
             ));
         }
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 
@@ -54,7 +55,13 @@ class TargetReader {
     void checkCount(const std::string& name, size_t accessor) const {
         const size_t count = mContext.model.accessors[accessor].count;
         if (count != mVertexCount) {
-            failGltf("{}.{} has {} elements, POSITION has {}", mPath, name, count, mVertexCount);
+            failGltf(
+                "{}.{} has {}, POSITION has {}",
+                mPath,
+                name,
+                core::countOf(count, "element"),
+                mVertexCount
+            );
         }
     }
 
@@ -87,10 +94,10 @@ size_t countMorphTargets(const tinygltf::Mesh& mesh, const std::string& path) {
         const size_t count = mesh.primitives[p].targets.size();
         if (count != expected) {
             failGltf(
-                "{}.primitives[{}].targets has {} morph targets, primitives[0] has {}",
+                "{}.primitives[{}].targets has {}, primitives[0] has {}",
                 path,
                 p,
-                count,
+                core::countOf(count, "morph target"),
                 expected
             );
         }
@@ -119,10 +126,10 @@ std::vector<float> readMorphWeights(
         return fallback;
     if (given.size() != fallback.size()) {
         failGltf(
-            "{} has {} numbers, but the mesh has {} morph targets",
+            "{} has {}, but the mesh has {}",
             path,
-            given.size(),
-            fallback.size()
+            core::countOf(given.size(), "number"),
+            core::countOf(fallback.size(), "morph target")
         );
     }
     std::vector<float> weights;

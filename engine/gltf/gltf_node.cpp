@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 
@@ -243,7 +244,7 @@ class NodeLoader {
             failGltf("{}.light is missing", at);
         const size_t count = mContext.model.lights.size();
         if (*light >= count)
-            failGltf("{}.light is {}, but there are {} lights", at, *light, count);
+            failGltf("{}.light is {}, but {}", at, *light, core::thereAre(count, "light"));
         mRegistry.add<scene::Light>(mEntity, readLight(mContext, *light));
     }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_document.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
@@ -68,7 +69,10 @@ void GltfResources::addBuffer(
     }
     if (bytes.size() < byteLength) {
         failGltf(
-            "buffers[{}].byteLength is {}, but there are {} bytes", index, byteLength, bytes.size()
+            "buffers[{}].byteLength is {}, but {}",
+            index,
+            byteLength,
+            core::thereAre(bytes.size(), "byte")
         );
     }
     mBuffers.push_back(bytes.first(byteLength));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_document.h"
 
 #include <algorithm>
@@ -353,7 +354,9 @@ class Checker {
         const auto array = mRoot.find(target);
         const size_t count = array != mRoot.end() && array->is_array() ? array->size() : 0;
         if (value.get<uint64_t>() >= count) {
-            failGltf("{} is {}, but there are {} {}", path, value.dump(), count, target);
+            const size_t ending = target == "meshes" ? 2 : 1; // of the plural
+            const std::string_view one = target.substr(0, target.size() - ending);
+            failGltf("{} is {}, but {}", path, value.dump(), core::thereAre(count, one, target));
         }
     }
 
@@ -367,7 +370,7 @@ class Checker {
     static void checkNumbers(json& value, size_t length, const std::string& path) {
         expect(value.is_array(), path, "an array");
         if (length != 0 && value.size() != length) {
-            failGltf("{} has {} numbers, not {}", path, value.size(), length);
+            failGltf("{} has {}, not {}", path, core::countOf(value.size(), "number"), length);
         }
         for (const json& element : value) {
             if (!element.is_number())

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
 
@@ -49,7 +50,13 @@ class InfluenceReader {
         const size_t count = mContext.model.accessors[accessor].count;
         const size_t expected = mPrimitive.positions.size();
         if (count != expected)
-            failGltf("{} {} has {} elements, POSITION has {}", mPath, name, count, expected);
+            failGltf(
+                "{} {} has {}, POSITION has {}",
+                mPath,
+                name,
+                core::countOf(count, "element"),
+                expected
+            );
         return accessor;
     }
 
@@ -131,9 +138,10 @@ class InfluenceReader {
         }
         if (unbound > 0) {
             mContext.warnings.add(fmt::format(
-                "{} has {} vertices without weight: they follow the first joint they name",
+                "{} has {} without weight: the first joint that is named moves {}",
                 mPath,
-                unbound
+                core::countOf(unbound, "vertex", "vertices"),
+                unbound == 1 ? "it" : "them"
             ));
         }
     }
@@ -183,7 +191,12 @@ scene::Skin readSkin(GltfContext& context, size_t index) {
         context, size_t(source.inverseBindMatrices), {at, {TINYGLTF_TYPE_MAT4}, {kFloat32}}
     );
     if (values.size() / 16 < jointCount)
-        failGltf("{} has {} elements for {} joints", at, values.size() / 16, jointCount);
+        failGltf(
+            "{} has {} for {}",
+            at,
+            core::countOf(values.size() / 16, "element"),
+            core::countOf(jointCount, "joint")
+        );
     const bool mayBeZero = lacksView(context.model, size_t(source.inverseBindMatrices));
     if (mayBeZero)
         context.warnings.add(at + " has no bufferView: its zeros put vertices on their joints");
@@ -254,12 +267,12 @@ void bindMeshes(GltfContext& context, scene::Assets& assets) {
         const size_t jointCount = assets.skins[size_t(node.skin)].jointFromBind.size();
         if (entry->second >= jointCount) {
             failGltf(
-                "nodes[{}]: meshes[{}] names joint {}, but skins[{}] has {} joints",
+                "nodes[{}]: meshes[{}] names joint {}, but skins[{}] has {}",
                 n,
                 node.mesh,
                 entry->second,
                 node.skin,
-                jointCount
+                core::countOf(jointCount, "joint")
             );
         }
     }

@@ -3,13 +3,12 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
-#include "engine/core/platform.h"
+#include "engine/core/whole_file.h"
 #include "engine/gpu/device_features.h"
 #include "engine/gpu/pipeline_cache.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <span>
 #include <system_error>
 #include <type_traits>
@@ -283,17 +282,7 @@ void Device::savePipelineCache() const {
     // A cache that cannot be written costs time, nothing else: no error.
     std::error_code ignored;
     std::filesystem::create_directories(mCacheFile.parent_path(), ignored);
-    const std::filesystem::path temporary =
-        mCacheFile.string() + fmt::format(".{}", core::getProcessId());
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(
-        reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size())
-    );
-    file.close();
-    if (file)
-        std::filesystem::rename(temporary, mCacheFile, ignored);
-    else
-        std::filesystem::remove(temporary, ignored);
+    (void)core::writeWholeFile(mCacheFile, std::as_bytes(std::span(packed)));
 }
 
 uint64_t

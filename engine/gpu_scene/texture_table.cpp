@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gpu_scene/texture_table.h"
 
+#include "engine/core/words.h"
 #include "engine/gpu/memory_blocks.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/upload.h"
@@ -66,8 +67,8 @@ TextureTable::TextureTable(
     const TextureLimit limit = findTextureLimit(device.limits());
     if (places > limit.count)
         throw gpu::DeviceError(fmt::format(
-            "the scene has {} textures, twice each in the table; {} takes a table of {} ({})",
-            count / 2,
+            "the scene has {}, twice each in the table; {} takes a table of {} ({})",
+            core::countOf(count / 2, "texture"),
             device.info().name,
             limit.count,
             limit.name

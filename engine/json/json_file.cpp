@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/json/json_file.h"
 
+#include "engine/core/words.h"
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_tree.h"
 
@@ -174,11 +175,11 @@ std::vector<JsonNode> JsonNode::readArray(size_t minCount, size_t maxCount) cons
     const size_t count = value.children.size();
     if (count < minCount || count > maxCount) {
         if (minCount == maxCount)
-            fail("must have {} elements, not {}", minCount, count);
+            fail("must have {}, not {}", core::countOf(minCount, "element"), count);
         else if (count < minCount)
-            fail("must have at least {} elements, not {}", minCount, count);
+            fail("must have at least {}, not {}", core::countOf(minCount, "element"), count);
         else
-            fail("must have at most {} elements, not {}", maxCount, count);
+            fail("must have at most {}, not {}", core::countOf(maxCount, "element"), count);
         return elements;
     }
     elements.reserve(count);

@@ -2,18 +2,34 @@
 // Settings that are described by rows, read from JSON.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/setting_row.h"
 #include "engine/json/json_file.h"
 
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace shutter::json {
+
+/// Frames a second: a number of the range, or a string that is a fraction in it.
+inline core::FrameRate readRate(const JsonNode& node, const JsonRange& range) {
+    if (!node.isString())
+        return node.readNumber(range);
+    const std::string text = node.readString();
+    const auto rate = core::parseFrameRate(text);
+    if (rate && rate.value().perSecond() <= range.max && text.find('/') != std::string::npos)
+        return rate.value();
+    node.fail(
+        "'{}' must be a number or a fraction such as 24000/1001, at most {}", text, range.max
+    );
+    return {};
+}
 
 template <class Owner>
 void readNumber(JsonNode node, const core::SettingRow<Owner>& row, Owner& owner) {
@@ -23,9 +39,11 @@ void readNumber(JsonNode node, const core::SettingRow<Owner>& row, Owner& owner)
         setNumber(row, owner, std::numeric_limits<double>::infinity());
         return;
     }
+    const JsonRange values{range.lowest, range.highest, !range.isLowestValid};
     const double number =
         range.step != 0.0 ? double(node.readInteger(int64_t(range.lowest), int64_t(range.highest)))
-                          : node.readNumber({range.lowest, range.highest, !range.isLowestValid});
+        : range.isRate    ? readRate(node, values).perSecond()
+                          : node.readNumber(values);
     if (!setNumber(row, owner, number))
         node.fail("must be {}, not {}", describeRange(range, row.unit), number);
 }

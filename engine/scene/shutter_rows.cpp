@@ -39,6 +39,7 @@ core::SettingRows<CameraShutter> listShutterRows() {
          {.lowest = 0,
           .highest = 1000,
           .isLowestValid = false,
+          .isRate = true,
           .isLogarithmic = true,
           .sliderLowest = 1},
          "Mode capped: slower frames are exposed as if they were this fast.",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/log.h"
+#include "engine/core/words.h"
 #include "engine/gpu/device.h"
 #include "engine/io/video.h"
 #include "game/bench/bench_arguments.h"
@@ -102,9 +103,8 @@ Status measureTask(const BenchArguments& arguments, BenchTask task) {
     options.measure.truthCache = makeTruthCache();
     Status done = runSuite(*device.value(), options, [] { return sStopped.load(); });
     if (done && device.value()->validationMessageCount() > 0)
-        return core::makeError(
-            "{} Vulkan validation messages", device.value()->validationMessageCount()
-        );
+        return core::Error{
+            core::countOf(device.value()->validationMessageCount(), "Vulkan validation message")};
     return done;
 }
 

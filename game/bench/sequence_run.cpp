@@ -85,7 +85,7 @@ class SequenceRun {
 
     [[nodiscard]] const std::map<std::string, std::string>& films() const { return mFilms; }
 
-    [[nodiscard]] double framesPerSecond() const { return mFramesPerSecond; }
+    [[nodiscard]] core::FrameRate framesPerSecond() const { return mFramesPerSecond; }
 
   private:
     core::Result<std::unique_ptr<SequenceSource>> openSource() const {
@@ -296,7 +296,7 @@ class SequenceRun {
     Journal mJournal;
     fs::path mFrames; ///< pictures of the films until those are made
     std::map<std::string, std::string> mFilms;
-    double mFramesPerSecond = 24.0;
+    core::FrameRate mFramesPerSecond;
 };
 
 } // namespace
@@ -324,7 +324,7 @@ core::Result<SequenceResult> measureSequence(
         device, film, files.value(), result.plan, options, hash.value(), progress, stop
     );
     SHUTTER_TRY(run.run());
-    result.framesPerSecond = run.framesPerSecond();
+    result.framesPerSecond = run.framesPerSecond().perSecond();
     result.records = run.records();
     result.films = run.films();
     return result;

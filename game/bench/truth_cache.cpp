@@ -2,6 +2,7 @@
 #include "game/bench/truth_cache.h"
 
 #include "engine/core/log.h"
+#include "engine/core/words.h"
 #include "engine/io/image_file.h"
 
 #include <system_error>
@@ -26,11 +27,11 @@ readPart(const std::filesystem::path& file, uint32_t width, uint32_t height) {
     if (truth.width == width && truth.height == height && truth.channels == kChannels)
         return std::move(read).value();
     core::logWarning(
-        "'{}' is {}x{} with {} channels, not {}x{} with {}; the truth is drawn anew",
+        "'{}' is {}x{} with {}, not {}x{} with {}; the truth is drawn anew",
         file.string(),
         truth.width,
         truth.height,
-        truth.channels,
+        core::countOf(truth.channels, "channel"),
         width,
         height,
         kChannels

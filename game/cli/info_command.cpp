@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gltf/gltf_loader.h"
 #include "engine/gpu/device_select.h"
 #include "engine/scene/camera.h"
@@ -103,16 +104,18 @@ core::Status printScene(const std::string& path, io::Reach reach) {
     }
     for (const auto& clip : world.assets.clips)
         fmt::print(
-            "clip {}: {:.4g} s, {} channels\n",
+            "clip {}: {:.4g} s, {}\n",
             clip.name,
             clip.duration,
-            clip.channels.size() + clip.weightChannels.size()
+            core::countOf(clip.channels.size() + clip.weightChannels.size(), "channel")
         );
     for (const auto& skin : world.assets.skins)
-        fmt::print("skin {}: {} joints\n", skin.name, skin.jointFromBind.size());
+        fmt::print("skin {}: {}\n", skin.name, core::countOf(skin.jointFromBind.size(), "joint"));
     for (const auto& mesh : world.assets.meshes)
         if (!mesh.morphWeights.empty())
-            fmt::print("mesh {}: {} morph targets\n", mesh.name, mesh.morphWeights.size());
+            fmt::print(
+                "mesh {}: {}\n", mesh.name, core::countOf(mesh.morphWeights.size(), "morph target")
+            );
     for (const std::string& warning : loaded.value().warnings)
         fmt::print("warning: {}\n", warning);
     return {};

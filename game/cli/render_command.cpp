@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "engine/gpu/device.h"
 #include "game/cli/commands.h"
 #include "game/options/program.h"
@@ -62,7 +63,7 @@ int runRender(const RenderArguments& arguments) {
     if (core::Status done = renderSequence(options.value(), encoder, *device.value()); !done)
         return fail(kExitFailed, done.error());
     if (const uint32_t messages = device.value()->validationMessageCount(); messages > 0)
-        return fail(kExitFailed, core::makeError("{} Vulkan validation messages", messages));
+        return fail(kExitFailed, core::Error{core::countOf(messages, "Vulkan validation message")});
     return kExitDone;
 }
 

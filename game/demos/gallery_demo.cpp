@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/demos/gallery_demo.h"
 
+#include "engine/core/words.h"
 #include "game/demos/gallery_balls.h"
 #include "game/demos/gallery_targets.h"
 #include "game/demos/stage.h"
@@ -155,7 +156,8 @@ bool GalleryDemo::isOver() const {
 }
 
 std::vector<HudLine> GalleryDemo::hud() const {
-    const HudLine hits{fmt::format("{} hits of {} throws", mHits, mThrows)};
+    const HudLine hits{
+        fmt::format("{} of {}", core::countOf(mHits, "hit"), core::countOf(mThrows, "throw"))};
     if (isOver())
         return {{"Closing time", true}, {fmt::format("{}", mScore), true, "Score"}, hits};
     return {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/demos/rally_demo.h"
 
+#include "engine/core/words.h"
 #include "game/demos/rally_posts.h"
 #include "game/demos/stage.h"
 
@@ -55,7 +56,9 @@ core::Result<std::unique_ptr<Demo>> RallyDemo::create(scene::World world, std::s
     for (const ecs::Entity gate : names.findAll("gate_"))
         gates.push_back(readGate(restOf(world, gate)));
     if (gates.size() < 3)
-        return core::makeError("{}: it has {} gates, a track needs three", file, gates.size());
+        return core::makeError(
+            "{}: it has {}, a track needs three", file, core::countOf(gates.size(), "gate")
+        );
     std::vector<Fence> fences;
     for (const ecs::Entity fence : names.findAll("fence_"))
         fences.push_back(readFence(restOf(world, fence)));
@@ -144,10 +147,10 @@ std::vector<HudLine> RallyDemo::hud() const {
             {mProgress.lap >= kLaps ? "Finish" : "Out of time", true},
             {fmt::format("{}", score()), true, "Score"},
             {fmt::format(
-                 "{:.1f} s, {} gates, {} posts knocked over",
+                 "{:.1f} s, {}, {} knocked over",
                  mEndSeconds,
-                 mProgress.gatesPassed,
-                 mPostsHit
+                 core::countOf(mProgress.gatesPassed, "gate"),
+                 core::countOf(mPostsHit, "post")
              ),
              false}};
     return {
@@ -155,7 +158,11 @@ std::vector<HudLine> RallyDemo::hud() const {
         {fmt::format("{}/{}", mProgress.lap + 1, kLaps), false, "Lap"},
         {fmt::format("{:.1f} s", seconds()), false, "Time"},
         {fmt::format("{:.0f} km/h", std::abs(car().speed()) * 3.6), false, "Speed"},
-        {fmt::format("{} gates, {} posts knocked over", mProgress.gatesPassed, mPostsHit)}};
+        {fmt::format(
+            "{}, {} knocked over",
+            core::countOf(mProgress.gatesPassed, "gate"),
+            core::countOf(mPostsHit, "post")
+        )}};
 }
 
 } // namespace shutter::game

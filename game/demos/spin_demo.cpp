@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/demos/spin_demo.h"
 
+#include "engine/core/words.h"
 #include "game/demos/stage.h"
 
 #include <fmt/format.h>
@@ -111,8 +112,11 @@ bool SpinDemo::isOver() const {
 }
 
 std::vector<HudLine> SpinDemo::hud() const {
-    const HudLine rings{
-        fmt::format("{} rings caught, {} grabs missed", mRules.caught, mRules.missed)};
+    const HudLine rings{fmt::format(
+        "{} caught, {} missed",
+        core::countOf(mRules.caught, "ring"),
+        core::countOf(mRules.missed, "grab")
+    )};
     if (isOver())
         return {{"The ride is over", true}, {fmt::format("{}", score()), true, "Score"}, rings};
     constexpr double kPerMinute = 30.0 / std::numbers::pi;

@@ -52,6 +52,14 @@ core::Status parseOption(const std::string& text, math::vec3& parsed) {
     return {};
 }
 
+core::Status parseOption(const std::string& text, core::FrameRate& parsed) {
+    const auto rate = core::parseFrameRate(text);
+    if (!rate)
+        return rate.error();
+    parsed = rate.value();
+    return {};
+}
+
 core::Status parseOption(const std::string& text, bool& isOn) {
     if (text != "on" && text != "off")
         return makeError("'{}' is not on or off", text);
@@ -65,6 +73,10 @@ std::string describeOption(const PictureSize& size) {
 
 std::string describeOption(const math::vec3& color) {
     return fmt::format("{},{},{}", color.x, color.y, color.z);
+}
+
+std::string describeOption(const core::FrameRate& rate) {
+    return core::describe(rate);
 }
 
 std::string describeOption(const std::vector<std::string>& words) {

@@ -2,6 +2,7 @@
 // Options of the command line as rows: how each is parsed, and what of it a picture depends on.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 #include "engine/core/setting_row.h"
 #include "engine/math/math.h"
@@ -74,6 +75,8 @@ addParsedOption(CLI::App& command, const char* name, const std::string& help, Pa
 [[nodiscard]] core::Status parseOption(const std::string& text, PictureSize& size);
 /// "R,G,B", each 0 or more.
 [[nodiscard]] core::Status parseOption(const std::string& text, math::vec3& color);
+/// "24", "29.97" or "24000/1001".
+[[nodiscard]] core::Status parseOption(const std::string& text, core::FrameRate& rate);
 /// "on" or "off".
 [[nodiscard]] core::Status parseOption(const std::string& text, bool& isOn);
 
@@ -93,6 +96,7 @@ template <ParsedOption T>
 
 [[nodiscard]] std::string describeOption(const PictureSize& size);
 [[nodiscard]] std::string describeOption(const math::vec3& color);
+[[nodiscard]] std::string describeOption(const core::FrameRate& rate);
 [[nodiscard]] std::string describeOption(const std::vector<std::string>& words);
 
 template <class T> [[nodiscard]] std::string describeOption(const T& value) {

@@ -56,6 +56,7 @@ int finishOutput(int status) {
 }
 
 int runProgram(CLI::App& app, int argc, char** argv, int& exitStatus) {
+    app.set_version_flag("--version", "shutter " SHUTTER_VERSION, "print the version");
     bool verbose = false;
     app.add_flag("-v,--verbose", verbose, "log what was chosen and found");
     app.parse_complete_callback([&] {
@@ -64,7 +65,7 @@ int runProgram(CLI::App& app, int argc, char** argv, int& exitStatus) {
     });
     try {
         app.parse(argc, argv);
-    } catch (const CLI::Success& success) { // --help
+    } catch (const CLI::Success& success) { // --help, --version
         return finishOutput(app.exit(success));
     } catch (const CLI::ParseError& error) {
         return fail(kExitUsage, {error.what()});

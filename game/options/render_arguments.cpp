@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <regex>
 #include <utility>
 
@@ -82,10 +81,7 @@ constexpr std::array kOutputRows = {
 };
 
 bool isFilm(const std::filesystem::path& out) {
-    std::string extension = out.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-        return char(std::tolower(c));
-    });
+    const std::string extension = io::lowerExtension(out);
     return extension == ".mp4" || extension == ".mov";
 }
 
@@ -120,7 +116,7 @@ core::Result<io::VideoFormat> interpretFormat(const OutputArguments& arguments) 
         return makeError("--bit-depth {} must be 8 or 10", format.bitDepth);
     if (isProRes && format.bitDepth == 8)
         return makeError("--bit-depth 8: --codec prores has 10 bits");
-    if (isProRes && !arguments.out.ends_with(".mov"))
+    if (isProRes && io::lowerExtension(arguments.out) != ".mov")
         return makeError("--codec prores needs --out FILE.mov");
     static const std::regex kTimecode("[0-9]{2}:[0-5][0-9]:[0-5][0-9]:[0-9]{2}");
     format.timecode = arguments.timecode;
@@ -153,7 +149,7 @@ Status interpretFilm(const RenderArguments& all, const ShotOptions& shot, Output
             return {};
         if (std::string_view(option) != kTimecodeOption)
             return makeError("{} needs --out FILE.mp4", option);
-        if (!shot.isSequence || !arguments.out.ends_with(".exr"))
+        if (!shot.isSequence || io::lowerExtension(arguments.out) != ".exr")
             return makeError("{} needs --out FILE.mp4, or a sequence of EXR", option);
         const auto format = interpretFormat(arguments);
         if (!format)
@@ -188,7 +184,9 @@ Status interpretOut(const RenderArguments& all, const ShotOptions& shot, OutputO
     // A flythrough whose frames are not planned yet has more than one.
     if (shot.isSequence && shot.frameTimes.size() != 1 &&
         frameFile(options.out, 0) == frameFile(options.out, 1))
-        return makeError("--out '{}' needs a frame number such as %04d", all.output.out);
+        return makeError(
+            "--out '{}' needs a frame number such as %04d in the file's own name", all.output.out
+        );
     return {};
 }
 

@@ -32,7 +32,11 @@ constexpr std::array kViewRows = {
         Matters::ToNoPicture // it counts as it is resolved, and only where a camera is made
     ),
     makeRow<&A::time>("--time", "time of the picture, seconds; default 0"),
-    makeRow<&A::fps>("--fps", "frames per second; default 24, or the flythrough's"),
+    makeRow<&A::fps>(
+        "--fps",
+        "frames per second, a number or a fraction such as 24000/1001; default 24, or the "
+        "flythrough's"
+    ),
     makeRow<&A::clips>("--clip", "clip to play (repeatable), or none; default: all"),
     makeRow<&A::loop>("--loop", "restart clips when they end; default: hold the last pose"),
 };
@@ -153,9 +157,7 @@ Status parseTimes(const ShotArguments& arguments, ShotOptions& options) {
         );
     options.framingSeconds = arguments.framingTime;
     options.fps = arguments.fps.value_or(options.fps);
-    if (!(options.fps > 0.0) || !std::isfinite(options.fps))
-        return makeError("--fps {} must be above 0", options.fps);
-    options.frameSeconds = 1.0 / options.fps;
+    options.frameSeconds = options.fps.secondsOf(1.0);
     if (arguments.frames.empty() && !arguments.flythrough.empty()) {
         options.isSequence = true; // planned when it is read
         return {};
@@ -320,7 +322,7 @@ Status loadFlythrough(const ShotArguments& arguments, ShotOptions& options) {
     const flythrough::Flythrough& flight = *options.flythrough;
     if (!arguments.fps) {
         options.fps = flight.fps;
-        options.frameSeconds = 1.0 / options.fps;
+        options.frameSeconds = options.fps.secondsOf(1.0);
     }
     if (!arguments.frames.empty()) {
         const int first = options.firstFrame;

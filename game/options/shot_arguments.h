@@ -2,6 +2,7 @@
 // Options of a shot as typed: what is drawn when, from where, how it is lit and shown.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
 #include "game/options/picture_size.h"
 #include "game/options/shutter_options.h"
@@ -28,7 +29,7 @@ struct ShotArguments {
     double time = 0.0;
     std::string frames;
     std::string flythrough;
-    std::optional<double> fps; ///< else the flythrough's, or 24
+    std::optional<core::FrameRate> fps; ///< else the flythrough's, or 24
     std::vector<std::string> clips;
     bool loop = false;
     ShutterArguments shutter;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/replay/dump_reader.h"
 
+#include "engine/core/words.h"
 #include "engine/io/file_bytes.h"
 #include "engine/json/json_file.h"
 #include "modules/motion_blur/methods.h"
@@ -301,7 +302,9 @@ readWhole(const std::filesystem::path& file, uint64_t bytes, std::string_view wh
     const auto size = std::filesystem::file_size(file, error);
     // Before memory is taken for it.
     if (!error && size != bytes)
-        return core::makeError("'{}' has {} bytes, {} has {}", file.string(), size, what, bytes);
+        return core::makeError(
+            "'{}' has {}, {} has {}", file.string(), core::countOf(size, "byte"), what, bytes
+        );
     return io::readFileBytes(file, bytes);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/replay/replay_command.h"
 
+#include "engine/core/words.h"
 #include "engine/gpu/device.h"
 #include "engine/io/image_file.h"
 #include "game/options/method_arguments.h"
@@ -82,7 +83,9 @@ int run(const Arguments& arguments) {
     if (const core::Status done = replay(options, *device.value()); !done)
         return game::fail(game::kExitFailed, done.error());
     if (const uint32_t messages = device.value()->validationMessageCount(); messages > 0)
-        return game::fail(game::kExitFailed, makeError("{} Vulkan validation messages", messages));
+        return game::fail(
+            game::kExitFailed, core::Error{core::countOf(messages, "Vulkan validation message")}
+        );
     return game::kExitDone;
 }
 
@@ -95,7 +98,9 @@ void addReplayCommand(CLI::App& app, int& exitStatus) {
     auto arguments = std::make_shared<Arguments>();
     command->add_option("folder", arguments->folder, "the dump")->required();
     command->add_option(
-        "--out", arguments->out, "picture to write, .exr, .png or .jpg; numbered if there are more"
+        "--out",
+        arguments->out,
+        "picture to write, .exr, .png or .jpg; numbered, at %04d if there is one, if there are more"
     );
     command->add_option(
         "--aov", arguments->aov, "intermediates to write beside --out, comma-separated, or all"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/replay/replay_run.h"
 
+#include "engine/core/words.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/image/image.h"
@@ -8,6 +9,7 @@
 #include "engine/io/image_file.h"
 #include "engine/render/readback.h"
 #include "game/output/extra_files.h"
+#include "game/output/render_options.h"
 #include "game/replay/dump_on_device.h"
 #include "game/replay/dump_reader.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
@@ -25,6 +27,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace shutter::replay {
@@ -185,9 +188,9 @@ class Player {
         std::memcpy(&mResponse, frame.responseBytes.data(), sizeof(mResponse));
         if (mResponse.knotCount < 2 || mResponse.knotCount > shader::kMaxResponseKnots)
             return makeError(
-                "'{}_response.bin' has {} knots, it must be 2 to {}",
+                "'{}_response.bin' has {}, it must be 2 to {}",
                 frame.name,
-                mResponse.knotCount,
+                core::countOf(mResponse.knotCount, "knot"),
                 shader::kMaxResponseKnots
             );
         for (uint32_t& first : mResponse.firstKnots)
@@ -370,18 +373,23 @@ class Player {
                 );
         if (mOptions.out.empty())
             return {};
-        std::filesystem::path file = mOptions.out;
-        if (mFrameCount > 1)
-            file.replace_filename(
-                file.stem().string() + frame.name.substr(std::strlen("frame")) +
-                file.extension().string()
-            );
+        const std::filesystem::path file = findFile(frame.name);
         SHUTTER_TRY(io::writeImage(file, picture, io::SampleType::Half));
         for (const auto& [name, ticket] : mTickets)
             SHUTTER_TRY(game::writeIntermediate(
                 game::intermediateFile(file, name), name, mReadback.take(ticket)
             ));
         return {};
+    }
+
+    /// The picture's file, by the number in the name of the dump's file, frame_NNNN.
+    [[nodiscard]] std::filesystem::path findFile(const std::string& name) const {
+        const std::string number = name.substr(std::strlen("frame_"));
+        std::filesystem::path file = game::frameFile(mOptions.out, std::stoi(number));
+        const bool isNumbered = file != game::frameFile(mOptions.out, -1);
+        if (mFrameCount > 1 && !isNumbered)
+            file.replace_filename(file.stem().string() + "_" + number + file.extension().string());
+        return file;
     }
 
     const ReplayOptions& mOptions;

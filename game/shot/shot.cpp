@@ -192,17 +192,17 @@ computeExposure(const ShotOptions& options, scene::CameraShutter shutter, double
 }
 
 core::Status planFrames(const char* option, double first, double last, ShotOptions& options) {
-    const double fps = options.fps;
+    const core::FrameRate& fps = options.fps;
     if (!(last - first < kMaxFrames))
         return makeError("{}: {} frames are too many", option, last - first + 1.0);
     // Written so that NaN fails.
-    if (!(std::max(std::abs(first), std::abs(last)) / fps <= kMaxSeconds))
+    if (!(fps.secondsOf(std::max(std::abs(first), std::abs(last))) <= kMaxSeconds))
         return makeError(
             "{}: frames {}:{} at {} a second lie beyond {} seconds",
             option,
             first,
             last,
-            fps,
+            core::describe(fps),
             kMaxSeconds
         );
     if (!(std::max(std::abs(first), std::abs(last)) < double(std::numeric_limits<int>::max())))
@@ -210,7 +210,7 @@ core::Status planFrames(const char* option, double first, double last, ShotOptio
     options.firstFrame = int(first);
     options.frameTimes.clear();
     for (double frame = first; frame <= last; ++frame)
-        options.frameTimes.push_back(frame / fps);
+        options.frameTimes.push_back(fps.secondsOf(frame));
     if (!options.flythrough)
         return {};
     const flythrough::TimeRamp ramp(*options.flythrough);
@@ -235,8 +235,8 @@ core::Status planWholeFlight(double from, double to, ShotOptions& options) {
         from = ramp.filmFromScene(from);
         to = ramp.filmFromScene(to);
     }
-    const double first = std::ceil(from * options.fps - kFrameSlack);
-    const double last = std::max(std::floor(to * options.fps + kFrameSlack), first);
+    const double first = std::ceil(from * options.fps.perSecond() - kFrameSlack);
+    const double last = std::max(std::floor(to * options.fps.perSecond() + kFrameSlack), first);
     return planFrames("--flythrough", first, last, options);
 }
 

@@ -3,6 +3,7 @@
 // command line.
 #pragma once
 
+#include "engine/core/frame_rate.h"
 #include "engine/environment/environment.h"
 #include "engine/extract/extracted_frame.h"
 #include "engine/flythrough/flythrough.h"
@@ -52,7 +53,7 @@ struct ShotOptions {
     std::vector<double> frameTimes; ///< seconds
     int firstFrame = 0;             ///< number of the first file of a sequence
     bool isSequence = false;        ///< of numbered frames, even if there is only one
-    double fps = 24.0;              ///< frames per second
+    core::FrameRate fps;            ///< frames per second
     double frameSeconds = scene::kStillFrameSeconds;  ///< duration of a frame, 1 / fps
     std::optional<flythrough::Flythrough> flythrough; ///< of --flythrough FILE
     std::string flythroughHash;                       ///< of its file

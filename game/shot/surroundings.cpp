@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "game/shot/surroundings.h"
 
+#include "engine/core/log.h"
 #include "engine/environment/environment.h"
+#include "engine/image/channels.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/scene/motion.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace shutter::game {
 
@@ -18,12 +24,60 @@ float toLinear(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
+bool isOpaque(const image::Image& picture, uint32_t alpha) {
+    for (size_t i = alpha; i < picture.pixels.size(); i += picture.channels)
+        if (picture.pixels[i] != 1.0f)
+            return false;
+    return true;
+}
+
+/// Warns of channels that no environment has.
+void warnOfOthers(
+    const std::string& file, const image::Image& picture, const image::ColorChannels& color
+) {
+    std::vector<uint32_t> others;
+    for (uint32_t c = 0; c < picture.channels; ++c) {
+        const bool isColor =
+            std::find(color.color.begin(), color.color.end(), c) != color.color.end();
+        if (!isColor && !(color.alpha == c && isOpaque(picture, c)))
+            others.push_back(c);
+    }
+    if (!others.empty())
+        core::logWarning(
+            "--environment: '{}' has channels that are left out: {}",
+            file,
+            image::listChannels(picture, others)
+        );
+}
+
+/// The colours of the whole picture. Error: it has none, or lacks a part; names the file.
+core::Result<image::Image> takeColors(io::StoredImage stored, const std::string& file) {
+    io::cropToDisplay(stored);
+    if (stored.data != stored.display)
+        return core::makeError(
+            "'{}' has pixels in a part of its display window only, and an environment shows all "
+            "directions",
+            file
+        );
+    const auto color = image::findColor(stored.image);
+    if (!color)
+        return core::makeError(
+            "'{}' holds no colour but {}", file, fmt::join(stored.image.channelNames, ", ")
+        );
+    warnOfOthers(file, stored.image, *color);
+    return image::pickChannels(stored.image, color->color);
+}
+
 core::Result<scene::Environment> readEnvironment(const ShotOptions& options) {
     auto read = io::readStoredImage(options.environment);
     if (!read)
         return read.error();
-    image::Image picture = std::move(read.value().image);
-    if (read.value().isDisplayEncoded)
+    const bool isDisplayEncoded = read.value().isDisplayEncoded;
+    auto colors = takeColors(std::move(read).value(), options.environment.string());
+    if (!colors)
+        return colors.error();
+    image::Image picture = std::move(colors).value();
+    if (isDisplayEncoded)
         for (float& value : picture.pixels)
             value = toLinear(value);
     auto made = environment::makeEnvironment(std::move(picture), options.surroundings);

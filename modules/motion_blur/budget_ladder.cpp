@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/budget_ladder.h"
 
+#include "engine/core/words.h"
 #include "modules/motion_blur/methods.h"
 
 #include <fmt/format.h>
@@ -105,9 +106,8 @@ void BudgetLadder::addCheapest() {
         {cheapest,
          0.5 * mLevels.back().cost,
          fmt::format(
-             "all but {} sample{} along each pixel's own motion",
-             cheapest.sampleCount,
-             cheapest.sampleCount == 1 ? "" : "s"
+             "all but {} along each pixel's own motion",
+             core::countOf(cheapest.sampleCount, "sample")
          )}
     );
 }

@@ -41,6 +41,53 @@ TEST_F(Cli, AnEnvironmentThatIsNoneIsRefused) {
         );
 }
 
+TEST_F(Cli, AnEnvironmentThatIsPartOfAPictureOrNoColourIsRefused) {
+    requireDevice();
+    image::Image picture = makePicture(64, 32, 0.5f);
+    picture.channelNames = {"N.x", "N.y", "N.z"};
+    ASSERT_TRUE(io::writeImage(path("normals.exr"), picture));
+    picture.channelNames = {};
+    ASSERT_TRUE(io::writeImage(path("part.exr"), picture));
+    std::string exr = readFile("part.exr");
+    const std::string window("displayWindow\0box2i\0\x10\0\0\0", 24);
+    const size_t right = exr.find(window) + window.size() + 8;
+    exr[right] = 127;
+    exr[right + 4] = 63;
+    writeFile("part.exr", exr);
+    for (const auto& [file, mention] :
+         {std::pair{"normals.exr", "no colour but N.x, N.y, N.z"}, {"part.exr", "display window"}})
+        expectRefusal(
+            renderVase({"--out", "a.png", "--environment", file}),
+            kFailed,
+            {"--environment", file, mention}
+        );
+}
+
+TEST_F(Cli, AnEnvironmentIsItsDisplayWindowAndTellsOfChannelsItLeavesOut) {
+    requireDevice();
+    // A bright frame of a pixel around a grey picture, beside the display window.
+    image::Image picture(66, 34, 4);
+    for (uint32_t y = 0; y < 34; ++y)
+        for (uint32_t x = 0; x < 66; ++x)
+            for (uint32_t c = 0; c < 4; ++c)
+                picture.at(x, y, c) = x == 0 || y == 0 || x == 65 || y == 33 ? 1000.0f : 0.4f;
+    picture.channelNames = {"R", "G", "B", "Z"};
+    ASSERT_TRUE(io::writeImage(path("around.exr"), picture));
+    std::string exr = readFile("around.exr");
+    const std::string window("displayWindow\0box2i\0\x10\0\0\0", 24);
+    const size_t corners = exr.find(window) + window.size();
+    for (const auto& [place, value] : {std::pair{0, 1}, {4, 1}, {8, 64}, {12, 32}})
+        exr[corners + size_t(place)] = char(value);
+    writeFile("around.exr", exr);
+    ASSERT_TRUE(io::writeImage(path("plain.exr"), makePicture(64, 32, 0.4f)));
+    const Outcome drawn = run(renderVase({"--out", "a.png", "--environment", "around.exr"}));
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_NE(drawn.err.find("'around.exr' has channels that are left out: Z"), std::string::npos)
+        << drawn.err;
+    expectSuccess(renderVase({"--out", "b.png", "--environment", "plain.exr"}));
+    EXPECT_EQ(readFile("a.png"), readFile("b.png"));
+}
+
 TEST_F(Cli, AnEnvironmentOfOneColourIsTheTwoColours) {
     requireDevice();
     // Twice as bright by its intensity.

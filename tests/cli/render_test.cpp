@@ -104,6 +104,38 @@ TEST_F(CliRender, TheSameCommandTwiceGivesTheSameBytes) {
     }
 }
 
+TEST_F(CliRender, OutputsThatAreLinksStayLinksAndKeepPermissions) {
+    fs::create_directory(path("store"));
+    for (const auto& [link, real] :
+         {std::pair{"a.png", "store/a.png"},
+          {"a.depth.exr", "store/depth.exr"},
+          {"s.json", "store/s.json"}}) {
+        writeFile(real, "old");
+        fs::permissions(path(real), fs::perms(0664));
+        fs::create_symlink(real, path(link));
+    }
+    const std::set<std::string> before = listFiles();
+    expectSuccess(renderVase({"--out", "a.png", "--aov", "depth", "--stats", "s.json"}));
+    EXPECT_EQ(listFiles(), before);
+    for (const char* link : {"a.png", "a.depth.exr", "s.json"}) {
+        EXPECT_TRUE(fs::is_symlink(path(link))) << link;
+        EXPECT_NE(readFile(link), "old") << link;
+        EXPECT_EQ(fs::status(path(link)).permissions(), fs::perms(0664)) << link;
+    }
+    fs::create_symlink("loop.png", path("loop.png"));
+    expectRefusal(renderVase({"--out", "loop.png"}), 1, {"--out", "loop.png", "in a circle"});
+    expectRefusal(
+        renderVase({"--out", "b.png", "--stats", "loop.png"}), 1, {"--stats", "in a circle"}
+    );
+}
+
+TEST_F(CliRender, StatisticsOnStandardOutputFollowWhatWasPrinted) {
+    const std::string out =
+        expectSuccess(renderVase({"--out", "a.png", "--explain", "--stats", "/dev/stdout"})).out;
+    EXPECT_TRUE(out.starts_with("frame at 0 s\n")) << out;
+    EXPECT_TRUE(nlohmann::json::accept(out.substr(out.find("\n{") + 1))) << out;
+}
+
 TEST_F(CliRender, NoSamplesMeansTheMethodsOwnNumber) {
     expectSuccess(renderVase({"--method", "gather", "--samples", "15", "--out", "own.png"}));
     expectSuccess(renderVase({"--method", "gather", "--out", "none.png"}));
@@ -163,9 +195,21 @@ TEST_F(CliRender, AnIntermediateOfABlurThatDidNotRunIsSaidToBeMissing) {
         run(renderVase({"--method", "hybrid", "--exposure", "0", "--out", "a.png", "--aov", "mask"})
         );
     EXPECT_EQ(outcome.status, 0);
-    EXPECT_NE(outcome.err.find("--aov mask"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("the exposure is 0"), std::string::npos) << outcome.err;
-    EXPECT_EQ(listFiles(), std::set<std::string>{"a.png"});
+    EXPECT_NE(
+        outcome.err.find("--aov mask is not written, because motion blur was skipped: the "
+                         "exposure is 0\n"),
+        std::string::npos
+    ) << outcome.err;
+    const Outcome first = run(renderVase({"--out", "b.png", "--aov", "last,second"}));
+    EXPECT_NE(
+        first.err.find("--aov last is not written, because the effect holds no frame before"),
+        std::string::npos
+    ) << first.err;
+    EXPECT_NE(
+        first.err.find("--aov second is not written, because the setting secondRaster is off\n"),
+        std::string::npos
+    ) << first.err;
+    EXPECT_EQ(listFiles(), (std::set<std::string>{"a.png", "b.png"}));
 }
 
 TEST_F(CliRender, StatisticsAreJsonWithTheDocumentedKeys) {

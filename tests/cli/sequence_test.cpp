@@ -11,7 +11,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <utility>
 
 namespace shutter::cli {
 
@@ -256,6 +258,75 @@ TEST_F(Sequence, PicturesOfExrCarryTheTimeCodesOfTheirFrames) {
     const Outcome fast = run(fly({"--out", "g_%d.exr", "--timecode", "frame"}));
     EXPECT_EQ(fast.status, 1);
     EXPECT_NE(fast.err.find("frame -2 has none"), std::string::npos) << fast.err;
+}
+
+TEST_F(Sequence, ARateThatIsAFractionIsThatOfTheFilmAndOfItsPictures) {
+    // Name, type and size of the attribute; then 24000 and 1001.
+    const std::string rate("framesPerSecond\0rational\0\x08\0\0\0\xC0\x5D\0\0\xE9\x03\0\0", 37);
+    expectSuccess(
+        fly({"--fps", "24000/1001", "--frames", "0:1", "--out", "f_%d.exr", "--aov", "depth"})
+    );
+    EXPECT_NE(readFile("f_1.exr").find(rate), std::string::npos);
+    EXPECT_NE(readFile("f_1.depth.exr").find(rate), std::string::npos);
+    expectSuccess(renderVase({"--method", "sharp", "--out", "single.exr"}));
+    EXPECT_EQ(readFile("single.exr").find("framesPerSecond"), std::string::npos);
+    std::string flight = kFlight;
+    flight.replace(flight.find("\"fps\": 4"), 8, "\"fps\": \"24000/1001\"");
+    writeFile("flight.json", flight);
+    expectSuccess(fly({"--frames", "0:0", "--out", "g_%d.exr"}));
+    EXPECT_NE(readFile("g_0.exr").find(rate), std::string::npos);
+    // NOLINTNEXTLINE(concurrency-mt-unsafe)
+    if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0)
+        GTEST_SKIP() << "ffmpeg is not installed";
+    for (const auto& [fps, expected] :
+         {std::pair{"24000/1001", "24000/1001"},
+          {"30000/1001", "30000/1001"},
+          {"29.97", "2997/100"}}) {
+        expectSuccess(fly({"--fps", fps, "--frames", "0:3", "--out", "film.mp4"}));
+        const std::string command = "ffprobe -v error -select_streams v:0 -show_entries "
+                                    "stream=r_frame_rate -of csv=p=0 '" +
+                                    path("film.mp4") + "' > '" + path("probe.txt") + "'";
+        ASSERT_EQ(std::system(command.c_str()), 0); // NOLINT(concurrency-mt-unsafe)
+        EXPECT_EQ(readFile("probe.txt"), std::string(expected) + "\n");
+    }
+}
+
+TEST_F(Sequence, AFolderWithANumberPatternInItsNameIsAFolderLikeAnyOther) {
+    for (const char* folder : {"%d day", "100%%", "-50%20off", "Größe_🎥\n"}) {
+        fs::create_directory(path(folder));
+        const std::string out = std::string(folder) + "/p %s_%04d.png";
+        expectSuccess(fly({"--frames", "0:1", "--out", out}));
+        for (const char* frame : {"/p %s_0000.png", "/p %s_0001.png"})
+            EXPECT_TRUE(fs::exists(path(folder) + frame)) << folder << frame;
+        const auto again = expectSuccess(fly({"--frames", "0:1", "--out", out}));
+        EXPECT_NE(again.out.find("2 of 2 frames are complete"), std::string::npos) << again.out;
+    }
+    // NOLINTNEXTLINE(concurrency-mt-unsafe)
+    if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0)
+        GTEST_SKIP() << "ffmpeg is not installed";
+    expectSuccess(fly({"--frames", "0:1", "--out", "%d day/film_%d.mp4"}));
+    expectFilm("%d day/film_%d.mp4", "2");
+    EXPECT_FALSE(fs::exists(path("%d day/film_%d.mp4.frames")));
+}
+
+TEST_F(Sequence, ALinkThatIsAFilmStaysALink) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe)
+    if (std::system("command -v ffmpeg ffprobe > /dev/null") != 0)
+        GTEST_SKIP() << "ffmpeg is not installed";
+    fs::create_directory(path("store"));
+    writeFile("store/real.mp4", "old");
+    fs::permissions(path("store/real.mp4"), fs::perms(0640));
+    fs::create_symlink("store/real.mp4", path("film.mp4"));
+    expectSuccess(fly({"--frames", "0:1", "--out", "film.mp4"}));
+    EXPECT_TRUE(fs::is_symlink(path("film.mp4")));
+    expectFilm("store/real.mp4", "2");
+    EXPECT_EQ(fs::status(path("store/real.mp4")).permissions(), fs::perms(0640));
+    ASSERT_EQ(::mkfifo(path("pipe.mp4").c_str(), 0600), 0);
+    const Outcome piped = run(fly({"--frames", "0:1", "--out", "pipe.mp4"}));
+    EXPECT_EQ(piped.status, 1);
+    EXPECT_NE(piped.err.find("pipe or a device, and a film needs a file"), std::string::npos)
+        << piped.err;
+    EXPECT_TRUE(fs::is_fifo(path("pipe.mp4")));
 }
 
 TEST_F(Sequence, AnFfmpegThatFailsLeavesNoFilm) {

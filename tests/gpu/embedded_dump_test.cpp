@@ -217,10 +217,10 @@ TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     const image::Image picture = draw(0, test::gather());
     replay::ReplayOptions options;
     options.folder = mFolder;
-    options.out = mFolder / "shown.exr";
+    options.out = mFolder / "shown_%d.exr"; // the number of the dump's frame
     options.showsInputs = true;
     ASSERT_TRUE(replay::replay(options, device()).ok());
-    const auto shown = io::readImage(options.out);
+    const auto shown = io::readImage(mFolder / "shown_0.exr");
     ASSERT_TRUE(shown.ok());
     // Panels lie along the top and the bottom.
     const size_t row = size_t{kWidth} * picture.channels;

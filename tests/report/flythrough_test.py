@@ -52,6 +52,7 @@ WRONG = [
     (lambda f: f.update(fps=0), "fps"),
     (lambda f: f.update(fps=1001), "fps"),
     (lambda f: f.update(fps="24"), "fps"),
+    (lambda f: f.update(fps="24/1.001"), "fps"),
     (lambda f: f.update(name=3), "name"),
     (lambda f: f.update(name="x" * 257), "name"),
     (lambda f: f.update(interpolation="cubic"), "interpolation"),

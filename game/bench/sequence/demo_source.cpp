@@ -46,7 +46,9 @@ class DemoSource : public SequenceSource {
 
     [[nodiscard]] const game::ShotOptions& options() const override { return mOptions; }
 
-    [[nodiscard]] double framesPerSecond() const override { return 1.0 / mPlayer.frameSeconds(); }
+    [[nodiscard]] core::FrameRate framesPerSecond() const override {
+        return 1.0 / mPlayer.frameSeconds();
+    }
 
   protected:
     [[nodiscard]] extract::ViewRequest ownView() const override {

@@ -26,7 +26,7 @@ class FlightSource : public SequenceSource {
 
     [[nodiscard]] const game::ShotOptions& options() const override { return mOptions; }
 
-    [[nodiscard]] double framesPerSecond() const override { return mOptions.fps; }
+    [[nodiscard]] core::FrameRate framesPerSecond() const override { return mOptions.fps; }
 
   protected:
     [[nodiscard]] extract::ViewRequest ownView() const override {

@@ -58,7 +58,7 @@ class SequenceSource {
     [[nodiscard]] virtual const game::ShotOptions& options() const = 0;
 
     /// The film's.
-    [[nodiscard]] virtual double framesPerSecond() const = 0;
+    [[nodiscard]] virtual core::FrameRate framesPerSecond() const = 0;
 
     /// Where the sequence's own camera is in the current frame.
     [[nodiscard]] StandingView standingView() const;

@@ -12,11 +12,13 @@ namespace shutter::game {
 namespace fs = std::filesystem;
 
 core::Result<std::unique_ptr<FilmWriter>>
-FilmWriter::open(const fs::path& out, const fs::path& ffmpeg, double fps) {
+FilmWriter::open(const fs::path& out, const fs::path& ffmpeg, core::FrameRate fps) {
     std::unique_ptr<FilmWriter> writer(new FilmWriter);
     writer->mPattern = out;
     writer->mFps = fps;
-    if (out.extension() == ".mp4") {
+    if (io::lowerExtension(out) == ".mp4") {
+        if (core::Status writable = io::checkFilmWritable(out); !writable)
+            return core::makeError("--film: {}", writable.error().message);
         auto encoder = io::findVideoEncoder(ffmpeg);
         if (!encoder)
             return core::makeError("--film: {}", encoder.error().message);

@@ -16,10 +16,11 @@ class FilmWriter {
   public:
     /// \param out NAME%04d.png, .jpg, or .mp4, whose frames go to a folder beside it first
     /// \param ffmpeg the program, for a film; empty: the one on PATH
-    /// \param fps frames per second of the film, above 0
+    /// \param fps frames per second of the film
     /// Error: ffmpeg is missing, or nothing can be written there.
-    [[nodiscard]] static core::Result<std::unique_ptr<FilmWriter>>
-    open(const std::filesystem::path& out, const std::filesystem::path& ffmpeg, double fps);
+    [[nodiscard]] static core::Result<std::unique_ptr<FilmWriter>> open(
+        const std::filesystem::path& out, const std::filesystem::path& ffmpeg, core::FrameRate fps
+    );
 
     /// The next picture. Error: it cannot be written, or has another size than a film's first.
     [[nodiscard]] core::Status add(const image::Image& picture);
@@ -33,7 +34,7 @@ class FilmWriter {
     std::filesystem::path mPattern;
     std::filesystem::path mFilm; ///< empty: the frames are all
     std::optional<io::VideoEncoder> mEncoder;
-    double mFps = 30.0;
+    core::FrameRate mFps;
     uint32_t mCount = 0;
     uint32_t mWidth = 0;
     uint32_t mHeight = 0;

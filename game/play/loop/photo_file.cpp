@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/photo_file.h"
 
+#include "engine/core/words.h"
 #include "game/play/loop/numbered_file.h"
 
 #include <utility>
@@ -24,7 +25,7 @@ std::vector<io::PictureText> describePhoto(
 ) {
     std::string description = fmt::format("{} at {:.3f} s, {}", title, seconds, settings.method);
     if (rays)
-        description += fmt::format(", {} rays per pixel", *rays);
+        description += fmt::format(", {} per pixel", core::countOf(*rays, "ray"));
     return {
         {"Software", "shutter play"},
         {"Description", std::move(description)},

@@ -6,7 +6,7 @@
 
 namespace shutter::game {
 
-core::Status PictureFiles::open(const PlayOptions& options, double fps) {
+core::Status PictureFiles::open(const PlayOptions& options, core::FrameRate fps) {
     if (options.film.empty())
         return {};
     auto film = FilmWriter::open(options.film, options.ffmpeg, fps);

@@ -18,9 +18,9 @@ namespace shutter::game {
 
 class PictureFiles {
   public:
-    /// Opens the film that --film names, if any. \param fps its frames per second, above 0
+    /// Opens the film that --film names, if any. \param fps its frames per second
     /// Error: FilmWriter::open()'s.
-    [[nodiscard]] core::Status open(const PlayOptions& options, double fps);
+    [[nodiscard]] core::Status open(const PlayOptions& options, core::FrameRate fps);
 
     [[nodiscard]] bool isFilming() const { return mFilm != nullptr; }
 

@@ -2,6 +2,7 @@
 #include "game/play/loop/play_loop.h"
 
 #include "engine/core/log.h"
+#include "engine/core/words.h"
 #include "engine/scene/shutter.h"
 #include "game/play/loop/hotkeys.h"
 #include "game/play/loop/photo_file.h"
@@ -96,7 +97,9 @@ core::Status PlayLoop::openScript() {
     mSettings = std::move(settings).value();
     if (mKeeper.isFirstSession() && !mFiles.isFilming() && mScript == std::nullopt)
         mHintSeconds = kHintSeconds;
-    return mFiles.open(mOptions, mScript ? 1.0 / mScript->frameSeconds() : mOptions.fps);
+    return mFiles.open(
+        mOptions, mScript ? core::FrameRate(1.0 / mScript->frameSeconds()) : mOptions.fps
+    );
 }
 
 core::Status PlayLoop::openScreen() {
@@ -163,7 +166,7 @@ core::Status PlayLoop::finish() {
     SHUTTER_TRY(writeRecord());
     releaseDrawing();
     if (const uint32_t messages = mScreen.device().validationMessageCount(); messages > 0)
-        return core::makeError("{} Vulkan validation messages", messages);
+        return core::Error{core::countOf(messages, "Vulkan validation message")};
     return {};
 }
 
@@ -191,7 +194,7 @@ double PlayLoop::measureFrame() {
     if (mScript)
         return mScript->frameSeconds();
     // Nobody waits for a film, and nobody looks where there is no window.
-    return mFiles.isFilming() || !mScreen.hasWindow() ? 1.0 / mOptions.fps : seconds;
+    return mFiles.isFilming() || !mScreen.hasWindow() ? mOptions.fps.secondsOf(1.0) : seconds;
 }
 
 core::Status PlayLoop::advance() {

@@ -52,6 +52,12 @@ constexpr std::array kEffectRows = {
     ),
 };
 
+constexpr auto kFpsRow = makeRow<&ShotArguments::fps>(
+    "--fps",
+    "frames per second of --film and --no-window without a script, a number or a fraction such as "
+    "24000/1001; default 30"
+);
+
 constexpr auto kVsyncRow = makeRow<&PlayArguments::vsync>(
     "--vsync", "wait for the display: on or off; default: as in the settings"
 );
@@ -74,7 +80,7 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
     options.film = arguments.film;
     if (options.film.empty())
         return {};
-    if (options.film.extension() == ".mp4")
+    if (io::lowerExtension(options.film) == ".mp4")
         return {};
     auto isDisplay = io::isDisplayFormat(options.film, ".png, .jpg or .mp4");
     if (!isDisplay)
@@ -82,7 +88,9 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
     if (!isDisplay.value())
         return makeError("--film '{}': a window's picture is no linear light", arguments.film);
     if (frameFile(options.film, 0) == frameFile(options.film, 1))
-        return makeError("--film '{}' needs a frame number such as %04d", arguments.film);
+        return makeError(
+            "--film '{}' needs a frame number such as %04d in the file's own name", arguments.film
+        );
     return {};
 }
 
@@ -126,11 +134,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
     command.add_option("--script", a.script, "play unattended from a JSON file of input");
     command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
-    command.add_option(
-        "--fps",
-        a.shot.fps,
-        "frames per second of --film and --no-window without a script; default 30"
-    );
+    kFpsRow.define(command, kFpsRow, a.shot);
     command.add_option("--ffmpeg", a.ffmpeg, "program that encodes .mp4; default: the one on PATH");
     command.add_option("--frames", a.frames, "end after this many frames")
         ->check(CLI::Range(1u, kMaxFrames));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/core/words.h"
 #include "game/play/panel/panel_sections.h"
 #include "game/shot/methods.h"
 
@@ -98,7 +99,9 @@ std::string describeState(const PanelFacts& facts) {
     std::string state;
     if (facts.photo)
         state = facts.photoRays
-                    ? fmt::format("photo mode: truth, {} rays per pixel", *facts.photoRays)
+                    ? fmt::format(
+                          "photo mode: truth, {} per pixel", core::countOf(*facts.photoRays, "ray")
+                      )
                     : "photo mode";
     else if (facts.paused)
         state = "paused";

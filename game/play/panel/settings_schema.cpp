@@ -29,6 +29,9 @@ ordered_json describeNumber(const core::NumberRange& range) {
     number["type"] = range.step == 1.0 ? "integer" : "number";
     number[range.isLowestValid ? "minimum" : "exclusiveMinimum"] = range.lowest;
     number["maximum"] = range.highest;
+    if (range.isRate)
+        return {
+            {"anyOf", {{{"type", "string"}, {"pattern", "^[0-9]{1,10}/[0-9]{1,10}$"}}, number}}};
     if (!range.isUnlimited)
         return number;
     return {{"anyOf", {{{"const", core::kUnlimited}}, number}}};

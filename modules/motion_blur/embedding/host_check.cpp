@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/host_check.h"
 
+#include "engine/core/words.h"
 #include "engine/math/layer_tables.h"
 #include "modules/motion_blur/embedding/host_camera.h"
 #include "shaders/motion_blur/check_grid.glsl"
@@ -211,9 +212,8 @@ void checkSkyEnd(const CheckFacts& facts, bool isReversed, std::vector<Finding>&
 
 std::string describeCount(const CheckedFrame& frame, uint32_t index) {
     return fmt::format(
-        "{} pixel{} ({:.2g} %)",
-        countOf(frame, index),
-        countOf(frame, index) == 1 ? "" : "s",
+        "{} ({:.2g} %)",
+        core::countOf(countOf(frame, index), "pixel"),
         100.0 * shareOf(frame, index)
     );
 }

@@ -6,9 +6,10 @@
 #include "spirv/motion_blur/dump_picture.comp.h"
 #include "spirv/motion_blur/dump_reveal.comp.h"
 
+#include "engine/core/whole_file.h"
+#include "engine/core/words.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
-#include "modules/motion_blur/embedding/dump_files.h"
 #include "modules/motion_blur/embedding/dump_manifest.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/methods.h"
@@ -34,6 +35,12 @@ namespace {
 using core::makeError;
 using graph::Access;
 using nlohmann::ordered_json;
+
+/// Error: names the file and why.
+core::Status writeDumpFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const core::Status written = core::writeWholeFile(path, bytes);
+    return written ? written : makeError("'{}': {}", path.string(), written.error().message);
+}
 
 // Push constants, as the shaders declare them.
 struct DumpImagePush {
@@ -188,7 +195,11 @@ HostDump::~HostDump() = default;
 
 core::Status HostDump::start(const std::filesystem::path& folder, uint32_t frameCount) {
     if (mLeft > 0)
-        return makeError("motion blur dump: {} recordings of the last dump are to come", mLeft);
+        return makeError(
+            "motion blur dump: {} of the last dump {} to come",
+            core::countOf(mLeft, "recording"),
+            mLeft == 1 ? "is" : "are"
+        );
     if (frameCount == 0 || frameCount > 9999)
         return makeError("motion blur dump: frames is {}, it must be 1 to 9999", frameCount);
     std::error_code error;

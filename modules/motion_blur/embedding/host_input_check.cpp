@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/host_input_check.h"
 
+#include "engine/core/words.h"
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/embedding/host_camera.h"
 #include "shaders/common/shutter_response_shared.h"
@@ -183,9 +184,9 @@ core::Status checkMoversHaveVectors(const HostInputs& inputs) {
     if (hasVectors || inputs.motion.movers.empty())
         return {};
     return makeError(
-        "motion blur: motion.movers has {} rows, but convention.vectors.image.image is null: "
+        "motion blur: motion.movers has {}, but convention.vectors.image.image is null: "
         "without vectors only the camera moves",
-        inputs.motion.movers.size()
+        core::countOf(inputs.motion.movers.size(), "row")
     );
 }
 

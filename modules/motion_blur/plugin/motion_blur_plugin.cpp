@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 
+#include "engine/core/words.h"
 #include "engine/gpu/vulkan.h"
 
 #include <fmt/format.h>
@@ -16,9 +17,9 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
     std::string reason = "the budget is unlimited";
     if (!budget.budget().isUnlimited())
         reason = gaveUp.empty()
-                     ? fmt::format("all fits into {} ms", budget.budget().milliseconds)
+                     ? fmt::format("everything fits into {} ms", budget.budget().milliseconds)
                      : fmt::format(
-                           "{} ms are too few: gave up {}", budget.budget().milliseconds, gaveUp
+                           "{} ms is too little: gave up {}", budget.budget().milliseconds, gaveUp
                        );
     explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
 }

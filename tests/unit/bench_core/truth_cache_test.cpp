@@ -45,7 +45,7 @@ TEST(CachedTruth, AnythingElseCountsAsNoneAndIsNamed) {
         ASSERT_TRUE(io::writeImage(file, image::Image(5, 3, 3)));
         expectNone(file, "is 5x3");
         ASSERT_TRUE(io::writeImage(file, image::Image(4, 3, 1)));
-        expectNone(file, "with 1 channels");
+        expectNone(file, "with 1 channel,");
         std::filesystem::remove(file);
         std::filesystem::create_directory(file);
         expectNone(file, "it is not a file");

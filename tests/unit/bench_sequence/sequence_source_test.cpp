@@ -69,7 +69,7 @@ TEST_P(SequenceSources, GoFrameByFrameAndTheSameWayTwice) {
         again->advance();
         const double seconds = source->view().exposure.raster;
         if (i > 0) {
-            EXPECT_NEAR(seconds - last, 1.0 / source->framesPerSecond(), 1e-9);
+            EXPECT_NEAR(seconds - last, source->framesPerSecond().secondsOf(1.0), 1e-9);
         }
         last = seconds;
         EXPECT_EQ(again->view().exposure.raster, seconds);

@@ -320,8 +320,8 @@ TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
     ASSERT_FALSE(tables.ok());
     EXPECT_EQ(
         tables.error().message,
-        "1 skinned or morphed entities with up to 2 shapes each need 2441 MiB for rays that each "
-        "have their own time, more than the 1024 MiB there may be: shorten the exposure"
+        "rays that each have their own time need 2441 MiB for 1 skinned or morphed entity with up "
+        "to 2 shapes each, more than the 1024 MiB there may be: shorten the exposure"
     );
 }
 

@@ -31,7 +31,7 @@ FlythroughKey key(double seconds, const math::dvec3& position) {
 Flythrough makeFull() {
     Flythrough flythrough;
     flythrough.name = "Kamerafahrt \u00e4";
-    flythrough.fps = 30000.0 / 1001.0;
+    flythrough.fps = {30000.0, 1001.0};
     flythrough.interpolation = scene::PathInterpolation::Linear;
     flythrough.ease = scene::PathEase::InOut;
     flythrough.up = {0.1, 1.0, -0.0};
@@ -88,6 +88,32 @@ TEST(Flythrough, IsReadBackToTheLastBit) {
     }
     ASSERT_TRUE(writeFlythrough(folder.path() / "g.json", again).ok());
     EXPECT_EQ(readText(path), readText(folder.path() / "g.json"));
+}
+
+TEST(Flythrough, ItsRateIsANumberOrAFraction) {
+    const auto read = [](const std::string& fps) {
+        return parseFlythrough(
+            R"({"version": 1, "fps": )" + fps +
+                R"(, "keys": [{"time": 0, "position": [0, 1, 2], "lookAt": [0, 0, 0]}]})",
+            "f"
+        );
+    };
+    EXPECT_EQ(read("\"24000/1001\"").value().fps, core::FrameRate(24000.0, 1001.0));
+    EXPECT_EQ(read("29.97").value().fps, core::FrameRate(29.97));
+    for (const char* wrong :
+         {"\"24\"",
+          "\"24/0\"",
+          "\"0/1\"",
+          "\"1001/1\"",
+          "\"-24/1\"",
+          "\"x\"",
+          "[24000, 1001]",
+          "0"}) {
+        const auto refused = read(wrong);
+        ASSERT_FALSE(refused.ok()) << wrong;
+        EXPECT_NE(refused.error().message.find("f:1: fps: "), std::string::npos)
+            << refused.error().message;
+    }
 }
 
 TEST(Flythrough, NeedsNoMoreThanAVersionAndAKey) {

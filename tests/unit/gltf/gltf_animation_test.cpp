@@ -98,7 +98,7 @@ TEST(GltfAnimation, ACubicSplineHasThreeValuesAKey) {
     EXPECT_EQ(scene.world.assets.clips[0].channels[0].values.size(), 6u);
     expectRefused(
         loadClips(makeKeys(kTwoTimes, kTwoVectors, "VEC3"), clip("translation", "CUBICSPLINE")),
-        "2 values for 2 keys, 6 are needed"
+        "2 values for 2 keys, not 6"
     );
 }
 
@@ -207,7 +207,7 @@ TEST(GltfAnimation, ReferencesAndTypesAreChecked) {
     const GltfFile file = makeKeys(kTwoTimes, kTwoVectors, "VEC3");
     expectRefused(
         loadClips(file, clip("translation", "LINEAR", R"("node":0,)", 1)),
-        "channels[0].sampler is 1, but there are 1 samplers"
+        "channels[0].sampler is 1, but there is 1 sampler"
     );
     expectRefused(
         loadClips(file, clip("translation", "LINEAR", R"("node":7,)")), "target.node is 7"

@@ -145,7 +145,7 @@ TEST(GltfMesh, TrianglesWithNaNOrInfinityAreDropped) {
         const scene::Primitive primitive = readPrimitive(file, kPosition, &scene);
         EXPECT_EQ(primitive.positions.size(), 3u);
         EXPECT_EQ(scene.world.assets.meshes[0].bounds.max, math::dvec3(1, 1, 0));
-        EXPECT_TRUE(hasWarning(scene, "1 triangles are not drawn"));
+        EXPECT_TRUE(hasWarning(scene, "1 triangle is not drawn"));
     }
 }
 
@@ -154,7 +154,8 @@ TEST(GltfMesh, AttributeCountsHaveToAgree) {
     file.add(kTriangle, kFloat, "VEC3");
     file.add(std::vector<float>{0, 0, 1}, kFloat, "VEC3");
     expectRefused(
-        loadMesh(file, R"("attributes":{"POSITION":0,"NORMAL":1})"), "NORMAL has 1 elements"
+        loadMesh(file, R"("attributes":{"POSITION":0,"NORMAL":1})"),
+        "NORMAL has 1 element, POSITION"
     );
 }
 
@@ -365,7 +366,7 @@ TEST(GltfMesh, GivenNormalsAreNormalizedAndZeroOnesReplaced) {
     EXPECT_EQ(primitive.normals[0], vec3(0, 0, 1));
     EXPECT_EQ(primitive.normals[1], vec3(1, 0, 0));
     EXPECT_EQ(primitive.normals[2], vec3(0, 1, 0));
-    EXPECT_TRUE(hasWarning(scene, "NORMAL holds 1 vectors"));
+    EXPECT_TRUE(hasWarning(scene, "NORMAL holds 1 vector without"));
 }
 
 } // namespace

@@ -135,14 +135,14 @@ TEST(GltfMorph, TargetsThatDoNotFitAreRefused) {
     GltfFile file = makeFile();
     file.add(std::vector<float>{0, 0, 1}, kFloat, "VEC3");
     expectRefused(
-        file.load(mesh(R"({"POSITION":3})")), "targets[0].POSITION has 1 elements, POSITION has 3"
+        file.load(mesh(R"({"POSITION":3})")), "targets[0].POSITION has 1 element, POSITION has 3"
     );
-    expectRefused(file.load(mesh(R"({"TEXCOORD_0":3})")), "targets[0].TEXCOORD_0 has 1 elements");
+    expectRefused(file.load(mesh(R"({"TEXCOORD_0":3})")), "targets[0].TEXCOORD_0 has 1 element,");
     expectRefused(file.load(mesh(R"({"POSITION":9})")), "targets[0].POSITION is 9");
     expectRefused(
         file.load(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}},
             {"attributes":{"POSITION":0},"targets":[{"POSITION":2}]}]}])"),
-        "meshes[0].primitives[1].targets has 1 morph targets, primitives[0] has 0"
+        "meshes[0].primitives[1].targets has 1 morph target, primitives[0] has 0"
     );
 }
 
@@ -163,7 +163,7 @@ TEST(GltfMorph, WeightsThatDoNotFitAreRefused) {
     const GltfFile file = makeFile();
     expectRefused(
         file.load(weightedMesh(R"(,"weights":[1])")),
-        "meshes[0].weights has 1 numbers, but the mesh has 2 morph targets"
+        "meshes[0].weights has 1 number, but the mesh has 2 morph targets"
     );
     expectRefused(
         file.load(weightedMesh("", R"(,"weights":[1,2,3])")), "nodes[0].weights has 3 numbers"
@@ -224,10 +224,10 @@ TEST(GltfMorph, WeightsOfClipsComeAsStepsSplinesAndIntegersToo) {
 TEST(GltfMorph, WeightsOfClipsThatDoNotFitAreRefused) {
     expectRefused(
         loadClip(std::vector<float>{0, 1, 2}, kFloat, "LINEAR"),
-        "animations[0].samplers[0] has 3 values for 2 keys, 4 are needed"
+        "animations[0].samplers[0] has 3 values for 2 keys, not 4"
     );
     expectRefused(
-        loadClip(std::vector<float>(4), kFloat, "CUBICSPLINE"), "4 values for 2 keys, 12 are needed"
+        loadClip(std::vector<float>(4), kFloat, "CUBICSPLINE"), "4 values for 2 keys, not 12"
     );
     const float nan = std::numeric_limits<float>::quiet_NaN();
     expectRefused(

@@ -237,7 +237,7 @@ TEST(GltfNode, LightsOfAllKindsAreRead) {
 }
 
 TEST(GltfNode, MalformedLightsAreRefused) {
-    expectRefused(loadLight(R"({"type":"point"})", 1), "light is 1, but there are 1 lights");
+    expectRefused(loadLight(R"({"type":"point"})", 1), "light is 1, but there is 1 light");
     expectRefused(loadLight(R"({"type":"point"})", -1), "light is -1");
     expectRefused(loadLight(R"({"type":"laser"})"), "'laser'");
     expectRefused(loadLight(R"({"type":"point","intensity":-1})"), "intensity is -1");

@@ -209,7 +209,7 @@ TEST(GltfSkin, InverseBindMatricesThatFitNoJointAreRefused) {
         file.add(matrices, kFloat, "MAT4");
         return file.load(kMesh + kSkinNodes + skins);
     };
-    expectRefused(load(identity), "skins[0].inverseBindMatrices has 1 elements for 2 joints");
+    expectRefused(load(identity), "skins[0].inverseBindMatrices has 1 element for 2 joints");
     std::vector<float> two = identity;
     two.insert(two.end(), identity.begin(), identity.end());
     expectLoads(load(two));

@@ -197,6 +197,77 @@ TEST(Ssim, PicturesWithoutPixelsAreEqual) {
     EXPECT_EQ(computeSsim(Image(), Image()), 1.0);
 }
 
+TEST(StoredValues, ThePeakIsTheReferencesLargestFiniteMagnitudeAndOneAtLeast) {
+    EXPECT_EQ(findPeak(makeConstant(2, 2, 3, 0.2f)), 1.0);
+    Image image = makeConstant(2, 2, 3, -90.0f);
+    image.pixels[0] = kInfinity;
+    image.pixels[1] = kNan;
+    image.pixels[2] = 40.0f;
+    EXPECT_EQ(findPeak(image), 90.0);
+    EXPECT_EQ(findPeak({}), 1.0);
+}
+
+TEST(StoredValues, InTheUnitRangeHaveTheMetricsOfDisplayedOnes) {
+    const Image a = makeNoise(20, 17, 3, 1);
+    const Image b = makeNoise(20, 17, 3, 2);
+    EXPECT_EQ(computeStoredPsnr(a, b), computePsnr(a, b));
+    EXPECT_EQ(computeStoredSsim(a, b, true), computeSsim(a, b));
+    const Image grey = makeNoise(20, 17, 1, 3);
+    EXPECT_EQ(computeStoredSsim(grey, grey, false), 1.0);
+}
+
+TEST(StoredValues, ScaleWithThePeak) {
+    const auto scale = [](Image image, float factor) {
+        for (float& value : image.pixels)
+            value *= factor;
+        return image;
+    };
+    Image a = makeNoise(20, 17, 2, 1);
+    Image b = makeNoise(20, 17, 2, 2);
+    b.pixels[0] = 1.0f; // the peak
+    // A power of two changes no digit.
+    EXPECT_EQ(computeStoredPsnr(scale(a, 1024.0f), scale(b, 1024.0f)), computeStoredPsnr(a, b));
+    EXPECT_EQ(
+        computeStoredSsim(scale(a, 1024.0f), scale(b, 1024.0f), false),
+        computeStoredSsim(a, b, false)
+    );
+}
+
+TEST(StoredValues, AreNotClamped) {
+    EXPECT_NEAR(
+        computeStoredPsnr(makeConstant(4, 4, 2, 5.0f), makeConstant(4, 4, 2, 50.0f)),
+        20.0 * std::log10(50.0 / 45.0),
+        1e-9
+    );
+    EXPECT_LT(computeStoredPsnr(makeConstant(4, 4, 1, -9.0f), makeConstant(4, 4, 1, -90.0f)), 2.0);
+    EXPECT_LT(computeStoredPsnr(makeConstant(4, 4, 1, 1e30f), makeConstant(4, 4, 1, 1.0f)), -500.0);
+}
+
+TEST(StoredValues, EveryChannelCounts) {
+    const Image a = makeNoise(16, 16, 5, 1);
+    for (uint32_t channel = 0; channel < 5; ++channel) {
+        Image b = a;
+        for (size_t i = channel; i < b.pixels.size(); i += 5)
+            b.pixels[i] = 1.0f - b.pixels[i];
+        EXPECT_LT(computeStoredPsnr(b, a), 20.0) << channel;
+        EXPECT_LT(computeStoredSsim(b, a, false), 0.9) << channel;
+    }
+}
+
+TEST(StoredValues, InfinityIsNoDifferenceToItselfAndNanIsOneOfThePeak) {
+    Image a = makeNoise(30, 30, 1, 1);
+    a.pixels[0] = kInfinity;
+    EXPECT_EQ(computeStoredPsnr(a, a), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(computeStoredSsim(a, a, false), 1.0);
+    for (const float wrong : {-kInfinity, kNan, 0.5f}) {
+        Image b = a;
+        b.pixels[0] = wrong;
+        EXPECT_NEAR(computeStoredPsnr(b, a), 10.0 * std::log10(900.0), 1e-9) << wrong;
+        EXPECT_LT(computeStoredSsim(b, a, false), 1.0) << wrong;
+        EXPECT_GT(computeStoredSsim(b, a, false), 0.9) << wrong;
+    }
+}
+
 TEST(MaxDifference, IsTheLargestOverAllChannelsOfAllPixels) {
     const Image a = makeConstant(9, 4, 3, 0.5f);
     Image b = a;

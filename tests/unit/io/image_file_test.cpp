@@ -205,20 +205,37 @@ TEST(ImageFile, AJpegOfLowerQualityIsSmaller) {
     }
 }
 
-TEST(ImageFile, AnExrCarriesItsTimeCode) {
+TEST(ImageFile, AnExrOfASequenceCarriesItsRateAndItsTimeCode) {
     const TempFolder folder;
     const fs::path path = folder.path() / "frame.exr";
-    ASSERT_TRUE(writeImageWithTimecode(path, makeRamp(4, 4, 3), {12, 34, 56, 29}));
+    const Timecode timecode{12, 34, 56, 29};
+    ASSERT_TRUE(writeStampedImage(path, makeRamp(4, 4, 3), {{30000.0, 1001.0}, timecode}));
     const std::vector<uint8_t> bytes = readAll(path);
+    const std::string text(bytes.begin(), bytes.end());
+    // 30000 and 1001.
+    constexpr std::string_view kRate(
+        "framesPerSecond\0rational\0\x08\0\0\0\x30\x75\0\0\xE9\x03\0\0", 37
+    );
+    EXPECT_NE(text.find(kRate), std::string::npos);
     // Name, type and size of the attribute, and the digits of the code from the last to the first.
     constexpr std::string_view kAttribute("timeCode\0timecode\0\x08\0\0\0\x29\x56\x34\x12", 26);
-    EXPECT_NE(std::string(bytes.begin(), bytes.end()).find(kAttribute), std::string::npos);
+    EXPECT_NE(text.find(kAttribute), std::string::npos);
     const auto read = readImage(path);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read.value().pixels, makeRamp(4, 4, 3).pixels);
     ASSERT_TRUE(writeImage(path, makeRamp(4, 4, 3)));
     const std::vector<uint8_t> without = readAll(path);
-    EXPECT_EQ(std::string(without.begin(), without.end()).find("timeCode"), std::string::npos);
+    const std::string bare(without.begin(), without.end());
+    EXPECT_EQ(bare.find("timeCode"), std::string::npos);
+    EXPECT_EQ(bare.find("framesPerSecond"), std::string::npos);
+}
+
+TEST(ImageFile, ARateThatNoFractionHoldsIsLeftOut) {
+    const TempFolder folder;
+    const fs::path path = folder.path() / "frame.exr";
+    ASSERT_TRUE(writeStampedImage(path, makeRamp(4, 4, 3), {core::FrameRate(1e12)}));
+    const std::vector<uint8_t> bytes = readAll(path);
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find("framesPerSecond"), std::string::npos);
 }
 
 TEST(ImageFile, WritingLeavesNothingButThePicture) {
@@ -474,13 +491,64 @@ TEST(ImageFile, AnExrThatAsksForMoreThanItHoldsIsRefused) {
     expectRefused(replaceInExr(whole, "channels\0chlist"s, 1, 20), "not of its type's size");
     expectRefused(replaceInExr(whole, window, 8, 0x7FFFFFF0), "too large");
     expectRefused(replaceInExr(whole, window, 8, uint32_t(-5)), "no pixels");
-    expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x1002), "not a flat picture");
+    expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x1002), "an EXR of many parts");
+    expectRefused(replaceInExr(whole, "\x76\x2F\x31\x01"s, 0, 0x802), "a deep EXR");
     for (size_t size = 8; size < whole.find(window); size += 7)
         EXPECT_FALSE(readImage(folder.write("b.exr", whole.substr(0, size)))) << size;
     std::string tiled = whole;
     tiled.insert(tiled.find("compression"), "tiles\0tiledesc\0\x09\0\0\0\1\0\0\0\1\0\0\0\0"s);
     tiled = replaceInExr(tiled, window, 8, 60000);
     expectRefused(tiled, "it claims 240004 tiles of 1x1 pixels");
+}
+
+/// An EXR of 4x4 pixels at 0,0 whose display window is another one.
+fs::path writeInDisplay(const TempFolder& folder, const std::array<int, 4>& corners) {
+    using namespace std::string_literals;
+    const fs::path path = folder.path() / "display.exr";
+    EXPECT_TRUE(writeImage(path, makeRamp(4, 4, 3)));
+    const std::vector<uint8_t> bytes = readAll(path);
+    std::string exr(bytes.begin(), bytes.end());
+    for (size_t i = 0; i < corners.size(); ++i)
+        exr = replaceInExr(exr, "displayWindow\0box2i\0\x10\0\0\0"s, 4 * i, uint32_t(corners[i]));
+    return folder.write("display.exr", exr);
+}
+
+TEST(ImageFile, AnExrTellsWhereItsPixelsLie) {
+    const TempFolder folder;
+    const auto read = readStoredImage(writeInDisplay(folder, {-3, 2, 8, 9}));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read.value().data, (PixelWindow{0, 0, 4, 4}));
+    EXPECT_EQ(read.value().display, (PixelWindow{-3, 2, 12, 8}));
+    EXPECT_EQ(read.value().pixelAspect, 1.0f);
+    ASSERT_TRUE(writeImage(folder.path() / "a.png", makeRamp(4, 3, 3)));
+    const auto png = readStoredImage(folder.path() / "a.png");
+    ASSERT_TRUE(png);
+    EXPECT_EQ(png.value().data, (PixelWindow{0, 0, 4, 3}));
+    EXPECT_EQ(png.value().display, png.value().data);
+}
+
+TEST(ImageFile, PixelsOutsideTheDisplayWindowAreCroppedAway) {
+    const TempFolder folder;
+    const image::Image whole = makeRamp(4, 4, 3);
+    const auto crop = [&](const std::array<int, 4>& corners) {
+        auto read = readStoredImage(writeInDisplay(folder, corners));
+        EXPECT_TRUE(read);
+        StoredImage stored = std::move(read).value();
+        cropToDisplay(stored);
+        EXPECT_EQ(stored.image.width, stored.data.width);
+        EXPECT_EQ(stored.image.height, stored.data.height);
+        EXPECT_EQ(stored.image.pixels.size(), size_t(stored.data.width) * stored.data.height * 3);
+        return stored;
+    };
+    EXPECT_EQ(crop({-1, -1, 9, 9}).image.pixels, whole.pixels) << "all of it is inside";
+    const StoredImage inner = crop({1, 2, 2, 2});
+    EXPECT_EQ(inner.data, (PixelWindow{1, 2, 2, 1}));
+    for (uint32_t x = 0; x < 2; ++x)
+        for (uint32_t c = 0; c < 3; ++c)
+            EXPECT_EQ(inner.image.at(x, 0, c), whole.at(x + 1, 2, c));
+    EXPECT_EQ(crop({3, 3, 9, 9}).data, (PixelWindow{3, 3, 1, 1}));
+    EXPECT_TRUE(crop({4, 0, 9, 9}).image.pixels.empty()) << "beside it";
+    EXPECT_TRUE(crop({-9, -9, -1, 9}).image.pixels.empty());
 }
 
 TEST(ImageFile, IsReadByItsContentAndOfTheKindsWeKnowAlone) {

@@ -120,7 +120,7 @@ TEST(JsonFile, AWrongFieldIsNamedWithItsLine) {
         {"{\"name\": \"a\", \"keys\": [{\"time\": 0},\n{}]}",
          "film.json:2: keys[1]: the field 'time' is missing"},
         {"{\"name\": \"a\", \"keys\":\n[]}",
-         "film.json:2: keys: must have at least 1 elements, not 0"},
+         "film.json:2: keys: must have at least 1 element, not 0"},
         {"{\"name\": \"a\", \"keys\": [{}, {}, {}, {}]}",
          "film.json:1: keys: must have at most 3 elements, not 4"},
         {"{\"name\": \"a\", \"place\": [1, 2]}", "film.json:1: place: must have 3 elements, not 2"},

@@ -185,6 +185,8 @@ TEST_F(RenderOptionsTest, BadFramesAreRefused) {
         );
     for (const double fps : {0.0, -24.0, kNan, kInfinity})
         refuse("--fps", Words{"--fps=" + wordOf(fps)});
+    for (const char* fps : {"0/1", "1/0", "-24000/1001", "24000 / 1001", "24000/1001/1", "x"})
+        refuse("--fps", Words{std::string("--fps=") + fps});
     // Times that overflow.
     refuse("--frames", Words{"--frames=1:2", "--fps=1e-310"});
 }
@@ -520,6 +522,30 @@ TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
         refuse("--ev", Words{"--ev=" + wordOf(value)});
 }
 
+TEST_F(RenderOptionsTest, AFractionOfFramesASecondIsExact) {
+    const auto drawn = [&](const char* fps) {
+        return accept(Words{
+            "--frames=24:25",
+            std::string("--fps=") + fps,
+            "--out=" + (mFolder / "f_%04d.png").string()});
+    };
+    const RenderOptions ntsc = drawn("24000/1001");
+    EXPECT_EQ(ntsc.shot.fps, core::FrameRate(24000.0, 1001.0));
+    EXPECT_EQ(ntsc.shot.frameTimes, (std::vector<double>{1.001, 25.0 * 1001.0 / 24000.0}));
+    EXPECT_EQ(ntsc.shot.frameSeconds, 1001.0 / 24000.0);
+    const RenderOptions decimal = drawn("23.976");
+    EXPECT_EQ(decimal.shot.fps, core::FrameRate(23.976));
+    EXPECT_EQ(decimal.shot.frameTimes.front(), 24.0 / 23.976);
+    EXPECT_NE(ntsc.fingerprint, drawn("23.976023976023978").fingerprint);
+}
+
+TEST_F(RenderOptionsTest, ANumberInAFoldersNameNumbersNoFrames) {
+    refuse(
+        "needs a frame number such as %04d in the file's own name",
+        Words{"--frames=0:1", "--out=" + (mFolder / "%04d" / "f.png").string()}
+    );
+}
+
 TEST_F(RenderOptionsTest, ColoursAreThreeNumbersThatAPictureCanHold) {
     EXPECT_EQ(
         accept(Words{"--background=0,0.5,65000"}).shot.background, math::vec3(0.0f, 0.5f, 65000.0f)
@@ -535,8 +561,23 @@ TEST(FrameFile, TheNumberIsFilledWithZeros) {
     EXPECT_EQ(frameFile("a_%04d.png", 7), fs::path("a_0007.png"));
     EXPECT_EQ(frameFile("a_%d.png", 7), fs::path("a_7.png"));
     EXPECT_EQ(frameFile("a_%3d.png", 7), fs::path("a_007.png"));
-    EXPECT_EQ(frameFile("x/%02d/b.png", 123), fs::path("x/123/b.png"));
+    EXPECT_EQ(frameFile("a_%02d.png", 123), fs::path("a_123.png"));
+    EXPECT_EQ(frameFile("a_%010d.png", 7), fs::path("a_0000000007.png"));
     EXPECT_EQ(frameFile("a_%04d.png", -7), fs::path("a_-007.png"));
+}
+
+TEST(FrameFile, ANumberStandsInTheFilesOwnNameAndNotInThatOfAFolder) {
+    for (const char* folder : {"%d day", "%04d", "100%%", "50%20off", "a/%d/b", "Größe_🎥", "-x\n"})
+        EXPECT_EQ(frameFile(fs::path(folder) / "f_%04d.png", 7), fs::path(folder) / "f_0007.png")
+            << folder;
+    EXPECT_EQ(frameFile("%d/a.png", 7), fs::path("%d/a.png"));
+    EXPECT_EQ(frameFile("./x//f%d.png", 7).string(), "./x//f7.png");
+}
+
+TEST(FrameFile, EveryNumberIsTheFramesAndTwoPercentSignsAreOne) {
+    EXPECT_EQ(frameFile("%d_of_%03d.png", 7), fs::path("7_of_007.png"));
+    EXPECT_EQ(frameFile("100%%_%d.png", 7), fs::path("100%_7.png"));
+    EXPECT_EQ(frameFile("%%d_%%%d%%.png", 7), fs::path("%d_%7%.png"));
 }
 
 TEST(FrameFile, ANameWithoutANumberStaysAsItIs) {

@@ -64,6 +64,8 @@ TEST(ShutterOptions, TheModeFollowsWhatIsGivenOrSaysItself) {
         accept(Words{"--shutter-mode=capped", "--reference-fps=50.0", "--shutter-angle=90.0"});
     EXPECT_EQ(capped.mode, ShutterMode::Capped);
     EXPECT_DOUBLE_EQ(scene::computeExposureSeconds(capped, kFrame), 1.0 / 200.0);
+    const CameraShutter ntsc = accept(Words{"--shutter-mode=capped", "--reference-fps=24000/1001"});
+    EXPECT_EQ(ntsc.referenceFps, 24000.0 / 1001.0);
     const CameraShutter angle = accept(Words{"--shutter-mode=angle"});
     EXPECT_DOUBLE_EQ(scene::computeExposureSeconds(angle, kFrame), 1.0 / 50.0);
 }
@@ -77,6 +79,9 @@ TEST(ShutterOptions, ModesThatDoNotFitAreRefused) {
     refuse("--reference-fps", Words{"--reference-fps=24.0"});
     for (const double bad : {0.0, -1.0, kNan, kInfinity})
         refuse("--reference-fps", Words{"--shutter-mode=capped", "--reference-fps=" + wordOf(bad)});
+    for (const char* bad : {"0/1", "1/0", "2002/1"})
+        refuse("--reference-fps", Words{"--shutter-mode=capped", "--reference-fps=" + wordOf(bad)});
+    refuse("--exposure", Words{"--exposure=1/48"});
 }
 
 TEST(ShutterOptions, ResponsesHaveTheirNamesAndNumbers) {
