@@ -47,6 +47,13 @@ struct SceneLayout {
     bool hasEnvironment = false;           ///< the scene is lit by one
 };
 
+/// How a camera's frame lies in a picture of another shape; it is in the middle, and pixels are
+/// square.
+enum class FrameFit : uint8_t {
+    Whole, ///< all of it is in the picture (glTF 2.0, 3.10.3), which shows more beside it
+    Height ///< it is as high as the picture: a narrower picture crops its sides
+};
+
 struct ViewRequest {
     ecs::Entity camera;
     scene::ExposureInterval exposure;
@@ -56,8 +63,9 @@ struct ViewRequest {
     /// Where the picture is taken and its motion begins and ends, for a part of the exposure;
     /// nothing: all of it. `instant` takes precedence.
     std::optional<DeformationTimes> part{};
-    uint32_t width = 1280;       ///< pixels, above 0
-    uint32_t height = 720;       ///< pixels, above 0
+    uint32_t width = 1280; ///< pixels, above 0
+    uint32_t height = 720; ///< pixels, above 0
+    FrameFit frameFit = FrameFit::Whole;
     math::dvec2 jitterPx{0.0};   ///< moves the sample inside the pixel, [-0.5, 0.5]
     math::vec3 background{0.0f}; ///< linear RGB where nothing is
     math::vec3 ambient{0.0f};    ///< uniform radiance from everywhere, linear RGB
@@ -76,7 +84,7 @@ struct DrawItem {
     uint32_t geometryRow = 0;
     scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
     bool doubleSided = false;
-    bool mirrored = false; ///< the transform or the skeleton turns the winding round
+    bool mirrored = false; ///< the transform, the skeleton or the view turns the winding round
     float distance = 0.0f; ///< of the bounds' centre from the camera, metres
 };
 

@@ -53,6 +53,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     const bool mayRefresh =
         mListed && !changes.structure && mLayout == &layout && mRows.size() <= request.entityLimit;
     mLayout = &layout;
+    mViewMirrors = view.mirrors();
     if (!mayRefresh || !refresh(frame, changes))
         SHUTTER_TRY(rebuild(frame));
     mFrame.changes.ownRows = mRows.size();
@@ -367,7 +368,7 @@ void FrameExtractor::addDraws(const SceneLayout& layout, uint32_t index) {
                  mFrame.entities[index].firstGeometry + geometry - first,
                  info.alphaMode,
                  info.doubleSided,
-                 row.mirrored,
+                 row.mirrored != mViewMirrors,
                  row.distance}
             );
     }
@@ -395,7 +396,7 @@ void FrameExtractor::addLights(const Frame& frame) {
     for (auto [entity, light] : frame.world.registry.view<scene::Light>()) {
         if (scene::isHidden(frame.world, entity))
             continue;
-        const dmat4 world = motion.worldFromEntity(entity, frame.view.times().raster);
+        const dmat4 world = motion.worldFromLight(entity, frame.view.times().raster);
         // A light that is nowhere lights nothing; its NaN would blacken the picture.
         if (!math::isFinite(world))
             continue;

@@ -109,6 +109,7 @@ class FrameExtractor {
     const SceneLayout* mLayout = nullptr;
     uint32_t mFirstMovingMotion = 0; ///< in the table of motions
     uint32_t mMovesInView = 0;       ///< rows
+    bool mViewMirrors = false;       ///< FrameView::mirrors()
     bool mListed = false;            ///< false: the rows have to be listed anew
 };
 

@@ -17,6 +17,7 @@ namespace shutter::extract {
 namespace {
 
 using math::dmat4;
+using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 
@@ -41,23 +42,56 @@ bool isIdentical(const dmat4& a, const dmat4& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
+double computeAspect(const ViewRequest& view) {
+    return double(view.width) / view.height;
+}
+
+/// By more than what files round: a frame of the picture's own shape changes no bit.
+bool isWiderThanPicture(double frameAspect, const ViewRequest& view) {
+    constexpr double kRounding = 1.0e-6;
+    return frameAspect > computeAspect(view) * (1.0 + kRounding);
+}
+
+/// How much higher than a perspective camera's frame the picture is.
+double findHeightening(const scene::Camera& camera, const ViewRequest& view) {
+    const bool grows = view.frameFit == FrameFit::Whole && camera.aspectRatio &&
+                       isWiderThanPicture(*camera.aspectRatio, view);
+    return grows ? *camera.aspectRatio / computeAspect(view) : 1.0;
+}
+
 } // namespace
 
-dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect) {
+dvec2 computeHalfExtents(const scene::Camera& camera, double yFov, const ViewRequest& view) {
+    const double aspect = computeAspect(view);
+    if (camera.kind == scene::CameraKind::Perspective) {
+        const double halfHeight = std::tan(yFov / 2.0) * findHeightening(camera, view);
+        return {halfHeight * aspect, halfHeight};
+    }
+    const double xMag = std::abs(camera.xMag);
+    const double yMag = std::abs(camera.yMag);
+    const bool isWider = view.frameFit == FrameFit::Whole && isWiderThanPicture(xMag / yMag, view);
+    const double halfHeight = isWider ? xMag / aspect : yMag;
+    return {
+        std::copysign(halfHeight * aspect, camera.xMag), std::copysign(halfHeight, camera.yMag)};
+}
+
+double computePictureYFov(const scene::Camera& camera, double yFov, const ViewRequest& view) {
+    const double heightening = findHeightening(camera, view);
+    return heightening == 1.0 ? yFov : 2.0 * std::atan(std::tan(yFov / 2.0) * heightening);
+}
+
+dmat4 makeProjection(const scene::Camera& camera, double yFov, const ViewRequest& view) {
     if (camera.kind == scene::CameraKind::Perspective)
-        return math::clipFromViewPerspective(yFov, aspect, camera.near);
-    return math::clipFromViewOrthographic(
-        camera.yMag * aspect, camera.yMag, camera.near, camera.far
-    );
+        return math::clipFromViewPerspective(
+            computePictureYFov(camera, yFov, view), computeAspect(view), camera.near
+        );
+    const dvec2 half = computeHalfExtents(camera, yFov, view);
+    return math::clipFromViewOrthographic(half.x, half.y, camera.near, camera.far);
 }
 
 bool isDrawable(const math::dmat4& matrix) {
     const double determinant = glm::determinant(math::dmat3(matrix));
     return math::isFinite(matrix) && std::isfinite(determinant) && determinant != 0.0;
-}
-
-math::dmat4 computeWorldFromView(const math::dmat4& worldFromCamera) {
-    return math::removeScale(worldFromCamera);
 }
 
 shader::LightRow makeLight(const scene::Light& light, const dmat4& world, const dvec3& origin) {
@@ -84,11 +118,10 @@ bool isIdentical(const ViewMatrices& a, const ViewMatrices& b) {
 FrameView::FrameView(const scene::World& world, const ViewRequest& request)
     : mMotion(world, request.camera, request.exposure), mTimes(findPoseTimes(request)) {
     const auto& camera = world.registry.get<scene::Camera>(request.camera);
-    const double aspect = double(request.width) / request.height;
     const std::array times{mTimes.open, mTimes.raster, mTimes.close};
     for (int i = 0; i < 3; ++i) {
-        const dmat4 worldFromView = computeWorldFromView(mMotion.worldFromCamera(times[i]));
-        mClipFromView[i] = makeProjection(camera, mMotion.cameraYFov(times[i]), aspect);
+        const dmat4 worldFromView = mMotion.worldFromCamera(times[i]);
+        mClipFromView[i] = makeProjection(camera, mMotion.cameraYFov(times[i]), request);
         mViewFromWorld[i] = glm::inverse(worldFromView);
         mEye[i] = dvec3(worldFromView[3]);
         if (i == 1)
@@ -123,13 +156,11 @@ void FrameView::fillConstants(const scene::Camera& camera, const ViewRequest& re
     mConstants.background = math::vec4(request.background, 1.0f);
     mConstants.ambient = math::vec4(request.ambient, 1.0f);
     mConstants.sizePx = {float(request.width), float(request.height)};
-    const double height = double(request.height);
+    const dvec2 half = computeHalfExtents(camera, mMotion.cameraYFov(mTimes.raster), request);
+    const auto footprint = float(2.0 * std::abs(half.y) / double(request.height));
     mConstants.pixelFootprint =
-        perspective
-            ? math::vec2(
-                  float(2.0 * std::tan(mMotion.cameraYFov(mTimes.raster) / 2.0) / height), 0.0f
-              )
-            : math::vec2(0.0f, float(2.0 * camera.yMag / height));
+        perspective ? math::vec2(footprint, 0.0f) : math::vec2(0.0f, footprint);
+    mMirrors = half.x * half.y < 0.0;
     mConstants.lodBias = request.lodBias;
     mConstants.flags = request.unlit ? shader::kFrameUnlit : 0u;
     // A motion that ends where it began is one too: the raster instant tells.

@@ -15,17 +15,24 @@ namespace shutter::extract {
 /// Finite and not singular: triangles keep an area, and the matrix has an inverse.
 [[nodiscard]] bool isDrawable(const math::dmat4& matrix);
 
-/// Scale in a camera's node has no meaning for the view: only position and orientation count. A
-/// camera scaled to nothing looks along the world's axes.
-[[nodiscard]] math::dmat4 computeWorldFromView(const math::dmat4& worldFromCamera);
-
 /// \param world transform of the light's entity, finite
 /// \param origin of eye space, in the world
 [[nodiscard]] shader::LightRow
 makeLight(const scene::Light& light, const math::dmat4& world, const math::dvec3& origin);
 
-/// Clip space from view space.
-[[nodiscard]] math::dmat4 makeProjection(const scene::Camera& camera, double yFov, double aspect);
+/// Half of what a picture shows, to the right and up: at distance 1 (perspective), or metres at any
+/// distance (orthographic), where it is below 0 if the camera mirrors.
+/// \param yFov of the camera's frame, radians (ExposureMotion::cameraYFov)
+[[nodiscard]] math::dvec2
+computeHalfExtents(const scene::Camera& camera, double yFov, const ViewRequest& view);
+
+/// Vertical field of view of the picture, radians. \param yFov of the camera's frame
+[[nodiscard]] double
+computePictureYFov(const scene::Camera& camera, double yFov, const ViewRequest& view);
+
+/// Clip space from view space. \param yFov of the camera's frame
+[[nodiscard]] math::dmat4
+makeProjection(const scene::Camera& camera, double yFov, const ViewRequest& view);
 
 /// All that the rows of things that stand still in the world depend on. Doubles only, no padding:
 /// equal bytes give equal rows.
@@ -57,6 +64,9 @@ class FrameView {
     /// Within the exposure.
     [[nodiscard]] bool moves() const { return mMoves; }
 
+    /// Left and right, or up and down, change places: windings turn round.
+    [[nodiscard]] bool mirrors() const { return mMirrors; }
+
   private:
     void fillConstants(const scene::Camera& camera, const ViewRequest& request);
 
@@ -69,6 +79,7 @@ class FrameView {
     ViewMatrices mMatrices;
     shader::FrameConstants mConstants{};
     bool mMoves = false;
+    bool mMirrors = false;
 };
 
 /// worldFromObject of one entity at the three instants of a frame.

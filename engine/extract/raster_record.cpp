@@ -21,11 +21,10 @@ dmat4 pictureFromWorldAt(
     double s
 ) {
     const auto& camera = world.registry.get<scene::Camera>(view.camera);
-    const double aspect = double(view.width) / view.height;
-    const dmat4 clip = makeProjection(camera, motion.cameraYFov(s), aspect);
-    const dmat4 worldFromView = computeWorldFromView(motion.worldFromCamera(s));
+    const dmat4 clip = makeProjection(camera, motion.cameraYFov(s), view);
     const math::uvec2 sizePx(view.width, view.height);
-    return math::pictureFromView(clip, sizePx, view.jitterPx) * glm::inverse(worldFromView);
+    return math::pictureFromView(clip, sizePx, view.jitterPx) *
+           glm::inverse(motion.worldFromCamera(s));
 }
 
 RasterRecord makeRasterRecord(
@@ -66,7 +65,7 @@ bool showsTheSame(
     if (motion.isCut() || scene::isCut(world, view.camera, spanSince(last, exposure)))
         return false;
     const auto poseAt = [&](double seconds) {
-        return math::removeScale(scene::worldFromEntity(world, view.camera, seconds));
+        return scene::worldFromRigid(world, view.camera, seconds);
     };
     return !scene::findsCameraCut(poseAt, last.seconds, exposure.raster, exposure.shutter.cuts);
 }

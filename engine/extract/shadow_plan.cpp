@@ -124,7 +124,7 @@ class Planner {
             if (!(radiance.x > 0.0f || radiance.y > 0.0f || radiance.z > 0.0f))
                 continue;
             const dmat4 world =
-                mFrameView.motion().worldFromEntity(entity, mFrameView.times().raster);
+                mFrameView.motion().worldFromLight(entity, mFrameView.times().raster);
             placed.position = dvec3(world[3]);
             const double size = glm::length(dvec3(world[2]));
             if (size > 0.0)

@@ -67,7 +67,7 @@ class Builder {
     }
 
   private:
-    dmat4 viewAt(double s) const { return computeWorldFromView(mMotion.worldFromCamera(s)); }
+    dmat4 viewAt(double s) const { return mMotion.worldFromCamera(s); }
 
     /// How much wider the camera sees at s than at the raster instant, across the view.
     double lensScaleAt(double s) const {
@@ -106,14 +106,11 @@ class Builder {
 
     void describeView() {
         const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
-        const double aspect = double(mRequest.width) / mRequest.height;
         const double raster = mRequest.exposure.rasterTime;
-        const double halfHeight =
-            perspective ? std::tan(mMotion.cameraYFov(raster) / 2.0) : mCamera.yMag;
-        const math::dvec2 half(halfHeight * aspect, halfHeight);
+        const math::dvec2 half = computeHalfExtents(mCamera, mMotion.cameraYFov(raster), mRequest);
         mTables.view = {
             float(half.x), float(half.y), float(mCamera.near), perspective ? 1.0f : 0.0f};
-        const double pixel = 2.0 * halfHeight * findNarrowestLens() / mRequest.height;
+        const double pixel = 2.0 * std::abs(half.y) * findNarrowestLens() / mRequest.height;
         mTolerance.near = perspective ? mCamera.near : 0.0;
         (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
 
@@ -234,7 +231,7 @@ class Builder {
 
     shader::LightRow lightAt(size_t index, double s) const {
         const ecs::Entity entity = mFrame.lightEntities[index];
-        const dmat4 world = mMotion.worldFromEntity(entity, s);
+        const dmat4 world = mMotion.worldFromLight(entity, s);
         if (math::isFinite(world))
             return makeLight(mWorld.registry.get<scene::Light>(entity), world, mOrigin);
         shader::LightRow dark = mFrame.lights[index];

@@ -322,6 +322,7 @@ ecs::Entity addFlythroughCamera(scene::World& world, const Flythrough& flythroug
     if (const auto lens = makeLens(flythrough)) {
         camera.kind = scene::CameraKind::Perspective;
         camera.yFov = lens->keys.front().yFov;
+        camera.aspectRatio.reset(); // that of the file is the picture's
         world.registry.add(entity, *lens);
     }
     world.registry.add(entity, camera);

@@ -31,7 +31,8 @@ struct FlythroughKey {
     math::dvec3 position{0.0};           ///< metres, world space, each in [-1e9, 1e9]
     std::optional<math::dvec3> lookAt;   ///< point to look at, same units; all keys have one, or
     std::optional<math::dquat> rotation; ///< all have a unit rotation of a view along -Z
-    std::optional<double> fieldOfView;   ///< vertical, degrees, [0.01, 179]; in all keys or none
+    /// Vertical, of the picture, degrees, [0.01, 179]; in all keys or none.
+    std::optional<double> fieldOfView;
     std::optional<FlythroughShutter> shutter;
     /// Seconds of the scene per second of the film, [0.001, 1000]; TimeRamp says between keys.
     std::optional<double> timeScale;

@@ -26,21 +26,31 @@ scene::Camera readPerspective(const tinygltf::PerspectiveCamera& source, const s
     camera.kind = scene::CameraKind::Perspective;
     camera.yFov = source.yfov;
     camera.near = source.znear;
+    // tinygltf stores 0 for a missing one.
+    if (source.aspectRatio != 0.0) {
+        expectRange(source.aspectRatio, 0.0, kMaxDistance, path + ".perspective.aspectRatio");
+        camera.aspectRatio = source.aspectRatio;
+    }
     return camera;
+}
+
+/// Half an extent. It should not be negative, but may (glTF 2.0, camera.orthographic).
+double readMagnification(double value, const std::string& path) {
+    if (!(value != 0.0 && std::abs(value) < kMaxDistance))
+        failGltf("{} is {}, it must not be 0 and must lie below 1e30", path, value);
+    return value;
 }
 
 scene::Camera
 readOrthographic(const tinygltf::OrthographicCamera& source, const std::string& path) {
     const std::string at = path + ".orthographic";
-    expectRange(source.xmag, 0.0, kMaxDistance, at + ".xmag");
-    expectRange(source.ymag, 0.0, kMaxDistance, at + ".ymag");
     if (!(source.znear >= 0.0))
         failGltf("{}.znear is {}, below 0", at, source.znear);
     expectRange(source.zfar, source.znear, kMaxDistance, at + ".zfar");
     scene::Camera camera;
     camera.kind = scene::CameraKind::Orthographic;
-    camera.xMag = source.xmag;
-    camera.yMag = source.ymag;
+    camera.xMag = readMagnification(source.xmag, at + ".xmag");
+    camera.yMag = readMagnification(source.ymag, at + ".ymag");
     camera.near = source.znear;
     camera.far = source.zfar;
     return camera;

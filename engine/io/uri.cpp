@@ -186,12 +186,12 @@ core::Result<fs::path> resolveUri(const fs::path& folder, std::string_view uri, 
         return core::makeError("the URI '{}' holds a NUL", abbreviateUri(uri));
     }
     const fs::path base = folder.empty() ? fs::path(".") : folder;
-    const fs::path relative(*decoded);
+    // RFC 3986, 5.2.4: `..` takes away the name before it, whatever that is on the disk. One that
+    // finds none stays at the front, and leads out.
+    const fs::path relative = fs::path(*decoded).lexically_normal();
     if (reach == Reach::Anywhere)
         return base / relative;
-    const bool climbs = std::any_of(relative.begin(), relative.end(), [](const fs::path& part) {
-        return part == "..";
-    });
+    const bool climbs = *relative.begin() == "..";
     // Windows separators mean nothing here, but such a path must not come to mean something later.
     const bool climbsOnWindows = decoded->find("..\\") != std::string::npos;
     if (relative.is_absolute() || climbs || climbsOnWindows) {

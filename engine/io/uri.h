@@ -24,11 +24,13 @@ enum class Reach : uint8_t {
     Anywhere, ///< all, as its reader has said
 };
 
-/// The file that a relative URI names below `folder` (empty: the working folder). Refuses, without
-/// touching the disk first: nothing at all, schemes (http:, file:, C:), absolute paths, any `..`,
-/// NUL, broken percent-encoding, over 4096 bytes; then links that lead out of the folder. With
-/// Reach::Anywhere, absolute paths, `..` and such links are taken. The file itself need not exist.
-/// An Error says what is wrong with the URI.
+/// The file that a relative URI names below `folder` (empty: the working folder). `.` and `..` are
+/// resolved in the text, as RFC 3986 has it: a folder that `..` leaves again need not exist, and is
+/// not followed if it is a link. Refuses, without touching the disk first: nothing at all, schemes
+/// (http:, file:, C:), absolute paths, more `..` than names before them, `..\`, NUL, broken
+/// percent-encoding, over 4096 bytes; then links that lead out of the folder. With
+/// Reach::Anywhere, absolute paths, any `..` and such links are taken. The file itself need not
+/// exist. An Error says what is wrong with the URI.
 [[nodiscard]] core::Result<std::filesystem::path>
 resolveUri(const std::filesystem::path& folder, std::string_view uri, Reach reach = Reach::Folder);
 

@@ -11,6 +11,12 @@ namespace {
 
 constexpr int kMostSteps = 32;
 constexpr double kArrived = 1.0e-14; ///< of elements of an orthogonal matrix
+/// Sine of the shear that rounded files and products have: axes so square are left as they are.
+constexpr double kSquare = 1.0e-6;
+/// Sine of the angle between axes that count as parallel.
+constexpr double kParallel = 1.0e-9;
+/// Squares of elements within [1 / kPlain, kPlain] neither overflow nor vanish.
+constexpr double kPlain = 1.0e100;
 
 double largestElement(const dmat3& matrix) {
     double largest = 0.0;
@@ -47,6 +53,35 @@ std::optional<dmat3> findOrthogonal(const dmat3& matrix) {
     return x;
 }
 
+dvec3 normalizeOrZero(const dvec3& vector) {
+    const double size = glm::length(vector);
+    return size > 0.0 ? vector / size : dvec3(0.0);
+}
+
+/// Of axes of length 1 or 0: at right angles, and not mirrored.
+bool isRightHanded(const dmat3& axes) {
+    const double shear = std::max(
+        {std::abs(glm::dot(axes[0], axes[1])),
+         std::abs(glm::dot(axes[1], axes[2])),
+         std::abs(glm::dot(axes[2], axes[0]))}
+    );
+    return shear <= kSquare && glm::dot(glm::cross(axes[0], axes[1]), axes[2]) > 0.5;
+}
+
+/// The nearest right-handed axes that keep z, and y on its side of it (Gram and Schmidt).
+std::optional<dmat3> standUpright(const dmat3& axes) {
+    dvec3 back = axes[2];
+    if (back == dvec3(0.0))
+        back = normalizeOrZero(glm::cross(axes[0], axes[1]));
+    dvec3 up = axes[1] - back * glm::dot(axes[1], back);
+    if (!(glm::length(up) > kParallel))
+        up = glm::cross(back, axes[0]);
+    if (back == dvec3(0.0) || !(glm::length(up) > kParallel))
+        return std::nullopt;
+    up = glm::normalize(up);
+    return dmat3(glm::cross(up, back), up, back);
+}
+
 } // namespace
 
 dmat4 computeMatrix(const Transform& transform) {
@@ -65,18 +100,30 @@ dquat integrateRotation(const dvec3& angularVelocity, double seconds) {
     return glm::angleAxis(speed * seconds, angularVelocity / speed);
 }
 
-dmat4 removeScale(const dmat4& matrix) {
-    const double determinant = glm::determinant(dmat3(matrix));
-    dmat4 result(1.0);
-    result[3] = dvec4(dvec3(matrix[3]), 1.0);
-    if (!isFinite(matrix) || !std::isfinite(determinant) || determinant == 0.0)
-        return result;
-    for (int axis = 0; axis < 3; ++axis) {
-        const dvec3 column(matrix[axis]);
-        const double size = glm::length(column);
-        result[axis] = dvec4(size > 0.0 ? column / size : column, 0.0);
+std::optional<dmat4> findRigid(const dmat4& matrix) {
+    dmat3 axes(matrix);
+    const double largest = largestElement(axes);
+    if (!isFinite(matrix) || !(largest > 0.0))
+        return std::nullopt;
+    if (largest > kPlain || largest < 1.0 / kPlain)
+        axes /= largest;
+    for (int axis = 0; axis < 3; ++axis)
+        axes[axis] = normalizeOrZero(axes[axis]);
+    if (!isRightHanded(axes)) {
+        const auto upright = standUpright(axes);
+        if (!upright)
+            return std::nullopt;
+        axes = *upright;
     }
-    return result;
+    dmat4 rigid(axes);
+    rigid[3] = dvec4(dvec3(matrix[3]), 1.0);
+    return rigid;
+}
+
+dmat4 removeScale(const dmat4& matrix) {
+    if (const std::optional<dmat4> rigid = findRigid(matrix))
+        return *rigid;
+    return glm::translate(dmat4(1.0), dvec3(matrix[3]));
 }
 
 bool isFinite(const dmat4& matrix) {

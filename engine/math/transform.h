@@ -5,6 +5,8 @@
 
 #include "engine/math/math.h"
 
+#include <optional>
+
 namespace shutter::math {
 
 /// Translation, rotation and scale, applied in the order scale, rotation, translation (glTF).
@@ -21,8 +23,13 @@ struct Transform {
 /// Exact at zero velocity: returns the identity.
 [[nodiscard]] dquat integrateRotation(const dvec3& angularVelocity, double seconds);
 
-/// The matrix with axes of length 1: position and orientation only. A matrix that is not finite or
-/// is singular keeps its translation and gets the identity as rotation.
+/// Position and orientation of what looks along -Z with +Y up, without scale, shear and mirroring:
+/// -Z keeps its direction, and +Y the side of it that it lies on; +X follows, so that the axes stay
+/// right-handed. Where one of the three has no length, the two others tell it. Nothing: the matrix
+/// is not finite, or has no two directions.
+[[nodiscard]] std::optional<dmat4> findRigid(const dmat4& matrix);
+
+/// findRigid(); a matrix that has none keeps its translation and gets the identity as rotation.
 [[nodiscard]] dmat4 removeScale(const dmat4& matrix);
 
 /// True when every element is finite.
@@ -54,7 +61,7 @@ struct Pose {
 [[nodiscard]] dmat4 clipFromViewPerspective(double yFov, double aspect, double near);
 
 /// Orthographic with reversed depth: 1 at `near`, 0 at `far`; clip w is 1.
-/// \param xMag, yMag half width and half height of the view in metres, above 0
+/// \param xMag, yMag half width and half height of the view in metres, not 0; below 0 mirrors
 [[nodiscard]] dmat4 clipFromViewOrthographic(double xMag, double yMag, double near, double far);
 
 } // namespace shutter::math

@@ -53,7 +53,7 @@ struct LensMotion {
 /// \param aspect width / height of the picture, above 0
 ecs::Entity addFramingCamera(World& world, double aspect, double seconds);
 
-/// Rigid matrix (math::removeScale) of the camera at a time, seconds.
+/// Rigid matrix (worldFromRigid) of the camera at a time, seconds.
 using PoseAt = std::function<math::dmat4(double seconds)>;
 
 /// Whether a camera makes a cut that nobody announced: true when the pose jumps between `from` and

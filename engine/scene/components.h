@@ -9,6 +9,7 @@
 #include "engine/scene/assets.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,9 +79,11 @@ enum class CameraKind : uint8_t { Perspective, Orthographic };
 struct Camera {
     std::string name; ///< of the camera itself; its entity has a Name of its own; may be empty
     CameraKind kind = CameraKind::Perspective;
-    double yFov = 0.8; ///< perspective: vertical field of view, radians, (0, pi)
-    double xMag = 1.0; ///< orthographic: half width, metres
-    double yMag = 1.0; ///< orthographic: half height, metres; the picture's shape decides the width
+    double yFov = 0.8; ///< perspective: vertical field of view of its frame, radians, (0, pi)
+    /// Perspective: width / height of its frame, above 0; nothing: that of the picture.
+    std::optional<double> aspectRatio{};
+    double xMag = 1.0;   ///< orthographic: half width of its frame, metres, not 0; below 0 mirrors
+    double yMag = 1.0;   ///< orthographic: half height of its frame, likewise
     double near = 0.05;  ///< metres, above 0
     double far = 1000.0; ///< metres; orthographic only, perspective reaches to infinity
 };

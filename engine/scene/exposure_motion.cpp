@@ -92,7 +92,7 @@ ExposureMotion::ExposureMotion(
     if (mIsCut || isHeld(camera) || !scene::mayMove(world, camera))
         return;
     const auto poseAt = [&](double seconds) {
-        return math::removeScale(scene::worldFromEntity(world, camera, seconds));
+        return scene::worldFromRigid(world, camera, seconds);
     };
     mIsCut = findsCameraCut(poseAt, reach.after, reach.until, exposure.shutter.cuts);
 }
@@ -127,12 +127,12 @@ double ExposureMotion::screenScaleOf(ecs::Entity entity) const {
 
 dmat4 ExposureMotion::cameraAt(double seconds) const {
     if (isHeld(mCamera))
-        return scene::worldFromEntity(mWorld, mCamera, mExposure.raster);
+        return scene::worldFromRigid(mWorld, mCamera, mExposure.raster);
     const double turned = scaleTime(seconds, mExposure.shutter.cameraRotationScale);
     const double displaced = scaleTime(seconds, mExposure.shutter.cameraTranslationScale);
-    dmat4 world = scene::worldFromEntity(mWorld, mCamera, turned);
+    dmat4 world = scene::worldFromRigid(mWorld, mCamera, turned);
     if (displaced != turned)
-        world[3] = scene::worldFromEntity(mWorld, mCamera, displaced)[3];
+        world[3] = scene::worldFromRigid(mWorld, mCamera, displaced)[3];
     return world;
 }
 
@@ -163,10 +163,17 @@ bool ExposureMotion::mayCameraMove() const {
            mExposure.cap.camera != 0.0 && scene::mayMove(mWorld, mCamera) && !isHeld(mCamera);
 }
 
+double ExposureMotion::entitySeconds(ecs::Entity entity, double s) const {
+    return isHeld(entity) ? mExposure.raster
+                          : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
+}
+
 dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {
-    const double seconds =
-        isHeld(entity) ? mExposure.raster : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
-    return scene::worldFromEntity(mWorld, entity, seconds);
+    return scene::worldFromEntity(mWorld, entity, entitySeconds(entity, s));
+}
+
+dmat4 ExposureMotion::worldFromLight(ecs::Entity entity, double s) const {
+    return scene::worldFromLight(mWorld, entity, entitySeconds(entity, s));
 }
 
 double ExposureMotion::objectSeconds(ecs::Entity entity, double seconds, double screenScale) const {
@@ -186,13 +193,13 @@ dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
         return object;
     // On the screen as it would be at `seen`: from there into the view, through the lens of now,
     // and out again.
-    dmat4 view = math::removeScale(cameraAt(cameraSeconds));
+    dmat4 view = cameraAt(cameraSeconds);
     if (mayCameraZoom()) {
         const double wider = std::tan(yFovAt(cameraSeconds) / 2.0) / std::tan(yFovAt(seen) / 2.0);
         view[0] *= wider;
         view[1] *= wider;
     }
-    return view * glm::inverse(math::removeScale(cameraAt(seen))) * object;
+    return view * glm::inverse(cameraAt(seen)) * object;
 }
 
 Deformation ExposureMotion::deformationAt(ecs::Entity entity, double s) const {

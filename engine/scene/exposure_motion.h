@@ -33,14 +33,14 @@ class ExposureMotion {
 
     /// Shutter time s in [0, 1] below; `entity` and its parents are alive.
     [[nodiscard]] math::dmat4 worldFromEntity(ecs::Entity entity, double s) const;
+    /// The same of a light (motion.h, worldFromLight).
+    [[nodiscard]] math::dmat4 worldFromLight(ecs::Entity entity, double s) const;
     /// From the space that deformed vertices are given in (deformation.h), where the picture has
     /// it: an entity of its own scale (MotionBlur) rides with the camera for the part that is not
     /// its.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
-    /// Deformation::objectFromBind of one joint of a skinned entity.
-    [[nodiscard]] math::dmat4 objectFromBind(ecs::Entity entity, size_t joint, double s) const;
-    /// From the space of the camera's entity; may hold scale.
+    /// Rigid (motion.h, worldFromRigid), from the space of the camera's entity.
     [[nodiscard]] math::dmat4 worldFromCamera(double s) const;
     /// Vertical field of view of the camera, radians; orthographic cameras have none.
     [[nodiscard]] double cameraYFov(double s) const;
@@ -57,6 +57,8 @@ class ExposureMotion {
 
   private:
     [[nodiscard]] double secondsAt(double s) const;
+    /// From when the pose is that an entity has at s.
+    [[nodiscard]] double entitySeconds(ecs::Entity entity, double s) const;
     /// `seconds` run `scale` times as fast away from the raster instant.
     [[nodiscard]] double scaleTime(double seconds, double scale) const;
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;

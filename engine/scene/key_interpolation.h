@@ -74,7 +74,8 @@ template <class Key>
     return place;
 }
 
-/// Per second: the slope between a key's neighbours, at the ends of a shot to the only one.
+/// Per second: the slope between a key's neighbours, at the ends of a shot to the only one; 0 where
+/// one of them is equal, so that two equal keys hold still.
 template <class Value, class Key>
 [[nodiscard]] Value computeKeyTangent(
     const std::vector<Key>& keys,
@@ -84,7 +85,31 @@ template <class Value, class Key>
 ) {
     const size_t before = key > shot.first ? key - 1 : key;
     const size_t after = key < shot.last ? key + 1 : key;
+    const Value here = valueAt(key);
+    if ((before != key && valueAt(before) == here) || (after != key && valueAt(after) == here))
+        return Value(0.0);
     return (valueAt(after) - valueAt(before)) / (keys[after].seconds - keys[before].seconds);
+}
+
+/// From a key to the next of its shot.
+template <class Value, class Key>
+[[nodiscard]] HermiteSpan<Value> describeSpan(
+    const std::vector<Key>& keys,
+    PathInterpolation interpolation,
+    const KeyShot& shot,
+    size_t key,
+    const std::function<Value(size_t)>& valueAt
+) {
+    const Value from = valueAt(key);
+    const Value to = valueAt(key + 1);
+    if (interpolation == PathInterpolation::Linear)
+        return {from, to - from, to, to - from};
+    const double interval = keys[key + 1].seconds - keys[key].seconds;
+    return {
+        from,
+        interval * computeKeyTangent(keys, shot, key, valueAt),
+        to,
+        interval * computeKeyTangent(keys, shot, key + 1, valueAt)};
 }
 
 template <class Value, class Key>
@@ -98,15 +123,12 @@ template <class Value, class Key>
     if (place.share == 0.0)
         return from;
     const Value to = valueAt(place.key + 1);
+    if (to == from) // a hold, to the bit
+        return from;
     if (interpolation == PathInterpolation::Linear)
         return from + (to - from) * place.share;
-    const double interval = keys[place.key + 1].seconds - keys[place.key].seconds;
     return interpolateHermite<Value>(
-        {from,
-         interval * computeKeyTangent(keys, place.shot, place.key, valueAt),
-         to,
-         interval * computeKeyTangent(keys, place.shot, place.key + 1, valueAt)},
-        place.share
+        describeSpan<Value>(keys, interpolation, place.shot, place.key, valueAt), place.share
     );
 }
 

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace shutter::scene {
 
@@ -36,11 +37,15 @@ computeDisplacement(const ecs::Registry& registry, ecs::Entity entity, double se
     return result;
 }
 
-dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds) {
+enum class OwnScale : uint8_t { Kept, Dropped };
+
+dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds, OwnScale scale) {
     const ecs::Registry& registry = world.registry;
     const Displacement displacement = computeDisplacement(registry, entity, seconds);
     if (const auto* local = registry.find<LocalMatrix>(entity)) {
         dmat4 matrix = dmat4(glm::mat3_cast(displacement.rotation) * dmat3(local->matrix));
+        if (scale == OwnScale::Dropped)
+            matrix = math::removeScale(matrix);
         matrix[3] = local->matrix[3] + dvec4(displacement.translation, 0.0);
         return matrix;
     }
@@ -53,12 +58,16 @@ dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds) {
         pose = samplePath(*path, pose, seconds);
     pose.translation += displacement.translation;
     pose.rotation = displacement.rotation * pose.rotation;
+    if (scale == OwnScale::Dropped)
+        pose.scale = dvec3(1.0);
     return math::computeMatrix(pose);
 }
 
-} // namespace
-
-dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
+/// \param scaleOf whether an entity of the chain keeps its own scale
+template <class ScaleOf>
+dmat4 multiplyUpwards(
+    const World& world, ecs::Entity entity, double seconds, const ScaleOf& scaleOf
+) {
     const ecs::Registry& registry = world.registry;
     SHUTTER_CHECK(std::isfinite(seconds), "worldFromEntity at {} seconds", seconds);
     // Up the chain in a loop: a deep hierarchy must not overflow the stack.
@@ -69,11 +78,37 @@ dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
             registry.isAlive(ancestor), "{} in the chain of {} is not alive", ancestor, entity
         );
         SHUTTER_CHECK(steps < registry.aliveCount(), "the parents of {} form a cycle", entity);
-        result = parentFromEntity(world, ancestor, seconds) * result;
+        result = parentFromEntity(world, ancestor, seconds, scaleOf(ancestor)) * result;
         const auto* parent = registry.find<Parent>(ancestor);
         ancestor = parent ? parent->entity : ecs::kNullEntity;
     }
     return result;
+}
+
+} // namespace
+
+dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds) {
+    return multiplyUpwards(world, entity, seconds, [](ecs::Entity) { return OwnScale::Kept; });
+}
+
+dmat4 worldFromRigid(const World& world, ecs::Entity entity, double seconds) {
+    const dmat4 scaled = multiplyUpwards(world, entity, seconds, [&](ecs::Entity at) {
+        return at == entity ? OwnScale::Dropped : OwnScale::Kept;
+    });
+    if (const auto rigid = math::findRigid(scaled))
+        return *rigid;
+    dmat4 turned = math::removeScale(multiplyUpwards(world, entity, seconds, [](ecs::Entity) {
+        return OwnScale::Dropped;
+    }));
+    turned[3] = scaled[3];
+    return turned;
+}
+
+dmat4 worldFromLight(const World& world, ecs::Entity entity, double seconds) {
+    dmat4 light = worldFromEntity(world, entity, seconds);
+    if (dvec3(light[2]) == dvec3(0.0))
+        light[2] = worldFromRigid(world, entity, seconds)[2];
+    return light;
 }
 
 bool mayMove(const World& world, ecs::Entity entity) {

@@ -17,6 +17,15 @@ namespace shutter::scene {
 /// transform sits at its parent.
 [[nodiscard]] math::dmat4 worldFromEntity(const World& world, ecs::Entity entity, double seconds);
 
+/// The same of what looks along its -Z with +Y up: the view of a camera (glTF 2.0, 3.10.2, "with
+/// the scaling ignored"). Its own scale has no effect, negative or 0 though it be; parents turn it
+/// as math::findRigid says, and do so without their scale where that leaves it no direction.
+[[nodiscard]] math::dmat4 worldFromRigid(const World& world, ecs::Entity entity, double seconds);
+
+/// The same of what shines along its -Z: worldFromEntity, whose z axis is that of worldFromRigid
+/// where scale leaves it no length.
+[[nodiscard]] math::dmat4 worldFromLight(const World& world, ecs::Entity entity, double seconds);
+
 /// False when nothing that could move `entity` is on it or on one of its parents: worldFromEntity
 /// then answers the same at every time.
 [[nodiscard]] bool mayMove(const World& world, ecs::Entity entity);

@@ -2,6 +2,7 @@
 #include "engine/scene/path.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/look_at.h"
 
 #include <cmath>
 #include <cstddef>
@@ -14,9 +15,6 @@ using math::dvec3;
 using math::dvec4;
 
 namespace {
-
-/// Directions closer than this to `up`, sine of the angle, have no upright of their own.
-constexpr double kLeastSine = 1.0e-6;
 
 bool isFinite(const dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -49,30 +47,15 @@ dvec4 alignRotation(const std::vector<PathKey>& keys, size_t from, size_t key) {
     return value;
 }
 
-/// Looks with -Z along `direction`, +Y towards `up`.
-dquat lookAlong(const dvec3& direction, const dvec3& up) {
-    const double distance = glm::length(direction);
-    if (!(distance > 0.0))
-        return {1.0, 0.0, 0.0, 0.0};
-    const dvec3 back = -direction / distance;
-    dvec3 right = glm::cross(glm::normalize(up), back);
-    if (!(glm::length(right) > kLeastSine)) {
-        // Straight up or down: turned about the axis that `up` is farthest from.
-        const dvec3 other = std::abs(back.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
-        right = glm::cross(other, back);
-    }
-    right = glm::normalize(right);
-    return glm::quat_cast(math::dmat3(right, glm::cross(back, right), back));
-}
-
 dquat sampleRotation(const PathMotion& path, const KeyPlace& place) {
     const std::vector<PathKey>& keys = path.keys;
-    if (path.interpolation == PathInterpolation::Linear && place.share > 0.0)
-        return glm::slerp(
-            glm::normalize(*keys[place.key].rotation),
-            glm::normalize(*keys[place.key + 1].rotation),
-            place.share
-        );
+    if (path.interpolation == PathInterpolation::Linear && place.share > 0.0) {
+        const dquat from = *keys[place.key].rotation;
+        const dquat to = *keys[place.key + 1].rotation;
+        if (to == from || to == -from) // a hold, to the bit
+            return glm::normalize(from);
+        return glm::slerp(glm::normalize(from), glm::normalize(to), place.share);
+    }
     return toRotation(interpolate<dvec4>(path, place, [&](size_t key) {
         return alignRotation(keys, place.key, key);
     }));
@@ -128,7 +111,7 @@ math::Transform samplePath(const PathMotion& path, const math::Transform& rest, 
     if (keys.front().lookAt) {
         const dvec3 target =
             interpolate<dvec3>(path, place, [&](size_t key) { return *keys[key].lookAt; });
-        pose.rotation = lookAlong(target - pose.translation, path.up);
+        pose.rotation = lookAlongPath(path, place, target - pose.translation);
     }
     return pose;
 }

@@ -6,6 +6,7 @@
 #include "game/cli/commands.h"
 #include "game/options/program.h"
 #include "game/play/panel/play_settings.h"
+#include "game/shot/clips.h"
 #include "game/shot/methods.h"
 
 #include <CLI/CLI.hpp>
@@ -102,13 +103,15 @@ core::Status printScene(const std::string& path, io::Reach reach) {
         const auto* name = world.registry.find<scene::Name>(world.cameras[i]);
         fmt::print("camera {}: '{}' at node '{}'\n", i, camera.name, name ? name->value : "");
     }
-    for (const auto& clip : world.assets.clips)
+    for (uint32_t i = 0; i < world.assets.clips.size(); ++i) {
+        const scene::AnimationClip& clip = world.assets.clips[i];
         fmt::print(
             "clip {}: {:.4g} s, {}\n",
-            clip.name,
+            describeClip(world, i),
             clip.duration,
             core::countOf(clip.channels.size() + clip.weightChannels.size(), "channel")
         );
+    }
     for (const auto& skin : world.assets.skins)
         fmt::print("skin {}: {}\n", skin.name, core::countOf(skin.jointFromBind.size(), "joint"));
     for (const auto& mesh : world.assets.meshes)
@@ -118,6 +121,8 @@ core::Status printScene(const std::string& path, io::Reach reach) {
             );
     for (const std::string& warning : loaded.value().warnings)
         fmt::print("warning: {}\n", warning);
+    if (const std::string resting = describeRestingClips(world); !resting.empty())
+        fmt::print("{}: {}\n", path, resting);
     return {};
 }
 

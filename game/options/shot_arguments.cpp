@@ -31,13 +31,22 @@ constexpr std::array kViewRows = {
         "when a camera made to fit the scene fits it, seconds; default: in the first frame drawn",
         Matters::ToNoPicture // it counts as it is resolved, and only where a camera is made
     ),
+    makeWordRow<&A::frameFit, kFrameFitWords>(
+        "--frame-fit",
+        "a camera's frame in a picture of another shape: whole (default), or height: a narrower "
+        "picture crops its sides"
+    ),
     makeRow<&A::time>("--time", "time of the picture, seconds; default 0"),
     makeRow<&A::fps>(
         "--fps",
         "frames per second, a number or a fraction such as 24000/1001; default 24, or the "
         "flythrough's"
     ),
-    makeRow<&A::clips>("--clip", "clip to play (repeatable), or none; default: all"),
+    makeRow<&A::clips>(
+        "--clip",
+        "clip to play, by name or index (repeatable), or none; default: all but those that move "
+        "what a later one moves"
+    ),
     makeRow<&A::loop>("--loop", "restart clips when they end; default: hold the last pose"),
 };
 
@@ -121,7 +130,7 @@ constexpr std::array kFrameRows = {
     ),
     makeRow<&A::flythrough>(
         "--flythrough",
-        "fly the camera along FILE.json or the scene's clip:NAME; default: all of its frames",
+        "fly the camera along FILE.json or the scene's clip:NAME|INDEX; default: all of its frames",
         Matters::ToNoPicture
     ),
 };
@@ -230,6 +239,8 @@ Status parseFlythrough(const ShotArguments& arguments, ShotOptions& options) {
     constexpr std::string_view kClip = "clip:";
     if (arguments.flythrough.starts_with(kClip)) {
         options.flythroughClip = arguments.flythrough.substr(kClip.size());
+        if (options.flythroughClip.empty())
+            return makeError("--flythrough clip: gives no name or index of a clip");
         return {};
     }
     if (!arguments.flythrough.empty() && !arguments.camera.empty())
@@ -281,6 +292,7 @@ core::Result<ShotOptions> interpret(const ShotArguments& arguments) {
     options.scene = arguments.scene;
     options.reach = arguments.allowOutside ? io::Reach::Anywhere : io::Reach::Folder;
     options.camera = arguments.camera;
+    options.frameFit = arguments.frameFit;
     options.clips = arguments.clips;
     options.loop = arguments.loop;
     options.pixel = arguments.pixel;

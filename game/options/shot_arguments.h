@@ -25,6 +25,7 @@ struct ShotArguments {
     std::string scene;
     bool allowOutside = false;
     std::string camera;
+    extract::FrameFit frameFit = extract::FrameFit::Whole;
     std::optional<double> framingTime; ///< seconds; else that of the first frame drawn
     double time = 0.0;
     std::string frames;

@@ -6,6 +6,7 @@
 #include "engine/gltf/gltf_loader.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/world.h"
+#include "game/shot/clips.h"
 #include "game/shot/surroundings.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <system_error>
+#include <vector>
 
 namespace shutter::game {
 
@@ -25,37 +27,6 @@ using core::makeError;
 std::string nameOf(const scene::World& world, ecs::Entity entity) {
     const auto* name = world.registry.find<scene::Name>(entity);
     return name ? name->value : std::string();
-}
-
-core::Status selectClips(scene::World& world, const ShotOptions& options) {
-    const auto& clips = world.assets.clips;
-    world.playback.loop = options.loop;
-    if (options.clips.empty()) {
-        world.playback.activeClips.assign(clips.size(), true);
-        return {};
-    }
-    world.playback.activeClips.assign(clips.size(), false);
-    for (const std::string& wanted : options.clips) {
-        if (wanted == "none")
-            continue;
-        bool found = false;
-        std::string names;
-        for (size_t i = 0; i < clips.size(); ++i) {
-            names += fmt::format("{}{}", i ? ", " : "", clips[i].name);
-            if (clips[i].name != wanted)
-                continue;
-            world.playback.activeClips[i] = true;
-            found = true;
-        }
-        if (!found)
-            return makeError(
-                "{}: --clip '{}' is none of its clips ({})",
-                options.scene.string(),
-                wanted,
-                names.empty() ? "it has none" : names
-            );
-    }
-    return {};
 }
 
 double findFramingTime(const ShotOptions& options) {
@@ -103,23 +74,9 @@ std::set<uint32_t> listClipsOf(const scene::World& world, ecs::Entity camera) {
     return clips;
 }
 
-std::optional<uint32_t> findClip(const scene::World& world, const std::string& name) {
-    for (uint32_t i = 0; i < world.assets.clips.size(); ++i)
-        if (world.assets.clips[i].name == name)
-            return i;
-    return std::nullopt;
-}
-
-} // namespace
-
-core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options) {
+/// Error: --camera names none of the cameras.
+core::Result<ecs::Entity> findNamedCamera(const scene::World& world, const ShotOptions& options) {
     const std::string& wanted = options.camera;
-    if (wanted.empty()) {
-        if (!world.cameras.empty())
-            return world.cameras.front();
-        const double aspect = double(options.width) / options.height;
-        return scene::addFramingCamera(world, aspect, findFramingTime(options));
-    }
     std::string names;
     for (size_t i = 0; i < world.cameras.size(); ++i) {
         const std::string& name = world.registry.get<scene::Camera>(world.cameras[i]).name;
@@ -142,6 +99,52 @@ core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& opt
     );
 }
 
+/// A clip and the camera that it moves.
+struct ClipFlight {
+    uint32_t clip = 0;
+    ecs::Entity camera;
+};
+
+/// Of the clips that --flythrough names, the first that moves --camera's camera, or any.
+core::Result<ClipFlight> findClipFlight(const scene::World& world, const ShotOptions& options) {
+    const std::vector<uint32_t> clips = findClips(world, options.flythroughClip);
+    if (clips.empty())
+        return makeError(
+            "{}: --flythrough clip:{} is none of its clips ({})",
+            options.scene.string(),
+            options.flythroughClip,
+            listClips(world)
+        );
+    std::vector<ecs::Entity> cameras = world.cameras;
+    if (!options.camera.empty()) {
+        auto named = findNamedCamera(world, options);
+        if (!named)
+            return named.error();
+        cameras = {named.value()};
+    }
+    for (const uint32_t clip : clips)
+        for (const ecs::Entity camera : cameras)
+            if (listClipsOf(world, camera).contains(clip))
+                return ClipFlight{clip, camera};
+    return makeError(
+        "{}: --flythrough clip:{} moves {}",
+        options.scene.string(),
+        options.flythroughClip,
+        options.camera.empty() ? "no camera" : fmt::format("no camera '{}'", options.camera)
+    );
+}
+
+} // namespace
+
+core::Result<ecs::Entity> findCamera(scene::World& world, const ShotOptions& options) {
+    if (!options.camera.empty())
+        return findNamedCamera(world, options);
+    if (!world.cameras.empty())
+        return world.cameras.front();
+    const double aspect = double(options.width) / options.height;
+    return scene::addFramingCamera(world, aspect, findFramingTime(options));
+}
+
 core::Result<Shot> loadShot(const ShotOptions& options) {
     auto loaded = gltf::loadGltf(options.scene, {.reach = options.reach});
     if (!loaded)
@@ -150,7 +153,14 @@ core::Result<Shot> loadShot(const ShotOptions& options) {
         core::logWarning("{}", warning);
     Shot shot;
     shot.world = std::move(loaded.value().world);
-    SHUTTER_TRY(selectClips(shot.world, options));
+    std::optional<uint32_t> flying;
+    if (!options.flythroughClip.empty()) {
+        const auto flight = findClipFlight(shot.world, options);
+        if (!flight)
+            return flight.error();
+        flying = flight.value().clip;
+    }
+    SHUTTER_TRY(selectClips(shot.world, options, flying));
     const bool hasCamera = !shot.world.cameras.empty() || options.flythrough;
     auto camera = chooseCamera(shot.world, options);
     if (!camera)
@@ -174,6 +184,7 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     );
     view.width = options.width;
     view.height = options.height;
+    view.frameFit = options.frameFit;
     view.background = options.background;
     view.ambient = options.ambient;
     view.unlit = options.unlit;
@@ -241,49 +252,21 @@ core::Status planWholeFlight(double from, double to, ShotOptions& options) {
 }
 
 core::Result<ecs::Entity> chooseClipCamera(scene::World& world, const ShotOptions& options) {
-    const std::string& name = options.flythroughClip;
-    const auto clip = findClip(world, name);
-    if (!clip) {
-        std::string names;
-        for (const scene::AnimationClip& each : world.assets.clips)
-            names += (names.empty() ? "" : ", ") + each.name;
-        return makeError(
-            "{}: --flythrough clip:{} is none of its clips ({})",
-            options.scene.string(),
-            name,
-            names.empty() ? "it has none" : names
-        );
-    }
-    std::optional<ecs::Entity> found;
-    if (!options.camera.empty()) {
-        auto named = findCamera(world, options);
-        if (!named)
-            return named;
-        if (listClipsOf(world, named.value()).contains(*clip))
-            found = named.value();
-    } else {
-        for (const ecs::Entity camera : world.cameras)
-            if (!found && listClipsOf(world, camera).contains(*clip))
-                found = camera;
-    }
-    if (!found)
-        return makeError(
-            "{}: --flythrough clip:{} moves {}",
-            options.scene.string(),
-            name,
-            options.camera.empty() ? "no camera" : fmt::format("no camera '{}'", options.camera)
-        );
-    for (const uint32_t other : listClipsOf(world, *found))
-        world.playback.activeClips[other] = other == *clip;
-    return *found;
+    const auto flight = findClipFlight(world, options);
+    if (!flight)
+        return flight.error();
+    const auto [clip, camera] = flight.value();
+    for (const uint32_t other : listClipsOf(world, camera))
+        world.playback.activeClips[other] = other == clip;
+    return camera;
 }
 
 core::Status planClipFrames(const scene::World& world, ShotOptions& options) {
     if (options.flythroughClip.empty() || !options.frameTimes.empty())
         return {};
-    const auto clip = findClip(world, options.flythroughClip);
-    SHUTTER_CHECK(clip.has_value(), "the clip was found before");
-    return planWholeFlight(0.0, world.assets.clips[*clip].duration, options);
+    const auto flight = findClipFlight(world, options);
+    SHUTTER_CHECK(flight.ok(), "the clip was found before");
+    return planWholeFlight(0.0, world.assets.clips[flight.value().clip].duration, options);
 }
 
 } // namespace shutter::game

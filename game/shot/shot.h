@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene with the camera, clips and shutter that the options name, and the frames of a flight
 // through it (`--flythrough`): from a file (flythrough.schema.json) or from one of the scene's own
-// clips (`clip:NAME`).
+// clips (`clip:NAME|INDEX`).
 #pragma once
 
 #include "engine/core/result.h"
@@ -46,8 +46,9 @@ planFrames(const char* option, double first, double last, ShotOptions& options);
 /// Plans every frame whose time, in seconds, lies in the flight, both ends included; at least one.
 [[nodiscard]] core::Status planWholeFlight(double from, double to, ShotOptions& options);
 
-/// The camera that the clip `options.flythroughClip` moves: --camera's, or the first. Other clips
-/// that drive this camera or its parents no longer play. Error: there is no such clip or camera.
+/// The camera that the clip `options.flythroughClip` moves: --camera's, or the first; of several
+/// clips of the name, the first that moves one. Other clips that drive this camera or its parents
+/// no longer play. Error: there is no such clip or camera.
 [[nodiscard]] core::Result<ecs::Entity>
 chooseClipCamera(scene::World& world, const ShotOptions& options);
 

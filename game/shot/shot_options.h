@@ -40,6 +40,8 @@ enum class AntiAliasing : uint8_t {
 inline constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
 /// In the order of extract::ShadowMode.
 inline constexpr std::string_view kShadowWords[] = {"none", "sharp", "blurred"};
+/// In the order of extract::FrameFit.
+inline constexpr std::string_view kFrameFitWords[] = {"whole", "height"};
 
 /// A scene, its camera, frames, light and look.
 struct ShotOptions {
@@ -48,7 +50,7 @@ struct ShotOptions {
     std::string camera;                  ///< name or index; empty: the first
     /// When a camera made to fit the scene fits it, seconds; nothing: in the first frame.
     std::optional<double> framingSeconds;
-    std::vector<std::string> clips; ///< names, or "none"; empty: all
+    std::vector<std::string> clips; ///< names or indices, or "none"; empty: all (selectClips)
     bool loop = false;
     std::vector<double> frameTimes; ///< seconds
     int firstFrame = 0;             ///< number of the first file of a sequence
@@ -59,10 +61,11 @@ struct ShotOptions {
     std::string flythroughHash;                       ///< of its file
     bool isFlythroughShutter =
         false;                  ///< no option sets a shutter, so the flythrough's shutters apply
-    std::string flythroughClip; ///< of --flythrough clip:NAME
+    std::string flythroughClip; ///< of --flythrough clip:NAME|INDEX
     scene::CameraShutter shutter{};
     uint32_t width = 0;  ///< pixels
     uint32_t height = 0; ///< pixels
+    extract::FrameFit frameFit = extract::FrameFit::Whole;
     bool unlit = false;
     math::vec3 background{0.0f};                     ///< linear
     math::vec3 ambient{0.0f};                        ///< linear

@@ -97,7 +97,7 @@ void addSky(scene::World& world, double turbidity, double intensity, double seco
     for (auto [entity, light] : world.registry.view<scene::Light>()) {
         if (light.kind != scene::LightKind::Directional)
             continue;
-        const math::dvec3 back(scene::worldFromEntity(world, entity, seconds)[2]);
+        const math::dvec3 back(scene::worldFromLight(world, entity, seconds)[2]);
         if (!(glm::length(back) > 0.0))
             continue;
         sky.toSun = glm::normalize(back); // a light shines along its -Z

@@ -506,7 +506,7 @@ TEST_F(Cli, InfoCountsWhatASceneHolds) {
           "bounds 0 0 0 to 4 0 0 m",
           "camera 0: ",
           "eye",
-          "clip nod: 0 s, 1 channel\n",
+          "clip 0 'nod': 0 s, 1 channel\n",
           "skin rig: 2 joints",
           "mesh face: 1 morph target\n"})
         EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;

@@ -69,12 +69,9 @@ loadCheckedShot(const CheckScene& scene, const math::uvec2& sizePx, double expos
 motion_blur::HostCameras tellCameras(const scene::World& world, const extract::ViewRequest& view) {
     const scene::ExposureMotion moves(world, view.camera, view.exposure);
     const auto& camera = world.registry.get<scene::Camera>(view.camera);
-    const auto viewAt = [&](double s) {
-        return glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s)));
-    };
+    const auto viewAt = [&](double s) { return glm::inverse(moves.worldFromCamera(s)); };
     const auto clipAt = [&](double s) {
-        const double aspect = double(view.width) / view.height;
-        return extract::makeProjection(camera, moves.cameraYFov(s), aspect);
+        return extract::makeProjection(camera, moves.cameraYFov(s), view);
     };
     motion_blur::HostCameras cameras;
     cameras.areGiven = true;

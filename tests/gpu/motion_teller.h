@@ -29,13 +29,12 @@ class Teller {
         const scene::ExposureMotion moves(context.world, context.view.camera, exposure);
         const std::vector<double> times = listTimes(exposure);
         const auto& camera = context.world.registry.get<scene::Camera>(context.view.camera);
-        const double aspect = double(context.view.width) / context.view.height;
         mKeys.clear();
         for (const double s : times)
             mKeys.push_back(
                 {s,
-                 glm::inverse(extract::computeWorldFromView(moves.worldFromCamera(s))),
-                 extract::makeProjection(camera, moves.cameraYFov(s), aspect)}
+                 glm::inverse(moves.worldFromCamera(s)),
+                 extract::makeProjection(camera, moves.cameraYFov(s), context.view)}
             );
         tellMovers(context.frame, moves, times, exposure.rasterTime);
         mResponse = scene::computeResponseTable(exposure.shutter.response);

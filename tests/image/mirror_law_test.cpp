@@ -72,6 +72,26 @@ TEST_F(MirrorLaw, AMirroredSceneMakesTheMirroredPicture) {
         }
 }
 
+TEST_F(MirrorLaw, AMirroringCameraMakesTheMirroredPicture) {
+    const SceneBuilder scene = makeScene(1.0);
+    SceneBuilder mirroring = makeScene(1.0);
+    mirroring.cameraSettings().xMag = -1.0; // its width is that of the picture
+    Stage stage(device(), scene);
+    Stage mirroringStage(device(), mirroring);
+    for (std::string_view method : test::listRasterMethods(device())) {
+        Shot shot{.method = method, .background = math::vec3(0.05f)};
+        shot.settings.jitter = 0.0f;
+        shot.settings.raysPerPixel = 0.0f;
+        shot.settings.tileSizePx = kTilePx;
+        const auto direct = stage.render(shot);
+        const auto across = mirroringStage.render(shot);
+        EXPECT_LE(
+            image::computeMaxDifference(direct.color, test::mirror(across.color)), 1.0 / 2048.0
+        ) << method;
+        EXPECT_GT(image::computeMaxDifference(direct.color, across.color), 0.1);
+    }
+}
+
 TEST_F(MirrorLaw, MaskAndRevealAreMirroredBitForBit) {
     Shot shot{.method = "hybrid", .aovs = {"mask", "reveal"}};
     shot.settings.tileSizePx = kTilePx;

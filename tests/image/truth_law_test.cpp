@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace shutter {
 namespace {
@@ -61,6 +62,66 @@ TEST_F(TruthLaw, AStillSceneIsTheSharpPicture) {
                 different += std::abs(sharp.color.at(x, y, c) - rays.color.at(x, y, c)) > 2e-3f;
     EXPECT_LE(different, 12u);
     EXPECT_GT(findLargestColor(rays.color), 0.3);
+}
+
+/// Pixels that differ by more than half floats round, of `sharp` and rays.
+size_t countDifferent(const image::Image& sharp, const image::Image& rays) {
+    size_t different = 0;
+    for (uint32_t y = 0; y < sharp.height; ++y)
+        for (uint32_t x = 0; x < sharp.width; ++x)
+            different += std::abs(sharp.at(x, y, 0) - rays.at(x, y, 0)) > 2e-3f;
+    return different;
+}
+
+TEST_F(TruthLaw, RaysSeeWhatRasterSeesThroughEveryCamera) {
+    using Change = void (*)(SceneBuilder&);
+    const auto scaleParent = [](SceneBuilder& scene, const math::dvec3& scale) {
+        const ecs::Entity parent = scene.world.registry.create();
+        scene.world.registry.add(parent, scene::LocalTransform{{{0, 0, 0}, {1, 0, 0, 0}, scale}});
+        scene.world.registry.add(scene.camera, scene::Parent{parent});
+    };
+    static const auto scaled = scaleParent;
+    const std::pair<const char*, Change> cameras[] = {
+        {"sheared",
+         [](SceneBuilder& scene) {
+             scene.world.registry.get<scene::LocalTransform>(scene.camera).transform.rotation =
+                 glm::angleAxis(0.4, math::dvec3(0, 0, 1));
+             scaled(scene, {1, 3, 1});
+         }},
+        {"mirrored",
+         [](SceneBuilder& scene) {
+             scaled(scene, {-1, 1, 1});
+         }},
+        {"upside down",
+         [](SceneBuilder& scene) {
+             scaled(scene, {2, -1, 1});
+         }},
+        {"a wide frame", [](SceneBuilder& scene) { scene.cameraSettings().aspectRatio = 2.5; }},
+        {"a wide orthographic frame",
+         [](SceneBuilder& scene) {
+             scene.setPixelView(4);
+             scene.cameraSettings().xMag = 4.0;
+         }},
+        {"a mirroring frame",
+         [](SceneBuilder& scene) {
+             scene.setPixelView(4);
+             scene.cameraSettings().xMag = -4.0;
+         }},
+        {"a frame that mirrors twice", [](SceneBuilder& scene) {
+             scene.setPixelView(4);
+             scene.cameraSettings().xMag = -1.0;
+             scene.cameraSettings().yMag = -2.0;
+         }}};
+    for (const auto& [name, change] : cameras) {
+        SceneBuilder scene = makeScene(false);
+        change(scene);
+        Stage stage(device(), scene);
+        const auto sharp = stage.render({.ambient = math::vec3(0.3f)});
+        const auto rays =
+            stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 2});
+        EXPECT_LE(countDifferent(sharp.color, rays.color), 12u) << name;
+        EXPECT_GT(findLargestColor(sharp.color), 0.3) << name;
+    }
 }
 
 TEST_F(TruthLaw, WithoutAnExposureAMoverIsSharpToo) {

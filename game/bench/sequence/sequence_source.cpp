@@ -40,8 +40,7 @@ extract::ViewRequest SequenceSource::view() const {
 StandingView SequenceSource::standingView() const {
     const extract::ViewRequest view = ownView();
     const double seconds = view.exposure.raster;
-    const math::dmat4 rigid =
-        math::removeScale(scene::worldFromEntity(world(), view.camera, seconds));
+    const math::dmat4 rigid = scene::worldFromRigid(world(), view.camera, seconds);
     StandingView standing;
     standing.pose.translation = math::dvec3(rigid[3]);
     standing.pose.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/flythrough_recorder.h"
 
-#include "engine/math/transform.h"
+#include "engine/extract/frame_view.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
 #include "game/play/loop/numbered_file.h"
 
@@ -14,13 +15,20 @@ namespace shutter::game {
 
 namespace {
 
-flythrough::FlythroughKey makeKey(const scene::World& world, ecs::Entity camera, double seconds) {
-    const math::dmat4 rigid = math::removeScale(worldFromEntity(world, camera, seconds));
+constexpr double kWidestDegrees = 179.0; ///< that a file may hold
+
+flythrough::FlythroughKey makeKey(const scene::World& world, const extract::ViewRequest& view) {
+    const double seconds = view.exposure.raster;
+    const math::dmat4 rigid = worldFromRigid(world, view.camera, seconds);
     flythrough::FlythroughKey key;
     key.position = math::dvec3(rigid[3]);
     key.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
-    const auto& lens = world.registry.get<scene::Camera>(camera);
-    key.fieldOfView = lens.yFov * 180.0 / std::numbers::pi;
+    const double yFov = extract::computePictureYFov(
+        world.registry.get<scene::Camera>(view.camera),
+        scene::yFovAt(world, view.camera, seconds),
+        view
+    );
+    key.fieldOfView = std::min(yFov * 180.0 / std::numbers::pi, kWidestDegrees);
     return key;
 }
 
@@ -32,22 +40,23 @@ void FlythroughRecorder::start() {
     mLast.reset();
 }
 
-void FlythroughRecorder::addFrame(const scene::World& world, ecs::Entity camera, double seconds) {
+void FlythroughRecorder::addFrame(const scene::World& world, const extract::ViewRequest& view) {
     if (!mFlight)
         return;
+    const double seconds = view.exposure.raster;
     auto& keys = mFlight->keys;
     if (keys.empty()) {
         mStartSeconds = seconds;
-        mCamera = camera;
+        mCamera = view.camera;
     }
-    flythrough::FlythroughKey key = makeKey(world, camera, seconds);
+    flythrough::FlythroughKey key = makeKey(world, view);
     key.seconds = seconds - mStartSeconds;
     if (!keys.empty() && key.seconds <= keys.back().seconds)
         return; // paused
-    key.cut = camera != mCamera;
+    key.cut = view.camera != mCamera;
     const bool isDue =
         keys.empty() || key.cut || key.seconds >= keys.back().seconds + kRecordedKeySeconds - 1e-9;
-    mCamera = camera;
+    mCamera = view.camera;
     if (!isDue) {
         mLast = key;
         return;

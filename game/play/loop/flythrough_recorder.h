@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/flythrough/flythrough.h"
 #include "engine/scene/world.h"
 
@@ -21,9 +22,10 @@ class FlythroughRecorder {
 
     void start();
 
-    /// Takes the camera's place, if the last key is long enough ago. Another camera than before is
-    /// a cut. \param seconds game time, not falling
-    void addFrame(const scene::World& world, ecs::Entity camera, double seconds);
+    /// Takes the camera's place at the raster instant, and the picture's field of view, if the last
+    /// key is long enough ago. Another camera than before is a cut.
+    /// \param view at game times that do not fall
+    void addFrame(const scene::World& world, const extract::ViewRequest& view);
 
     /// Ends, and writes flythrough_NNN.json, the first number that is free, into the folder. Times
     /// start at 0. Error: nothing was recorded, or the file cannot be written.

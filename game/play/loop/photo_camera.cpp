@@ -13,12 +13,19 @@ namespace {
 
 constexpr double kMetresPerSecond = 4.0; ///< until the wheel says otherwise
 
-math::Transform makeRigid(const math::dmat4& matrix) {
-    const math::dmat4 rigid = math::removeScale(matrix);
+math::Transform toTransform(const math::dmat4& rigid) {
     math::Transform transform;
     transform.translation = math::dvec3(rigid[3]);
     transform.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
     return transform;
+}
+
+/// Up to rounding.
+bool isNear(const math::dmat4& a, const math::dmat4& b) {
+    for (int column = 0; column < 3; ++column)
+        if (!(glm::distance(a[column], b[column]) < 1.0e-9))
+            return false;
+    return true;
 }
 
 bool isSameView(const app::FlyView& a, const app::FlyView& b) {
@@ -30,16 +37,23 @@ bool isSameView(const app::FlyView& a, const app::FlyView& b) {
 void PhotoCamera::take(scene::World& world, ecs::Entity stageCamera, double seconds) {
     if (mOut)
         return;
-    const math::dmat4 worldFromStage =
-        math::removeScale(worldFromEntity(world, stageCamera, seconds));
+    const math::dmat4 worldFromStage = worldFromEntity(world, stageCamera, seconds);
+    const math::dmat4 worldFromView = worldFromRigid(world, stageCamera, seconds);
     const scene::Camera lens = world.registry.get<scene::Camera>(stageCamera);
     Out out;
     out.entity = world.registry.create();
     world.registry.add(out.entity, lens);
-    world.registry.add(out.entity, scene::Parent{stageCamera});
-    world.registry.add(out.entity, scene::LocalTransform{});
-    out.stageFromWorld = glm::inverse(worldFromStage);
-    out.start = app::makeFly(makeRigid(worldFromStage), kMetresPerSecond);
+    // What the stage scales or mirrors is taken back; one that is scaled to nothing carries nobody.
+    const math::dmat4 stageFromWorld = glm::inverse(worldFromStage);
+    const bool carries = math::isFinite(stageFromWorld);
+    if (carries)
+        world.registry.add(out.entity, scene::Parent{stageCamera});
+    out.stageFromWorld = carries ? stageFromWorld : math::dmat4(1.0);
+    out.rest = carries && isNear(worldFromStage, worldFromView)
+                   ? math::dmat4(1.0)
+                   : out.stageFromWorld * worldFromView;
+    world.registry.add(out.entity, scene::LocalMatrix{out.rest});
+    out.start = app::makeFly(toTransform(worldFromView), kMetresPerSecond);
     out.view = out.start;
     mOut = out;
 }
@@ -62,10 +76,10 @@ void PhotoCamera::advance(
         return;
     steer(mOut->view, input, wallSeconds, heightPx);
     // A view has no roll: one that nobody moved is the stage's camera itself.
-    math::Transform local;
+    math::dmat4 local = mOut->rest;
     if (!isSameView(mOut->view, mOut->start))
-        local = makeRigid(mOut->stageFromWorld * computeMatrix(placementOf(mOut->view)));
-    world.registry.get<scene::LocalTransform>(mOut->entity).transform = local;
+        local = mOut->stageFromWorld * computeMatrix(placementOf(mOut->view));
+    world.registry.get<scene::LocalMatrix>(mOut->entity).matrix = local;
 }
 
 } // namespace shutter::game

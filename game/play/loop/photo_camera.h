@@ -32,6 +32,7 @@ class PhotoCamera {
     struct Out {
         ecs::Entity entity;
         math::dmat4 stageFromWorld{1.0};
+        math::dmat4 rest{1.0}; ///< where it is until it is moved, from the stage's camera
         app::FlyView start;
         app::FlyView view;
     };

@@ -442,8 +442,8 @@ core::Status PlayLoop::drawPicture(double duration) {
         size = {swapchain->desc().width, swapchain->desc().height};
     }
     chooseExposure(duration);
-    mRecorder.addFrame(mStage->world(), camera(), mExposure.raster);
     PlayPicture picture = makePicture(size);
+    mRecorder.addFrame(mStage->world(), picture.view);
     if (swapchain)
         picture.window.acquire = [&] {
             if (!shown)
@@ -474,6 +474,7 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;
+    picture.view.frameFit = mSettings.frameFit;
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
     picture.view.environment = mSettings.environment;

@@ -38,6 +38,10 @@ constexpr std::array kShotRows = {
 };
 
 constexpr std::array kEffectRows = {
+    makeOptionalWordRow<&PlayArguments::frameFit, kFrameFitWords>(
+        "--frame-fit",
+        "a camera's frame in the window: whole or height; default: as in the settings"
+    ),
     makeRow<&PlayArguments::sky>(
         "--sky", "clear sky: its turbidity, 1.7 to 10; 0: none, not even a demo's own"
     ),
@@ -95,6 +99,7 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
 }
 
 core::Status interpretEffects(const PlayArguments& arguments, PlayOptions& options) {
+    options.frameFit = arguments.frameFit;
     options.antiAliasing = arguments.antiAliasing;
     options.shadows = arguments.shadows;
     options.bloom = arguments.bloom;
@@ -115,10 +120,15 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     );
     command.add_option("--camera", a.shot.camera, "camera of a scene, by name or index");
     command.add_option(
-        "--flythrough", a.shot.flythrough, "fly through a scene along a JSON file or clip:NAME"
+        "--flythrough",
+        a.shot.flythrough,
+        "fly through a scene along a JSON file or clip:NAME|INDEX"
     );
     command.add_option(
-        "--clip", a.shot.clips, "clip of a scene to play (repeatable), or none; default: all"
+        "--clip",
+        a.shot.clips,
+        "clip of a scene to play, by name or index (repeatable), or none; default: all but those "
+        "that move what a later one moves"
     );
     command.add_flag(
         "--loop,!--no-loop", a.shot.loop, "restart the clips of a scene when they end (default)"

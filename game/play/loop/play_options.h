@@ -29,6 +29,7 @@ struct PlayArguments {
     std::string stats;
     std::optional<bool> vsync;
     std::optional<double> uiScale;
+    std::optional<extract::FrameFit> frameFit;
     std::optional<AntiAliasing> antiAliasing;
     std::optional<extract::ShadowMode> shadows;
     std::optional<float> bloom;
@@ -42,18 +43,18 @@ struct PlayOptions {
     std::string demo; ///< of listDemos(); empty: a scene is looked at
     ShotOptions shot; ///< scene, camera, clips, loop, size and light count
     gpu::DeviceOptions device;
-    std::filesystem::path ffmpeg;       ///< empty: the one on PATH
-    std::optional<std::string> method;  ///< wins over the settings' own
-    std::filesystem::path script;       ///< empty: a person plays
-    std::filesystem::path film;         ///< %04d.png or .mp4; empty: none
-    core::FrameRate fps = 30.0;         ///< of frames that nobody waits for
-    std::filesystem::path settings;     ///< empty: the player's own
-    std::filesystem::path assets;       ///< folder of the demos' scenes
-    std::filesystem::path stats;        ///< empty: none
-    std::filesystem::path shaderFolder; ///< of shaders to reload; empty: none
-    std::optional<bool> vsync;          ///< wins over the settings' own
-    std::optional<double> uiScale;      ///< wins over the settings' own
+    std::filesystem::path ffmpeg;      ///< empty: the one on PATH
+    std::optional<std::string> method; ///< wins over the settings' own
+    std::filesystem::path script;      ///< empty: a person plays
+    std::filesystem::path film;        ///< %04d.png or .mp4; empty: none
+    core::FrameRate fps = 30.0;        ///< of frames that nobody waits for
+    std::filesystem::path settings;    ///< empty: the player's own
+    std::filesystem::path assets;      ///< folder of the demos' scenes
+    std::filesystem::path stats;       ///< empty: none
+    std::optional<bool> vsync;         ///< wins over the settings' own
+    std::optional<double> uiScale;     ///< wins over the settings' own
     /// Win over the settings' own, each.
+    std::optional<extract::FrameFit> frameFit;
     std::optional<AntiAliasing> antiAliasing;
     std::optional<extract::ShadowMode> shadows;
     std::optional<float> bloom;

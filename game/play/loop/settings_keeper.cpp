@@ -21,6 +21,8 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.vsync = *options.vsync;
     if (options.uiScale)
         settings.uiScale = *options.uiScale;
+    if (options.frameFit)
+        settings.frameFit = *options.frameFit;
     if (options.antiAliasing)
         settings.antiAliasing = *options.antiAliasing;
     if (options.shadows)

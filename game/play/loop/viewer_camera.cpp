@@ -19,7 +19,7 @@ constexpr double kWaySeconds = 0.5;
 constexpr double kFlyShare = 0.5;
 
 math::Transform placementAt(const scene::World& world, ecs::Entity entity, double seconds) {
-    const math::dmat4 rigid = math::removeScale(worldFromEntity(world, entity, seconds));
+    const math::dmat4 rigid = worldFromRigid(world, entity, seconds);
     math::Transform placement;
     placement.translation = math::dvec3(rigid[3]);
     placement.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));

@@ -176,7 +176,9 @@ void drawPictureSection(const PanelFacts& facts, PlaySettings& settings) {
         settings.view
     );
     drawPlayRows(
-        "display", settings, std::vector<std::string_view>{"resolutionScale", "vsync", "uiScale"}
+        "display",
+        settings,
+        std::vector<std::string_view>{"frameFit", "resolutionScale", "vsync", "uiScale"}
     );
 }
 

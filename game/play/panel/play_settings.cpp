@@ -202,6 +202,13 @@ core::SettingRows<PlaySettings> listPlayRows() {
          {.lowest = 0, .highest = 1},
          "How far around that light highlights set in, as a share of it.",
          "Bloom's knee"},
+        {"frameFit",
+         core::makeWordField<&S::frameFit>(kFrameFitWords),
+         "",
+         {},
+         "The camera's frame in a window of another shape: whole, or as high as the window, whose "
+         "sides then crop it where it is narrower.",
+         "Camera's frame"},
         {"resolutionScale",
          &S::resolutionScale,
          "",

@@ -41,10 +41,11 @@ struct PlaySettings {
                                ///< blur.sampleCount, [1, 256]
     AntiAliasing antiAliasing = AntiAliasing::Taa;
     extract::ShadowMode shadows = extract::ShadowMode::Blurred;
-    bool environment = true;      ///< extract::ViewRequest::environment
-    float bloomShare = 0.04f;     ///< bloom::BloomSettings::share, [0, 1]
-    float bloomThreshold = 1.0f;  ///< bloom::BloomSettings::threshold, [0, 65000]
-    float bloomKnee = 0.5f;       ///< bloom::BloomSettings::knee, [0, 1]
+    bool environment = true;     ///< extract::ViewRequest::environment
+    float bloomShare = 0.04f;    ///< bloom::BloomSettings::share, [0, 1]
+    float bloomThreshold = 1.0f; ///< bloom::BloomSettings::threshold, [0, 65000]
+    float bloomKnee = 0.5f;      ///< bloom::BloomSettings::knee, [0, 1]
+    extract::FrameFit frameFit = extract::FrameFit::Whole;
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     double uiScale = 1.0; ///< of text and panel, on top of the display's own scale, [0.5, 4]

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "engine/math/transform.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 namespace shutter::extract {
 
@@ -145,6 +147,89 @@ TEST_F(Extraction, AnOrthographicCameraSeesOneSizeAtEveryDistance) {
     EXPECT_EQ(frame.opaque.size(), 2u);
     EXPECT_EQ(frame.constants.pixelFootprint, math::vec2(0.0f, 0.08f));
     EXPECT_EQ(frame.constants.forward.w, 0.5f);
+}
+
+TEST_F(Extraction, ACamerasFrameIsSeenWholeInAPictureOfAnotherShape) {
+    auto& lens = world.registry.get<scene::Camera>(camera);
+    const ExtractedFrame plain = extract(); // 200 x 100, no frame of its own
+    const auto clip = [](const ExtractedFrame& frame) { return frame.constants.clipFromEye; };
+    for (const double narrower : {0.5, 1.0, 2.0, 2.0 + 1e-7}) {
+        lens.aspectRatio = narrower;
+        EXPECT_EQ(clip(extract()), clip(plain)) << narrower;
+    }
+    lens.aspectRatio = 5.0;
+    const ExtractedFrame whole = extract();
+    const math::vec2 corner(5.0 * std::tan(0.4), std::tan(0.4));
+    const math::vec3 seen = project(clip(whole), math::vec3(corner, -1.0f));
+    EXPECT_NEAR(seen.x, 1.0f, 1e-6f);
+    EXPECT_NEAR(seen.y, -0.4f, 1e-6f) << "pixels stay square";
+    EXPECT_NEAR(whole.constants.pixelFootprint.x, 2.5 * plain.constants.pixelFootprint.x, 1e-7);
+    request.frameFit = FrameFit::Height;
+    EXPECT_EQ(clip(extract()), clip(plain));
+}
+
+TEST_F(Extraction, AnOrthographicFrameIsSeenWholeInAPictureOfAnotherShape) {
+    auto& lens = world.registry.get<scene::Camera>(camera);
+    lens.kind = scene::CameraKind::Orthographic;
+    lens.xMag = 12.0;
+    lens.yMag = 4.0;
+    const auto seen = [&](const math::vec3& place) {
+        return math::vec2(project(extract().constants.clipFromEye, place));
+    };
+    const math::vec3 corner(12.0f, 4.0f, -10.0f);
+    EXPECT_LT(glm::distance(seen(corner), math::vec2(1.0f, -2.0f / 3.0f)), 1e-6f);
+    EXPECT_NEAR(extract().constants.pixelFootprint.y, 0.12f, 1e-7f);
+    request.frameFit = FrameFit::Height;
+    EXPECT_LT(glm::distance(seen(corner), math::vec2(1.5f, -1.0f)), 1e-6f);
+    request.frameFit = FrameFit::Whole;
+    lens.xMag = 3.0; // narrower than the picture: more is seen beside it
+    EXPECT_LT(glm::distance(seen({3, 4, -10}), math::vec2(0.375f, -1.0f)), 1e-6f);
+}
+
+TEST_F(Extraction, ANegativeMagnificationMirrorsThePictureAndTurnsWindingsRound) {
+    auto& lens = world.registry.get<scene::Camera>(camera);
+    lens.kind = scene::CameraKind::Orthographic;
+    lens.yMag = 4.0;
+    addBox({2.0, 2.0, -10.0});
+    addBox({{1.0, 1.0, -20.0}, {1, 0, 0, 0}, {-1.0, 1.0, 1.0}});
+    for (const double x : {1.0, -1.0})
+        for (const double y : {4.0, -4.0}) {
+            lens.xMag = x;
+            lens.yMag = y;
+            const ExtractedFrame frame = extract();
+            const math::vec3 at = project(frame.entities[0].clipFromObjectRaster, math::vec3());
+            EXPECT_NEAR(at.x, 0.25 * x, 1e-6f);
+            EXPECT_NEAR(at.y, -0.5 * y / 4.0, 1e-6f);
+            EXPECT_FLOAT_EQ(frame.constants.pixelFootprint.y, 0.08f);
+            const std::vector<DrawItem> draws = frame.opaque.merge();
+            ASSERT_EQ(draws.size(), 2u);
+            EXPECT_EQ(draws[0].mirrored, x * y < 0.0);
+            EXPECT_EQ(draws[1].mirrored, x * y > 0.0);
+            EXPECT_EQ(frame.entities[0].handedness, 1.0f) << "in the world nothing is mirrored";
+        }
+}
+
+TEST_F(Extraction, ACameraBelowAShearedOrMirroredParentStaysRigid) {
+    addBox({0.5, 0.25, -10.0});
+    const ecs::Entity parent = world.registry.create();
+    world.registry.add(camera, scene::Parent{parent});
+    world.registry.get<scene::LocalTransform>(camera).transform.rotation =
+        glm::angleAxis(0.5, glm::normalize(math::dvec3(1.0, 2.0, 3.0)));
+    for (const math::dvec3& scale :
+         {math::dvec3(1, 3, 0.5), math::dvec3(-1, 1, 1), math::dvec3(2, -1, 1), math::dvec3(0)}) {
+        world.registry.add(
+            parent,
+            scene::LocalTransform{{{0, 0, 0}, glm::angleAxis(0.3, math::dvec3(0, 1, 0)), scale}}
+        );
+        const ExtractedFrame frame = extract();
+        // Back into the view's own space: a rotation is left.
+        const math::dmat4 projection = math::clipFromViewPerspective(0.8, 2.0, 0.05);
+        const math::dmat3 turn(glm::inverse(projection) * math::dmat4(frame.constants.clipFromEye));
+        for (int column = 0; column < 3; ++column)
+            EXPECT_NEAR(glm::length(turn[column]), 1.0, 1e-5);
+        EXPECT_NEAR(glm::determinant(turn), 1.0, 1e-5);
+        EXPECT_FALSE(frame.opaque.size() > 0 && frame.opaque.merge()[0].mirrored);
+    }
 }
 
 TEST_F(Extraction, JitterMovesTheSampleByThatPartOfAPixelAndLeavesMotionAlone) {

@@ -74,11 +74,10 @@ class InstantTablesTest : public Extraction {
     /// Where the request's picture of shutter time s has a point of an entity's own space.
     Seen project(ecs::Entity entity, const dvec3& point, double s) const {
         const scene::ExposureMotion motion(world, camera, request.exposure);
-        const math::dmat4 view = glm::inverse(computeWorldFromView(motion.worldFromCamera(s)));
+        const math::dmat4 view = glm::inverse(motion.worldFromCamera(s));
         const dvec4 inView = view * motion.worldFromObject(entity, s) * dvec4(point, 1.0);
         const auto& lens = world.registry.get<scene::Camera>(camera);
-        const double aspect = double(request.width) / request.height;
-        const dvec4 clip = makeProjection(lens, motion.cameraYFov(s), aspect) * inView;
+        const dvec4 clip = makeProjection(lens, motion.cameraYFov(s), request) * inView;
         const math::dvec2 size(request.width, request.height);
         return {(math::dvec2(clip) / clip.w * 0.5 + 0.5) * size, -inView.z};
     }

@@ -50,12 +50,10 @@ class ReprojectionTest : public Extraction {
     dvec3 project(const dvec3& point, double seconds) const {
         ViewRequest view = request;
         view.jitterPx = dvec2(0.0);
-        const dvec4 inView =
-            glm::inverse(computeWorldFromView(scene::worldFromEntity(world, camera, seconds))) *
-            scene::worldFromEntity(world, mBox, seconds) * dvec4(point, 1.0);
+        const dvec4 inView = glm::inverse(scene::worldFromRigid(world, camera, seconds)) *
+                             scene::worldFromEntity(world, mBox, seconds) * dvec4(point, 1.0);
         const auto& lens = world.registry.get<scene::Camera>(camera);
-        const double aspect = double(request.width) / request.height;
-        const dvec4 clip = makeProjection(lens, lens.yFov, aspect) * inView;
+        const dvec4 clip = makeProjection(lens, lens.yFov, request) * inView;
         return {
             (dvec2(clip) / clip.w * 0.5 + 0.5) * dvec2(request.width, request.height), -inView.z};
     }

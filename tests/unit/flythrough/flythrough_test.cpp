@@ -221,14 +221,17 @@ TEST(Flythrough, WithoutAFieldOfViewTheLensIsTheFirstCameras) {
     auto& first = world.registry.get<scene::Camera>(world.cameras.front());
     first.yFov = 0.5;
     first.near = 0.25;
+    first.aspectRatio = 2.39;
     const ecs::Entity second = addFlythroughCamera(world, flythrough);
     EXPECT_EQ(fovOf(second), 0.5);
     EXPECT_EQ(world.registry.get<scene::Camera>(second).near, 0.25);
+    EXPECT_EQ(world.registry.get<scene::Camera>(second).aspectRatio, 2.39);
     // A field of view makes a perspective camera of it.
     world.registry.get<scene::Camera>(world.cameras.front()).kind = scene::CameraKind::Orthographic;
     flythrough.keys[0].fieldOfView = 90.0;
     const ecs::Entity third = addFlythroughCamera(world, flythrough);
     EXPECT_NEAR(fovOf(third), std::numbers::pi / 2.0, 1e-15);
+    EXPECT_FALSE(world.registry.get<scene::Camera>(third).aspectRatio) << "it is the picture's";
 }
 
 TEST(Flythrough, AShutterStandsFromItsKeyToTheNext) {

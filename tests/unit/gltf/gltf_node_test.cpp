@@ -180,6 +180,24 @@ TEST(GltfNode, CamerasAreListedInNodeOrder) {
     EXPECT_EQ(scene.world.cameras[1], findNamed(scene.world, "main")) << "the camera's own name";
 }
 
+TEST(GltfNode, FramesOfCamerasAreReadMirroredOnesToo) {
+    const LoadedScene scene = expectLoads(loadNodesOf(
+        R"({"camera":0},{"camera":1},{"camera":2})",
+        "0,1,2",
+        R"("cameras":[
+            {"type":"perspective","perspective":{"yfov":0.7,"znear":0.1,"aspectRatio":2.39}},
+            {"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}},
+            {"type":"orthographic","orthographic":{"xmag":-2,"ymag":-3,"znear":0,"zfar":9}}])"
+    ));
+    const auto camera = [&](size_t i) {
+        return scene.world.registry.get<scene::Camera>(scene.world.cameras[i]);
+    };
+    EXPECT_EQ(camera(0).aspectRatio, 2.39);
+    EXPECT_FALSE(camera(1).aspectRatio);
+    EXPECT_EQ(camera(2).xMag, -2.0);
+    EXPECT_EQ(camera(2).yMag, -3.0);
+}
+
 TEST(GltfNode, CamerasNoPictureCanBeTakenWithAreRefused) {
     const auto load = [](const std::string& camera) {
         return loadNodesOf(R"({"camera":0})", "0", R"("cameras":[)" + camera + "]");
@@ -193,6 +211,16 @@ TEST(GltfNode, CamerasNoPictureCanBeTakenWithAreRefused) {
     expectRefused(perspective(R"("yfov":1,"znear":0)"), "znear is 0");
     expectRefused(perspective(R"("yfov":1)"), "znear is missing");
     expectRefused(load(R"({"type":"fisheye"})"), "'fisheye'");
+    for (const char* wrong : {"-1.5", "1e31"})
+        expectRefused(
+            perspective(fmt::format(R"("yfov":1,"znear":0.1,"aspectRatio":{})", wrong).c_str()),
+            "aspectRatio is"
+        );
+    expectRefused(
+        load(R"({"type":"orthographic","orthographic":{"xmag":1,"ymag":-1e31,"znear":0,"zfar":1}})"
+        ),
+        "ymag is -1e+31"
+    );
     expectRefused(
         load(R"({"type":"orthographic","orthographic":{"xmag":0,"ymag":1,"znear":0,"zfar":1}})"),
         "xmag is 0"

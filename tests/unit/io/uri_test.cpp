@@ -81,6 +81,31 @@ TEST(ResolveUri, PlainNamesSpacesAndUnicodeStayInTheFolder) {
     EXPECT_EQ(resolveUri(folder.path(), "..a/b..").value(), folder.path() / "..a/b..");
 }
 
+TEST(ResolveUri, StepsThatStayInTheFolderAreResolvedInTheText) {
+    const TempFolder folder;
+    const TempFolder outside;
+    folder.write("sub/deep/a.bin", "x");
+    fs::create_symlink(outside.path(), folder.path() / "out");
+    for (const char* uri :
+         {"a.bin",
+          "./a.bin",
+          ".//./a.bin",
+          "sub/../a.bin",
+          "sub/./../a.bin",
+          "sub/deep/../../a.bin",
+          "sub/../sub/deep/../../a.bin",
+          "sub/%2e%2e/a.bin",
+          "sub%2F..%2Fa.bin",
+          "no/such/../../a.bin",
+          "out/../a.bin"})
+        for (const Reach reach : {Reach::Folder, Reach::Anywhere}) {
+            const auto file = resolveUri(folder.path(), uri, reach);
+            ASSERT_TRUE(file) << uri;
+            EXPECT_EQ(file.value(), folder.path() / "a.bin") << uri;
+        }
+    EXPECT_EQ(resolveUri("", "sub/../a.bin").value(), "./a.bin");
+}
+
 class RefusedUri : public testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedUri, IsAnError) {
@@ -94,7 +119,13 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         "",
         "../a.bin",
+        "..",
+        "./../a.bin",
         "sub/../../a.bin",
+        "sub/deep/../../../a.bin",
+        "sub/%2e%2e/%2E%2E/a.bin",
+        "sub\\..\\a.bin",
+        "sub/..\\a.bin",
         "%2e%2e/a.bin",
         "..%2fa.bin",
         "..\\a.bin",
@@ -125,6 +156,7 @@ TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
     fs::create_symlink(outside.path() / "secret.bin", folder.path() / "out.bin");
     fs::create_symlink("real.bin", folder.path() / "in.bin");
     EXPECT_FALSE(resolveUri(folder.path(), "out.bin"));
+    EXPECT_FALSE(resolveUri(folder.path(), "sub/../out.bin"));
     EXPECT_TRUE(resolveUri(folder.path(), "in.bin"));
 }
 

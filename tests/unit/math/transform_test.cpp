@@ -47,6 +47,69 @@ TEST(RemoveScale, WhatHasNoDirectionsKeepsItsPlace) {
     EXPECT_EQ(removeScale(bad), glm::translate(dmat4(1.0), dvec3(1.0, 2.0, 3.0)));
 }
 
+/// Rotated, and then scaled along other axes.
+dmat4 shear() {
+    Transform child;
+    child.rotation = glm::angleAxis(0.5, glm::normalize(dvec3(1.0, 2.0, 3.0)));
+    child.translation = {1.0, 2.0, 3.0};
+    return glm::scale(dmat4(1.0), dvec3(1.0, 3.0, 0.5)) * computeMatrix(child);
+}
+
+TEST(RemoveScale, ShearAndMirroringGoAndTheDirectionOfSightStays) {
+    for (const dvec3& mirror :
+         {dvec3(1, 1, 1), dvec3(-1, 1, 1), dvec3(1, -1, 1), dvec3(1, 1, -1), dvec3(-1, -1, -1)}) {
+        const dmat4 matrix = glm::scale(dmat4(1.0), mirror) * shear();
+        const dmat4 found = removeScale(matrix);
+        const dmat3 axes(found);
+        for (int column = 0; column < 3; ++column)
+            expectNear((glm::transpose(axes) * axes)[column], dmat3(1.0)[column]);
+        EXPECT_NEAR(glm::determinant(axes), 1.0, 1e-12);
+        expectNear(axes[2], glm::normalize(dvec3(matrix[2])));
+        EXPECT_GT(glm::dot(axes[1], dvec3(matrix[1])), 0.0) << "up";
+        EXPECT_NEAR(
+            glm::dot(axes[0], glm::cross(dvec3(matrix[1]), dvec3(matrix[2]))),
+            glm::length(glm::cross(dvec3(matrix[1]), dvec3(matrix[2]))),
+            1e-12
+        );
+        EXPECT_EQ(found[3], matrix[3]);
+    }
+}
+
+TEST(RemoveScale, AxesThatAreSquareUpToRoundingAreOnlyMadeOneLong) {
+    Transform transform;
+    transform.rotation = glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0)));
+    dmat4 matrix = computeMatrix(transform);
+    matrix[1] += 1e-7 * matrix[2]; // as a file of single precision has them
+    const dmat4 found = removeScale(matrix);
+    for (int column = 0; column < 3; ++column)
+        EXPECT_EQ(dvec3(found[column]), dvec3(matrix[column]) / glm::length(dvec3(matrix[column])));
+}
+
+TEST(RemoveScale, TwoDirectionsThatAreLeftTellTheThird) {
+    const dmat3 turn = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0))));
+    for (int lost = 0; lost < 3; ++lost) {
+        dmat3 axes = turn * 1e-200;
+        axes[lost] = dvec3(0.0);
+        const auto found = findRigid(dmat4(axes));
+        ASSERT_TRUE(found) << lost;
+        for (int column = 0; column < 3; ++column)
+            expectNear(dvec3((*found)[column]), turn[column]);
+    }
+    dmat4 flat(turn); // pressed into a plane: all three are left, and lie in it
+    for (int column = 0; column < 3; ++column)
+        flat[column].z = 0.0;
+    const auto found = findRigid(flat);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(glm::determinant(dmat3(*found)), 1.0, 1e-12);
+    expectNear(dvec3((*found)[2]), glm::normalize(dvec3(flat[2])));
+    for (int axis = 0; axis < 3; ++axis) {
+        dmat4 line(0.0);
+        line[axis].x = 1.0;
+        EXPECT_FALSE(findRigid(line)) << "one direction";
+    }
+    EXPECT_FALSE(findRigid(dmat4(0.0)));
+}
+
 TEST(Transform, TheDefaultIsExactlyTheIdentity) {
     EXPECT_EQ(computeMatrix(Transform{}), dmat4(1.0));
 }

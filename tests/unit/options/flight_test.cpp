@@ -128,6 +128,13 @@ TEST_F(Flight, EachFrameHasTheShutterOfItsTime) {
     EXPECT_EQ(makeView(shot, options, 0.6).exposure.close, 0.6);
 }
 
+TEST_F(Flight, AClipWithoutANameOrIndexIsRefused) {
+    mArguments.flythrough = "clip:";
+    const auto options = interpret(mArguments);
+    ASSERT_FALSE(options.ok());
+    EXPECT_NE(options.error().message.find("--flythrough clip:"), std::string::npos);
+}
+
 TEST_F(Flight, AClipFliesTheFirstCameraThatItMovesAlone) {
     scene::World world;
     world.assets.clips.resize(3);
@@ -200,6 +207,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--ev", {"--ev", "1"}},
         {"--exposure", {"--exposure", "1"}},
         {"--fps", {"--fps", "25"}},
+        {"--frame-fit", {"--frame-fit", "height"}},
         {"--instants", {"--method", "accumulate", "--instants", "auto"}},
         {"--loop", {"--loop"}},
         {"--max-blur", {"--max-blur", "4"}},
@@ -232,6 +240,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--allow-outside", {"--allow-outside"}}, // told by content
         {"--codec", {}},                          // needs a film
         {"--device", {"--device", "llvmpipe"}},
+        {"--dry-run", {"--dry-run"}},
         {"--dump-graph", {"--dump-graph"}},
         {"--environment", {"--environment", "e.hdr"}}, // told by content
         {"--explain", {"--explain"}},
@@ -242,6 +251,7 @@ TEST(Fingerprint, TellsWhatAPictureDependsOnAndNothingElse) {
         {"--hash-passes", {"--hash-passes", "h.json"}},
         {"--keep-frames", {}}, // needs a film
         {"--out", {}},
+        {"--part", {}}, // needs frames
         {"--repeat", {"--repeat", "3"}},
         {"--restart", {"--restart"}},
         {"--stats", {"--stats", "s.json"}},

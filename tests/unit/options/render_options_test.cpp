@@ -62,6 +62,7 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     const RenderOptions options = accept(Words{});
     EXPECT_EQ(options.shot.width, 1280u);
     EXPECT_EQ(options.shot.height, 720u);
+    EXPECT_EQ(options.shot.frameFit, extract::FrameFit::Whole);
     EXPECT_EQ(options.shot.frameTimes, std::vector<double>{0.0});
     EXPECT_FALSE(options.shot.isSequence);
     EXPECT_DOUBLE_EQ(options.shot.shutter.exposureSeconds, 1.0 / 60.0);
@@ -73,6 +74,12 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_EQ(options.shot.ambient, math::vec3(0.25f));
     EXPECT_EQ(options.shot.tonemap.op, tonemap::Operator::Neutral);
     EXPECT_TRUE(options.output.aovs.empty());
+}
+
+TEST_F(RenderOptionsTest, TheFitOfACamerasFrameIsOneOfTwoWords) {
+    EXPECT_EQ(accept({"--frame-fit=height"}).shot.frameFit, extract::FrameFit::Height);
+    EXPECT_EQ(accept({"--frame-fit=whole"}).shot.frameFit, extract::FrameFit::Whole);
+    refuse("--frame-fit", {"--frame-fit=width"});
 }
 
 TEST_F(RenderOptionsTest, APartIsOneOfSeveralAndDrawsWhatOthersNeedNot) {

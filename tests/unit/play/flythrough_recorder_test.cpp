@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 namespace shutter::game {
 namespace {
@@ -26,6 +28,15 @@ class Recorder : public testing::Test {
 
     ~Recorder() override { std::filesystem::remove_all(mFolder); }
 
+    void addFrame(ecs::Entity camera, double seconds) {
+        extract::ViewRequest view;
+        view.camera = camera;
+        view.exposure = scene::computeExposure({}, seconds);
+        view.width = 180;
+        view.height = 320;
+        mRecorder.addFrame(mWorld, view);
+    }
+
     scene::World mWorld;
     ecs::Entity mCameras[2];
     FlythroughRecorder mRecorder;
@@ -38,7 +49,7 @@ class Recorder : public testing::Test {
 TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
     mRecorder.start();
     for (int i = 0; i <= 60; ++i)
-        mRecorder.addFrame(mWorld, mCameras[0], 5.0 + i / 60.0);
+        addFrame(mCameras[0], 5.0 + i / 60.0);
     const auto file = mRecorder.finish(mFolder);
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_FALSE(mRecorder.isRecording());
@@ -55,11 +66,20 @@ TEST_F(Recorder, WhatItWritesFliesTheSameWay) {
     }
 }
 
+TEST_F(Recorder, TheFieldOfViewIsThatOfThePicture) {
+    mWorld.registry.get<scene::Camera>(mCameras[0]).aspectRatio = 1.125; // twice the picture's
+    mRecorder.start();
+    addFrame(mCameras[0], 0.0);
+    const auto flight = flythrough::readFlythrough(mRecorder.finish(mFolder).value()).value();
+    const double yFov = 2.0 * std::atan(2.0 * std::tan(scene::Camera{}.yFov / 2.0));
+    EXPECT_NEAR(*flight.keys[0].fieldOfView, yFov * 180.0 / std::numbers::pi, 1e-9);
+}
+
 TEST_F(Recorder, AnotherCameraIsACut) {
     mRecorder.start();
-    mRecorder.addFrame(mWorld, mCameras[0], 0.0);
-    mRecorder.addFrame(mWorld, mCameras[0], 0.05);
-    mRecorder.addFrame(mWorld, mCameras[1], 0.07);
+    addFrame(mCameras[0], 0.0);
+    addFrame(mCameras[0], 0.05);
+    addFrame(mCameras[1], 0.07);
     const auto flight = flythrough::readFlythrough(mRecorder.finish(mFolder).value()).value();
     ASSERT_EQ(flight.keys.size(), 3u);
     EXPECT_NEAR(flight.keys[1].seconds, 0.05, 1e-12);
@@ -73,12 +93,12 @@ TEST_F(Recorder, APauseAddsNothingAndNoTimeIsNoFlight) {
     EXPECT_FALSE(mRecorder.finish(mFolder));
     mRecorder.start();
     for (int i = 0; i < 5; ++i)
-        mRecorder.addFrame(mWorld, mCameras[0], 1.0);
+        addFrame(mCameras[0], 1.0);
     const auto first = mRecorder.finish(mFolder);
     ASSERT_TRUE(first) << first.error().message;
     EXPECT_EQ(flythrough::readFlythrough(first.value()).value().keys.size(), 1u);
     mRecorder.start();
-    mRecorder.addFrame(mWorld, mCameras[0], 1.0);
+    addFrame(mCameras[0], 1.0);
     EXPECT_NE(mRecorder.finish(mFolder).value(), first.value()); // nothing is written over
 }
 

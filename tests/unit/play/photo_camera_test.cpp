@@ -62,6 +62,24 @@ TEST_F(PhotoFlight, ItFliesAheadAndKeepsTheBlurOfTheCameraItHangsOn) {
     EXPECT_NEAR(glm::length(way), 0.4, 1e-9);
 }
 
+TEST_F(PhotoFlight, ScaleOfTheStagesCameraIsNotItsOwn) {
+    const auto view = [&](ecs::Entity entity) { return worldFromRigid(world, entity, kNow); };
+    const ecs::Entity above = world.registry.create();
+    world.registry.add(stage, scene::Parent{above});
+    for (const dvec3& scale : {dvec3(1, 3, 0.5), dvec3(-1, 1, 1), dvec3(10, 10, 10), dvec3(0)}) {
+        world.registry.add(above, scene::LocalTransform{{{1, 0, 0}, {1, 0, 0, 0}, scale}});
+        world.registry.get<scene::LocalTransform>(stage).transform.scale = {1, -2, 1};
+        camera.take(world, stage, kNow);
+        camera.advance(world, {}, 0.1, 500.0);
+        expectNear(view(camera.entity()), view(stage));
+        fly(Key::W, 0.5);
+        const dvec3 way(view(camera.entity())[3] - view(stage)[3]);
+        EXPECT_NEAR(glm::length(way), 2.0, 1e-9) << "4 m/s";
+        EXPECT_NEAR(glm::dot(way, dvec3(view(stage)[2])), -2.0, 1e-9);
+        camera.putBack(world);
+    }
+}
+
 TEST_F(PhotoFlight, ItIsMadeOnceAndLeavesNothingBehind) {
     camera.advance(world, {}, 0.1, 500.0); // not out: nothing to move
     const size_t before = world.registry.aliveCount();

@@ -37,11 +37,14 @@ TEST(PlayOptions, EffectsAreTheSettingsUnlessTheyAreTyped) {
     PlayArguments arguments;
     PlayOptions options = interpret(arguments).value();
     EXPECT_FALSE(options.antiAliasing || options.shadows || options.bloom || options.environment);
+    EXPECT_FALSE(options.frameFit);
     CLI::App app;
     definePlayOptions(app, arguments);
-    app.parse(std::vector<std::string>{"0", "--sky", "0.1", "--bloom", "sharp", "--shadows"});
+    app.parse(std::vector<std::string>{
+        "height", "--frame-fit", "0", "--sky", "0.1", "--bloom", "sharp", "--shadows"});
     options = interpret(arguments).value();
     EXPECT_EQ(options.shadows, extract::ShadowMode::Sharp);
+    EXPECT_EQ(options.frameFit, extract::FrameFit::Height);
     EXPECT_EQ(options.bloom, 0.1f);
     EXPECT_EQ(options.environment, false);
     EXPECT_FALSE(options.antiAliasing);

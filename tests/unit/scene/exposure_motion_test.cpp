@@ -53,7 +53,7 @@ class Artist : public testing::Test {
     }
 
     [[nodiscard]] dmat4 view(double seconds) const {
-        return math::removeScale(world(mCamera, seconds));
+        return scene::worldFromRigid(mWorld, mCamera, seconds);
     }
 
     static constexpr double kRaster = 3.0;
@@ -70,7 +70,7 @@ TEST_F(Artist, ScalesOfOneChangeNoBit) {
         const double seconds = s == 0.5 ? kRaster : now.exposure().at(s);
         EXPECT_EQ(now.worldFromEntity(mover, s), world(mover, seconds));
         EXPECT_EQ(now.worldFromObject(mover, s), world(mover, seconds));
-        EXPECT_EQ(now.worldFromCamera(s), world(mCamera, seconds));
+        EXPECT_EQ(now.worldFromCamera(s), view(seconds));
     }
 }
 
@@ -82,11 +82,11 @@ TEST_F(Artist, TheCamerasTurningAndDisplacementScaleApart) {
         const ExposureMotion now = motion();
         for (const double s : {0.0, 0.3, 1.0}) {
             const double away = now.exposure().at(s) - kRaster;
-            dmat4 expected = world(mCamera, kRaster + turning * away);
+            dmat4 expected = view(kRaster + turning * away);
             expected[3] = world(mCamera, kRaster + displacement * away)[3];
             expectNearMatrix(now.worldFromCamera(s), expected);
         }
-        EXPECT_EQ(now.worldFromCamera(0.5), world(mCamera, kRaster));
+        EXPECT_EQ(now.worldFromCamera(0.5), view(kRaster));
     }
 }
 
@@ -99,7 +99,7 @@ TEST_F(Artist, ObjectsScaleWithoutTheCamera) {
             const double away = now.exposure().at(s) - kRaster;
             expectNearMatrix(now.worldFromEntity(mover, s), world(mover, kRaster + scale * away));
             expectNearMatrix(now.worldFromObject(mover, s), world(mover, kRaster + scale * away));
-            expectNearMatrix(now.worldFromCamera(s), world(mCamera, now.exposure().at(s)));
+            expectNearMatrix(now.worldFromCamera(s), view(now.exposure().at(s)));
         }
         EXPECT_EQ(now.mayMove(mover), scale != 0.0);
         EXPECT_EQ(now.mayObjectMove(mover), scale != 0.0);
@@ -117,8 +117,7 @@ TEST_F(Artist, AnEntitysScaleIsOfItsWayAcrossTheView) {
                 const double seen = kRaster + scale * away;
                 // The same in the view as it would be at the other time.
                 expectNearMatrix(
-                    glm::inverse(math::removeScale(now.worldFromCamera(s))) *
-                        now.worldFromObject(entity, s),
+                    glm::inverse(now.worldFromCamera(s)) * now.worldFromObject(entity, s),
                     glm::inverse(view(seen)) * world(entity, seen)
                 );
             }
@@ -155,8 +154,7 @@ TEST_F(Artist, AnExcludedEntityRidesWithTheCamera) {
         EXPECT_FALSE(now.mayDeform(entity));
         for (const double s : {0.0, 0.3, 1.0})
             expectNearMatrix(
-                glm::inverse(math::removeScale(now.worldFromCamera(s))) *
-                    now.worldFromObject(entity, s),
+                glm::inverse(now.worldFromCamera(s)) * now.worldFromObject(entity, s),
                 glm::inverse(view(kRaster)) * world(entity, kRaster)
             );
     }
@@ -179,8 +177,7 @@ TEST_F(Artist, TheNearestUpwardsCounts) {
     mWorld.registry.add(parent, MotionBlur{.exclude = true});
     const auto ridesWithTheCamera = [&] {
         const ExposureMotion now = motion();
-        const dmat4 open = glm::inverse(math::removeScale(now.worldFromCamera(0.0))) *
-                           now.worldFromObject(child, 0.0);
+        const dmat4 open = glm::inverse(now.worldFromCamera(0.0)) * now.worldFromObject(child, 0.0);
         const dmat4 raster = glm::inverse(view(kRaster)) * world(child, kRaster);
         return glm::length(dvec3(open[3]) - dvec3(raster[3])) < 1e-9;
     };

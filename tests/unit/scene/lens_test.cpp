@@ -57,6 +57,15 @@ TEST_F(Lens, GoesThroughItsKeysAndStaysAtTheEnds) {
     }
 }
 
+TEST_F(Lens, TwoEqualKeysHoldStillToTheBit) {
+    for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom}) {
+        zoom({{0.0, 0.9}, {1.0, 0.4}, {3.0, 0.4}, {4.0, 1.2}}, interpolation);
+        for (double t = 1.0; t <= 3.0; t += 0.125)
+            EXPECT_EQ(at(t), at(1.0)) << t;
+        EXPECT_NE(at(0.9), at(1.0));
+    }
+}
+
 TEST_F(Lens, AStraightZoomMultipliesTheFocalLengthEvenly) {
     zoom({{0.0, 1.0}, {2.0, 0.3}}, PathInterpolation::Linear);
     const double ratio = focal(at(0.5)) / focal(at(0.0));

@@ -45,6 +45,73 @@ class WorldFromEntity : public testing::Test {
     World mWorld;
 };
 
+/// What looks along -Z, below a parent that scales.
+class WorldFromRigid : public WorldFromEntity {
+  protected:
+    void expectSame(ecs::Entity entity, const dmat4& expected) const {
+        const dmat4 found = worldFromRigid(mWorld, entity, 0.0);
+        for (int column = 0; column < 4; ++column)
+            expectNear(dvec3(found[column]), dvec3(expected[column]));
+    }
+
+    const math::Transform mPose{
+        {1.0, 2.0, 3.0}, glm::angleAxis(0.7, glm::normalize(dvec3(1.0, 2.0, 3.0))), dvec3(1.0)};
+};
+
+TEST_F(WorldFromRigid, ItsOwnScaleHasNoEffect) {
+    const ecs::Entity parent = addEntity({{4.0, 0.0, 0.0}, glm::angleAxis(0.3, kUp), dvec3(2.0)});
+    const ecs::Entity entity = addChild(parent, mPose);
+    const dmat4 plain = worldFromRigid(mWorld, entity, 0.0);
+    expectSame(entity, math::removeScale(worldFromEntity(mWorld, entity, 0.0)));
+    for (const dvec3& scale :
+         {dvec3(2, 3, 4), dvec3(-1, 1, 1), dvec3(1, 1, -1), dvec3(-1), dvec3(1, 0, 1), dvec3(0)}) {
+        mWorld.registry.get<LocalTransform>(entity).transform.scale = scale;
+        expectSame(entity, plain);
+    }
+}
+
+TEST_F(WorldFromRigid, ParentsTurnItAsWhatTheyCarryIsTurned) {
+    const ecs::Entity parent = addEntity();
+    const ecs::Entity entity = addChild(parent, mPose);
+    auto& scale = mWorld.registry.get<LocalTransform>(parent).transform.scale;
+    for (const dvec3& given :
+         {dvec3(1, 3, 0.5), dvec3(-1, 1, 1), dvec3(1, 1, -1), dvec3(1, 0, 2)}) {
+        scale = given;
+        const dmat4 carried = worldFromEntity(mWorld, entity, 0.0);
+        expectSame(entity, math::removeScale(carried));
+        expectNear(
+            dvec3(worldFromRigid(mWorld, entity, 0.0)[2]), glm::normalize(dvec3(carried[2]))
+        );
+    }
+}
+
+TEST_F(WorldFromRigid, WhereNoDirectionIsLeftItLooksAsItDoesWithoutScale) {
+    const ecs::Entity parent = addEntity({{4.0, 0.0, 0.0}, glm::angleAxis(0.3, kUp), dvec3(1.0)});
+    const ecs::Entity entity = addChild(parent, mPose);
+    const ecs::Entity rider = addChild(entity);
+    add(rider, LocalMatrix{glm::scale(dmat4(1.0), dvec3(3.0))});
+    dmat4 expected = worldFromRigid(mWorld, entity, 0.0);
+    for (const dvec3& scale : {dvec3(0.0), dvec3(1e-200), dvec3(0.0, 1.0, 0.0)}) {
+        mWorld.registry.get<LocalTransform>(parent).transform.scale = scale;
+        expected[3] = worldFromEntity(mWorld, entity, 0.0)[3];
+        expectSame(entity, expected);
+        expectSame(rider, expected);
+    }
+    add(parent, LocalMatrix{glm::scale(dmat4(1.0), dvec3(0.0))}); // of a file: no rotation is left
+    expectSame(entity, math::computeMatrix({{}, mPose.rotation, dvec3(1.0)}));
+}
+
+TEST_F(WorldFromRigid, ALightWithoutAnAxisShinesAsItDoesWithoutScale) {
+    const ecs::Entity parent =
+        addEntity({{4.0, 0.0, 0.0}, glm::angleAxis(0.3, kUp), dvec3(1.0, -2.0, -3.0)});
+    const ecs::Entity light = addChild(parent, mPose);
+    EXPECT_EQ(worldFromLight(mWorld, light, 0.0), worldFromEntity(mWorld, light, 0.0));
+    mWorld.registry.get<LocalTransform>(parent).transform.scale = dvec3(1.0);
+    const dmat4 plain = worldFromEntity(mWorld, light, 0.0);
+    mWorld.registry.get<LocalTransform>(light).transform.scale = {1.0, 1.0, 0.0};
+    expectNear(dvec3(worldFromLight(mWorld, light, 0.0)[2]), dvec3(plain[2]));
+}
+
 TEST_F(WorldFromEntity, WithoutAnyTransformIsTheIdentity) {
     const ecs::Entity entity = mWorld.registry.create();
     EXPECT_EQ(worldFromEntity(mWorld, entity, 3.0), dmat4(1.0));

@@ -175,6 +175,65 @@ TEST(Path, UntilACutItStaysAtTheKeyBefore) {
     EXPECT_FALSE(hasCutWithin(path, 0.0, 1.9));
 }
 
+/// A hold of two seconds between two ways, by each way of telling a direction.
+std::vector<PathMotion> listHolds() {
+    PathMotion held;
+    held.keys = {
+        key(0, {-3, 0, 5}), key(1, {0.1, 0.2, 5}), key(3, {0.1, 0.2, 5}), key(4, {3, 0, 5})};
+    std::vector<PathMotion> holds = {held, held, held};
+    for (size_t i = 0; i < held.keys.size(); ++i) {
+        holds[1].keys[i].lookAt = held.keys[i].position - dvec3(0.3, 0.7, 5);
+        holds[2].keys[i].rotation =
+            glm::angleAxis(held.keys[i].position.x, glm::normalize(dvec3(1, 2, 3)));
+    }
+    holds[2].keys[2].rotation = -*holds[2].keys[2].rotation; // the same
+    return holds;
+}
+
+TEST(Path, TwoEqualKeysHoldStillToTheBit) {
+    for (const auto interpolation : {PathInterpolation::Linear, PathInterpolation::CatmullRom})
+        for (const auto ease : {PathEase::None, PathEase::InOut})
+            for (PathMotion& path : listHolds()) {
+                path.interpolation = interpolation;
+                path.ease = ease;
+                const math::Transform there = samplePath(path, {}, 2.0);
+                for (double t = 1.4; t < 2.6; t += 0.003) { // eased or not
+                    const math::Transform pose = samplePath(path, {}, t);
+                    EXPECT_EQ(pose.translation, there.translation) << t;
+                    EXPECT_EQ(pose.rotation, there.rotation) << t;
+                }
+                EXPECT_NE(placeAt(path, 0.9), there.translation);
+            }
+}
+
+TEST(Path, AHoldIsComeToAndLeftAtRest) {
+    const PathMotion path = listHolds()[0];
+    constexpr double kStep = 1e-5;
+    for (const double t : {1.0, 3.0})
+        for (const double from : {t - kStep, t})
+            EXPECT_LT(glm::distance(placeAt(path, from), placeAt(path, from + kStep)), 1e-8) << t;
+}
+
+TEST(Path, AHoldAtAnEndOfAShotAndBeforeACutStaysStill) {
+    PathMotion path;
+    path.keys = {
+        key(0, {0, 0, 0}),
+        key(1, {0, 0, 0}),
+        key(2, {1, 1, 0}),
+        key(3, {1, 1, 0}),
+        key(4, {9, 0, 0}),
+        key(5, {9, 0, 0}),
+        key(6, {9, 5, 0})};
+    path.keys[4].cut = true;
+    for (double t = 0.0; t < 1.0; t += 0.125) {
+        EXPECT_EQ(placeAt(path, t), dvec3(0, 0, 0));
+        EXPECT_EQ(placeAt(path, 2.0 + t), dvec3(1, 1, 0));
+        EXPECT_EQ(placeAt(path, 3.0 + t), dvec3(1, 1, 0)) << "until the cut";
+        EXPECT_EQ(placeAt(path, 4.0 + t), dvec3(9, 0, 0));
+    }
+    EXPECT_GT(placeAt(path, 5.5).y, 1.0);
+}
+
 TEST(Path, MovesItsEntityInTheParentsSpace) {
     World world;
     const ecs::Entity parent = world.registry.create();

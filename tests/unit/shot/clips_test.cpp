@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "game/shot/clips.h"
+#include "game/shot/shot.h"
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shutter::game {
+namespace {
+
+using scene::AnimationPath;
+
+class Clips : public testing::Test {
+  protected:
+    Clips() { mOptions.scene = "scene.gltf"; }
+
+    ecs::Entity addNode() { return mWorld.registry.create(); }
+
+    uint32_t addClip(const std::string& name) {
+        mWorld.assets.clips.push_back({name, 1.0, {}, {}});
+        return uint32_t(mWorld.assets.clips.size() - 1);
+    }
+
+    /// The clip moves the node.
+    void move(uint32_t clip, ecs::Entity node, AnimationPath path = AnimationPath::Translation) {
+        auto& channels = mWorld.assets.clips[clip].channels;
+        scene::AnimationChannel channel;
+        channel.path = path;
+        channels.push_back(channel);
+        if (!mWorld.registry.has<scene::Animated>(node))
+            mWorld.registry.add(node, scene::Animated{});
+        mWorld.registry.get<scene::Animated>(node).channels.push_back(
+            {clip, uint32_t(channels.size() - 1)}
+        );
+    }
+
+    void morph(uint32_t clip, ecs::Entity node) {
+        auto& channels = mWorld.assets.clips[clip].weightChannels;
+        channels.emplace_back();
+        if (!mWorld.registry.has<scene::MorphWeights>(node))
+            mWorld.registry.add(node, scene::MorphWeights{});
+        mWorld.registry.get<scene::MorphWeights>(node).channels.push_back(
+            {clip, uint32_t(channels.size() - 1)}
+        );
+    }
+
+    /// What selectClips() prints.
+    std::string
+    select(std::vector<std::string> wanted, std::optional<uint32_t> flying = std::nullopt) {
+        mOptions.clips = std::move(wanted);
+        testing::internal::CaptureStderr();
+        const core::Status done = selectClips(mWorld, mOptions, flying);
+        std::string printed = testing::internal::GetCapturedStderr();
+        return done ? printed : done.error().message;
+    }
+
+    void expectActive(std::initializer_list<bool> expected) const {
+        EXPECT_EQ(mWorld.playback.activeClips, std::vector<bool>(expected));
+    }
+
+    static void expectContains(const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    }
+
+    scene::World mWorld;
+    ShotOptions mOptions;
+};
+
+TEST_F(Clips, ANameWinsOverAnIndexAndMeansAllThatHaveIt) {
+    for (const char* name : {"walk", "", "walk", "1"})
+        addClip(name);
+    EXPECT_EQ(findClips(mWorld, "walk"), (std::vector<uint32_t>{0, 2}));
+    EXPECT_EQ(findClips(mWorld, "1"), std::vector<uint32_t>{3});
+    EXPECT_EQ(findClips(mWorld, "0"), std::vector<uint32_t>{0});
+    EXPECT_EQ(findClips(mWorld, "2"), std::vector<uint32_t>{2});
+    for (const char* none : {"", "4", "-1", "+1", "0x1", "1 ", "99999999999", "Walk"})
+        EXPECT_TRUE(findClips(mWorld, none).empty()) << none;
+}
+
+TEST_F(Clips, ClipsWithoutANameAreChosenByIndex) {
+    const ecs::Entity node = addNode();
+    for (const char* name : {"", "turn", ""})
+        move(addClip(name), node);
+    EXPECT_EQ(select({"2"}), "");
+    expectActive({false, false, true});
+    EXPECT_EQ(select({"0"}), "");
+    expectActive({true, false, false});
+    EXPECT_EQ(select({"turn"}), "");
+    expectActive({false, true, false});
+    EXPECT_EQ(select({"none"}), "");
+    expectActive({false, false, false});
+}
+
+TEST_F(Clips, WhatIsNoneOfThemIsRefusedWithAListOfThem) {
+    expectContains(select({"0"}), "scene.gltf: --clip '0' is none of its clips (it has none)");
+    addClip("walk");
+    addClip("");
+    for (const char* wrong : {"2", "run", ""})
+        expectContains(
+            select({wrong}),
+            std::string("--clip '") + wrong + "' is none of its clips (0 'walk', 1 without a name)"
+        );
+}
+
+TEST_F(Clips, ClipsOfOneNodePlayOneAtATime) {
+    const ecs::Entity hip = addNode();
+    const ecs::Entity hand = addNode();
+    const uint32_t idle = addClip("idle");
+    move(idle, hip);
+    move(idle, hip, AnimationPath::Scale);
+    const uint32_t walk = addClip("walk");
+    move(walk, hand, AnimationPath::Rotation);
+    move(walk, hip);
+    const uint32_t wave = addClip("wave");
+    move(wave, hand, AnimationPath::Rotation);
+    const uint32_t door = addClip("door");
+    move(door, addNode());
+    const std::string said = select({});
+    expectActive({true, false, true, true}); // of walk and wave the later one, so idle may play
+    expectContains(said, "warning: scene.gltf: 1 of its 4 clips does not play");
+    expectContains(said, ": 1 'walk'; --clip chooses");
+    EXPECT_FALSE(describeRestingClips(mWorld).empty());
+    select({}, walk);
+    expectActive({false, true, false, true});
+    const uint32_t run = addClip("run");
+    move(run, hip);
+    expectContains(select({}), "2 of its 5 clips do not play");
+    expectActive({false, false, true, true, true});
+}
+
+TEST_F(Clips, ClipsThatMoveDifferentThingsPlayTogether) {
+    const ecs::Entity node = addNode();
+    move(addClip("bob"), node);
+    move(addClip("spin"), node, AnimationPath::Rotation);
+    morph(addClip("smile"), node);
+    addClip("moves nothing");
+    EXPECT_EQ(select({}), "");
+    expectActive({true, true, true, true});
+    EXPECT_EQ(describeRestingClips(mWorld), "");
+    morph(addClip("frown"), node);
+    expectContains(select({}), "2 'smile'");
+    expectActive({true, true, false, true, true});
+}
+
+TEST_F(Clips, ThoseThatAreNamedPlayThoughTheyMoveTheSame) {
+    const ecs::Entity node = addNode();
+    move(addClip("take"), node);
+    move(addClip("take"), node);
+    move(addClip("turn"), node, AnimationPath::Rotation);
+    EXPECT_EQ(select({"0", "turn"}), "");
+    const std::string said = select({"take"});
+    expectActive({true, true, false});
+    expectContains(said, "warning: scene.gltf: --clip");
+    expectContains(said, "--clip: 0 'take' moves nodes that a later chosen clip moves");
+}
+
+TEST_F(Clips, AWarningAboutThousandsNamesAFew) {
+    const ecs::Entity node = addNode();
+    for (int i = 0; i < 2000; ++i)
+        move(addClip(""), node);
+    const std::string said = select({});
+    expectContains(said, "1999 of its 2000 clips do not play,");
+    expectContains(said, "7 without a name, 1991 more;");
+    EXPECT_LT(said.size(), 400u);
+}
+
+TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {
+    const ecs::Entity box = addNode();
+    const ecs::Entity camera = addNode();
+    mWorld.registry.add(camera, scene::Camera{});
+    mWorld.cameras.push_back(camera);
+    move(addClip(""), camera);
+    move(addClip("take"), box);
+    move(addClip("take"), camera);
+    for (const auto& [wanted, clip] : {std::pair("take", 2u), {"0", 0u}, {"2", 2u}}) {
+        mOptions.flythroughClip = wanted;
+        select({}, clip);
+        const auto chosen = chooseClipCamera(mWorld, mOptions);
+        ASSERT_TRUE(chosen) << chosen.error().message;
+        EXPECT_EQ(chosen.value(), camera);
+        expectActive({clip == 0, true, clip == 2});
+        mOptions.frameTimes.clear();
+        EXPECT_TRUE(planClipFrames(mWorld, mOptions));
+    }
+    mOptions.flythroughClip = "1";
+    const auto still = chooseClipCamera(mWorld, mOptions);
+    ASSERT_FALSE(still);
+    expectContains(still.error().message, "--flythrough clip:1 moves no camera");
+    mOptions.flythroughClip = "7";
+    const auto missing = chooseClipCamera(mWorld, mOptions);
+    ASSERT_FALSE(missing);
+    expectContains(missing.error().message, "(0 without a name, 1 'take', 2 'take')");
+}
+
+} // namespace
+} // namespace shutter::game
