@@ -164,6 +164,10 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R8_UNORM:
     case VK_FORMAT_R8_UINT:
         return 1;
+    case VK_FORMAT_R16_UINT:
+    case VK_FORMAT_R16_SFLOAT:
+    case VK_FORMAT_D16_UNORM:
+        return 2;
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_UNORM:
@@ -173,6 +177,8 @@ uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R32_UINT:
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_X8_D24_UNORM_PACK32:
+    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R32G32_SFLOAT:

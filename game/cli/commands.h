@@ -10,7 +10,6 @@ class App;
 namespace shutter::game {
 
 void addRenderCommand(CLI::App& app, int& exitStatus);
-void addCompareCommand(CLI::App& app, int& exitStatus);
 void addInfoCommand(CLI::App& app, int& exitStatus);
 
 } // namespace shutter::game

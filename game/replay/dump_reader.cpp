@@ -28,6 +28,7 @@ using json::JsonRange;
 constexpr int64_t kMostPixels = 32768;
 constexpr double kMostFloat = std::numeric_limits<float>::max();
 constexpr JsonRange kFloats{-kMostFloat, kMostFloat};
+constexpr JsonRange kKeyTimes{-motion_blur::kMostKeyTime, motion_blur::kMostKeyTime};
 
 constexpr std::array<std::pair<std::string_view, Texels>, 5> kTexels{
     {{"half4", Texels::Half4},
@@ -154,7 +155,7 @@ void readMotion(const JsonNode& node, DumpFrame& frame) {
     for (const JsonNode& one : object.require("keys").readArray(1, 64)) {
         const JsonObject key = one.readObject({"time", "viewFromWorld", "clipFromView"});
         frame.keys.push_back(
-            {key.require("time").readNumber({0.0, 1.0}),
+            {key.require("time").readNumber(kKeyTimes),
              readMatrix(key.require("viewFromWorld")),
              readMatrix(key.require("clipFromView"))}
         );

@@ -80,8 +80,11 @@ core::Status checkHeld(const DumpFrame& frame, const MotionBlurSettings& setting
             method.name,
             dumped
         );
+    // Where nothing moves by itself, a host need not have ids.
+    const bool readsIds =
+        method.readsEntityId && !(method.readsInstantMotions && frame.moverRows.empty());
     for (const char* name : {"normal", "entityId"})
-        if ((std::string_view(name) == "normal" ? method.readsNormal : method.readsEntityId) &&
+        if ((std::string_view(name) == "normal" ? method.readsNormal : readsIds) &&
             !frame.find(name))
             return makeError(
                 "'{}' cannot be replayed by {}: the dump holds no {}", frame.name, method.name, name

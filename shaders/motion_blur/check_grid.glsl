@@ -12,6 +12,16 @@ SHUTTER_INLINE uvec2 checkedPixel(uvec2 cell, uvec2 sizePx) {
     return (2u * cell + 1u) * sizePx / (2u * uvec2(kCheckAcross, kCheckDown));
 }
 
+/// Columns and rows of CheckTotals::fineDepths and fineIds.
+SHUTTER_INLINE uvec2 fineGrid(uvec2 sizePx) {
+    return uvec2(min(sizePx.x, kCheckFineAcross), min(sizePx.y, kCheckFineDown));
+}
+
+/// The pixel in the middle of one of its cells.
+SHUTTER_INLINE uvec2 finePixel(uvec2 cell, uvec2 sizePx) {
+    return (2u * cell + 1u) * sizePx / (2u * fineGrid(sizePx));
+}
+
 SHUTTER_SHADER_END
 
 #endif

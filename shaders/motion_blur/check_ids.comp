@@ -51,7 +51,11 @@ void main() {
     // A sample for each of the first threads of the picture.
     uvec2 count = gl_NumWorkGroups.xy * kGroupSize;
     uint threads = count.x * count.y;
-    for (uint at = pixel.y * count.x + pixel.x; at < kCheckSamples; at += threads)
+    uint first = pixel.y * count.x + pixel.x;
+    for (uint at = first; at < kCheckSamples; at += threads)
         totals.samples[at].id =
             readId(checkedPixel(uvec2(at % kCheckAcross, at / kCheckAcross), params.sizePx));
+    uvec2 fine = fineGrid(params.sizePx);
+    for (uint at = first; at < fine.x * fine.y; at += threads)
+        totals.fineIds[at] = readId(finePixel(uvec2(at % fine.x, at / fine.x), params.sizePx));
 }

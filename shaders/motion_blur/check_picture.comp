@@ -104,10 +104,16 @@ void main() {
     // A sample for each of the first threads of the picture.
     uvec2 count = gl_NumWorkGroups.xy * kGroupSize;
     uint threads = count.x * count.y;
-    for (uint at = pixel.y * count.x + pixel.x; at < kCheckSamples; at += threads) {
+    uint first = pixel.y * count.x + pixel.x;
+    for (uint at = first; at < kCheckSamples; at += threads) {
         uvec2 cell = uvec2(at % kCheckAcross, at / kCheckAcross);
         vec2 place = vec2(checkedPixel(cell, params.sizePx)) + 0.5f;
         totals.samples[at].vector = readVector(place);
         totals.samples[at].depth = readDepth(place);
+    }
+    uvec2 fine = fineGrid(params.sizePx);
+    for (uint at = first; at < fine.x * fine.y; at += threads) {
+        uvec2 cell = uvec2(at % fine.x, at / fine.x);
+        totals.fineDepths[at] = readDepth(vec2(finePixel(cell, params.sizePx)) + 0.5f);
     }
 }

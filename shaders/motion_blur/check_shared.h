@@ -11,6 +11,11 @@ SHUTTER_SHADER_BEGIN
 SHUTTER_CONST uint kCheckAcross = 64u;
 SHUTTER_CONST uint kCheckDown = 36u;
 SHUTTER_CONST uint kCheckSamples = 2304u; // across times down
+/// Depth and ids are taken at more pixels, in which the next frame's surfaces are looked up: of a
+/// picture that has fewer columns or rows, at all of them.
+SHUTTER_CONST uint kCheckFineAcross = 256u;
+SHUTTER_CONST uint kCheckFineDown = 144u;
+SHUTTER_CONST uint kCheckFinePixels = 36864u; // across times down
 /// Rows of entities below this are looked for in the picture.
 SHUTTER_CONST uint kCheckRows = 65536u;
 SHUTTER_CONST uint kCheckRowWords = 2048u; // a bit for each
@@ -48,6 +53,8 @@ struct CheckTotals {
     uint counts[kCheckCounts];
     uint seenRows[kCheckRowWords]; // a bit for each row
     CheckSample samples[kCheckSamples];
+    float fineDepths[kCheckFinePixels]; // row by row of fineGrid() (check_grid.glsl)
+    uint fineIds[kCheckFinePixels];
 };
 
 SHUTTER_CONST uint kCheckDepthIsThird = 1u; // depth is the third channel of its image
@@ -58,9 +65,13 @@ SHUTTER_SHADER_END
 
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::CheckSample) == 16);
-static_assert(sizeof(shutter::shader::CheckTotals) == 45136);
+static_assert(sizeof(shutter::shader::CheckTotals) == 340048);
 static_assert(
     shutter::shader::kCheckSamples == shutter::shader::kCheckAcross * shutter::shader::kCheckDown
+);
+static_assert(
+    shutter::shader::kCheckFinePixels ==
+    shutter::shader::kCheckFineAcross * shutter::shader::kCheckFineDown
 );
 static_assert(shutter::shader::kCheckRowWords * 32u == shutter::shader::kCheckRows);
 #endif

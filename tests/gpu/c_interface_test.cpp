@@ -218,18 +218,22 @@ TEST_F(CInterface, WhatIsWrongIsNamed) {
         [](I& in) {
             in.color.extent = {32, 48};
         },
-        "color.area ends at 64, 48, beyond its extent"
+        "color.extent is 32 x 48, all of which is used where area is not said"
     );
     refuse(
         [](I& in) {
             in.motionDepth.extent = {80, 48};
+            in.motionDepth.area.extent = {64, 48};
         },
-        "motionDepth is part of a larger image"
+        "motionDepth is part of a larger image; give it as vectors and depth, which may be"
     );
-    refuse([](I& in) { in.motionDepth = {}; }, "motionDepth.image is null, and so are");
+    refuse(
+        [](I& in) { in.motionDepth = {}; },
+        "motionDepth.image is null, and so are vectors.image and depth.image"
+    );
     refuse([](I& in) { in.keyCount = 1; }, "keys is null, keyCount is 1");
     refuse([](I& in) { in.moverCount = 2; }, "movers is null, moverCount is 2");
-    refuse([](I& in) { in.view = 7; }, "motion.view is 7");
+    refuse([](I& in) { in.view = 7; }, "motion blur: view is 7");
     mFrame->begin();
     expectRefusal(
         shutterBlurRecord(mBlur, mFrame->commands(), 0, nullptr, nullptr), "inputs is null"
@@ -271,10 +275,10 @@ TEST_F(CInterface, WrongSettingsAreNamed) {
     refuse(
         [](S& settings) { settings.method = "teapot"; }, "settings.method is 'teapot', it must be"
     );
-    refuse([](S& settings) { settings.method = "adaptive"; }, "samples.record is empty");
+    refuse([](S& settings) { settings.method = "adaptive"; }, "recordSamples is null");
     refuse([](S& settings) { settings.method = nullptr; }, "settings.method is null");
     refuse([](S& settings) { settings.sampleCount = 1000000; }, "sampleCount");
-    refuse([](S& settings) { settings.method = "hybrid"; }, "reveal.record is empty");
+    refuse([](S& settings) { settings.method = "hybrid"; }, "recordReveal is null");
     refuse([](S& settings) { settings.valueCount = 1; }, "settings.values is null");
     refuseValue(kUnknown, "settings.values has no 'speed'");
     refuseValue(kWord, "history: 'perhaps' is not true or false");
@@ -292,7 +296,9 @@ TEST_F(CInterface, AWrongDeviceIsNamed) {
         EXPECT_EQ(blur, nullptr);
     };
     using D = ShutterBlurDevice;
-    refuse([](D& device) { device.physical = VK_NULL_HANDLE; }, "physical is null");
+    refuse(
+        [](D& device) { device.physical = VK_NULL_HANDLE; }, "ShutterBlurDevice::physical is null"
+    );
     refuse([](D& device) { device.framesInFlight = 0; }, "framesInFlight is 0");
     refuse([](D& device) { device.queueFamily = 99; }, "queueFamily 99");
     refuse([](D& device) { device.structBytes = 1; }, "device.structBytes is 1");

@@ -63,6 +63,8 @@ loadCheckedShot(const CheckScene& scene, const math::uvec2& sizePx, double expos
         return shot.error();
     made.shot = std::move(shot).value();
     SHUTTER_TRY(useCamera(scene, made.shot));
+    if (scene.prepare)
+        scene.prepare(made.shot.world);
     return made;
 }
 

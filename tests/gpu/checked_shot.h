@@ -21,6 +21,7 @@ struct CheckScene {
     double orthographicYMag = 0.0;    ///< half height of what is seen, metres; 0: perspective
     /// Too much moves by itself for mistakes to be seen.
     bool hidesMistakes = false;
+    void (*prepare)(scene::World& world) = nullptr; ///< moves what the file has at rest
 };
 
 struct CheckedShot {

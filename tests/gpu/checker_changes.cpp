@@ -9,7 +9,7 @@ namespace {
 
 using math::dmat4;
 
-constexpr double kFar = 200.0;
+constexpr double kFar = 1000.0;
 
 const std::array<glm::dvec2, 3> kJitters{{{0.31, -0.22}, {-0.4, 0.13}, {0.12, 0.44}}};
 
@@ -93,6 +93,42 @@ void turnAway(GivenFrame& given, int frame) {
     const dmat4 turn = glm::rotate(dmat4(1.0), 0.3 * frame, math::dvec3(0.0, 1.0, 0.0));
     given.cameras.viewFromWorld *= turn;
     given.cameras.viewFromWorldBefore *= turn;
+}
+
+double shareAt(const GivenFrame& given, double shutterTime) {
+    const double share = given.inputs.convention.scales.exposureShare;
+    return 1.0 - (given.inputs.rasterTime - shutterTime) * share;
+}
+
+void giveKeys(GivenFrame& given) {
+    const motion_blur::HostCameras& cameras = given.cameras;
+    given.keys = {
+        {motion_blur::timeOfFrameBefore(given.inputs),
+         cameras.viewFromWorldBefore,
+         cameras.clipFromViewBefore},
+        {given.inputs.rasterTime, cameras.viewFromWorld, cameras.clipFromView}};
+}
+
+void giveKeysAt(GivenFrame& given, const std::vector<double>& times) {
+    given.keys.clear();
+    for (const double time : times) {
+        given.keys.push_back(given.cameraAt(shareAt(given, time)));
+        given.keys.back().time = time;
+    }
+}
+
+void giveMatrices(GivenFrame& given) {
+    if (given.keys.empty())
+        giveKeys(given);
+    given.matrices.clear();
+    for (motion_blur::HostMover& mover : given.listed) {
+        if (given.deforms[mover.row])
+            continue;
+        std::vector<dmat4>& matrices = given.matrices.emplace_back();
+        for (const motion_blur::HostCameraKey& key : given.keys)
+            matrices.push_back(given.placeAt(mover.row, shareAt(given, key.time)));
+        mover.worldFromObject = matrices;
+    }
 }
 
 void cutOut(GivenFrame& given, const VkRect2D& part) {

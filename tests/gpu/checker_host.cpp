@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gpu/checker_host.h"
 
+#include "assets/generator/demo_scenes.h"
 #include "assets/generator/scenes.h"
+#include "engine/scene/camera.h"
+#include "engine/scene/exposure_motion.h"
+#include "tests/gpu/checker_changes.h"
 #include "tests/gpu/checker_images.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -24,6 +30,7 @@ constexpr uint32_t kWidth = kCheckedWidth;
 constexpr uint32_t kHeight = kCheckedHeight;
 constexpr double kFrameSeconds = 1.0 / 30.0;
 constexpr int kFrames = 3;
+constexpr float kShare = 0.4f; ///< exposure over the time between the frames
 
 bool isPerspective(const dmat4& clip) {
     return clip[3].w == 0.0;
@@ -38,6 +45,49 @@ std::string makeKeys(const char* first, const char* second, const char* third) {
         second,
         third
     );
+}
+
+/// A place beside the start of the rally's course.
+/// \param along, right, up metres
+math::dvec3 besideTheRoad(double along, double right, double up) {
+    const generator::CoursePoint start = generator::findCoursePoint(0.0f);
+    const dvec2 ahead(start.direction);
+    const dvec2 at = dvec2(start.place) + along * ahead + right * dvec2(-ahead.y, ahead.x);
+    return {at.x, up, at.y};
+}
+
+/// Drives the rally's car along the road.
+void driveCar(scene::World& world) {
+    const dvec2 ahead(generator::findCoursePoint(0.0f).direction);
+    ecs::Entity car;
+    for (auto [entity, name, place] : world.registry.view<scene::Name, scene::LocalTransform>()) {
+        if (name.value != "car")
+            continue;
+        car = entity;
+        place.transform.translation = besideTheRoad(0.0, 0.0, 0.0);
+        place.transform.rotation =
+            glm::angleAxis(std::atan2(-ahead.x, -ahead.y), math::dvec3(0.0, 1.0, 0.0));
+    }
+    world.registry.add(car, scene::LinearVelocity{14.0 * math::dvec3(ahead.x, 0.0, ahead.y)});
+    world.registry.add(car, scene::AngularVelocity{{0.0, 1.2, 0.0}});
+}
+
+std::string makeRallyKeys() {
+    // It speeds up, rises, and turns to the right.
+    const auto key = [](double along) {
+        const math::dvec3 at = besideTheRoad(along - 4.5, 2.2 - 0.5 * along, 1.5 + 0.3 * along);
+        const math::dvec3 to = besideTheRoad(along + 1.5, 0.6 * along, 0.6 + 0.6 * along);
+        return fmt::format(
+            R"("position": [{}, {}, {}], "lookAt": [{}, {}, {}])",
+            at.x,
+            at.y,
+            at.z,
+            to.x,
+            to.y,
+            to.z
+        );
+    };
+    return makeKeys(key(0.0).c_str(), key(0.4).c_str(), key(1.7).c_str());
 }
 
 /// Rows whose vectors are not the camera's: those of the animated parts.
@@ -57,6 +107,45 @@ std::vector<uint32_t> findMovers(const CheckedDrawing& drawn) {
             movers.push_back(row);
     return movers;
 }
+
+/// Takes down which entities the rows of a frame are.
+class RowTeller : public render::PostEffect {
+  public:
+    [[nodiscard]] std::string name() const override { return "rows"; }
+
+    [[nodiscard]] core::Decision ask(const render::ViewFacts&) const override {
+        return {true, "rows are taken down"};
+    }
+
+    void declare(render::PostContext& context) override {
+        mEntities = context.frame.entityHandles;
+        mDeforms.assign(mEntities.size(), false);
+        for (const extract::DeformedEntity& one : context.frame.deformed)
+            mDeforms[one.row] = true;
+    }
+
+    void
+    tell(const scene::World& world, const extract::ViewRequest& view, CheckedDrawing& drawn) const {
+        drawn.rowCount = uint32_t(mEntities.size());
+        drawn.deforms = mDeforms;
+        drawn.placeAt = [&world, view, entities = mEntities](uint32_t row, double share) {
+            return scene::ExposureMotion(world, view.camera, view.exposure)
+                .worldFromObject(entities[row], share);
+        };
+        drawn.cameraAt = [&world, view](double share) {
+            const scene::ExposureMotion moves(world, view.camera, view.exposure);
+            const auto& camera = world.registry.get<scene::Camera>(view.camera);
+            return motion_blur::HostCameraKey{
+                share,
+                glm::inverse(moves.worldFromCamera(share)),
+                extract::makeProjection(camera, moves.cameraYFov(share), view)};
+        };
+    }
+
+  private:
+    std::vector<ecs::Entity> mEntities;
+    std::vector<bool> mDeforms;
+};
 
 } // namespace
 
@@ -78,6 +167,7 @@ std::vector<CheckScene> listCheckScenes() {
     return {
         {"vase", &generator::buildVaseScene, {}, vase},
         {"courtyard", &generator::buildCourtyardScene, {}, courtyard},
+        {"rally", &generator::buildRallyScene, {}, makeRallyKeys(), 0.0, false, &driveCar},
         {"pink_room",
          nullptr,
          "pink-room/pink_room_lite_animated.glb",
@@ -142,22 +232,30 @@ void CheckerHost::SetUp() {
     ASSERT_TRUE(shot.ok()) << shot.error().message;
     mShot.emplace(std::move(shot).value());
     render::Renderer renderer(device(), mShot->shot.world.assets);
-    for (int frame = 0; frame < 2 * kFrames; ++frame)
-        draw(renderer, frame);
-    uint32_t rowCount = 0;
+    for (int number = 0; number < 2 * kFrames; ++number)
+        mDrawn.push_back(draw(renderer, number, 1.0));
+    mUneven = draw(renderer, 2 * kFrames, 2.0);
+    uint32_t rowCount = mUneven.rowCount;
     for (const CheckedDrawing& drawn : mDrawn)
         rowCount = std::max(rowCount, drawn.rowCount);
     for (CheckedDrawing& drawn : mDrawn)
         drawn.rowCount = rowCount;
+    mUneven.rowCount = rowCount;
 }
 
-void CheckerHost::draw(render::Renderer& renderer, int frame) {
+CheckedDrawing CheckerHost::draw(render::Renderer& renderer, int number, double frames) {
     render::FrameRequest request;
-    request.view = game::makeView(mShot->shot, mShot->options, frame * kFrameSeconds / 2.0 + 0.03);
+    request.view = game::makeView(mShot->shot, mShot->options, number * kFrameSeconds / 2.0 + 0.03);
+    request.view.exposure.open = request.view.exposure.close - frames * kFrameSeconds;
     request.intermediates = {"motion", "mesh_id"};
-    const auto result = renderer.renderFrame(mShot->shot.world, request, {});
-    ASSERT_TRUE(result.ok()) << result.error().message;
-    CheckedDrawing& drawn = mDrawn.emplace_back();
+    RowTeller teller;
+    const std::array<render::PostEffect*, 1> effects{&teller};
+    const auto result = renderer.renderFrame(mShot->shot.world, request, effects);
+    CheckedDrawing drawn;
+    EXPECT_TRUE(result.ok());
+    if (!result)
+        return drawn;
+    teller.tell(mShot->shot.world, request.view, drawn);
     const image::Image& motion = result.value().intermediates.at("motion");
     const image::Image& ids = result.value().intermediates.at("mesh_id");
     for (size_t i = 0; i < kCheckedPixels; ++i) {
@@ -170,13 +268,15 @@ void CheckerHost::draw(render::Renderer& renderer, int frame) {
             drawn.rowCount = std::max(drawn.rowCount, drawn.ids[i] + 1);
     }
     drawn.cameras = tellCameras(mShot->shot.world, request.view);
+    return drawn;
 }
 
 GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) const {
     const int last = int(mDrawn.size()) - 1;
     const int at = 2 * frame + int(view);
+    const bool isLong = one.isUneven && frame + 1 == kFrames;
     GivenFrame given;
-    static_cast<CheckedDrawing&>(given) = mDrawn[one.isStill ? 0 : size_t(at)];
+    static_cast<CheckedDrawing&>(given) = isLong ? mUneven : mDrawn[one.isStill ? 0 : size_t(at)];
     if (one.isStill)
         given.cameras.viewFromWorldBefore = given.cameras.viewFromWorld;
     given.movers = findMovers(given);
@@ -186,9 +286,12 @@ GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) con
     given.inputs.height = kHeight;
     given.inputs.motion.view = view;
     motion_blur::HostConvention& convention = given.inputs.convention;
-    convention.scales.exposureShare = 0.4f;
+    convention.scales.exposureShare = isLong ? kShare / 2.0f : kShare;
+    given.inputs.motion.followsLast = frame > 0;
     for (const uint32_t row : given.movers)
         given.listed.push_back({row, {}});
+    if (one.needsMovers || one.isUneven)
+        giveMatrices(given);
     const CheckedDrawing& before = mDrawn[size_t(std::max(at - 2, 0))];
     const CheckedDrawing& after = mDrawn[size_t(std::min(at + 2, last))];
     one.change(given, frame, before, after);
@@ -220,16 +323,16 @@ void CheckerHost::record(
     CheckedImages images(device(), given);
     images.describe(given);
     motion_blur::MotionBlurSettings settings = gather();
-    const motion_blur::HostCameraKey key{
-        1.0, given.cameras.viewFromWorld, given.cameras.clipFromView};
     if (given.isResolved) {
         settings.method = &motion_blur::getMethod("resolved");
         settings.sampleCount = 3;
-        given.inputs.motion.keys = {&key, 1};
-        if (!given.keys.empty())
-            given.inputs.motion.keys = given.keys;
+        settings.history = given.history;
+        if (given.keys.empty())
+            giveKeys(given);
+        given.inputs.motion.keys = given.keys;
         given.inputs.motion.movers = given.listed;
         given.inputs.motion.rowCount = given.rowCount;
+        given.inputs.motion.rowIds = given.rowIds;
     }
     gpu::Frame commands(device());
     commands.begin();

@@ -30,6 +30,11 @@ struct CheckedDrawing {
     motion_blur::HostCameras cameras; ///< reversed; infinite where they are perspective
     uint32_t rowCount = 0;
     std::vector<uint32_t> movers; ///< rows that move
+    std::vector<bool> deforms;    ///< by row
+    /// World from object of a row, and the camera, at shares of the time between the frames: 0 the
+    /// frame before, 1 this one.
+    std::function<math::dmat4(uint32_t row, double share)> placeAt;
+    std::function<motion_blur::HostCameraKey(double share)> cameraAt;
 };
 
 /// What a host hands in, to be changed into what it gets wrong or has in another way.
@@ -37,11 +42,16 @@ struct GivenFrame : CheckedDrawing {
     std::vector<float> depth; ///< as stored
     motion_blur::HostInputs inputs;
     std::vector<motion_blur::HostMover> listed;
-    std::vector<motion_blur::HostCameraKey> keys; ///< empty: one of the cameras
+    /// Empty: the frame before's and this one's.
+    std::vector<motion_blur::HostCameraKey> keys;
+    std::deque<std::vector<math::dmat4>> matrices; ///< of `listed`
+    std::vector<uint64_t> rowIds;                  ///< empty: the rows
     glm::dvec2 jitterPx{0.0};
     glm::dvec2 jitterPxBefore{0.0};
     bool isResolved = false;
     bool hasVectors = true;
+    bool hasIds = true;
+    bool history = true;
     bool isNative = false; ///< vectors and metres are one image
     VkFormat vectorFormat = VK_FORMAT_R32G32_SFLOAT;
     VkFormat depthFormat = VK_FORMAT_R32_SFLOAT;
@@ -63,6 +73,8 @@ struct CheckCase {
     bool isStill = false; ///< the camera stands still in all frames
     uint32_t viewCount = 1;
     std::string orthographicSentence{}; ///< in place of `sentence`; empty: that
+    bool needsMovers = false;           ///< rigid ones, in view
+    bool isUneven = false;              ///< the last frame is twice as long after the one before
 };
 
 /// Named for gtest's sake.
@@ -72,6 +84,8 @@ void PrintTo(const CheckScene& scene, std::ostream* stream);
 [[nodiscard]] std::vector<CheckScene> listCheckScenes();
 /// What hosts get wrong, with part of the sentence that says so.
 [[nodiscard]] const std::vector<CheckCase>& listMistakes();
+/// The same of what "resolved" reads besides.
+[[nodiscard]] const std::vector<CheckCase>& listMotionMistakes();
 /// What hosts may do; the first is the plainest.
 [[nodiscard]] const std::vector<CheckCase>& listRightHosts();
 
@@ -101,10 +115,13 @@ class CheckerHost : public EmbeddedTest, public testing::WithParamInterface<Chec
     );
 
   private:
-    void draw(render::Renderer& renderer, int frame);
+    /// \param number of half frames
+    /// \param frames since the one before
+    CheckedDrawing draw(render::Renderer& renderer, int number, double frames);
 
     std::optional<CheckedShot> mShot;
     std::deque<CheckedDrawing> mDrawn; ///< each half a frame after the one before
+    CheckedDrawing mUneven;            ///< the last frame, where it is longer
 };
 
 } // namespace shutter::test

@@ -53,7 +53,8 @@ void CheckedImages::describe(GivenFrame& given) {
     for (const glm::vec4& color : given.color)
         halves.push_back(packHalf(color));
     inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, bytesOf(halves), sizeof(uint64_t), 1);
-    inputs.entityId = make(VK_FORMAT_R32_UINT, bytesOf(given.ids), sizeof(uint32_t), 1);
+    if (given.hasIds)
+        inputs.entityId = make(VK_FORMAT_R32_UINT, bytesOf(given.ids), sizeof(uint32_t), 1);
     if (given.isNative) {
         std::vector<glm::vec4> texels;
         for (size_t i = 0; i < kCheckedPixels; ++i)
@@ -119,6 +120,8 @@ CheckedImages::makeLayer(VkFormat format, VkExtent2D extent, std::span<const std
     image.format = format;
     image.extent = extent;
     image.layer = made.layer;
+    image.usage = made.image->usage;
+    image.samples = VK_SAMPLE_COUNT_1_BIT;
     return image;
 }
 

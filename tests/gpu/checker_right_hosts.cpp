@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gpu/checker_changes.h"
 
+#include <utility>
+
 namespace shutter::test {
 
 namespace {
@@ -152,10 +154,9 @@ std::vector<CheckCase> listImagesAndMethods() {
          2},
         {"two eyes in layers, resolved",
          "",
-         [](Given& g, int frame, Drawn, Drawn) {
+         [](Given& g, int, Drawn, Drawn) {
              g.layer = g.inputs.motion.view;
              g.isResolved = true;
-             g.inputs.motion.followsLast = frame > 0;
          },
          false,
          2},
@@ -170,16 +171,87 @@ std::vector<CheckCase> listImagesAndMethods() {
          }},
         {"one image of vectors and depth, resolved",
          "",
-         [](Given& g, int frame, Drawn, Drawn) {
+         [](Given& g, int, Drawn, Drawn) {
              g.isNative = g.isResolved = true;
              g.keys = {
                  {0.0, g.cameras.viewFromWorldBefore, g.cameras.clipFromViewBefore},
                  {1.0, g.cameras.viewFromWorld, g.cameras.clipFromView}};
-             g.inputs.motion.followsLast = frame > 0;
          }},
-        {"resolved, with each mover listed", "", [](Given& g, int frame, Drawn, Drawn) {
+        {"resolved, with each mover listed", "", [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
-             g.inputs.motion.followsLast = frame > 0;
+         }}};
+}
+
+/// A camera and movers that are known at these shutter times.
+CheckCase makeKeyed(const char* name, std::vector<double> times, bool hasVectors) {
+    CheckCase one{name, "", [times, hasVectors](Given& g, int, Drawn, Drawn) {
+                      g.isResolved = true;
+                      g.hasVectors = hasVectors;
+                      if (!times.empty())
+                          giveKeysAt(g, times);
+                      giveMatrices(g);
+                      if (!hasVectors)
+                          std::erase_if(g.listed, [](const auto& mover) {
+                              return mover.worldFromObject.empty();
+                          });
+                  }};
+    return one;
+}
+
+std::vector<CheckCase> listMotion() {
+    CheckCase uneven = makeKeyed("movers in frames of uneven length", {}, true);
+    uneven.isUneven = true;
+    return {
+        makeKeyed("movers by the two frames that a game knows", {}, true),
+        makeKeyed("the same without vectors", {}, false),
+        makeKeyed("movers by exact keys", {0.0, 1.0}, true),
+        makeKeyed("movers by exact keys, without vectors", {0.0, 0.5, 1.0}, false),
+        uneven,
+        {"one world, without ids, vectors and movers",
+         "",
+         [](Given& g, int, Drawn, Drawn) {
+             g.isResolved = true;
+             g.hasVectors = g.hasIds = false;
+             g.listed.clear();
+         }},
+        {"a raster in the middle of the exposure",
+         "",
+         [](Given& g, int, Drawn, Drawn) {
+             g.isResolved = true;
+             g.inputs.rasterTime = 0.5;
+             giveKeysAt(g, {0.0, 0.5});
+         }},
+        {"rows in another order in each frame, and their ids",
+         "",
+         [](Given& g, int frame, Drawn, Drawn) {
+             g.isResolved = true;
+             g.rowIds.resize(g.rowCount);
+             const auto rowOf = [&](uint32_t row) { return (row + uint32_t(frame)) % g.rowCount; };
+             for (uint32_t row = 0; row < g.rowCount; ++row)
+                 g.rowIds[rowOf(row)] = row + 1000;
+             for (uint32_t& id : g.ids)
+                 id = id < g.rowCount ? rowOf(id) : id;
+             for (motion_blur::HostMover& mover : g.listed)
+                 mover.row = rowOf(mover.row);
+         }},
+        {"no history, by the settings",
+         "",
+         [](Given& g, int, Drawn, Drawn) {
+             g.isResolved = true;
+             g.history = false;
+             g.inputs.motion.followsLast = false;
+         }},
+        {"a first frame that has none before it", "", [](Given& g, int frame, Drawn, Drawn) {
+             g.isResolved = true;
+             giveKeys(g);
+             giveMatrices(g);
+             if (frame > 0)
+                 return;
+             g.inputs.convention.scales.isCut = true;
+             g.cameras.viewFromWorldBefore = g.cameras.clipFromViewBefore = dmat4(0.0);
+             g.keys.front().viewFromWorld = g.keys.front().clipFromView = dmat4(0.0);
+             for (std::vector<dmat4>& matrices : g.matrices)
+                 matrices.front() = dmat4(0.0);
          }}};
 }
 
@@ -188,7 +260,7 @@ std::vector<CheckCase> listImagesAndMethods() {
 const std::vector<CheckCase>& listRightHosts() {
     static const std::vector<CheckCase> kCases = [] {
         std::vector<CheckCase> all = listVectors();
-        for (const auto& more : {listDepthAndCameras(), listImagesAndMethods()})
+        for (const auto& more : {listDepthAndCameras(), listImagesAndMethods(), listMotion()})
             all.insert(all.end(), more.begin(), more.end());
         return all;
     }();

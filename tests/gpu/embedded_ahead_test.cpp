@@ -96,6 +96,16 @@ struct Host : test::HostFrame {
         return in;
     }
 
+    /// Those that the plan is of.
+    [[nodiscard]] HostInputs inputs(const HostPlan& plan) const {
+        HostInputs in = inputs();
+        if (plan.entityIdFormat == VK_FORMAT_UNDEFINED) {
+            in.entityId = {};
+            in.motion.movers = {};
+        }
+        return in;
+    }
+
     void recordClears(VkCommandBuffer commands) const {
         HostFrame::recordClears(commands);
         const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
@@ -119,9 +129,15 @@ MotionBlurSettings settingsOf(const char* method) {
     return settings;
 }
 
+/// Of a host without ids, in whose world nothing moves by itself.
+constexpr const char* kStillWorld = "resolved without ids";
+
 HostPlan planOf(const char* method, uint32_t width, uint32_t height) {
     HostPlan plan;
-    plan.settings = settingsOf(method);
+    const bool isStill = method == kStillWorld;
+    plan.settings = settingsOf(isStill ? "resolved" : method);
+    if (isStill)
+        plan.entityIdFormat = VK_FORMAT_UNDEFINED;
     plan.width = width;
     plan.height = height;
     return plan;
@@ -154,7 +170,7 @@ class EmbeddedAhead : public test::EmbeddedTest {
 
 TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
     for (const math::uvec2 size : {math::uvec2(64, 48), math::uvec2(200, 112)})
-        for (const char* method : {"gather", "hybrid", "resolved", "adaptive"}) {
+        for (const char* method : {"gather", "hybrid", "resolved", "adaptive", kStillWorld}) {
             SCOPED_TRACE(std::string(method) + " " + std::to_string(size.x));
             const HostPlan plan = planOf(method, size.x, size.y);
             const auto told = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
@@ -163,7 +179,7 @@ TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
             const Host host(device(), size.x, size.y);
             for (uint32_t frame = 0; frame < 4; ++frame) {
                 const core::Status done =
-                    draw(*blur, host, frame % 2, host.inputs(), plan.settings);
+                    draw(*blur, host, frame % 2, host.inputs(plan), plan.settings);
                 ASSERT_TRUE(done.ok()) << done.error().message;
             }
             const auto held = double(blur->living().memoryBytes);
@@ -187,7 +203,7 @@ TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
 }
 
 TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
-    for (const char* method : {"gather", "hybrid", "resolved", "adaptive"})
+    for (const char* method : {"gather", "hybrid", "resolved", "adaptive", kStillWorld})
         for (const bool isAsynchronous : {false, true}) {
             SCOPED_TRACE(std::string(method) + (isAsynchronous ? " on a thread" : ""));
             const auto blur = create(describeHost());
@@ -206,11 +222,11 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
             }
             Asked asked;
             for (uint32_t frame = 0; frame < 4; ++frame)
-                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(), plan.settings).ok());
+                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok());
             EXPECT_EQ(asked.pipelines, 0u);
             asked.allocations = 0;
             for (uint32_t frame = 0; frame < 2; ++frame)
-                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(), plan.settings).ok());
+                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok());
             EXPECT_EQ(asked.allocations, 0u);
         }
 }

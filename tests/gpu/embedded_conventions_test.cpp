@@ -449,8 +449,22 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     HostInputs inputs = conventionInputs();
     inputs.convention.vectors.image =
         make(VK_FORMAT_R32G32_SFLOAT, vectors, kHalf).describe({{0, 0}, kHalf});
+    // All of its extent is used, where no area is said.
+    inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT, metres, kHalf).describe();
+    EXPECT_TRUE(test::sameBits(blur(inputs), own));
+}
+
+TEST_F(EmbeddedConventions, WithoutAnAreaTheRestOfTheExtentIsUsed) {
+    const image::Image own = blur(ownInputs());
+    constexpr VkExtent2D kWhole{kWidth + 24, kHeight + 10};
+    constexpr VkOffset2D kAt{24, 10};
+    HostInputs inputs = conventionInputs();
+    inputs.convention.vectors.image =
+        make(VK_FORMAT_R32G32_SFLOAT, surround(drawn.motion, glm::vec2(99.0f), kWhole, kAt), kWhole)
+            .describe({kAt, {0, 0}});
     inputs.convention.depth.image =
-        make(VK_FORMAT_R32_SFLOAT, metres, kHalf).describe({{0, 0}, kHalf});
+        make(VK_FORMAT_R32_SFLOAT, surround(drawn.metres, 0.01f, kWhole, kAt), kWhole)
+            .describe({kAt, {0, 0}});
     EXPECT_TRUE(test::sameBits(blur(inputs), own));
 }
 
@@ -494,7 +508,7 @@ TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
     EXPECT_FALSE(test::sameBits(blur(inputs, settings), own)) << "nothing was blurred";
 }
 
-TEST_F(EmbeddedConventions, MoversWithoutVectorsAreRefused) {
+TEST_F(EmbeddedConventions, MoversWithNeitherVectorsNorMatricesAreRefused) {
     HostInputs inputs = conventionInputs();
     const test::Picture output(device(), "output", {kWidth, kHeight});
     inputs.output = {output.handle(), test::kNothing, kCopied};
@@ -503,7 +517,8 @@ TEST_F(EmbeddedConventions, MoversWithoutVectorsAreRefused) {
     inputs.convention.vectors = {};
     const motion_blur::HostCameraKey key{
         1.0, math::dmat4(1.0), inputs.convention.cameras.clipFromView};
-    const std::array<motion_blur::HostMover, 2> movers{{{7, {}}, {200, {}}}};
+    const std::array matrices{math::dmat4(1.0)};
+    const std::array<motion_blur::HostMover, 2> movers{{{7, matrices}, {200, {}}}};
     inputs.motion.keys = {&key, 1};
     inputs.motion.rowCount = 201;
     inputs.motion.movers = movers;
@@ -517,9 +532,9 @@ TEST_F(EmbeddedConventions, MoversWithoutVectorsAreRefused) {
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(
         done.error().message,
-        "motion blur: motion.movers has 2 rows, but convention.vectors.image.image is null: "
-        "without "
-        "vectors only the camera moves"
+        "motion blur: motion.movers[1] has no worldFromObject, and convention.vectors.image.image "
+        "is "
+        "null: without vectors each mover needs matrices"
     );
 }
 

@@ -103,11 +103,13 @@ class EmbeddedDump : public test::EmbeddedTest {
             convention.cameras.viewFromWorldBefore = glm::dmat4(0.0);
             convention.cameras.clipFromViewBefore = glm::dmat4(0.0);
         }
-        inputs.entityId = make(VK_FORMAT_R16_UINT, ids);
+        if (mHasIds)
+            inputs.entityId = make(VK_FORMAT_R16_UINT, ids);
         inputs.noEntity = 0xFFFF;
         inputs.frameNumber = frame + 7;
         mKeys = {
-            motion_blur::HostCameraKey{0.0, viewAt(double(frame) - 0.5), clip},
+            motion_blur::HostCameraKey{
+                mFirstKey, viewAt(double(frame) - 0.5 * (1.0 - mFirstKey)), clip},
             motion_blur::HostCameraKey{1.0, viewAt(frame), clip}};
         inputs.motion.keys = mKeys;
         inputs.motion.rowCount = 4;
@@ -183,6 +185,8 @@ class EmbeddedDump : public test::EmbeddedTest {
     std::vector<math::ResponsePoint> mResponse;
     std::optional<shader::ResponseTable> mTable; ///< in main memory alone
     bool mHasVectors = true;
+    bool mHasIds = true;
+    double mFirstKey = 0.0; ///< its time
     bool mIsCut = false;
     bool mIsPacked = false; ///< vectors and depth are one image
 };
@@ -275,6 +279,17 @@ TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {
     expectReplayed({picture});
 }
 
+TEST_F(EmbeddedDump, ReplayGivesThePictureOfAStillWorldWithoutIds) {
+    mHasVectors = mHasIds = false;
+    mFirstKey = -1.0; // the frame before's
+    (void)draw(0, resolvedWithNoise());
+    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
+    const image::Image first = draw(1, resolvedWithNoise());
+    const image::Image second = draw(2, resolvedWithNoise());
+    EXPECT_TRUE(mTold.empty()) << mTold.front();
+    expectReplayed({first, second});
+}
+
 TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
     const motion_blur::MotionBlurSettings settings = resolvedWithNoise();
     (void)draw(0, settings); // before the dump: its first frame must not look it up
@@ -313,7 +328,7 @@ TEST_F(EmbeddedDump, WhatIsWrongWithADumpIsTold) {
     refuse(mFolder, 0, "frames is 0, it must be 1 to 9999");
     refuse("/proc/none", 1, "'/proc/none'");
     ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    refuse(mFolder, 1, "1 recordings of the last dump are to come");
+    refuse(mFolder, 1, "1 recording of the last dump is to come");
     (void)draw(0, test::gather());
     refuse(mFolder, 1, "holds a dump already");
     // A folder that went away.

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Fifty ways in which a first trial in a foreign engine went wrong, through both interfaces: what
 // can be seen gives a sentence that names the field, and nothing crashes or aborts.
-#include "engine/gpu/frame.h"
-#include "engine/image/metrics.h"
-#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/embedding/host_features.h"
-#include "tests/gpu/embedding_host.h"
+#include "tests/gpu/misuse_host.h"
 
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,125 +21,13 @@ using motion_blur::MotionBlurSettings;
 using test::kSampled;
 using test::kWritten;
 
-constexpr uint32_t kWidth = 40;
-constexpr uint32_t kHeight = 24;
-constexpr VkImageUsageFlags kAllUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                        VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+using test::expectNamed;
+using test::expectNamedInC;
+using test::kMisusedHeight;
+using test::kMisusedWidth;
+using test::Misuse;
 
-void expectNamed(bool isRefused, const std::string& message, const std::string& part) {
-    EXPECT_TRUE(isRefused) << "expected: " << part;
-    EXPECT_NE(message.find(part), std::string::npos)
-        << "expected: " << part << "\n got: " << message;
-    EXPECT_EQ(message.find("CHECK"), std::string::npos) << message;
-    EXPECT_EQ(message.find(".cpp"), std::string::npos) << message;
-}
-
-ShutterBlurUse convert(const graph::OutsideUse& use) {
-    return {use.layout, use.stages, use.access};
-}
-
-/// A recording that goes wrong, as both interfaces say it.
-struct Misuse {
-    const char* part; ///< of the sentence
-    std::function<void(HostInputs&, MotionBlurSettings&)> inCpp;
-    std::function<void(ShutterBlurInputs&, ShutterBlurSettings&)> inC;
-};
-
-class EmbeddedMisuses : public test::EmbeddedTest {
-  protected:
-    void SetUp() override {
-        EmbeddedTest::SetUp();
-        if (IsSkipped() || HasFatalFailure())
-            return;
-        mBlur = create(describeHost());
-        const ShutterBlurDevice described = describeDevice();
-        ASSERT_EQ(shutterBlurCreate(&described, &mC), SHUTTER_BLUR_SUCCESS)
-            << shutterBlurGetMessage();
-        mHost.emplace(device(), kWidth, kHeight);
-        mFrame.emplace(device());
-    }
-
-    void TearDown() override {
-        shutterBlurDestroy(mC);
-        mFrame.reset();
-        mHost.reset();
-        mBlur.reset();
-        EmbeddedTest::TearDown();
-    }
-
-    static ShutterBlurDevice describeDevice() {
-        ShutterBlurDevice described = shutterBlurDefaultDevice();
-        described.physical = device().physical();
-        described.device = device().handle();
-        described.queueFamily = device().queueFamily();
-        return described;
-    }
-
-    [[nodiscard]] HostInputs makeInputs() const {
-        HostInputs inputs = mHost->inputs();
-        for (motion_blur::HostImage* image : {&inputs.color, &inputs.motionDepth, &inputs.output})
-            image->usage = kAllUsage;
-        inputs.color.format = inputs.output.format = VK_FORMAT_R16G16B16A16_SFLOAT;
-        inputs.motionDepth.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-        return inputs;
-    }
-
-    static ShutterBlurImage convertImage(const motion_blur::HostImage& image) {
-        ShutterBlurImage made{};
-        made.image = image.image;
-        made.format = image.format;
-        made.usage = image.usage;
-        made.before = convert(image.before);
-        made.after = convert(image.after);
-        return made;
-    }
-
-    [[nodiscard]] ShutterBlurInputs makeInputsOfC() const {
-        const HostInputs given = makeInputs();
-        ShutterBlurInputs inputs = shutterBlurDefaultInputs();
-        inputs.width = kWidth;
-        inputs.height = kHeight;
-        inputs.color = convertImage(given.color);
-        inputs.motionDepth = convertImage(given.motionDepth);
-        inputs.output = convertImage(given.output);
-        return inputs;
-    }
-
-    void submit(const std::function<void(VkCommandBuffer)>& record) {
-        mFrame->begin();
-        mHost->recordClears(mFrame->commands());
-        record(mFrame->commands());
-        mFrame->submit();
-        mFrame->wait();
-    }
-
-    void expectRefused(const Misuse& misuse) {
-        submit([&](VkCommandBuffer commands) {
-            if (misuse.inCpp) {
-                HostInputs inputs = makeInputs();
-                MotionBlurSettings settings = test::gather();
-                misuse.inCpp(inputs, settings);
-                const core::Status done = mBlur->record(commands, 0, inputs, settings);
-                expectNamed(!done, done ? "" : done.error().message, misuse.part);
-            }
-            if (misuse.inC) {
-                ShutterBlurInputs inputs = makeInputsOfC();
-                ShutterBlurSettings settings = shutterBlurDefaultSettings();
-                misuse.inC(inputs, settings);
-                const auto done = shutterBlurRecord(mC, commands, 0, &inputs, &settings);
-                expectNamed(
-                    done == SHUTTER_BLUR_ERROR_REFUSED, shutterBlurGetMessage(), misuse.part
-                );
-            }
-        });
-    }
-
-    std::unique_ptr<EmbeddedMotionBlur> mBlur;
-    ShutterBlur* mC = nullptr;
-    std::optional<test::HostFrame> mHost;
-    std::optional<gpu::Frame> mFrame;
-};
+class EmbeddedMisuses : public test::MisuseHost {};
 
 /// A change that both interfaces take alike.
 template <class Change> Misuse both(const char* part, const Change& change) {
@@ -198,10 +81,11 @@ TEST_F(EmbeddedMisuses, OfImagesAreNamed) {
             "output.area ends at 40, 24, beyond its extent",
             [](auto& in) {
                 in.output.extent = {32, 24};
+                in.output.area.extent = {40, 24};
             }
         ),
         both(
-            "color.area ends at 40, 24, beyond its extent",
+            "color.extent is 40 x 20, all of which is used where area is not said",
             [](auto& in) {
                 in.color.extent = {40, 20};
             }
@@ -210,8 +94,18 @@ TEST_F(EmbeddedMisuses, OfImagesAreNamed) {
             "motionDepth is part of a larger image",
             [](auto& in) {
                 in.motionDepth.extent = {64, 64};
+                in.motionDepth.area.extent = {40, 24};
             }
         ),
+        both(
+            "color.area begins at 40, 0, beyond its extent",
+            [](auto& in) {
+                in.color.extent = {40, 24};
+                in.color.area.offset.x = 40;
+            }
+        ),
+        // Twelve times as wide as the images are.
+        both("color takes ", [](auto& in) { in.width = 12 * kMisusedWidth; }),
         both(
             "color.area.extent is 20 x 24",
             [](auto& in) {
@@ -304,7 +198,7 @@ TEST_F(EmbeddedMisuses, OfDevicesAreNamed) {
             change(described);
             ShutterBlur* blur = nullptr;
             const auto done = shutterBlurCreate(&described, &blur);
-            expectNamed(done == SHUTTER_BLUR_ERROR_REFUSED, shutterBlurGetMessage(), part);
+            expectNamedInC(done, part);
             EXPECT_EQ(blur, nullptr);
         }
     };
@@ -333,7 +227,7 @@ TEST_F(EmbeddedMisuses, OfFrameNumbersAreNamed) {
         expectNamed(!status, status ? "" : status.error().message, part);
     };
     const auto expectResult = [](ShutterBlurResult result, const char* part) {
-        expectNamed(result == SHUTTER_BLUR_ERROR_REFUSED, shutterBlurGetMessage(), part);
+        expectNamedInC(result, part);
     };
     expectStatus(mBlur->record(VK_NULL_HANDLE, 0, inputs, settings), "command buffer is null");
     expectResult(shutterBlurRecord(mC, VK_NULL_HANDLE, 0, &inputsOfC, nullptr), "buffer is null");
@@ -470,7 +364,7 @@ TEST_F(EmbeddedMisuses, NumbersThatAreNoneLeaveAFinitePicture) {
           VkClearColorValue{{inf, -inf, 2.0f, 0.0f}},
           VkClearColorValue{{1e30f, 1e30f, 2.0f, 0.0f}},
           VkClearColorValue{{4.0f, 0.0f, nan, 0.0f}}}) {
-        const test::Picture output(device(), "output", {kWidth, kHeight});
+        const test::Picture output(device(), "output", {kMisusedWidth, kMisusedHeight});
         submit([&](VkCommandBuffer commands) {
             const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
             test::moveOn(commands, mHost->motionDepth.handle(), kWritten, kWritten);

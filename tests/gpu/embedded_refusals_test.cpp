@@ -79,6 +79,18 @@ TEST_F(EmbeddedRefusals, EachBadInputIsNamed) {
     };
     refuse([&] { inputs.width = 0; }, "the size is 0 x 24");
     refuse([&] { inputs.height = 32769; }, "the size is 40 x 32769");
+    const uint32_t most = device().limits().maxImageDimension2D;
+    if (most < 32768) {
+        refuse([&] { inputs.width = most + 1; }, "the device's maxImageDimension2D");
+        refuse(
+            [&] {
+                inputs.color.extent = {most + 1, 24};
+                inputs.color.area.extent = {40, 24};
+            },
+            "color is said to be " + std::to_string(most + 1) + " x 24"
+        );
+    }
+    refuse([&] { inputs.width = 400; }, "color takes ");
     refuse([&] { inputs.rasterTime = -0.1; }, "rasterTime is -0.1");
     refuse(
         [&] { inputs.rasterTime = std::numeric_limits<double>::quiet_NaN(); }, "rasterTime is nan"
@@ -163,8 +175,12 @@ TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {
     inputs.entityId = {ids.handle(), kSampled, kSampled};
     expectRefusal(record(), "secondRaster is true, but hosts have one raster");
     settings.secondRaster = false;
+    const motion_blur::HostMover mover{0, {}};
     inputs.entityId = {};
-    expectRefusal(record(), "entityId.image is null");
+    inputs.motion.movers = {&mover, 1};
+    expectRefusal(record(), "entityId.image is null, although motion.movers has 1 row");
+    inputs.motion.movers = {};
+    expectRefusal(record(), "motion.keys holds 0"); // a still world needs no ids
     inputs.entityId = {ids.handle(), kSampled, kSampled};
     expectRefusal(record(), "motion.keys holds 0"); // tests/unit/motion_blur has each of its fields
     inputs.motion.view = 2;

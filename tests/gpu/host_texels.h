@@ -65,6 +65,7 @@ class HostTexels {
         image.extent = mExtent;
         image.area = area;
         image.usage = mImage.desc().usage;
+        image.samples = VK_SAMPLE_COUNT_1_BIT;
         return image;
     }
 

@@ -19,8 +19,7 @@ class TwoLayers {
         info.mipLevels = 1;
         info.arrayLayers = 2;
         info.samples = VK_SAMPLE_COUNT_1_BIT;
-        info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        info.usage = usage;
         gpu::require(vkCreateImage(mDevice, &info, nullptr, &image), "creating layers");
         VkMemoryRequirements needs{};
         vkGetImageMemoryRequirements(mDevice, image, &needs);
@@ -42,6 +41,9 @@ class TwoLayers {
         vkCmdCopyBufferToImage(commands, texels.handle(), image, kWritten.layout, 1, &region);
     }
 
+    static constexpr VkImageUsageFlags usage =
+        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+        VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     VkImage image = VK_NULL_HANDLE;
 
   private:

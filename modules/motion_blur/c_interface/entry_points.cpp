@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The C interface: nothing leaves it but results and sentences.
 #define SHUTTER_BLUR_BUILDS
+#include "modules/motion_blur/c_interface/field_names.h"
 #include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/c_interface/structures.h"
 #include "modules/motion_blur/embedding/host_features.h"
+#include "modules/motion_blur/embedding/one_thread.h"
 
 #include <exception>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +18,7 @@ namespace motion_blur = shutter::motion_blur;
 namespace core = shutter::core;
 
 struct ShutterBlur {
+    mutable motion_blur::OneThread thread;
     std::unique_ptr<motion_blur::EmbeddedMotionBlur> effect;
     uint32_t framesInFlight = 0;
     motion_blur::InputArrays arrays;
@@ -30,9 +34,9 @@ namespace {
 
 thread_local std::string tMessage;
 
-ShutterBlurResult fail(ShutterBlurResult result, const char* message) noexcept {
+ShutterBlurResult fail(ShutterBlurResult result, std::string_view message) noexcept {
     try {
-        tMessage = message;
+        tMessage = motion_blur::nameForC(message);
     } catch (...) {
         tMessage.clear(); // out of memory: an empty one needs none
     }
@@ -40,7 +44,7 @@ ShutterBlurResult fail(ShutterBlurResult result, const char* message) noexcept {
 }
 
 ShutterBlurResult refuse(const core::Error& error) noexcept {
-    return fail(SHUTTER_BLUR_ERROR_REFUSED, error.message.c_str());
+    return fail(SHUTTER_BLUR_ERROR_REFUSED, error.message);
 }
 
 ShutterBlurResult finish(const core::Status& status) noexcept {
@@ -56,6 +60,17 @@ template <class Call> ShutterBlurResult guard(const Call& call) noexcept {
     } catch (...) {
         return fail(SHUTTER_BLUR_ERROR_FAILED, "motion blur: failed");
     }
+}
+
+/// The same for a call of an object, which one thread at a time may be in.
+template <class Object, class Call> ShutterBlurResult use(Object* blur, const Call& call) noexcept {
+    return guard([&] {
+        if (!blur)
+            return refuse({"motion blur: blur is null"});
+        const motion_blur::OneThread::Call inside(blur->thread);
+        const core::Status alone = inside.status();
+        return alone ? call() : refuse(alone.error());
+    });
 }
 
 /// The frame was not recorded: the next one has none before it.
@@ -117,6 +132,12 @@ ShutterBlurResult shutterBlurCreate(const ShutterBlurDevice* device, ShutterBlur
 }
 
 void shutterBlurDestroy(ShutterBlur* blur) {
+    if (!blur)
+        return;
+    {
+        const motion_blur::OneThread::Call inside(blur->thread); // for what it tells as it goes
+        blur->effect.reset();
+    }
     delete blur;
 }
 
@@ -134,9 +155,7 @@ ShutterBlurResult shutterBlurRecord(
     const ShutterBlurInputs* inputs,
     const ShutterBlurSettings* settings
 ) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         const auto wanted = motion_blur::convert(settings);
         if (!wanted)
             return refuseFrame(*blur, wanted.error());
@@ -147,31 +166,21 @@ ShutterBlurResult shutterBlurRecord(
         const core::Status done =
             blur->effect->record(commands, frame, given.value(), wanted.value().settings);
         if (!done && blur->effect->hasLeftAPart())
-            return fail(SHUTTER_BLUR_ERROR_FAILED, done.error().message.c_str());
+            return fail(SHUTTER_BLUR_ERROR_FAILED, done.error().message);
         return finish(done);
     });
 }
 
 ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
-        return finish(blur->effect->markDone(frame));
-    });
+    return use(blur, [&] { return finish(blur->effect->markDone(frame)); });
 }
 
 ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
-        return finish(blur->effect->closeView(view));
-    });
+    return use(blur, [&] { return finish(blur->effect->closeView(view)); });
 }
 
 ShutterBlurResult shutterBlurDump(ShutterBlur* blur, const char* folder, uint32_t frames) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         if (!folder)
             return refuse({"motion blur: folder is null"});
         return finish(blur->effect->dump(folder, frames));
@@ -179,9 +188,7 @@ ShutterBlurResult shutterBlurDump(ShutterBlur* blur, const char* folder, uint32_
 }
 
 ShutterBlurResult shutterBlurGetMemory(const ShutterBlur* blur, ShutterBlurMemory* memory) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         const ShutterBlurMemory none = shutterBlurDefaultMemory();
         auto taken = motion_blur::takeStructure<ShutterBlurMemory>("memory", memory, none);
         if (!taken)
@@ -195,9 +202,7 @@ ShutterBlurResult shutterBlurGetMemory(const ShutterBlur* blur, ShutterBlurMemor
 
 ShutterBlurResult
 shutterBlurGetReport(ShutterBlur* blur, uint32_t frame, ShutterBlurReport* report) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         auto taken = motion_blur::takeStructure<ShutterBlurReport>(
             "report", report, shutterBlurDefaultReport()
         );
@@ -247,27 +252,23 @@ ShutterBlurResult shutterBlurEstimateMemory(
 }
 
 ShutterBlurResult shutterBlurWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         const auto wanted = motion_blur::convert(plan);
         return wanted ? finish(blur->effect->warmUp(wanted.value())) : refuse(wanted.error());
     });
 }
 
 ShutterBlurResult shutterBlurStartWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan) {
-    return guard([&] {
-        if (!blur)
-            return refuse({"motion blur: blur is null"});
+    return use(blur, [&] {
         const auto wanted = motion_blur::convert(plan);
         return wanted ? finish(blur->effect->startWarmUp(wanted.value())) : refuse(wanted.error());
     });
 }
 
 ShutterBlurResult shutterBlurIsWarm(ShutterBlur* blur, VkBool32* isWarm) {
-    return guard([&] {
-        if (!blur || !isWarm)
-            return refuse({blur ? "motion blur: isWarm is null" : "motion blur: blur is null"});
+    return use(blur, [&] {
+        if (!isWarm)
+            return refuse({"motion blur: isWarm is null"});
         const auto known = blur->effect->isWarm();
         if (!known)
             return refuse(known.error());

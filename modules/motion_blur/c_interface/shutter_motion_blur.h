@@ -13,7 +13,9 @@
  * Nothing is thrown and nothing aborts. What cannot be done is refused: the function returns an
  * error, and shutterBlurGetMessage() says in one sentence which field is wrong.
  *
- * An object may be used by one thread at a time. Matrices are column by column and take columns. */
+ * An object may be used by one thread at a time: a call while another thread's is under way, or
+ * from within a callback, is refused, except for shutterBlurDestroy(). Matrices are column by
+ * column and take columns. */
 #ifndef SHUTTER_MOTION_BLUR_H
 #define SHUTTER_MOTION_BLUR_H
 
@@ -114,8 +116,10 @@ typedef struct ShutterBlurDevice {
     /* Compares the inputs of each recording with one another and with what they must be, and tells
      * `message` what looks wrong. 0 costs nothing. */
     VkBool32 checksInputs;
-    ShutterBlurMessage message; /* gets what the checker finds, and why a dump failed; or null */
-    void* messageUser;          /* its first argument */
+    /* Gets what the checker finds, why a dump failed, and that the object is destroyed too early;
+     * or null. */
+    ShutterBlurMessage message;
+    void* messageUser; /* its first argument */
 } ShutterBlurDevice;
 
 static inline ShutterBlurDevice shutterBlurDefaultDevice(void) {
@@ -181,10 +185,12 @@ typedef struct ShutterBlurUse {
  * destroyed once the frame is done. */
 typedef struct ShutterBlurImage {
     VkImage image;
-    VkFormat format;         /* UNDEFINED: the first that the input takes */
-    VkExtent2D extent;       /* of the whole image; 0 x 0: it ends where `area` does */
-    VkRect2D area;           /* the part that is used; an extent of 0 x 0: the picture's size */
-    VkImageUsageFlags usage; /* that it was made with, to be checked; 0: not said */
+    VkFormat format;   /* UNDEFINED: the first that the input takes */
+    VkExtent2D extent; /* of the whole image; 0 x 0: it ends where `area` does */
+    /* The part that is used; an extent of 0 x 0: all of `extent` from the offset on, or the
+     * picture's size where that is not said either. */
+    VkRect2D area;
+    VkImageUsageFlags usage;       /* that it was made with, to be checked; 0: not said */
     VkSampleCountFlagBits samples; /* that it was made with, must be 1; 0: not said */
     uint32_t layer; /* of an image of several, such as one for both eyes: the one that is used */
     ShutterBlurUse before;
@@ -208,7 +214,9 @@ typedef struct ShutterBlurCameras {
 
 /* The camera at one shutter time, for "resolved". */
 typedef struct ShutterBlurCameraKey {
-    double time; /* shutter time, [0, 1]: 0 open, 1 close */
+    /* Shutter time: 0 open, 1 close. One outside of [0, 1] counts for what lies between it and the
+     * next key, as that of the frame before does: shutterBlurGetTimeBefore(). */
+    double time;
     double viewFromWorld[16];
     double clipFromView[16]; /* as above, with this frame's jitter in all keys */
 } ShutterBlurCameraKey;
@@ -308,8 +316,8 @@ typedef struct ShutterBlurInputs {
     /* Either the motion blur's own, RGBA32F: displacement over the exposure, pixels right and down;
      * metres along the view, 1e9 where nothing is. */
     ShutterBlurImage motionDepth;
-    /* Or motion vectors and depth of the host's, of any size; sampled. Null vectors: nothing moves
-     * but the camera, by `cameras`. */
+    /* Or motion vectors and depth of the host's, of any size; sampled. Null vectors: they are the
+     * camera's, by `cameras`; nothing else moves but movers with matrices, for "resolved". */
     ShutterBlurImage vectors; /* RG16F, RG32F, RGBA16F or RGBA32F */
     ShutterBlurImage depth;   /* D32F, D16, X8D24, D24S8, D32FS8, or a first channel of floats */
     /* What the vectors are multiplied by to be pixels of the picture, right and down, from the
@@ -331,18 +339,23 @@ typedef struct ShutterBlurInputs {
     float displayedPerRendered;
     ShutterBlurImage blurScale; /* R8, R16F or R32F: the pixels' share of the blur; null: 1 */
     /* The frame before was of another place, or there is none: nothing is blurred, and the cameras
-     * before do not count. */
+     * before do not count. Nor, unless with motionDepth, does followsLast, nor any of `keys` but
+     * the raster's. */
     VkBool32 isCut;
 
     double rasterTime;   /* the raster instant in the exposure: 0 open, 0.5 centre, 1 close */
     int64_t frameNumber; /* the next frame has the next number */
 
     /* For "resolved": */
-    ShutterBlurImage entityId;        /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled */
-    uint32_t noEntity;                /* its value where nothing is */
-    uint32_t rowCount;                /* values are below it, [1, 2^24 - 1] */
-    uint32_t keyCount;                /* [1, 64] */
-    const ShutterBlurCameraKey* keys; /* times rising, one at rasterTime; cameras.aheadIsPlusZ */
+    /* R32_UINT, R16_UINT or R8_UINT, of any size; sampled. Null, without movers: all but the sky
+     * stands still in the world, and rowCount does not count. */
+    ShutterBlurImage entityId;
+    uint32_t noEntity; /* its value where nothing is */
+    uint32_t rowCount; /* values are below it, [1, 2^24 - 1] */
+    uint32_t keyCount; /* [1, 64] */
+    /* Times rising, one at rasterTime; ahead by cameras.aheadIsPlusZ. They alone say how long the
+     * exposure is: exposureShare scales vectors. */
+    const ShutterBlurCameraKey* keys;
     uint32_t moverCount;
     const ShutterBlurMover* movers; /* every row without one stands still in the world */
     const uint64_t* rowIds;         /* rowCount ids that last from frame to frame; null: the rows */
@@ -365,7 +378,7 @@ typedef struct ShutterBlurInputs {
      * null images: the object keeps what it needs of it. None of them is written. */
     ShutterBlurImage lastColor;       /* sharp: that frame's `color` before the blur */
     ShutterBlurImage lastMotionDepth; /* RGBA32F, of the picture's size, as `motionDepth` */
-    ShutterBlurImage lastEntityId;
+    ShutterBlurImage lastEntityId;    /* null where that frame had none */
 
     /* GPU time that the effect may take of the frame: it gives up quality to stay within. 0:
      * unlimited. With ShutterBlurDevice::measures. */
@@ -390,6 +403,13 @@ static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
     made.rasterTime = 1.0;
     made.noEntity = 0xFFFFFFFFu;
     return made;
+}
+
+/* Shutter time of the frame before's raster, for a host that knows that frame and this one alone:
+ * it gives two keys, that frame's matrices at this time, and its own at inputs->rasterTime. */
+static inline double shutterBlurGetTimeBefore(const ShutterBlurInputs* inputs) {
+    const double share = inputs->exposureShare > 1.0e-4f ? inputs->exposureShare : 1.0e-4;
+    return inputs->rasterTime - inputs->displayedPerRendered / share;
 }
 
 /* ---- Each frame ----------------------------------------------------------------------------- */
@@ -460,11 +480,11 @@ typedef struct ShutterBlurPlan {
     uint32_t viewCount;                  /* that "resolved" keeps a frame of */
     const ShutterBlurSettings* settings; /* null: those of shutterBlurDefaultSettings() */
     VkFormat colorFormat;
-    VkFormat outputFormat; /* UNDEFINED: in place */
-    VkFormat entityIdFormat;
-    VkBool32 areParts;   /* color and output are parts or layers of larger images */
-    VkBool32 hasVectors; /* vectors and depth of the host's own in place of motionDepth */
-    VkBool32 lendsLast;  /* lastColor and those with it */
+    VkFormat outputFormat;   /* UNDEFINED: in place */
+    VkFormat entityIdFormat; /* UNDEFINED: no ids */
+    VkBool32 areParts;       /* color and output are parts or layers of larger images */
+    VkBool32 hasVectors;     /* vectors and depth of the host's own in place of motionDepth */
+    VkBool32 lendsLast;      /* lastColor and those with it */
     uint32_t rowCount;
     uint32_t moverCount; /* with matrices, at most */
 } ShutterBlurPlan;

@@ -2,6 +2,7 @@
 #include "modules/motion_blur/c_interface/structures.h"
 
 #include "engine/core/setting_row.h"
+#include "modules/motion_blur/c_interface/field_names.h"
 #include "modules/motion_blur/presets.h"
 
 #include <string>
@@ -33,8 +34,7 @@ HostImage convert(const ShutterBlurImage& given) {
     image.area = given.area;
     image.usage = given.usage;
     image.layer = given.layer;
-    if (given.samples != 0)
-        image.samples = given.samples;
+    image.samples = given.samples;
     return image;
 }
 
@@ -224,7 +224,7 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     if (taken.value().message)
         device.message = [tell = taken.value().message,
                           user = taken.value().messageUser](std::string_view sentence) {
-            tell(user, std::string(sentence).c_str());
+            tell(user, nameForC(sentence).c_str());
         };
     return device;
 }

@@ -2,11 +2,13 @@
 #include "modules/motion_blur/embedding/dump_manifest.h"
 
 #include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/methods.h"
 
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -118,7 +120,9 @@ ordered_json describeInputs(
     }
     const bool hasConvention = !isPacked || convention.cameras.areGiven;
     root["convention"] = hasConvention ? describeConvention(convention) : ordered_json();
-    root["motion"] = method.readsInstantMotions ? describeMotion(inputs.motion) : ordered_json();
+    std::vector<HostMover> movers;
+    root["motion"] =
+        method.readsInstantMotions ? describeMotion(countedMotion(inputs, movers)) : ordered_json();
     const bool asks = method.rays == RayNeed::Any;
     root["reveal"] = !asks ? "none" : inputs.reveal.record ? "own" : "tables";
     root["response"] = hasResponse ? "file" : inputs.response == 0 ? "box" : "address";

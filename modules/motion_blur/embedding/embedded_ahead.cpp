@@ -124,17 +124,24 @@ core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
     SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, abilities()));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
-    // Once without a frame before, and once with one.
-    for (uint32_t i = 0; i < 2; ++i) {
+    // Without a frame before and with one, with few movers and with all that may come.
+    for (uint32_t i = 0; i < 4; ++i) {
         const DroppedCommands dropped(mHost.device, mHost.queueFamily);
         graph::Graph graph;
         Frame frame{0, slot, graph, imagined.inputs, plan.settings};
+        frame.hasAll = i >= 2;
         SHUTTER_TRY(record(frame, view, dropped.commands));
     }
     return {};
 }
 
 core::Status EmbeddedMotionBlur::warmUp(const HostPlan& plan) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
+    return makePipelines(plan);
+}
+
+core::Status EmbeddedMotionBlur::makePipelines(const HostPlan& plan) {
     return guard([&]() -> core::Status {
         core::Status done = recordOnce(plan);
         mSlots[0]->counts = false; // the effect was told of a frame of that number
@@ -145,6 +152,8 @@ core::Status EmbeddedMotionBlur::warmUp(const HostPlan& plan) {
 }
 
 core::Status EmbeddedMotionBlur::startWarmUp(const HostPlan& plan) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
     if (mWarmUp.valid())
         return makeError("motion blur: startWarmUp: another is under way; isWarm() tells when it "
                          "is done");
@@ -168,12 +177,14 @@ core::Status EmbeddedMotionBlur::startWarmUp(const HostPlan& plan) {
 }
 
 core::Result<bool> EmbeddedMotionBlur::isWarm() {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
     if (!mWarmUp.valid())
         return true;
     if (mWarmUp.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return false;
     SHUTTER_TRY(mWarmUp.get());
-    SHUTTER_TRY(warmUp(mWarming));
+    SHUTTER_TRY(makePipelines(mWarming));
     return true;
 }
 
@@ -189,7 +200,9 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
     SHUTTER_TRY(checkPlan(plan, mHost.framesInFlight));
     ImaginedInputs imagined;
     imagine(plan, imagined);
-    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, abilities()));
+    HostAbilities host = abilities();
+    host.images.device = VK_NULL_HANDLE;
+    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, host));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
     uint64_t transients = 0;
@@ -201,7 +214,7 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
         if (keeps)
             view.history.imagine({plan.width, plan.height});
         graph::Graph graph;
-        Frame frame{0, slot, graph, imagined.inputs, plan.settings, false, true};
+        Frame frame{0, slot, graph, imagined.inputs, plan.settings, false, true, true};
         declare(frame, view);
         const auto compiled = graph::compile(graph, slot.pool.requirementFunction());
         if (!compiled)

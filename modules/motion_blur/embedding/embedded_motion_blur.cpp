@@ -7,8 +7,12 @@
 #include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_dump.h"
 #include "modules/motion_blur/embedding/host_overlay.h"
+#include "modules/motion_blur/embedding/host_unsaid.h"
+
+#include <fmt/format.h>
 
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -102,18 +106,28 @@ EmbeddedMotionBlur::EmbeddedMotionBlur(std::unique_ptr<gpu::Device> device, cons
         mSlots.push_back(std::make_unique<Slot>(*mDevice, mTimestampBits));
         mViews.push_back(std::make_unique<View>(*mDevice));
     }
-    if (host.checksInputs)
-        mChecker = std::make_unique<HostChecker>(*mDevice, host.framesInFlight, host.message);
+    if (!host.checksInputs)
+        return;
+    mChecker = std::make_unique<HostChecker>(*mDevice, host.framesInFlight, host.message);
+    mUnsaid = std::make_unique<HostUnsaid>(host.device);
+}
+
+void EmbeddedMotionBlur::warn(const std::string& sentence) const {
+    if (mHost.message)
+        mHost.message(sentence);
+    else
+        core::logWarning("{}", sentence);
 }
 
 EmbeddedMotionBlur::~EmbeddedMotionBlur() {
+    const OneThread::Call call(mThread); // what it tells may lead to no other
     for (uint32_t frame = 0; frame < mSlots.size(); ++frame)
         if (isPending(frame))
-            core::logWarning(
+            warn(fmt::format(
                 "motion blur: destroyed while the GPU has frame {} before it, unless that was "
                 "never submitted (markDone tells)",
                 frame
-            );
+            ));
     if (mChecker)
         mChecker->finishAll();
     if (mDump)
@@ -121,6 +135,8 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() {
 }
 
 core::Status EmbeddedMotionBlur::dump(const std::filesystem::path& folder, uint32_t frames) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
     if (!mDump)
         mDump = std::make_unique<HostDump>(*mDevice, uint32_t(mSlots.size()), mHost.message);
     return mDump->start(folder, frames);
@@ -132,6 +148,8 @@ core::Status EmbeddedMotionBlur::record(
     const HostInputs& inputs,
     const MotionBlurSettings& settings
 ) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status()); // before anything is touched
     core::Status done = checkAndRecord(commands, frame, inputs, settings);
     // The view has no such frame, or not a whole one.
     if (!done && inputs.motion.view < mViews.size())
@@ -148,7 +166,9 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     mHasLeftAPart = false;
     try {
         SHUTTER_TRY(check(commands, frame, inputs, settings));
-        SHUTTER_TRY(markDone(frame));
+        if (mUnsaid)
+            mUnsaid->ask(inputs, mHost.message); // before the driver meets the images
+        SHUTTER_TRY(finishFrame(frame));
         mHasLeftAPart = true;
         Slot& slot = *mSlots[frame];
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
@@ -177,6 +197,12 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
 }
 
 core::Status EmbeddedMotionBlur::markDone(uint32_t frame) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
+    return finishFrame(frame);
+}
+
+core::Status EmbeddedMotionBlur::finishFrame(uint32_t frame) {
     if (frame >= mSlots.size())
         return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
     if (mChecker)
@@ -189,6 +215,8 @@ core::Status EmbeddedMotionBlur::markDone(uint32_t frame) {
 }
 
 core::Status EmbeddedMotionBlur::closeView(uint32_t view) {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
     if (view >= mViews.size())
         return makeError("motion blur: view is {}, framesInFlight {}", view, mViews.size());
     mViews[view]->forget();
@@ -225,7 +253,7 @@ void EmbeddedMotionBlur::recordMark(uint32_t frame, VkCommandBuffer commands) {
 
 HostAbilities EmbeddedMotionBlur::abilities() const {
     return {
-        mHost.physical,
+        {mHost.physical, mHost.device, mDevice->limits().maxImageDimension2D},
         mHasRays,
         mTimestampBits > 0,
         mHost.framesInFlight,
@@ -291,6 +319,8 @@ const MotionBlurSettings& EmbeddedMotionBlur::chooseSettings(
 }
 
 core::Result<HostReport> EmbeddedMotionBlur::report(uint32_t frame) const {
+    const OneThread::Call call(mThread);
+    SHUTTER_TRY(call.status());
     if (frame >= mSlots.size())
         return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
     if (mTimestampBits == 0)

@@ -3,7 +3,9 @@
 // recorded into the host's own command buffers, from the host's G-buffer into an image of the host.
 // The same effect as the plugin's, on a graph of its own that imports those images.
 //
-// Conventions are those of motion_blur.h. Nothing here throws. Not thread-safe.
+// Conventions are those of motion_blur.h. Nothing here throws. One thread at a time may use an
+// object: a call of another one, or from within a callback, is refused, except for living() and the
+// destructor.
 #pragma once
 
 #include "engine/core/result.h"
@@ -14,6 +16,7 @@
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/embedding/host_plan.h"
 #include "modules/motion_blur/embedding/host_preparation.h"
+#include "modules/motion_blur/embedding/one_thread.h"
 #include "modules/motion_blur/embedding/version.h"
 #include "modules/motion_blur/motion_blur.h"
 
@@ -29,6 +32,7 @@ namespace shutter::motion_blur {
 class HostChecker;
 class HostDump;
 class HostOverlay;
+class HostUnsaid;
 
 class EmbeddedMotionBlur {
   public:
@@ -125,6 +129,9 @@ class EmbeddedMotionBlur {
         const HostInputs& inputs,
         const MotionBlurSettings& settings
     );
+    core::Status finishFrame(uint32_t frame);
+    /// To the host's message, or the log.
+    void warn(const std::string& sentence) const;
     /// What the budget leaves of the settings.
     [[nodiscard]] const MotionBlurSettings&
     chooseSettings(uint32_t frame, const HostInputs& inputs, const MotionBlurSettings& settings);
@@ -150,8 +157,10 @@ class EmbeddedMotionBlur {
     [[nodiscard]] bool hasRun(uint32_t frame) const;
     void recordMark(uint32_t frame, VkCommandBuffer commands);
     core::Status recordOnce(const HostPlan& plan);
+    core::Status makePipelines(const HostPlan& plan);
     [[nodiscard]] core::Result<uint64_t> estimate(const HostPlan& plan);
 
+    mutable OneThread mThread;
     HostDevice mHost;
     std::unique_ptr<gpu::Device> mDevice; // before all that is made from it
     uint32_t mTimestampBits = 0;          ///< 0: nothing is measured
@@ -161,6 +170,7 @@ class EmbeddedMotionBlur {
     HostPreparation mPreparation;
     std::unique_ptr<HostOverlay> mOverlay;
     std::unique_ptr<HostChecker> mChecker; ///< null: off
+    std::unique_ptr<HostUnsaid> mUnsaid;   ///< the same
     std::unique_ptr<HostDump> mDump;       ///< null: none was wanted yet
     /// By frame in flight, the number of the last recording of it that the GPU ran.
     gpu::Buffer mMarks;

@@ -9,6 +9,7 @@
 #include "shaders/render/scene_shared.h"
 
 #include <utility>
+#include <vector>
 
 namespace shutter::motion_blur {
 
@@ -53,9 +54,10 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
         view.forget();
     else if (lent)
         view.history.forget();
-    const HostRaster* last = inputs.motion.followsLast && view.last ? &*view.last : nullptr;
-    HostMotion motion = inputs.motion;
+    std::vector<HostMover> movers;
+    HostMotion motion = countedMotion(inputs, movers);
     motion.response = frame.response();
+    const HostRaster* last = motion.followsLast && view.last ? &*view.last : nullptr;
     HostInstants made = computeHostInstants(motion, describeFrame(inputs, frame.settings), last);
     InstantMotions motions;
     motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
@@ -124,9 +126,11 @@ EmbeddedMotionBlur::prepareCameraMotion(Frame& frame, graph::ImageHandle depth) 
 graph::ImageHandle EmbeddedMotionBlur::showInputs(
     Frame& frame, const MotionBlurInputs& own, graph::ImageHandle picture
 ) const {
-    const shader::OverlayTable table = makeOverlayTable(frame.inputs, own);
+    MotionBlurInputs given = own;
+    given.entityId = frame.images.entityId.isValid() ? own.entityId : graph::ImageHandle();
+    const shader::OverlayTable table = makeOverlayTable(frame.inputs, given);
     const VkDeviceAddress address = writeTable(*mDevice, frame.slot.overlay, "overlay", table);
-    return mOverlay->add(frame.graph, own, picture, address);
+    return mOverlay->add(frame.graph, given, picture, address);
 }
 
 std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
@@ -142,7 +146,9 @@ std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     lent.motionDepth =
         frame.import(*mDevice, "last motion and depth", last.motionDepth, kLastMotionRule);
     lent.entityId = frame.import(*mDevice, "last entity id", last.entityId, kLastIdRule);
-    if (!isOwn(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
+    if (!lent.entityId.isValid())
+        lent.entityId = mPreparation.addWorldIds(frame.graph, lent.motionDepth, picture);
+    else if (!isOwn(last.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity)
         lent.entityId = mPreparation.addIds(
             frame.graph, lent.entityId, last.entityId, inputs.noEntity, picture
         );
@@ -192,6 +198,8 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
         (!isOwn(inputs.entityId, kHostIdFormat, picture) || inputs.noEntity != shader::kNoEntity))
         own.entityId =
             mPreparation.addIds(graph, own.entityId, inputs.entityId, inputs.noEntity, picture);
+    if (!own.entityId.isValid() && frame.settings.method->readsInstantMotions && !inputs.isOff)
+        own.entityId = mPreparation.addWorldIds(graph, own.motionDepth, picture);
     return own;
 }
 
@@ -223,7 +231,7 @@ void EmbeddedMotionBlur::declare(Frame& frame, View& view) {
         return;
     }
     if (frame.isHosts && mChecker)
-        mChecker->add(frame.graph, frame.number, inputs, frame.images, method.readsInstantMotions);
+        mChecker->add(frame.graph, frame.number, inputs, frame.images, frame.settings);
     const bool isDumped = frame.isHosts && mDump && mDump->wantsFrame();
     if (isDumped && mDump->startsView(inputs.motion.view))
         view.forget();

@@ -3,43 +3,66 @@
 // device: host_checker.h reads them back.
 #pragma once
 
+#include "modules/motion_blur/embedding/host_camera.h"
 #include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_motion.h"
 #include "shaders/motion_blur/check_shared.h"
 
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace shutter::motion_blur {
 
+struct HostInputs;
+struct MotionBlurSettings;
+
 /// What a host said of a recording, as far as it can be compared with the images.
 struct CheckFacts {
     struct Mover {
         uint32_t row = 0;
-        bool isInView = false; ///< its origin is at the raster instant; deforming ones: false
+        /// Its origin is well within the picture at the raster instant, at `place` (pixels) and
+        /// `metres`; deforming ones: false.
+        bool isInView = false;
+        glm::dvec2 place{0.0};
+        double metres = 0.0;
+        /// Of `matrices`, the first of one for each key; kNone: it has none.
+        size_t firstMatrix = kNone;
     };
+
+    static constexpr size_t kNone = SIZE_MAX;
 
     VkExtent2D picture{0, 0};
     HostConvention convention; ///< of motionDepth: metres, pixels over the exposure
     bool isNative = false;     ///< motionDepth was given, whose vectors are over the exposure
     bool hasVectors = true;    ///< false: nothing moves but the camera
     double rasterTime = 1.0;
-    /// With `exposure`: of HostMotion::keys, where there is more than one.
+    /// The two below count: isNative, and keys are known from shutter open to close.
     bool hasExposureCameras = false;
     HostCameras open;  ///< now: the raster instant; before: the shutter's opening
     HostCameras close; ///< before: its closing
     bool hasIds = false;
-    bool readsMotion = false; ///< the method reads HostMotion
+    bool readsMotion = false; ///< the method reads HostMotion; else what is of it is empty
     uint32_t noEntity = 0xFFFFFFFF;
-    uint32_t rowCount = 0; ///< 0: not said
+    uint32_t rowCount = 0;           ///< 0: not said
+    std::vector<HostCameraKey> keys; ///< ahead is -Z
+    size_t rasterKey = 0;            ///< of `keys`
     std::vector<Mover> movers;
+    std::vector<glm::dmat4> matrices; ///< world from object
+    std::vector<uint64_t> rowIds;     ///< by row; empty: the row is the id
+    bool wantsHistory = false;        ///< MotionBlurSettings::history
     bool followsLast = false;
     int64_t frameNumber = 0;
     uint32_t view = 0;
     uint32_t number = 0; ///< of the view's recordings
+    /// What a host might have meant: raw depth the other way round.
+    bool flipsDepth = false;
 };
 
 /// Sentences of the same kind are not repeated in every frame.
@@ -66,7 +89,11 @@ enum class CheckKind : uint8_t {
     IdChanges,
     MoverUnlisted,
     MoverUnseen,
+    Movers,
     CameraJump,
+    Keys,
+    HistoryUnused,
+    Unexplained,
     Count
 };
 
@@ -75,6 +102,12 @@ struct Finding {
     std::string sentence; ///< without a full stop
 };
 
+/// Fills in all but `number`. What it holds is the facts' own.
+void describeFacts(const HostInputs& inputs, const MotionBlurSettings& settings, CheckFacts& facts);
+
+/// Units of depth that hosts take for others.
+inline constexpr std::array kUnitFactors{0.001f, 0.01f, 0.1f, 0.3048f, 10.0f, 100.0f, 1000.0f};
+
 struct CheckedFrame {
     CheckFacts facts;
     shader::CheckTotals totals{};
@@ -82,6 +115,11 @@ struct CheckedFrame {
     /// after.
     glm::dvec2 offsetPx{0.0};
     bool hasOffset = false;
+    /// Share of the way between the frames that the camera keys go in the exposure; below 0:
+    /// unknown.
+    double keyShare = -1.0;
+    bool areKeysReversed = false;
+    uint32_t unusedHistory = 0; ///< frames up to this one that had one before them, and did not say
 };
 
 /// \param last the frame before of the same view, or null
@@ -99,18 +137,33 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
 void checkCameras(
     const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings
 );
+/// Without vectors: the last frame's depth against where the cameras say that this frame's surfaces
+/// were.
+void checkReprojection(
+    const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
+);
+/// Camera keys against the cameras of both frames and the exposure's share.
+void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
+/// Movers' matrices against the vectors of their pixels, or without vectors against the last frame.
+void checkMovers(const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
+/// What no part above explains.
+void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings);
+void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 
 /// A sample as the motion blur would take it.
 struct CheckPoint {
     glm::dvec2 place{0.0};  ///< pixels of the picture
     glm::dvec2 motion{0.0}; ///< pixels, by `pixelsPerUnit` and without declared jitter
     glm::dvec2 camera{0.0}; ///< what the cameras imply for what stands still
-    float depth = 0.0f;     ///< as stored
     float metres = 0.0f;
+    /// Depth from the camera of the frame before of what stands still; not above 0: behind it.
+    float metresBefore = 0.0f;
     bool isSky = false;
     uint32_t id = 0;
 };
 
+/// "0.03 %", "4 %", "100 %"
+[[nodiscard]] std::string describeShare(double share);
 /// "12 pixels (0.3 %)"
 /// \param index of CheckTotals::counts
 [[nodiscard]] std::string describeCount(const CheckedFrame& frame, uint32_t index);
@@ -121,5 +174,23 @@ struct CheckPoint {
 /// The samples with finite vectors and depth.
 /// \param said what the host said, or what it might have meant
 [[nodiscard]] std::vector<CheckPoint> makePoints(const CheckedFrame& frame, const CheckFacts& said);
+
+/// Whether any finding is of one of the kinds.
+[[nodiscard]] bool
+hasFound(const std::vector<Finding>& findings, std::initializer_list<CheckKind> kinds);
+
+/// By rows below rowCount: they are in CheckFacts::movers.
+[[nodiscard]] std::vector<bool> markMovers(const CheckFacts& facts);
+
+/// The camera of HostConvention::cameras now, or before; nothing: none is given.
+[[nodiscard]] std::optional<HostCamera> findCamera(const CheckFacts& facts, bool isBefore);
+
+/// By how many pixels a camera sees what another one sees at a distance elsewhere, in the mean over
+/// the picture; infinity: behind it.
+[[nodiscard]] double
+measureApart(const HostCamera& from, const HostCamera& to, VkExtent2D picture, double metres);
+
+/// Median distance of what is drawn, metres.
+[[nodiscard]] double findTypicalMetres(const std::vector<CheckPoint>& points);
 
 } // namespace shutter::motion_blur

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a host's ids say of its movers, and whether they last.
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/host_check_last.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace shutter::motion_blur {
@@ -27,11 +29,13 @@ void checkListedMovers(const CheckedFrame& now, std::vector<Finding>& findings) 
     const std::vector<bool> seen = findSeenRows(now.totals, facts.rowCount);
     uint32_t inView = 0;
     bool anySeen = false;
+    const FineDepth depth(now, facts);
     for (const CheckFacts::Mover& mover : facts.movers) {
         if (mover.row >= seen.size())
             return; // beyond what is looked for
         anySeen = anySeen || seen[mover.row];
-        inView += mover.isInView && !seen[mover.row];
+        // Behind a wall it is in nobody's view.
+        inView += mover.isInView && !seen[mover.row] && depth.isNear(mover.place, mover.metres);
     }
     if (anySeen || inView == 0)
         return;
@@ -93,41 +97,70 @@ void checkUnlistedMovers(
         }
 }
 
+/// An id that lasts, of a row.
+uint64_t lastingId(const CheckFacts& facts, uint32_t row) {
+    return row < facts.rowIds.size() ? facts.rowIds[row] : row;
+}
+
+/// Where a sample's surface was in the frame before, pixels and metres; nothing: nobody tells.
+std::optional<std::pair<dvec2, double>>
+findBefore(const CheckFacts& facts, const CheckPoint& point) {
+    const bool hasCameras = facts.convention.cameras.areGiven;
+    const double metres = hasCameras ? point.metresBefore : point.metres;
+    if (!facts.hasVectors)
+        return std::pair(point.place - point.camera, metres);
+    // Over an exposure, of which nobody tells how long it is.
+    if (facts.isNative && hasCameras)
+        return std::pair(point.place - point.camera, metres);
+    if (facts.isNative && !(glm::length(point.motion) < 1.5))
+        return std::nullopt;
+    const dvec2 motion =
+        facts.convention.vectors.haveCamera ? point.motion : point.motion + point.camera;
+    return std::pair(point.place - (facts.isNative ? dvec2(0.0) : motion), metres);
+}
+
+/// Of what the last frame shows as well, well within its entity in both.
 void checkChangingIds(
     const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
 ) {
-    if (now.facts.picture.width != last.facts.picture.width ||
-        now.facts.picture.height != last.facts.picture.height)
+    CheckFacts facts = now.facts;
+    facts.hasExposureCameras = false; // those of the frame count
+    if (facts.picture.width != last.facts.picture.width ||
+        facts.picture.height != last.facts.picture.height)
         return;
-    uint32_t still = 0;
+    const FineGrid grid(now);
+    const FineDepth then(last, last.facts);
+    uint32_t found = 0;
     uint32_t changed = 0;
-    uint32_t example = 0;
-    for (uint32_t i = 0; i < shader::kCheckSamples; ++i) {
-        const shader::CheckSample& a = last.totals.samples[i];
-        const shader::CheckSample& b = now.totals.samples[i];
-        // The same depth, to the bit, and no motion: the same surface.
-        if (a.depth != b.depth || a.vector != b.vector || a.id == last.facts.noEntity)
+    std::pair<uint32_t, uint32_t> example;
+    for (const CheckPoint& point : makePoints(now, facts)) {
+        if (point.isSky || point.id == facts.noEntity)
             continue;
-        const dvec2 motion = dvec2(b.vector) * dvec2(now.facts.convention.vectors.pixelsPerUnit);
-        if (!(glm::length(motion) < 1.5))
+        const auto before = findBefore(facts, point);
+        if (!before || then.compare(before->first, before->second) != Match::Same)
             continue;
-        ++still;
-        if (a.id != b.id) {
-            ++changed;
-            example = i;
-        }
+        const auto idNow = grid.findId(point.place);
+        const auto idThen = then.grid().findId(before->first);
+        if (!idNow || !idThen || *idThen == last.facts.noEntity)
+            continue;
+        ++found;
+        if (lastingId(facts, *idNow) == lastingId(last.facts, *idThen))
+            continue;
+        ++changed;
+        example = {*idThen, *idNow};
     }
-    if (still < 64 || changed * 4 < still)
+    if (found < 64 || changed * 4 < found)
         return;
     findings.push_back(
         {CheckKind::IdChanges,
          fmt::format(
-             "entityId changed at {} of {} samples that stand still since the frame before, as "
+             "entityId changed at {} of {} samples whose surface the frame before shows as well, "
+             "as "
              "from {} to {}: an entity keeps its id, or motion.rowIds says which row it has",
              changed,
-             still,
-             last.totals.samples[example].id,
-             now.totals.samples[example].id
+             found,
+             example.first,
+             example.second
          )}
     );
 }
@@ -149,13 +182,22 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
                  describeCount(now, shader::kCheckIdBeyond)
              )}
         );
-    if (last && last->facts.hasIds && facts.hasVectors)
+    // Surfaces are not where a wrong camera puts them.
+    const bool isCameraWrong = facts.convention.scales.isCut || hasFound(
+                                                                    findings,
+                                                                    {CheckKind::Vectors,
+                                                                     CheckKind::DepthDirection,
+                                                                     CheckKind::CameraJump,
+                                                                     CheckKind::Keys,
+                                                                     CheckKind::Unexplained}
+                                                                );
+    if (last && last->facts.hasIds && !isCameraWrong)
         checkChangingIds(now, *last, findings);
     if (!facts.readsMotion)
         return;
     if (!facts.movers.empty())
         checkListedMovers(now, findings);
-    if (facts.hasVectors && hasCameras(facts) &&
+    if (facts.hasVectors && hasCameras(facts) && !isCameraWrong &&
         (facts.isNative || facts.convention.vectors.haveCamera))
         checkUnlistedMovers(now, makePoints(now, facts), findings);
 }

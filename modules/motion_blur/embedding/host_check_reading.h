@@ -14,6 +14,7 @@
 namespace shutter::motion_blur {
 
 inline constexpr size_t kLeastPoints = 96;      ///< fewer tell nothing
+inline constexpr size_t kLeastTelling = 48;     ///< points at which a mistake would show
 inline constexpr double kTolerancePx = 0.3;     ///< half floats, filtered depth
 inline constexpr double kToleranceShare = 0.03; ///< paths are not quite straight
 
@@ -43,6 +44,17 @@ struct Reading {
         return glm::length(differenceOf(point)) <= tolerance;
     }
 };
+
+/// The frame as said.
+[[nodiscard]] Reading read(const CheckedFrame& frame, const CheckFacts& facts);
+/// The frame as the host said.
+[[nodiscard]] Reading readSaid(const CheckedFrame& frame);
+
+/// How many points the guess explains; nothing where it is no better than what the host said.
+[[nodiscard]] std::optional<size_t> judge(const Reading& said, const Reading& guess);
+
+/// Points that are not the sky whose vectors are the camera's.
+[[nodiscard]] size_t countAgreeing(const Reading& reading);
 
 /// Nothing: there are fewer than `least`. Changes their order.
 [[nodiscard]] std::optional<double> takeMedian(std::vector<double>& values, size_t least);

@@ -2,7 +2,7 @@
 // Motion vectors against what the cameras imply where things stand still. What a host may have got
 // wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
 // do not now. What moves by itself agrees with neither, and so decides nothing.
-#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_check_lens.h"
 #include "modules/motion_blur/embedding/host_check_reading.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,6 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
-#include <memory>
 #include <optional>
 
 namespace shutter::motion_blur {
@@ -22,39 +21,6 @@ namespace shutter::motion_blur {
 namespace {
 
 using math::dvec2;
-
-constexpr size_t kLeastTelling = 48; ///< points at which a mistake would show
-
-/// How many points the guess explains; nothing where it is no better than what the host said.
-std::optional<size_t> judge(const Reading& said, const Reading& guess) {
-    size_t count = 0;
-    size_t explained = 0;
-    size_t telling = 0;
-    size_t tellingGuess = 0;
-    size_t tellingSaid = 0;
-    for (size_t i = 0; i < guess.points.size(); ++i) {
-        const CheckPoint& point = guess.points[i];
-        if (point.isSky)
-            continue; // hosts seldom write vectors there
-        ++count;
-        explained += guess.agreesAt(point);
-        const dvec2 apart = guess.differenceOf(point) - said.differenceOf(said.points[i]);
-        const double motion = std::max(
-            glm::length(guess.cameraOf(point)), glm::length(said.cameraOf(said.points[i]))
-        );
-        // Where the camera hardly moves, vectors of what moves by itself agree with it once they
-        // are made short enough.
-        if (motion < 1.0 || glm::length(apart) <= 2.0 * (kTolerancePx + kToleranceShare * motion))
-            continue;
-        ++telling;
-        tellingGuess += guess.agreesAt(point);
-        tellingSaid += said.agreesAt(said.points[i]);
-    }
-    const bool isBetter = count >= kLeastPoints && telling >= std::max(kLeastTelling, count / 20) &&
-                          10 * tellingGuess >= 6 * telling && 10 * tellingSaid <= telling &&
-                          2 * explained >= count;
-    return isBetter ? std::optional(explained) : std::nullopt;
-}
 
 /// What the motion along an axis must be multiplied by to be the camera's.
 std::optional<double> fitScale(const std::vector<CheckPoint>& points, int axis) {
@@ -88,35 +54,6 @@ std::string describeFactors(const dvec2& factors) {
     return hasX ? describe("x", factors.x) : describe("y", factors.y);
 }
 
-/// Cameras of motionDepth are over a frame, and its vectors over an exposure that nobody tells.
-void scaleToExposure(std::vector<CheckPoint>& points) {
-    std::vector<double> shares;
-    for (const CheckPoint& point : points) {
-        const double square = glm::dot(point.camera, point.camera);
-        if (!point.isSky && square > 1.0)
-            shares.push_back(glm::dot(point.motion, point.camera) / square);
-    }
-    const auto share = takeMedian(shares, kLeastTelling);
-    if (share && std::abs(*share) > 0.02 && std::abs(*share) < 1.05)
-        for (CheckPoint& point : points)
-            point.camera *= std::abs(*share);
-}
-
-Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
-    Reading reading;
-    reading.points = makePoints(frame, facts);
-    reading.haveCamera = facts.isNative || facts.convention.vectors.haveCamera;
-    return reading;
-}
-
-/// The frame as the host said.
-Reading readSaid(const CheckedFrame& frame) {
-    Reading said = read(frame, frame.facts);
-    if (frame.facts.isNative && !frame.facts.hasExposureCameras)
-        scaleToExposure(said.points);
-    return said;
-}
-
 /// Collects what the host might have meant.
 class Guesses {
   public:
@@ -132,6 +69,8 @@ class Guesses {
         tryCameras();
         tryDepth();
         tryFactors();
+        if (!mBest)
+            tryLens();
         return mBest ? std::optional(mSentence) : std::nullopt;
     }
 
@@ -262,7 +201,11 @@ class Guesses {
         Reading guess = before;
         guess.scale = factors;
         if (judge(before, guess))
-            considerScale(factors, {});
+            considerScale(
+                factors,
+                ", as they do where cameras.clipFromView has another field of view or aspect ratio "
+                "than the picture was drawn with, or the vectors another unit"
+            );
     }
 
     void trySwap() {
@@ -301,14 +244,9 @@ class Guesses {
             "vectors agree with the viewFromWorld of the frame before, which "
             "cameras.viewFromWorldBefore is not: set it, and clipFromViewBefore, to last frame's"
         );
-        facts.convention.cameras = then;
-        considerFacts(
-            facts,
-            "vectors are those of the frame before: they agree with last frame's cameras, so read "
-            "the image after this frame has written it"
-        );
         // The last frame's vectors lead to this frame.
         Reading said = read(*mLast, mLast->facts);
+        considerLastVectors(said);
         facts = mLast->facts;
         facts.convention.cameras.viewFromWorldBefore = cameras.viewFromWorld;
         facts.convention.cameras.clipFromViewBefore = cameras.clipFromView;
@@ -318,6 +256,21 @@ class Guesses {
         guess.sentence = "vectors lead from this frame to the next one: make them from the frame "
                          "before, or delay the cameras by a frame";
         consider(said, guess);
+    }
+
+    /// This frame's vectors by the last one's cameras and depth.
+    void considerLastVectors(const Reading& then) {
+        if (then.points.size() != mSaid.points.size())
+            return;
+        Reading guess = mSaid;
+        for (size_t i = 0; i < guess.points.size(); ++i) {
+            guess.points[i].camera = then.points[i].camera;
+            guess.points[i].isSky = then.points[i].isSky;
+        }
+        guess.sentence =
+            "vectors are those of the frame before: they agree with last frame's cameras, so read "
+            "the image after this frame has written it";
+        consider(guess);
     }
 
     void tryCameras() {
@@ -357,14 +310,12 @@ class Guesses {
         CheckFacts facts = mFacts;
         if (depth.isRaw) {
             facts.convention.depth.skyValue = 1.0f - depth.skyValue;
-            const auto flipped = std::make_unique<CheckedFrame>(mNow);
-            for (shader::CheckSample& sample : flipped->totals.samples)
-                sample.depth = 1.0f - sample.depth;
-            Reading guess = read(*flipped, facts);
-            guess.sentence =
+            facts.flipsDepth = true;
+            considerFacts(
+                facts,
                 "vectors agree with the cameras after depth is reversed: cameras.clipFromView has "
-                "near and far the other way round than convention.depth.image";
-            consider(guess);
+                "near and far the other way round than convention.depth.image"
+            );
         }
         facts = mFacts;
         facts.convention.depth.isRaw = !depth.isRaw;
@@ -378,7 +329,7 @@ class Guesses {
         );
         if (depth.isRaw)
             return;
-        for (const float factor : {0.001f, 0.01f, 0.1f, 0.3048f, 10.0f, 100.0f, 1000.0f}) {
+        for (const float factor : kUnitFactors) {
             facts = mFacts;
             facts.convention.depth.metresPerUnit *= factor;
             considerFacts(
@@ -391,6 +342,26 @@ class Guesses {
                 )
             );
         }
+    }
+
+    /// Another field of view makes everything that the camera moves longer or shorter.
+    void tryLens() {
+        if (!mLast || !mFacts.convention.cameras.areGiven || mFacts.isNative || !mSaid.haveCamera ||
+            countAgreeing(mSaid) * 2 >= mSaid.points.size())
+            return;
+        const math::dvec2 scale = fitLens([&](const dvec2& tried) {
+            const Reading guess = read(mNow, scaleLens(mFacts, tried));
+            std::vector<double> off;
+            for (const CheckPoint& point : guess.points)
+                if (!point.isSky)
+                    off.push_back(glm::length(guess.differenceOf(point)));
+            return takeMedian(off, kLeastPoints).value_or(0.0);
+        });
+        considerFacts(
+            scaleLens(mFacts, scale),
+            "vectors agree with the cameras if " + describeLens(mFacts, scale) +
+                ": set it, and clipFromViewBefore's, to what the picture was drawn with"
+        );
     }
 
     void considerFacts(const CheckFacts& facts, std::string sentence) {
@@ -408,14 +379,6 @@ class Guesses {
 };
 
 } // namespace
-
-std::optional<double> takeMedian(std::vector<double>& values, size_t least) {
-    if (values.size() < least)
-        return std::nullopt;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 void checkVectors(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings) {
     const Reading said = readSaid(now);

@@ -7,7 +7,6 @@
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
-#include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/passes/dispatch.h"
 #include "shaders/render/scene_shared.h"
 
@@ -54,51 +53,6 @@ gpu::ComputePipelineDesc describeCheck(
     desc.interface.bindings.push_back(kBuffer);
     desc.interface.pushConstantBytes = pushBytes;
     return desc;
-}
-
-const HostCameraKey& findRasterKey(const HostInputs& inputs) {
-    for (const HostCameraKey& key : inputs.motion.keys)
-        if (isRasterKey(key, inputs.rasterTime))
-            return key;
-    return inputs.motion.keys.front();
-}
-
-HostCameras makePair(const HostCameraKey& now, const HostCameraKey& before, bool aheadIsPlusZ) {
-    HostCameras pair;
-    pair.areGiven = true;
-    pair.aheadIsPlusZ = aheadIsPlusZ;
-    pair.viewFromWorld = now.viewFromWorld;
-    pair.clipFromView = now.clipFromView;
-    pair.viewFromWorldBefore = before.viewFromWorld;
-    pair.clipFromViewBefore = before.clipFromView;
-    return pair;
-}
-
-/// Whether an entity's origin is well within the picture, in front of the camera.
-bool isInView(const HostInputs& inputs, const HostMover& mover) {
-    const auto& keys = inputs.motion.keys;
-    if (mover.worldFromObject.size() != keys.size())
-        return false;
-    const HostCameraKey& key = findRasterKey(inputs);
-    const glm::dvec4 world = mover.worldFromObject[size_t(&key - keys.data())][3];
-    const glm::dvec4 clip = key.clipFromView * (key.viewFromWorld * world);
-    return clip.w > 0.0 && std::abs(clip.x) < 0.8 * clip.w && std::abs(clip.y) < 0.8 * clip.w;
-}
-
-void describeMotion(const HostInputs& inputs, CheckFacts& facts) {
-    const HostMotion& motion = inputs.motion;
-    facts.followsLast = motion.followsLast;
-    facts.rowCount = motion.rowCount;
-    facts.movers.clear();
-    for (const HostMover& mover : motion.movers)
-        facts.movers.push_back({mover.row, isInView(inputs, mover)});
-    facts.hasExposureCameras = facts.isNative && motion.keys.size() > 1 &&
-                               motion.keys.front().time == 0.0 && motion.keys.back().time == 1.0;
-    if (!facts.hasExposureCameras)
-        return;
-    const HostCameraKey& raster = findRasterKey(inputs);
-    facts.open = makePair(raster, motion.keys.front(), motion.aheadIsPlusZ);
-    facts.close = makePair(raster, motion.keys.back(), motion.aheadIsPlusZ);
 }
 
 void clearTotals(graph::PassContext& context, graph::BufferHandle totals) {
@@ -208,7 +162,7 @@ void HostChecker::add(
     uint32_t frame,
     const HostInputs& inputs,
     const ImportedInputs& images,
-    bool readsMotion
+    const MotionBlurSettings& settings
 ) {
     Slot& slot = mSlots[frame];
     if (!slot.totals)
@@ -218,25 +172,8 @@ void HostChecker::add(
     slot.serial = ++mSerial == 0 ? ++mSerial : mSerial;
     slot.isPending = true;
     CheckFacts& facts = slot.facts;
-    facts.picture = {inputs.width, inputs.height};
-    facts.convention = inputs.convention;
-    facts.isNative = images.motionDepth.isValid();
-    facts.hasVectors = facts.isNative || images.vectors.isValid();
-    if (facts.isNative)
-        facts.convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
-    facts.rasterTime = inputs.rasterTime;
-    facts.hasIds = images.entityId.isValid();
-    facts.readsMotion = readsMotion;
-    facts.noEntity = inputs.noEntity;
-    facts.frameNumber = inputs.frameNumber;
-    facts.view = inputs.motion.view;
+    describeFacts(inputs, settings, facts);
     facts.number = ++mNumbers[facts.view];
-    facts.rowCount = 0;
-    facts.movers.clear();
-    facts.followsLast = false;
-    facts.hasExposureCameras = false;
-    if (readsMotion)
-        describeMotion(inputs, facts);
 
     const HostConvention& convention = facts.convention;
     PicturePush push{};
@@ -307,6 +244,9 @@ void HostChecker::finish(uint32_t frame) {
     std::memcpy(&mNow->totals, mapped, sizeof(mNow->totals));
     std::swap(mNow->facts, slot.facts);
     mNow->hasOffset = false;
+    mNow->keyShare = -1.0;
+    mNow->areKeysReversed = false;
+    mNow->unusedHistory = 0;
     ++mEvaluated;
     std::unique_ptr<CheckedFrame>& last = mLast[mNow->facts.view];
     const bool isNext = last && mNow->facts.number == last->facts.number + 1;

@@ -17,6 +17,7 @@
 namespace shutter::motion_blur {
 
 struct HostInputs;
+struct MotionBlurSettings;
 
 /// The host's images in the graph, as they were imported. Invalid: not given.
 struct ImportedInputs {
@@ -40,7 +41,7 @@ class HostChecker {
         uint32_t frame,
         const HostInputs& inputs,
         const ImportedInputs& images,
-        bool readsMotion);
+        const MotionBlurSettings& settings);
 
     /// The recording failed: nothing will be read of it.
     void drop(uint32_t frame) { mSlots[frame].isPending = false; }

@@ -14,7 +14,8 @@
 namespace shutter::motion_blur {
 
 /// The host's motion vectors, at any resolution: x and y of the image's first two channels. A host
-/// without vectors leaves the image null: nothing moves but the camera, which `cameras` gives.
+/// without vectors leaves the image null: they are then the camera's, which `cameras` gives, and
+/// nothing else moves but movers with matrices (HostMover), for the methods that read these.
 struct HostVectors {
     HostImage image; ///< RG16F, RG32F, RGBA16F or RGBA32F; sampled; or null
     /// What the vectors are multiplied by to be pixels of the picture, right and down, from where a
@@ -77,7 +78,8 @@ struct HostScales {
     /// A share of the motion for each pixel, such as 0 where a weapon or a display is; null: 1.
     HostImage perPixel; ///< R8, R16F or R32F, any resolution; sampled
     /// The frame before was of another place, or there is none: nothing is blurred, as vectors lead
-    /// nowhere, and the cameras before do not count.
+    /// nowhere, and the cameras before do not count, nor does HostMotion::followsLast, nor any of
+    /// its keys but the raster's.
     bool isCut = false;
 };
 

@@ -21,6 +21,14 @@ constexpr std::array<std::pair<VkImageUsageFlags, const char*>, 4> kUsages{
      {VK_IMAGE_USAGE_TRANSFER_SRC_BIT, "TRANSFER_SRC"},
      {VK_IMAGE_USAGE_TRANSFER_DST_BIT, "TRANSFER_DST"}}};
 
+bool hasExtent(const HostImage& image) {
+    return image.extent.width != 0 && image.extent.height != 0;
+}
+
+bool hasArea(const HostImage& image) {
+    return image.area.extent.width != 0 || image.area.extent.height != 0;
+}
+
 std::string listFormats(std::span<const VkFormat> formats) {
     std::string list;
     for (const VkFormat format : formats)
@@ -70,6 +78,15 @@ core::Status checkArea(const HostImage& image, const HostImageRule& rule, VkExte
             area.offset.x,
             area.offset.y
         );
+    if (area.extent.width == 0 || area.extent.height == 0)
+        return makeError(
+            "motion blur: {}.area begins at {}, {}, beyond its extent of {} x {}",
+            rule.name,
+            area.offset.x,
+            area.offset.y,
+            extent.width,
+            extent.height
+        );
     if (uint64_t(area.offset.x) + area.extent.width > extent.width ||
         uint64_t(area.offset.y) + area.extent.height > extent.height)
         return makeError(
@@ -83,12 +100,35 @@ core::Status checkArea(const HostImage& image, const HostImageRule& rule, VkExte
     if (rule.hasPictureSize &&
         (area.extent.width != picture.width || area.extent.height != picture.height))
         return makeError(
-            "motion blur: {}.area.extent is {} x {}, it must be the picture's {} x {}",
+            "motion blur: {}.{} is {} x {}{}, it must be the picture's {} x {}",
             rule.name,
+            hasArea(image) ? "area.extent" : "extent",
             area.extent.width,
             area.extent.height,
+            hasArea(image) ? "" : ", all of which is used where area is not said",
             picture.width,
             picture.height
+        );
+    return {};
+}
+
+/// Whether the device's images of the format can be what the input needs.
+core::Status
+checkSupport(VkPhysicalDevice device, const HostImage& image, const HostImageRule& rule) {
+    const VkFormat format = formatOf(image, rule);
+    VkFormatProperties properties{};
+    vkGetPhysicalDeviceFormatProperties(device, format, &properties);
+    const auto lacks = [&](VkImageUsageFlags usage, VkFormatFeatureFlags feature) {
+        return (rule.usage & usage) != 0 && (properties.optimalTilingFeatures & feature) == 0;
+    };
+    const bool lacksStorage =
+        lacks(VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT);
+    if (lacksStorage || lacks(VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+        return makeError(
+            "motion blur: {}.format is {}, of which the device has no {} images",
+            rule.name,
+            gpu::nameFormat(format),
+            lacksStorage ? "storage" : "sampled"
         );
     return {};
 }
@@ -100,12 +140,19 @@ VkFormat formatOf(const HostImage& image, const HostImageRule& rule) {
 }
 
 VkRect2D areaOf(const HostImage& image, VkExtent2D picture) {
-    const bool isGiven = image.area.extent.width != 0 || image.area.extent.height != 0;
-    return {image.area.offset, isGiven ? image.area.extent : picture};
+    if (hasArea(image) || !hasExtent(image))
+        return {image.area.offset, hasArea(image) ? image.area.extent : picture};
+    const auto rest = [](uint32_t side, int32_t offset) {
+        return side - std::min(side, uint32_t(std::max(offset, 0)));
+    };
+    return {
+        image.area.offset,
+        {rest(image.extent.width, image.area.offset.x),
+         rest(image.extent.height, image.area.offset.y)}};
 }
 
 VkExtent2D extentOf(const HostImage& image, VkExtent2D picture) {
-    if (image.extent.width != 0 && image.extent.height != 0)
+    if (hasExtent(image))
         return image.extent;
     const VkRect2D area = areaOf(image, picture);
     return {
@@ -129,7 +176,7 @@ core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExt
             "motion blur: {}.before.layout is undefined, its contents are lost", rule.name
         );
     SHUTTER_TRY(checkFormat(image, rule));
-    if (image.samples != VK_SAMPLE_COUNT_1_BIT)
+    if (image.samples != 0 && image.samples != VK_SAMPLE_COUNT_1_BIT)
         return makeError(
             "motion blur: {}.samples is {}, it must be 1: resolve the image first",
             rule.name,
@@ -139,22 +186,42 @@ core::Status checkImage(const HostImage& image, const HostImageRule& rule, VkExt
     return checkArea(image, rule, picture);
 }
 
-core::Status
-checkSupport(VkPhysicalDevice device, const HostImage& image, const HostImageRule& rule) {
-    const VkFormat format = formatOf(image, rule);
-    VkFormatProperties properties{};
-    vkGetPhysicalDeviceFormatProperties(device, format, &properties);
-    const auto lacks = [&](VkImageUsageFlags usage, VkFormatFeatureFlags feature) {
-        return (rule.usage & usage) != 0 && (properties.optimalTilingFeatures & feature) == 0;
-    };
-    const bool lacksStorage =
-        lacks(VK_IMAGE_USAGE_STORAGE_BIT, VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT);
-    if (lacksStorage || lacks(VK_IMAGE_USAGE_SAMPLED_BIT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT))
+uint64_t leastBytes(VkExtent2D extent, VkFormat format) {
+    // Depth beside a stencil has at least 4 bytes.
+    const bool hasStencil = (gpu::aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
+    return uint64_t(extent.width) * extent.height * (hasStencil ? 4 : gpu::texelBytes(format));
+}
+
+core::Status checkDevice(
+    const ImageLimits& limits, const HostImage& image, const HostImageRule& rule, VkExtent2D picture
+) {
+    SHUTTER_TRY(checkSupport(limits.physical, image, rule));
+    const VkExtent2D extent = extentOf(image, picture);
+    if (extent.width > limits.mostPixels || extent.height > limits.mostPixels)
         return makeError(
-            "motion blur: {}.format is {}, of which the device has no {} images",
+            "motion blur: {} is said to be {} x {}, the device's images are at most {} wide and "
+            "high",
             rule.name,
+            extent.width,
+            extent.height,
+            limits.mostPixels
+        );
+    if (!limits.device)
+        return {};
+    VkMemoryRequirements taken{};
+    vkGetImageMemoryRequirements(limits.device, image.image, &taken);
+    const VkFormat format = formatOf(image, rule);
+    const uint64_t least = leastBytes(extent, format);
+    if (taken.size < least)
+        return makeError(
+            "motion blur: {} takes {} bytes, but {} x {} pixels of {} take {} or more: the image "
+            "is smaller than what is said of it, or has another format",
+            rule.name,
+            taken.size,
+            extent.width,
+            extent.height,
             gpu::nameFormat(format),
-            lacksStorage ? "storage" : "sampled"
+            least
         );
     return {};
 }

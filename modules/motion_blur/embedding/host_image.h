@@ -15,7 +15,8 @@ namespace shutter::motion_blur {
 ///
 /// `format`, `area`, `extent` and `usage` may be left as they are by a host whose image has the
 /// input's own format and the picture's size. What is said of `usage` and `samples` is checked;
-/// Vulkan does not tell them.
+/// Vulkan does not tell them. Its memory is: an image that is smaller than what is said of it is
+/// refused where it takes too little.
 struct HostImage {
     VkImage image = VK_NULL_HANDLE;
     graph::OutsideUse before; ///< the host's last use, which is waited for
@@ -23,13 +24,14 @@ struct HostImage {
     VkFormat format = VK_FORMAT_UNDEFINED; ///< UNDEFINED: the first that the input takes
     /// Size of the whole image, pixels; 0 x 0: it ends where the part that is used does.
     VkExtent2D extent{0, 0};
-    /// The part that is used: a picture of `area.extent` from `area.offset`; an extent of 0 x 0:
-    /// the picture's size. Inputs of another size than the picture's are read at the nearest pixel.
+    /// The part that is used: a picture of `area.extent` from `area.offset`. An extent of 0 x 0:
+    /// all of `extent` from there on, or the picture's size where that is not said either. Inputs
+    /// of another size than the picture's are read at the nearest pixel.
     VkRect2D area{{0, 0}, {0, 0}};
     VkImageUsageFlags usage = 0; ///< that it was made with; 0: not said
     /// Array layer that is used, e.g. one eye's; the layout of no other layer is changed.
     uint32_t layer = 0;
-    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT; ///< that it was made with; must be 1
+    VkSampleCountFlagBits samples{}; ///< that it was made with, which must be 1; 0: not said
 };
 
 /// What one input takes, by the order of preference.
@@ -55,8 +57,19 @@ struct HostImageRule {
 [[nodiscard]] core::Status
 checkImage(const HostImage& image, const HostImageRule& rule, VkExtent2D picture);
 
-/// Whether the device's images of the format can be what the input needs.
-[[nodiscard]] core::Status
-checkSupport(VkPhysicalDevice device, const HostImage& image, const HostImageRule& rule);
+/// What an image is held against.
+struct ImageLimits {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE; ///< null: images are handles of nothing
+    uint32_t mostPixels = 0;          ///< a side: VkPhysicalDeviceLimits::maxImageDimension2D
+};
+
+/// Whether the device can have such an image, and this one's memory is large enough for one.
+[[nodiscard]] core::Status checkDevice(
+    const ImageLimits& limits, const HostImage& image, const HostImageRule& rule, VkExtent2D picture
+);
+
+/// Bytes that an image of that size and format takes at least.
+[[nodiscard]] uint64_t leastBytes(VkExtent2D extent, VkFormat format);
 
 } // namespace shutter::motion_blur

@@ -25,9 +25,17 @@ constexpr std::array kMotionFormats{kHostMotionFormat};
 constexpr std::array kNormalFormats{kHostColorFormat, VK_FORMAT_R32G32B32A32_SFLOAT};
 constexpr std::array kIdFormats{kHostIdFormat, VK_FORMAT_R16_UINT, VK_FORMAT_R8_UINT};
 
+core::Status check(
+    const HostImage& image, const HostImageRule& rule, VkExtent2D picture, const HostAbilities& host
+) {
+    SHUTTER_TRY(checkImage(image, rule, picture));
+    return checkDevice(host.images, image, rule, picture);
+}
+
 /// An image of motion and depth is read as it is.
-core::Status
-checkMotionDepth(const HostImage& image, const HostImageRule& rule, VkExtent2D picture) {
+core::Status checkMotionDepth(
+    const HostImage& image, const HostImageRule& rule, VkExtent2D picture, const HostAbilities& host
+) {
     SHUTTER_TRY(checkImage(image, rule, picture));
     if (!isWhole(image, picture))
         return makeError(
@@ -35,7 +43,7 @@ checkMotionDepth(const HostImage& image, const HostImageRule& rule, VkExtent2D p
             "convention.depth, which may be",
             rule.name
         );
-    return {};
+    return checkDevice(host.images, image, rule, picture);
 }
 
 /// Each given image is another one, or another layer.
@@ -73,13 +81,6 @@ core::Status checkDistinct(const HostInputs& inputs) {
     return {};
 }
 
-core::Status check(
-    const HostImage& image, const HostImageRule& rule, VkExtent2D picture, const HostAbilities& host
-) {
-    SHUTTER_TRY(checkImage(image, rule, picture));
-    return checkSupport(host.physical, image, rule);
-}
-
 core::Status checkMadeMotion(const HostInputs& inputs, const HostAbilities& host) {
     const HostConvention& convention = inputs.convention;
     const bool hasVectors = convention.vectors.image.image != VK_NULL_HANDLE;
@@ -88,13 +89,14 @@ core::Status checkMadeMotion(const HostInputs& inputs, const HostAbilities& host
             "motion blur: motionDepth.image is null, and so are convention.vectors.image.image and "
             "convention.depth.image.image"
         );
-    SHUTTER_TRY(checkConvention(convention, pictureOf(inputs)));
+    const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(checkConvention(convention, picture));
     if (hasVectors)
-        SHUTTER_TRY(checkSupport(host.physical, convention.vectors.image, kVectorsRule));
-    SHUTTER_TRY(checkSupport(host.physical, convention.depth.image, kDepthRule));
+        SHUTTER_TRY(checkDevice(host.images, convention.vectors.image, kVectorsRule, picture));
+    SHUTTER_TRY(checkDevice(host.images, convention.depth.image, kDepthRule, picture));
     if (!convention.scales.perPixel.image)
         return {};
-    return checkSupport(host.physical, convention.scales.perPixel, kBlurScaleRule);
+    return checkDevice(host.images, convention.scales.perPixel, kBlurScaleRule, picture);
 }
 
 core::Status checkReveal(
@@ -151,7 +153,9 @@ core::Status checkLast(const HostInputs& inputs, const HostAbilities& host) {
         return {};
     const VkExtent2D picture = pictureOf(inputs);
     SHUTTER_TRY(check(last.color, kLastColorRule, picture, host));
-    SHUTTER_TRY(checkMotionDepth(last.motionDepth, kLastMotionRule, picture));
+    SHUTTER_TRY(checkMotionDepth(last.motionDepth, kLastMotionRule, picture, host));
+    if (!last.entityId.image && isOneWorld(inputs))
+        return {};
     return check(last.entityId, kLastIdRule, picture, host);
 }
 
@@ -178,16 +182,32 @@ core::Status checkCamera(const HostInputs& inputs, const Method& method) {
     return checkScales(inputs.convention.scales, pictureOf(inputs));
 }
 
-/// Vectors say in which pixels a mover's motion is seen.
-core::Status checkMoversHaveVectors(const HostInputs& inputs) {
-    const bool hasVectors = inputs.motionDepth.image || inputs.convention.vectors.image.image;
-    if (hasVectors || inputs.motion.movers.empty())
+/// Vectors say how a mover without matrices moves.
+core::Status checkMoversAreKnown(const HostInputs& inputs) {
+    if (inputs.motionDepth.image || inputs.convention.vectors.image.image)
         return {};
-    return makeError(
-        "motion blur: motion.movers has {}, but convention.vectors.image.image is null: "
-        "without vectors only the camera moves",
-        core::countOf(inputs.motion.movers.size(), "row")
-    );
+    const auto& movers = inputs.motion.movers;
+    for (size_t i = 0; i < movers.size(); ++i)
+        if (movers[i].worldFromObject.empty())
+            return makeError(
+                "motion blur: motion.movers[{}] has no worldFromObject, and "
+                "convention.vectors.image.image is null: without vectors each mover needs matrices",
+                i
+            );
+    return {};
+}
+
+/// Ids say which pixels a mover is seen in.
+core::Status checkIds(const HostInputs& inputs, const Method& method, const HostAbilities& host) {
+    if (method.readsInstantMotions && isOneWorld(inputs))
+        return {};
+    if (method.readsInstantMotions && !inputs.entityId.image)
+        return makeError(
+            "motion blur: entityId.image is null, although motion.movers has {}: ids say which "
+            "pixels are theirs",
+            core::countOf(inputs.motion.movers.size(), "row")
+        );
+    return check(inputs.entityId, kIdRule, pictureOf(inputs), host);
 }
 
 core::Status checkMethod(
@@ -207,14 +227,15 @@ core::Status checkMethod(
     if (method.readsNormal)
         SHUTTER_TRY(check(inputs.normal, kNormalRule, picture, host));
     if (method.readsEntityId)
-        SHUTTER_TRY(check(inputs.entityId, kIdRule, picture, host));
+        SHUTTER_TRY(checkIds(inputs, method, host));
     if (method.readsInstantMotions && settings.secondRaster)
         return makeError(
             "motion blur: secondRaster is true, but hosts have one raster; it must be false"
         );
     if (method.readsInstantMotions) {
-        SHUTTER_TRY(checkMotion(inputs.motion, describeFrame(inputs, settings)));
-        SHUTTER_TRY(checkMoversHaveVectors(inputs));
+        std::vector<HostMover> movers;
+        SHUTTER_TRY(checkMotion(countedMotion(inputs, movers), describeFrame(inputs, settings)));
+        SHUTTER_TRY(checkMoversAreKnown(inputs));
         SHUTTER_TRY(checkLast(inputs, host));
     }
     if (method.readsCamera)
@@ -262,16 +283,39 @@ core::Status checkResponsePoints(const HostInputs& inputs) {
 
 core::Status checkImages(const HostInputs& inputs, const HostAbilities& host) {
     const VkExtent2D picture = pictureOf(inputs);
+    SHUTTER_TRY(checkDistinct(inputs)); // the same image twice may be too small for one of them
     SHUTTER_TRY(check(inputs.color, colorRule(inputs), picture, host));
     if (inputs.output.image)
         SHUTTER_TRY(check(inputs.output, outputRule(inputs), picture, host));
     if (inputs.motionDepth.image)
-        SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture));
+        SHUTTER_TRY(checkMotionDepth(inputs.motionDepth, kMotionRule, picture, host));
     if (inputs.motionDepth.image && !inputs.isOff) // the checker and dumps read the cameras
         SHUTTER_TRY(checkHostCameras(countedCameras(inputs.convention), picture));
     else if (!inputs.isOff)
         SHUTTER_TRY(checkMadeMotion(inputs, host));
-    return checkDistinct(inputs);
+    return {};
+}
+
+/// What is not at the raster instant was of another place.
+void keepRasterKey(HostMotion& motion, double rasterTime, std::vector<HostMover>& movers) {
+    const auto keys = motion.keys;
+    if (!keys.data())
+        return; // which is refused
+    const auto raster = std::find_if(keys.begin(), keys.end(), [&](const HostCameraKey& key) {
+        return isRasterKey(key, rasterTime);
+    });
+    if (raster == keys.end())
+        return; // the same
+    const size_t index = size_t(raster - keys.begin());
+    motion.keys = keys.subspan(index, 1);
+    motion.followsLast = false;
+    if (!motion.movers.data())
+        return;
+    movers.assign(motion.movers.begin(), motion.movers.end());
+    for (HostMover& mover : movers)
+        if (mover.worldFromObject.data() && mover.worldFromObject.size() == keys.size())
+            mover.worldFromObject = mover.worldFromObject.subspan(index, 1);
+    motion.movers = movers;
 }
 
 } // namespace
@@ -286,6 +330,27 @@ const HostImageRule kLastIdRule{
 
 VkExtent2D pictureOf(const HostInputs& inputs) {
     return {inputs.width, inputs.height};
+}
+
+bool isOneWorld(const HostInputs& inputs) {
+    return !inputs.entityId.image && inputs.motion.movers.empty();
+}
+
+HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& movers) {
+    HostMotion motion = inputs.motion;
+    if (isOneWorld(inputs)) {
+        motion.rowCount = 1;
+        motion.rowIds = {};
+    }
+    if (inputs.convention.scales.isCut && !inputs.motionDepth.image)
+        keepRasterKey(motion, inputs.rasterTime, movers);
+    return motion;
+}
+
+double timeOfFrameBefore(const HostInputs& inputs) {
+    const HostScales& scales = inputs.convention.scales;
+    const double share = scales.exposureShare > 1.0e-4f ? scales.exposureShare : 1.0e-4; // or NaN
+    return inputs.rasterTime - scales.displayedPerRendered / share;
 }
 
 bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture) {
@@ -324,13 +389,14 @@ HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings
 core::Status checkInputs(
     const HostInputs& inputs, const MotionBlurSettings& settings, const HostAbilities& host
 ) {
-    if (inputs.width < 1 || inputs.width > kMostPixels || inputs.height < 1 ||
-        inputs.height > kMostPixels)
+    const uint32_t most = std::min(kMostPixels, host.images.mostPixels);
+    if (inputs.width < 1 || inputs.width > most || inputs.height < 1 || inputs.height > most)
         return makeError(
-            "motion blur: the size is {} x {}, both must be 1 to {}",
+            "motion blur: the size is {} x {}, both must be 1 to {}{}",
             inputs.width,
             inputs.height,
-            kMostPixels
+            most,
+            most < kMostPixels ? ", the device's maxImageDimension2D" : ""
         );
     if (!(inputs.rasterTime >= 0.0 && inputs.rasterTime <= 1.0))
         return makeError("motion blur: rasterTime is {}, it must be 0 to 1", inputs.rasterTime);

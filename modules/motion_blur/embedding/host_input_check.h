@@ -7,6 +7,8 @@
 #include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/settings.h"
 
+#include <vector>
+
 namespace shutter::motion_blur {
 
 inline constexpr VkFormat kHostColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -25,6 +27,14 @@ extern const HostImageRule kLastIdRule;
 
 [[nodiscard]] VkExtent2D pictureOf(const HostInputs& inputs);
 
+/// There are no ids, and nothing moves by itself: all but the sky is one entity, of row 0.
+[[nodiscard]] bool isOneWorld(const HostInputs& inputs);
+
+/// HostInputs::motion as it counts: of one world there is one row, and at a cut
+/// (HostScales::isCut, where the convention counts) the raster's key alone.
+/// \param movers is filled where the result needs it, and must outlive that
+[[nodiscard]] HostMotion countedMotion(const HostInputs& inputs, std::vector<HostMover>& movers);
+
 /// The part of the image that is used is one that the effect may read, write and copy itself.
 [[nodiscard]] bool isOwn(const HostImage& image, VkFormat format, VkExtent2D picture);
 
@@ -33,7 +43,7 @@ describeFrame(const HostInputs& inputs, const MotionBlurSettings& settings);
 
 /// What a host said when the effect was made.
 struct HostAbilities {
-    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    ImageLimits images;
     bool hasRays = false; ///< HostDevice::rayTier is not None
     bool measures = false;
     uint32_t framesInFlight = 1;

@@ -55,7 +55,8 @@ struct HostDevice {
     /// Compares the inputs of each recording with one another and with what they must be, and tells
     /// `message` what looks wrong (docs/debugging_integration.md). False costs nothing.
     bool checksInputs = false;
-    HostMessage message; ///< gets what the checker finds, and why a dump failed
+    /// Gets what the checker finds, why a dump failed, and that the effect is destroyed too early.
+    HostMessage message;
 };
 
 /// What rays meet, in the terms of shaders/render/scene_shared.h: a host that wants methods of
@@ -76,7 +77,8 @@ struct HostRays {
 struct HostLastFrame {
     HostImage color;       ///< sharp: HostInputs::color of that frame before the blur
     HostImage motionDepth; ///< RGBA32F, of the picture's size
-    HostImage entityId;    ///< HostInputs::noEntity is its value where nothing is
+    /// HostInputs::noEntity is its value where nothing is; null where that frame had none.
+    HostImage entityId;
 };
 
 /// The first format of each image is its own: what has another one, or is part of a larger image,
@@ -93,7 +95,8 @@ struct HostInputs {
     /// perPixel, count beside motionDepth, too, unless rays.frameConstants is given.
     HostConvention convention;
     HostImage normal; ///< RGBA16F, RGBA32F: xyz unit; sampled; for Method::readsNormal
-    /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId
+    /// R32_UINT, R16_UINT or R8_UINT, any resolution; sampled; for Method::readsEntityId. Null, for
+    /// Method::readsInstantMotions without movers: all but the sky stands still in the world.
     HostImage entityId;
     uint32_t noEntity = 0xFFFFFFFF; ///< value of entityId where nothing is
     /// RGBA16F, RGBA32F or B10G11R11; storage; of the own format and size: transfer target, too.
@@ -125,6 +128,12 @@ struct HostInputs {
     /// may declare passes that read what the effect reads and makes, and must not throw.
     std::function<void(graph::Graph&, const MotionBlurInputs&, const MotionBlurOutputs&)> observe;
 };
+
+/// Shutter time of the frame before's raster, for HostCameraKey::time: exposures lie
+/// 1 / exposureShare apart, of generated frames displayedPerRendered times as much. Below 0 where
+/// the exposure is shorter than the time between the frames and rasterTime is 1. An exposureShare
+/// below 1e-4 counts as that.
+[[nodiscard]] double timeOfFrameBefore(const HostInputs& inputs);
 
 /// What the GPU took for a recording, and what it counted.
 struct HostReport {

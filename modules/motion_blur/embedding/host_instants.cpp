@@ -2,8 +2,7 @@
 #include "modules/motion_blur/embedding/host_instants.h"
 
 #include "engine/core/check.h"
-#include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response.glsl"
 
 #include <algorithm>
@@ -19,65 +18,14 @@ namespace {
 using math::dmat4;
 using math::LayerBuilder;
 using math::LayerTables;
-using math::Pose;
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 /// Within which a key is at the raster instant: hosts may compute the two apart.
 constexpr double kSameTime = 1.0e-6;
 
-/// A time between two keys, or at one.
-struct Between {
-    size_t from = 0;
-    size_t to = 0;
-    double share = 0.0;
-};
-
-Between locate(std::span<const HostCameraKey> keys, double time) {
-    const auto after =
-        std::upper_bound(keys.begin(), keys.end(), time, [](double t, const HostCameraKey& key) {
-            return t < key.time;
-        });
-    const size_t next = size_t(after - keys.begin());
-    if (next == 0)
-        return {};
-    if (next == keys.size() || keys[next - 1].time == time)
-        return {next - 1, next - 1, 0.0};
-    const double span = keys[next].time - keys[next - 1].time;
-    return {next - 1, next, (time - keys[next - 1].time) / span};
-}
-
 double invertResponse(const shader::ResponseTable* table, double u) {
     return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
 }
-
-/// A mover's way through the exposure.
-class Way {
-  public:
-    explicit Way(std::span<const dmat4> keys) : mFirst(keys.front()) {
-        mIsStill =
-            std::all_of(keys.begin(), keys.end(), [&](const dmat4& key) { return key == mFirst; });
-        if (mIsStill)
-            return;
-        for (const dmat4& key : keys)
-            mPoses.push_back(math::takeApart(key));
-    }
-
-    [[nodiscard]] dmat4 at(const Between& place) const {
-        if (mIsStill)
-            return mFirst;
-        return math::interpolate(mPoses[place.from], mPoses[place.to], place.share);
-    }
-
-    /// Whether it is there, and nowhere else, all the time.
-    [[nodiscard]] bool staysAt(const dmat4& worldFromObject) const {
-        return mIsStill && mFirst == worldFromObject;
-    }
-
-  private:
-    dmat4 mFirst;
-    bool mIsStill = false;
-    std::vector<Pose> mPoses; ///< one per key, unless it is still
-};
 
 uint64_t idOf(std::span<const uint64_t> rowIds, uint32_t row) {
     return rowIds.empty() ? row : rowIds[row];
@@ -86,11 +34,7 @@ uint64_t idOf(std::span<const uint64_t> rowIds, uint32_t row) {
 class Builder {
   public:
     Builder(const HostMotion& motion, const HostMotionFrame& frame)
-        : mMotion(motion), mFrame(frame) {
-        for (const HostCameraKey& key : motion.keys) {
-            mCameras.push_back(normalize(key, motion.aheadIsPlusZ).value());
-            mCameraPoses.push_back(math::takeApart(glm::inverse(mCameras.back().viewFromWorld)));
-        }
+        : mMotion(motion), mFrame(frame), mCamera(motion.keys, motion.aheadIsPlusZ) {
         const auto raster =
             std::find_if(motion.keys.begin(), motion.keys.end(), [&](const HostCameraKey& key) {
                 return isRasterKey(key, frame.rasterTime);
@@ -100,13 +44,13 @@ class Builder {
         for (uint32_t i = 0; i < frame.instantCount; ++i) {
             mTimes.push_back(invertResponse(motion.response, (i + 0.5) / frame.instantCount));
             mPlaces.push_back(locate(motion.keys, mTimes.back()));
-            mPictures.push_back(pictureAt(mPlaces.back()));
+            mPictures.push_back(mCamera.at(mPlaces.back()).pictureFromWorld(frame.sizePx));
         }
         mMoverOfRow.assign(motion.rowCount, kNone);
         for (uint32_t i = 0; i < motion.movers.size(); ++i) {
             const HostMover& mover = motion.movers[i];
             mMoverOfRow[mover.row] = i;
-            std::optional<Way>& way = mWays.emplace_back();
+            std::optional<MoverWay>& way = mWays.emplace_back();
             if (!mover.worldFromObject.empty())
                 way.emplace(mover.worldFromObject);
         }
@@ -124,25 +68,13 @@ class Builder {
     }
 
   private:
-    [[nodiscard]] bool isPerspective() const { return mCameras.front().isPerspective; }
-
-    [[nodiscard]] dmat4 pictureAt(const Between& place) const {
-        HostCamera camera = mCameras[place.from];
-        const HostCamera& to = mCameras[place.to];
-        camera.clipFromView += (to.clipFromView - camera.clipFromView) * place.share;
-        // One that stands still keeps its bits, which tell that nothing before it moves.
-        if (camera.viewFromWorld != to.viewFromWorld)
-            camera.viewFromWorld = glm::inverse(
-                math::interpolate(mCameraPoses[place.from], mCameraPoses[place.to], place.share)
-            );
-        return camera.pictureFromWorld(mFrame.sizePx);
-    }
+    [[nodiscard]] bool isPerspective() const { return mCamera.atKey(0).isPerspective; }
 
     [[nodiscard]] HostRaster makeRaster() const {
         HostRaster raster;
         raster.sizePx = mFrame.sizePx;
         raster.isPerspective = isPerspective();
-        raster.pictureFromWorld = mCameras[mRasterKey].pictureFromWorld(mFrame.sizePx);
+        raster.pictureFromWorld = mCamera.atKey(mRasterKey).pictureFromWorld(mFrame.sizePx);
         raster.rowCount = mMotion.rowCount;
         for (const HostMover& mover : mMotion.movers) {
             const bool deforms = mover.worldFromObject.empty();
@@ -155,8 +87,9 @@ class Builder {
     }
 
     /// Adds the row unless it stays where the layer has it.
-    void addMover(LayerBuilder& layer, uint32_t row, const Way& way, const dmat4& worldFromObject)
-        const {
+    void addMover(
+        LayerBuilder& layer, uint32_t row, const MoverWay& way, const dmat4& worldFromObject
+    ) const {
         if (way.staysAt(worldFromObject))
             return;
         layer.addMover(row, worldFromObject, [&](size_t instant) {
@@ -229,14 +162,13 @@ class Builder {
 
     const HostMotion& mMotion;
     const HostMotionFrame& mFrame;
-    std::vector<HostCamera> mCameras; ///< one per key
-    std::vector<Pose> mCameraPoses;   ///< one per key: world from view
+    CameraWay mCamera;
     size_t mRasterKey = 0;
-    std::vector<double> mTimes;            ///< of the instants
-    std::vector<Between> mPlaces;          ///< one per instant
-    std::vector<dmat4> mPictures;          ///< one per instant
-    std::vector<uint32_t> mMoverOfRow;     ///< index of movers, or kNone
-    std::vector<std::optional<Way>> mWays; ///< one per mover; nothing: by motion vectors
+    std::vector<double> mTimes;                 ///< of the instants
+    std::vector<BetweenKeys> mPlaces;           ///< one per instant
+    std::vector<dmat4> mPictures;               ///< one per instant
+    std::vector<uint32_t> mMoverOfRow;          ///< index of movers, or kNone
+    std::vector<std::optional<MoverWay>> mWays; ///< one per mover; nothing: by motion vectors
 };
 
 } // namespace

@@ -14,10 +14,14 @@ struct ResponseTable;
 
 namespace shutter::motion_blur {
 
+inline constexpr double kMostKeyTime = 1.0e6; ///< of HostCameraKey::time
+
 /// The camera at one shutter time. Matrices are column by column and take columns: clip =
 /// clipFromView * viewFromWorld * world.
 struct HostCameraKey {
-    double time = 0.0; ///< shutter time, [0, 1]: 0 open, 1 close
+    /// Shutter time: 0 open, 1 close. One outside of [0, 1] counts for what lies between it and the
+    /// next key, as that of the frame before does (timeOfFrameBefore()). Within kMostKeyTime of 0.
+    double time = 0.0;
     /// Affine and not singular. Ahead is -Z, or +Z with HostMotion::aheadIsPlusZ. The view's unit
     /// is that of the depth in HostInputs::motionDepth: metres.
     glm::dmat4 viewFromWorld{1.0};
@@ -44,13 +48,15 @@ struct HostMover {
 /// Between keys, translation is straight, rotation takes the shorter arc, and scale, shear and
 /// projection are linear. Before the first key and after the last one all stands still. Three keys
 /// (open, raster, close) are enough for what turns evenly, by less than half a turn from key to
-/// key.
+/// key. A host that knows the frame before and this one alone gives two: that frame's matrices at
+/// timeOfFrameBefore(), and this one's at HostInputs::rasterTime. Keys alone say how long the
+/// exposure is; HostScales::exposureShare scales vectors.
 struct HostMotion {
     /// [1, 64], their times rising; one is at HostInputs::rasterTime, to 1e-6.
     std::span<const HostCameraKey> keys;
     bool aheadIsPlusZ = false; ///< of view space; false: ahead is -Z
     /// [1, 2^24 - 1]. Values of the image are rows below it, and 0xFFFFFFFF is the sky. A pixel of
-    /// any other value counts as unresolved.
+    /// any other value counts as unresolved. Without HostInputs::entityId it does not count.
     uint32_t rowCount = 0;
     /// In any order, each row once. A row without an entry stands still in the world: where it is,
     /// and in the frame before. One that is listed but does not move costs next to nothing.

@@ -82,13 +82,19 @@ core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
         return makeError(
             "motion blur: motion.keys holds {}, it needs 1 to {}", motion.keys.size(), kMostKeys
         );
-    double before = -1.0;
+    double before = -HUGE_VAL;
     bool hasRaster = false;
     for (size_t i = 0; i < motion.keys.size(); ++i) {
         const HostCameraKey& key = motion.keys[i];
         const std::string name = fmt::format("motion.keys[{}]", i);
-        if (!(key.time >= 0.0 && key.time <= 1.0))
-            return makeError("motion blur: {}.time is {}, it must be 0 to 1", name, key.time);
+        if (!(std::abs(key.time) <= kMostKeyTime))
+            return makeError(
+                "motion blur: {}.time is {}, it must be {} to {}",
+                name,
+                key.time,
+                -kMostKeyTime,
+                kMostKeyTime
+            );
         if (!(key.time > before))
             return makeError(
                 "motion blur: {}.time is {}, not after the key's before", name, key.time

@@ -55,7 +55,8 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.output = make(plan.outputFormat);
     if (plan.areParts)
         inputs.color.layer = inputs.output.layer = 1;
-    inputs.entityId = make(plan.entityIdFormat);
+    if (plan.entityIdFormat != VK_FORMAT_UNDEFINED)
+        inputs.entityId = make(plan.entityIdFormat);
     inputs.normal = make(kHostColorFormat);
     if (plan.hasVectors) {
         inputs.convention.vectors.image = make(VK_FORMAT_R16G16_SFLOAT);
@@ -65,7 +66,9 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.motionDepth = make(kHostMotionFormat);
     }
     if (plan.lendsLast)
-        inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), make(plan.entityIdFormat)};
+        inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), inputs.entityId};
+    if (inputs.last.entityId.image)
+        inputs.last.entityId.image = imagineImage(next);
     inputs.reveal.record = [](const RevealTask&) {};
     inputs.samples.record = [](const SampleTask&) {};
     imagineMotion(plan, imagined);

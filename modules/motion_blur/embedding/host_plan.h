@@ -18,7 +18,7 @@ struct HostPlan {
     uint32_t viewCount = 1; ///< that keep a history of their own, [1, framesInFlight]
     VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
     VkFormat outputFormat = VK_FORMAT_R16G16B16A16_SFLOAT; ///< UNDEFINED: in place
-    VkFormat entityIdFormat = VK_FORMAT_R32_UINT;
+    VkFormat entityIdFormat = VK_FORMAT_R32_UINT;          ///< UNDEFINED: no ids
     bool areParts = false;   ///< color and output are parts or layers of larger images
     bool hasVectors = false; ///< vectors and depth of the host's own in place of motionDepth
     bool lendsLast = false;  ///< HostInputs::last

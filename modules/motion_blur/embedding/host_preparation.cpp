@@ -7,6 +7,7 @@
 #include "spirv/motion_blur/prepare_ids.comp.h"
 #include "spirv/motion_blur/prepare_image.comp.h"
 #include "spirv/motion_blur/prepare_motion.comp.h"
+#include "spirv/motion_blur/prepare_world.comp.h"
 
 #include "engine/core/check.h"
 #include "engine/gpu/vulkan.h"
@@ -36,6 +37,10 @@ struct PrepareIdsPush {
     glm::uvec2 sizePx;
     shader::PrepareArea area;
     uint32_t noneValue;
+};
+
+struct PrepareWorldPush {
+    glm::uvec2 sizePx;
 };
 
 struct DeliverPush {
@@ -77,6 +82,12 @@ HostPreparation::HostPreparation(gpu::Device& device)
       mIds(
           device,
           describePixelPass("prepare ids", motion_blur_prepare_ids_comp, 1, sizeof(PrepareIdsPush))
+      ),
+      mWorldIds(
+          device,
+          describePixelPass(
+              "prepare world", motion_blur_prepare_world_comp, 1, sizeof(PrepareWorldPush)
+          )
       ),
       mDeliverHalf(
           device,
@@ -152,6 +163,20 @@ graph::ImageHandle HostPreparation::addIds(
         {image},
         createPicture(graph, "prepared ids", VK_FORMAT_R32_UINT, picture),
         PrepareIdsPush{sizeOf(picture), makeArea(given, picture), noneValue},
+        mSampler
+    );
+}
+
+graph::ImageHandle HostPreparation::addWorldIds(
+    graph::Graph& graph, graph::ImageHandle motionDepth, VkExtent2D picture
+) const {
+    return addPixelPass(
+        graph,
+        mWorldIds,
+        "prepare world",
+        {motionDepth},
+        createPicture(graph, "world ids", VK_FORMAT_R32_UINT, picture),
+        PrepareWorldPush{sizeOf(picture)},
         mSampler
     );
 }

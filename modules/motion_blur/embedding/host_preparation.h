@@ -44,6 +44,9 @@ class HostPreparation {
         uint32_t noneValue,
         VkExtent2D picture
     ) const;
+    /// R32_UINT of one id for all that is not the sky. \param motionDepth as the effect reads it
+    [[nodiscard]] graph::ImageHandle
+    addWorldIds(graph::Graph& graph, graph::ImageHandle motionDepth, VkExtent2D picture) const;
     /// Writes the picture into the part of the host's image that is used, and returns that image.
     /// \param format RGBA16F, RGBA32F or B10G11R11
     [[nodiscard]] graph::ImageHandle addDelivery(
@@ -60,6 +63,7 @@ class HostPreparation {
     gpu::LazyPipeline mColor;
     gpu::LazyPipeline mNormal;
     gpu::LazyPipeline mIds;
+    gpu::LazyPipeline mWorldIds;
     gpu::LazyPipeline mDeliverHalf;
     gpu::LazyPipeline mDeliverFloat;
     gpu::LazyPipeline mDeliverPacked;

@@ -320,7 +320,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     refuse(
         [](C& c) {
             c.depth.image.extent = {200, 100};
-            c.depth.image.area.offset = {1, 0};
+            c.depth.image.area = {{1, 0}, {200, 100}};
         },
         "depth.image.area ends at 201, 100, beyond its extent of 200 x 100"
     );

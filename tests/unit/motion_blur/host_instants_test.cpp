@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Where a host's surfaces are seen at the instants, held against projecting them anew; and when its
 // last raster says nothing.
+#include "modules/motion_blur/embedding/host_inputs.h"
 #include "tests/unit/motion_blur/host_motion_fixture.h"
+
+#include <limits>
 
 namespace shutter::motion_blur {
 namespace {
@@ -78,6 +81,32 @@ TEST_F(HostInstantsTest, ThreeKeysAreEnoughForWhatTurnsBeforeATurningCamera) {
     EXPECT_EQ(made.layers.raster.movers.at(0), shader::kWorldMover);
     EXPECT_EQ(made.layers.raster.movers.at(kRows), shader::kSkyMover);
     expectMaps(made.layers.raster, 0, project(still, 1.0), stillAt);
+}
+
+TEST_F(HostInstantsTest, AKeyBeforeTheShutterOpensCountsForWhatComesAfterIt) {
+    HostInputs inputs;
+    inputs.convention.scales.exposureShare = 0.8f;
+    const double before = timeOfFrameBefore(inputs);
+    EXPECT_NEAR(before, -0.25, 1e-7);
+    setKeys({before, 0.4, 1.0}); // by less than half a turn from key to key
+    addTumbler();
+    const HostInstants made = compute();
+    expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
+}
+
+TEST_F(HostInstantsTest, TheTimeOfTheFrameBeforeIsFiniteWhateverTheShare) {
+    HostInputs inputs;
+    EXPECT_DOUBLE_EQ(timeOfFrameBefore(inputs), -1.0); // half of the time between the frames
+    inputs.rasterTime = 0.5;
+    EXPECT_DOUBLE_EQ(timeOfFrameBefore(inputs), -1.5);
+    inputs.convention.scales.displayedPerRendered = 2.0f;
+    EXPECT_DOUBLE_EQ(timeOfFrameBefore(inputs), -3.5);
+    for (const float share : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+        inputs.convention.scales.exposureShare = share;
+        setKeys({timeOfFrameBefore(inputs), 0.5});
+        frame.rasterTime = 0.5;
+        EXPECT_TRUE(check().ok()) << check().error().message;
+    }
 }
 
 TEST_F(HostInstantsTest, SoTheyAreUnderAnOrthographicCamera) {

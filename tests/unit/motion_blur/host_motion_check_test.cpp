@@ -58,8 +58,9 @@ TEST_F(HostMotionCheck, EachBadKeyIsNamed) {
         "motion.keys is null, its size is 3"
     );
     refuse([&] { keys[1].time = kNan; }, "motion.keys[1].time is nan");
-    refuse([&] { keys[2].time = 1.5; }, "motion.keys[2].time is 1.5");
-    refuse([&] { keys[0].time = -0.1; }, "motion.keys[0].time is -0.1");
+    refuse([&] { keys[2].time = 2.0e6; }, "motion.keys[2].time is 2000000, it must be -1000000 to");
+    refuse([&] { keys[0].time = -2.0e6; }, "motion.keys[0].time is -2000000");
+    refuse([&] { keys[0].time = -HUGE_VAL; }, "motion.keys[0].time is -inf");
     refuse([&] { keys[1].time = 0.0; }, "motion.keys[1].time is 0, not after");
     refuse([&] { keys[2].time = 0.9; }, "motion.keys has no key at rasterTime, which is 1");
     refuse(

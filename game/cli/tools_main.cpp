@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The program of a build for hosts (SHUTTER_EMBEDDING_TOOLS): what it does to their dumps.
+#include "game/cli/compare_command.h"
+#include "game/options/program.h"
+#include "game/replay/replay_command.h"
+
+#include <CLI/CLI.hpp>
+
+using namespace shutter;
+
+int main(int argc, char** argv) {
+    CLI::App app("Shutter: motion blur that is right", "shutter");
+    app.require_subcommand(1);
+    int exitStatus = game::kExitDone;
+    replay::addReplayCommand(app, exitStatus);
+    game::addCompareCommand(app, exitStatus);
+    return game::runProgram(app, argc, argv, exitStatus);
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Cameras against the last frame's depth, for a host without motion vectors: where the cameras say
+// that this frame's surfaces were, that frame must show surfaces at their distance. As with vectors
+// (host_check_vectors.cpp), what a host may have got wrong is tried, one mistake at a time.
+#include "modules/motion_blur/embedding/host_check_last.h"
+#include "modules/motion_blur/embedding/host_check_lens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using math::dmat4;
+using math::dvec2;
+
+constexpr size_t kLeastKnown = 200;  ///< fewer samples tell nothing
+constexpr size_t kLeastTelling = 48; ///< samples that a mistake explains
+constexpr size_t kLensStride = 3;    ///< of the samples that a lens is fitted to
+
+/// What of a frame's samples is found in the last one.
+struct Found {
+    std::vector<Match> matches;
+    size_t same = 0;
+    size_t other = 0;
+    size_t outside = 0; ///< of the last picture, by the cameras
+
+    [[nodiscard]] size_t known() const { return same + other; }
+};
+
+/// The frames as the host said, or as it might have meant.
+struct Said {
+    CheckFacts now;
+    CheckFacts last;
+};
+
+class Reprojection {
+  public:
+    Reprojection(const CheckedFrame& now, const CheckedFrame& last)
+        : mNow(now), mLast(last), mIsMover(markMovers(now.facts)), mSaid{now.facts, last.facts},
+          mFound(reproject(mSaid)) {}
+
+    [[nodiscard]] std::optional<Finding> findMistake() {
+        // What a camera leaves behind in a frame is less than what it goes on to see, as a rule.
+        if (mFound.outside > mFound.known())
+            std::replace(
+                mFound.matches.begin(), mFound.matches.end(), Match::Unknown, Match::Other
+            );
+        else if (mFound.known() < kLeastKnown || 20 * mFound.other <= mFound.known())
+            return std::nullopt;
+        tryCameras();
+        tryDepth();
+        if (!mBest)
+            tryLens();
+        if (mBest)
+            return Finding{CheckKind::Vectors, "the last frame's depth agrees with " + mSentence};
+        return describeRest();
+    }
+
+  private:
+    [[nodiscard]] Found reproject(const Said& said, size_t stride = 1) const {
+        const FineDepth depth(mLast, said.last);
+        const std::vector<CheckPoint> points = makePoints(mNow, said.now);
+        const VkExtent2D size = said.now.picture;
+        Found found;
+        for (size_t i = 0; i < points.size(); i += stride) {
+            const CheckPoint& point = points[i];
+            const bool moves = point.id < mIsMover.size() && mIsMover[point.id];
+            Match match = Match::Unknown;
+            if (!point.isSky && !moves) {
+                const dvec2 place = point.place - point.camera;
+                match = depth.compare(place, point.metresBefore);
+                found.outside +=
+                    !(place.x >= 0.0 && place.y >= 0.0 && place.x <= size.width &&
+                      place.y <= size.height);
+            }
+            found.matches.push_back(match);
+            found.same += match == Match::Same;
+            found.other += match == Match::Other;
+        }
+        return found;
+    }
+
+    /// The guess explains what the host's own words do not, and hardly loses anything.
+    void consider(const Said& guess, const std::string& sentence) {
+        const Found found = reproject(guess);
+        size_t won = 0;
+        size_t lost = 0;
+        for (size_t i = 0; i < found.matches.size(); ++i) {
+            won += found.matches[i] == Match::Same && mFound.matches[i] == Match::Other;
+            lost += found.matches[i] == Match::Other && mFound.matches[i] == Match::Same;
+        }
+        const bool isBetter = won >= std::max(kLeastTelling, mFound.known() / 20) &&
+                              won >= 6 * lost && 10 * found.same >= 7 * found.known() &&
+                              2 * found.known() >= mFound.known();
+        if (!isBetter || (mBest && *mBest >= found.same))
+            return;
+        mBest = found.same;
+        mSentence = sentence;
+    }
+
+    void tryCameras() {
+        Said guess = mSaid;
+        HostCameras& cameras = guess.now.convention.cameras;
+        for (dmat4* view : {&cameras.viewFromWorld, &cameras.viewFromWorldBefore})
+            *view = glm::inverse(*view);
+        consider(
+            guess,
+            "the inverse of cameras.viewFromWorld: it holds the camera's own place (world from "
+            "view); give its inverse, and that of viewFromWorldBefore"
+        );
+        consider(
+            {scaleLens(mSaid.now, {1.0, -1.0}), mSaid.last},
+            "the cameras after the second row of cameras.clipFromView is negated: y = -1 must be "
+            "the top of the picture; negate the row of clipFromViewBefore, too"
+        );
+    }
+
+    void tryDepth() {
+        const HostDepth& depth = mSaid.now.convention.depth;
+        const auto change = [&](const auto& apply) {
+            Said guess = mSaid;
+            apply(guess.now);
+            apply(guess.last);
+            return guess;
+        };
+        const auto interpret = [&](bool isRaw) {
+            return change([&](CheckFacts& facts) {
+                facts.convention.depth.isRaw = isRaw;
+                facts.convention.depth.skyValue = std::numeric_limits<float>::quiet_NaN();
+            });
+        };
+        if (depth.isRaw) {
+            consider(
+                change([](CheckFacts& facts) {
+                    facts.flipsDepth = true;
+                    facts.convention.depth.skyValue = 1.0f - facts.convention.depth.skyValue;
+                }),
+                "the cameras after depth is reversed: cameras.clipFromView has near and far the "
+                "other way round than convention.depth.image"
+            );
+            consider(interpret(false), "the cameras if depth is linear: set depth.isRaw = false");
+            return;
+        }
+        consider(
+            interpret(true),
+            "the cameras if depth is as the hardware stores it: set depth.isRaw = true"
+        );
+        for (const float factor : kUnitFactors)
+            consider(
+                change([&](CheckFacts& facts) { facts.convention.depth.metresPerUnit *= factor; }),
+                fmt::format(
+                    "the cameras after depth is multiplied by {:g}: depth and viewFromWorld are in "
+                    "different units, set depth.metresPerUnit = {:g}",
+                    factor,
+                    factor * depth.metresPerUnit
+                )
+            );
+    }
+
+    void tryLens() {
+        const dvec2 scale = fitLens([&](const dvec2& tried) {
+            const Found found = reproject({scaleLens(mSaid.now, tried), mSaid.last}, kLensStride);
+            return -double(found.same);
+        });
+        consider(
+            {scaleLens(mSaid.now, scale), mSaid.last},
+            "the cameras if " + describeLens(mSaid.now, scale) +
+                ": set it, and clipFromViewBefore's, to what the picture was drawn with"
+        );
+    }
+
+    /// Where movers are listed, all else stands still by the host's own word.
+    [[nodiscard]] std::optional<Finding> describeRest() const {
+        const bool isSaid = mNow.facts.readsMotion && mNow.facts.hasIds;
+        const size_t least = isSaid ? 4 : 7; // tenths
+        if (mFound.known() < kLeastKnown || 10 * mFound.other < least * mFound.known())
+            return std::nullopt;
+        return Finding{
+            CheckKind::Unexplained,
+            fmt::format(
+                "by the last frame's depth, {} of what stands still is not where "
+                "convention.cameras "
+                "say, and no single mistake explains it: hold viewFromWorld, viewFromWorldBefore, "
+                "clipFromView and depth against what the picture was drawn with",
+                describeShare(double(mFound.other) / double(mFound.known()))
+            )};
+    }
+
+    const CheckedFrame& mNow;
+    const CheckedFrame& mLast;
+    std::vector<bool> mIsMover;
+    Said mSaid;
+    Found mFound;
+    std::optional<size_t> mBest;
+    std::string mSentence;
+};
+
+} // namespace
+
+void checkReprojection(
+    const CheckedFrame& now, const CheckedFrame& last, std::vector<Finding>& findings
+) {
+    const VkExtent2D size = now.facts.picture;
+    if (size.width != last.facts.picture.width || size.height != last.facts.picture.height ||
+        !now.facts.convention.cameras.areGiven || !last.facts.convention.cameras.areGiven)
+        return;
+    if (auto finding = Reprojection(now, last).findMistake())
+        findings.push_back(std::move(*finding));
+}
+
+} // namespace shutter::motion_blur

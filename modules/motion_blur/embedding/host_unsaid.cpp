@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/embedding/host_unsaid.h"
+
+#include "modules/motion_blur/embedding/host_input_check.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+struct Named {
+    const HostImage& image;
+    HostImageRule rule;
+};
+
+std::array<Named, 11> listImages(const HostInputs& inputs) {
+    const HostConvention& convention = inputs.convention;
+    return {
+        {{inputs.color, colorRule(inputs)},
+         {inputs.output, outputRule(inputs)},
+         {inputs.motionDepth, kMotionRule},
+         {convention.vectors.image, kVectorsRule},
+         {convention.depth.image, kDepthRule},
+         {convention.scales.perPixel, kBlurScaleRule},
+         {inputs.entityId, kIdRule},
+         {inputs.normal, kNormalRule},
+         {inputs.last.color, kLastColorRule},
+         {inputs.last.motionDepth, kLastMotionRule},
+         {inputs.last.entityId, kLastIdRule}}};
+}
+
+void append(std::string& list, const char* name) {
+    list += (list.empty() ? "" : ", ") + std::string(name);
+}
+
+/// How many times the memory of an image as it is said the image takes.
+double measureMemory(VkDevice device, const Named& named, VkExtent2D picture) {
+    VkMemoryRequirements taken{};
+    vkGetImageMemoryRequirements(device, named.image.image, &taken);
+    const VkExtent2D extent = extentOf(named.image, picture);
+    return double(taken.size) / double(leastBytes(extent, formatOf(named.image, named.rule)));
+}
+
+} // namespace
+
+void HostUnsaid::ask(const HostInputs& inputs, const HostMessage& message) {
+    if (!message)
+        return;
+    const auto images = listImages(inputs);
+    const VkExtent2D picture = pictureOf(inputs);
+    std::string usages;
+    std::string samples;
+    std::string extents;
+    for (uint32_t i = 0; i < images.size(); ++i) {
+        const Named& named = images[i];
+        const uint32_t bit = 1u << i;
+        if (!named.image.image)
+            continue;
+        if ((mAsked & bit) == 0 && named.image.usage == 0)
+            append(usages, named.rule.name);
+        if ((mAsked & bit) == 0 && named.image.samples == 0)
+            append(samples, named.rule.name);
+        mAsked |= bit;
+        // Padding and a chain of mip levels are less than that.
+        constexpr double kMostTimes = 1.8;
+        constexpr uint64_t kLeastPixels = 128 * 128; // padding counts for much of a smaller one
+        const bool isLarge = uint64_t(picture.width) * picture.height >= kLeastPixels;
+        if (isLarge && (mExtentAsked & bit) == 0 && named.image.extent.width == 0 &&
+            measureMemory(mDevice, named, picture) > kMostTimes) {
+            append(extents, named.rule.name);
+            mExtentAsked |= bit;
+        }
+    }
+    if (!usages.empty() || !samples.empty())
+        message(fmt::format(
+            "motion blur check: {}{}{}{}{} not said, so it cannot be checked: say what the images "
+            "were made with, and what is missing is refused by name instead of left to the driver",
+            usages.empty() ? "" : "the usage of ",
+            usages,
+            usages.empty() || samples.empty() ? "" : ", and ",
+            samples.empty() ? "" : "the samples of " + samples,
+            usages.empty() || samples.empty() ? " is" : " are"
+        ));
+    if (!extents.empty())
+        message(fmt::format(
+            "motion blur check: the extent of {} is not said, and the image's memory is that of a "
+            "much larger one than {} x {}: say how large it is, and the area of it that is used",
+            extents,
+            picture.width,
+            picture.height
+        ));
+}
+
+} // namespace shutter::motion_blur
