@@ -70,7 +70,7 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
     clear();
     const scene::World& world = frame.world;
     for (auto [entity, instance] : world.registry.view<scene::MeshInstance>()) {
-        if (!hasTriangles(frame.layout, instance.mesh) || scene::isHidden(world, entity))
+        if (!hasTriangles(frame.layout, instance.mesh) || scene::isAlwaysHidden(world, entity))
             continue;
         list(frame, entity, instance.mesh);
         if (mRows.size() > frame.request.entityLimit)
@@ -115,12 +115,15 @@ bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
     // Under a moving camera, a scale of its own moves in the world what stands still in it.
     return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity) ||
            scene::findBlurScale(frame.world, entity) != 1.0 ||
+           scene::mayComeOrGo(frame.world, entity, frame.request.exposure.frame().open) ||
            frame.request.exposure.cap.findMover(entity) != nullptr;
 }
 
 std::optional<FrameExtractor::Posed>
 FrameExtractor::pose(const Frame& frame, ecs::Entity entity, uint32_t mesh, bool evolves) {
     const scene::ExposureMotion& motion = frame.view.motion();
+    if (motion.isHidden(entity))
+        return std::nullopt;
     const DeformationTimes& times = frame.view.times();
     const dmat4 raster = motion.worldFromObject(entity, times.raster);
     Posed posed{ObjectPoses(raster), std::nullopt};
@@ -215,7 +218,7 @@ bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& chan
         const uint32_t mesh = frame.world.registry.get<scene::MeshInstance>(entity).mesh;
         const uint32_t row = rowOf(entity.index);
         const bool isAsListed =
-            row == kNone ? !hasTriangles(frame.layout, mesh) || scene::isHidden(frame.world, entity)
+            row == kNone ? !hasTriangles(frame.layout, mesh) || scene::isAlwaysHidden(frame.world, entity)
                          : row != kLatent && mesh == mFrame.entityMeshes[row];
         if (!isAsListed)
             return false;
@@ -394,7 +397,7 @@ void FrameExtractor::addLights(const Frame& frame) {
     mFrame.lights.clear();
     mFrame.lightEntities.clear();
     for (auto [entity, light] : frame.world.registry.view<scene::Light>()) {
-        if (scene::isHidden(frame.world, entity))
+        if (motion.isHiddenAt(entity, frame.view.times().raster))
             continue;
         const dmat4 world = motion.worldFromLight(entity, frame.view.times().raster);
         // A light that is nowhere lights nothing; its NaN would blacken the picture.

@@ -3,12 +3,12 @@
 
 #include "engine/core/check.h"
 #include "engine/extract/frame_view.h"
+#include "engine/scene/deformation.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -41,9 +41,7 @@ class Builder {
           mCamera(world.registry.get<scene::Camera>(view.camera)),
           mMotion(world, view.camera, view.exposure) {
         for (uint32_t i = 0; i < instantCount; ++i)
-            mTimes.push_back(
-                scene::invertResponse(view.exposure.shutter.response, (i + 0.5) / instantCount)
-            );
+            mTimes.push_back(scene::invertLight(view.exposure, (i + 0.5) / instantCount));
         for (const double s : mTimes)
             mPictures.push_back(pictureFromWorldAt(mWorld, mView, mMotion, s));
         mRasterPicture = pictureFromWorldAt(mWorld, mView, mMotion, view.exposure.rasterTime);
@@ -56,9 +54,9 @@ class Builder {
         InstantTables tables;
         tables.isPerspective = mCamera.kind == scene::CameraKind::Perspective;
         tables.times.assign(mTimes.begin(), mTimes.end());
-        tables.record = makeRasterRecord(mView, mFrame, mView.exposure.raster, mRasterPicture);
+        tables.record = makeRasterRecord(mWorld, mView, mMotion, mFrame, mView.exposure.rasterTime);
         tables.raster = describeRaster(tables.rasterWays);
-        if (last && mayUse(*last))
+        if (last && isOfFrameBefore(mWorld, mView, mMotion, *last))
             tables.last = describeLast(*last, tables.record, tables.lastWays);
         if (second)
             tables.second =
@@ -71,8 +69,7 @@ class Builder {
     RasterRecord makeSecondRecord(const InstantFrame& second) const {
         ViewRequest view = mView;
         view.jitterPx = second.jitterPx;
-        const dmat4 picture = pictureFromWorldAt(mWorld, view, mMotion, second.instant);
-        return makeRasterRecord(view, second.frame, mView.exposure.at(second.instant), picture);
+        return makeRasterRecord(mWorld, view, mMotion, second.frame, second.instant);
     }
 
     [[nodiscard]] LayerBuilder begin(const dmat4& layerPicture, size_t rows) const {
@@ -175,14 +172,6 @@ class Builder {
         return layer.take();
     }
 
-    bool mayUse(const RasterRecord& last) const {
-        const scene::ExposureInterval& exposure = mView.exposure;
-        const double age = exposure.raster - last.seconds;
-        return age > 0.0 &&
-               std::abs(age - exposure.frameSeconds) <= kFrameSlack * exposure.frameSeconds &&
-               showsTheSame(mWorld, mView, mMotion, last);
-    }
-
     LayerTables
     describeLast(const RasterRecord& last, const RasterRecord& now, std::vector<ShapeWay>& ways) {
         const scene::TimeSpan span = spanSince(last, mView.exposure);
@@ -246,6 +235,14 @@ class Builder {
         return true;
     }
 
+    /// Whether an entity without a row is not drawn only because it has shrunk to nothing.
+    bool isTooSmall(ecs::Entity entity) const {
+        return mWorld.registry.isAlive(entity) &&
+               mWorld.registry.has<scene::MeshInstance>(entity) &&
+               !scene::isHidden(mWorld, entity) && !scene::isDeformable(mWorld, entity) &&
+               mMotion.mayObjectMove(entity);
+    }
+
     /// A raster that is not the frame's own.
     /// \param isUnknown (ecs::Entity) -> bool: where it was does not say where it is
     template <class IsUnknown>
@@ -266,15 +263,17 @@ class Builder {
             poseOfRow[other.shapes[i].row] = i;
         for (size_t row = 0; row < count; ++row) {
             const uint32_t current = rows[row];
+            const ecs::Entity entity = other.entities[row];
             const uint32_t shape = current == kNoRow ? kNoRow : mShapeOfRow[current];
-            if (current == kNoRow || (shape == kNoRow) != (poseOfRow[row] == kNoRow)) {
+            const bool isSeen = current != kNoRow || isTooSmall(entity);
+            if (!isSeen || (shape == kNoRow) != (poseOfRow[row] == kNoRow)) {
                 layer.setMover(row, shader::kNoMover);
                 continue;
             }
             if (shape != kNoRow && addShaped(layer, other, poseOfRow[row], shape, ways, isUnknown))
                 continue;
-            const bool wasMoved = other.worldFromObject[row] != now.worldFromObject[current];
-            const ecs::Entity entity = other.entities[row];
+            const bool wasMoved =
+                current == kNoRow || other.worldFromObject[row] != now.worldFromObject[current];
             if (!wasMoved && !(mayMove[current] && mMotion.mayObjectMove(entity)))
                 continue;
             if (isUnknown(entity))

@@ -8,6 +8,7 @@
 #include "engine/scene/motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace shutter::extract {
@@ -28,17 +29,21 @@ dmat4 pictureFromWorldAt(
 }
 
 RasterRecord makeRasterRecord(
+    const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
-    double seconds,
-    const dmat4& pictureFromWorld
+    double s
 ) {
+    ViewRequest unjittered = view;
+    unjittered.jitterPx = math::dvec2(0.0);
     RasterRecord record;
-    record.seconds = seconds;
+    record.seconds = view.exposure.frame().raster;
     record.camera = view.camera;
     record.width = view.width;
     record.height = view.height;
-    record.pictureFromWorld = pictureFromWorld;
+    record.pictureFromWorld = pictureFromWorldAt(world, view, motion, s);
+    record.unjitteredFromWorld = pictureFromWorldAt(world, unjittered, motion, s);
     // Rows of others' making stand behind those that were drawn.
     const auto drawn = std::ptrdiff_t(frame.worldFromObject.size());
     record.entities.assign(frame.entityHandles.begin(), frame.entityHandles.begin() + drawn);
@@ -67,13 +72,56 @@ bool showsTheSame(
     const auto poseAt = [&](double seconds) {
         return scene::worldFromRigid(world, view.camera, seconds);
     };
-    return !scene::findsCameraCut(poseAt, last.seconds, exposure.raster, exposure.shutter.cuts);
+    const double raster = exposure.frame().raster;
+    return !scene::findsCameraCut(poseAt, last.seconds, raster, exposure.shutter.cuts);
+}
+
+bool isOfFrameBefore(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+) {
+    const scene::ExposureInterval& exposure = view.exposure;
+    const double age = exposure.frame().raster - last.seconds;
+    return age > 0.0 &&
+           std::abs(age - exposure.frameSeconds) <= kFrameSlack * exposure.frameSeconds &&
+           showsTheSame(world, view, motion, last);
+}
+
+bool isOfSameFrame(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+) {
+    if (last.camera != view.camera || last.width != view.width || last.height != view.height ||
+        last.seconds != view.exposure.frame().raster)
+        return false;
+    ViewRequest unjittered = view;
+    unjittered.jitterPx = math::dvec2(0.0);
+    return last.unjitteredFromWorld ==
+           pictureFromWorldAt(world, unjittered, motion, view.exposure.rasterTime);
+}
+
+std::optional<ViewRequest> makeViewBefore(const scene::World& world, const ViewRequest& view) {
+    ViewRequest before = view;
+    before.exposure = scene::computeExposureBefore(view.exposure, 1);
+    RasterRecord record;
+    record.seconds = before.exposure.raster;
+    record.camera = view.camera;
+    record.width = view.width;
+    record.height = view.height;
+    const scene::ExposureMotion motion(world, view.camera, view.exposure);
+    if (!isOfFrameBefore(world, view, motion, record))
+        return std::nullopt;
+    return before;
 }
 
 scene::TimeSpan spanSince(const RasterRecord& last, const scene::ExposureInterval& exposure) {
+    const scene::ExposureTimes frame = exposure.frame();
     return {
-        last.seconds + kFrameSlack * exposure.frameSeconds,
-        std::max(exposure.raster, exposure.close)};
+        last.seconds + kFrameSlack * exposure.frameSeconds, std::max(frame.raster, frame.close)};
 }
 
 std::vector<uint32_t>

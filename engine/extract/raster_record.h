@@ -10,6 +10,7 @@
 #include "engine/scene/world.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace shutter::extract {
@@ -29,12 +30,13 @@ struct RasterShape {
 
 /// What a raster image was drawn of: enough to find its surfaces again in the frame after.
 struct RasterRecord {
-    double seconds = 0.0;
+    double seconds = 0.0; ///< the frame's own time
     ecs::Entity camera;
     uint32_t width = 0;
     uint32_t height = 0;
-    math::dmat4 pictureFromWorld{1.0}; ///< picture space (layer_tables.h)
-    std::vector<ecs::Entity> entities; ///< one per row of the entity table
+    math::dmat4 pictureFromWorld{1.0};    ///< picture space (layer_tables.h)
+    math::dmat4 unjitteredFromWorld{1.0}; ///< the same without the raster's jitter
+    std::vector<ecs::Entity> entities;    ///< one per row of the entity table
     std::vector<math::dmat4> worldFromObject;
     std::vector<bool> deforms;       ///< the row's shape changes during the exposure
     std::vector<RasterShape> shapes; ///< in the order of their rows: 128 bytes per joint
@@ -49,12 +51,14 @@ struct RasterRecord {
     double s
 );
 
-/// \param seconds when the raster is taken
+/// \param motion of the view's exposure
+/// \param s shutter time that the raster is taken at
 [[nodiscard]] RasterRecord makeRasterRecord(
+    const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
-    double seconds,
-    const math::dmat4& pictureFromWorld
+    double s
 );
 
 /// Whether the view shows what `last` does, from elsewhere or later: the same camera draws it in
@@ -67,6 +71,31 @@ struct RasterRecord {
     const scene::ExposureMotion& motion,
     const RasterRecord& last
 );
+
+/// Whether `last` was drawn exactly one frame before and the view shows what it does. What a frame
+/// finds in the raster before it must not depend on which frames were drawn.
+/// \param motion of the view's exposure
+[[nodiscard]] bool isOfFrameBefore(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+);
+
+/// Whether the view's frame is the one that `last` was drawn for, which is drawn again, as while a
+/// game is paused: of the same time, from the same place.
+/// \param motion of the view's exposure
+[[nodiscard]] bool isOfSameFrame(
+    const scene::World& world,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const RasterRecord& last
+);
+
+/// The view of the frame before, for a raster that isOfFrameBefore(); nothing where that frame
+/// shows something else, or no time has passed since.
+[[nodiscard]] std::optional<ViewRequest>
+makeViewBefore(const scene::World& world, const ViewRequest& view);
 
 /// The time since `last` in which events end a thing's past.
 [[nodiscard]] scene::TimeSpan

@@ -18,7 +18,7 @@ bool mayUse(
     const scene::ExposureMotion& motion,
     const RasterRecord& last
 ) {
-    const double age = view.exposure.raster - last.seconds;
+    const double age = view.exposure.frame().raster - last.seconds;
     // Frames without a duration, as while time is paused, may still follow a frame with one.
     const double most = kMostFramesAgo * (view.exposure.frameSeconds + scene::kStillFrameSeconds);
     return age >= 0.0 && age <= most && showsTheSame(world, view, motion, last);
@@ -48,12 +48,7 @@ Reprojection computeReprojection(
     Reprojection result;
     result.isPerspective =
         world.registry.get<scene::Camera>(view.camera).kind == scene::CameraKind::Perspective;
-    result.record = makeRasterRecord(
-        view,
-        frame,
-        view.exposure.raster,
-        pictureFromWorldAt(world, unjittered, motion, view.exposure.rasterTime)
-    );
+    result.record = makeRasterRecord(world, unjittered, motion, frame, view.exposure.rasterTime);
     const RasterRecord& now = result.record;
     if (!last || !mayUse(world, view, motion, *last))
         return result;

@@ -102,18 +102,14 @@ ShadowCaster makeShadowCaster(
 }
 
 CasterPath followCaster(
-    const ShadowCaster& caster,
-    const FrameView& view,
-    const ExtractedFrame& frame,
-    const scene::ShutterResponse& response,
-    uint32_t count
+    const ShadowCaster& caster, const FrameView& view, const ExtractedFrame& frame, uint32_t count
 ) {
     const dmat4 objectFromRaster = glm::inverse(frame.worldFromObject[caster.row]);
     CasterPath path;
     math::Bounds centres;
     bool moves = caster.deforms;
     for (uint32_t i = 0; i < count; ++i) {
-        const double s = scene::invertResponse(response, (i + 0.5) / count);
+        const double s = scene::invertLight(view.motion().exposure(), (i + 0.5) / count);
         const dmat4 instant = view.motion().worldFromObject(frame.entityHandles[caster.row], s);
         const dmat4 motion = isDrawable(instant) ? instant * objectFromRaster : dmat4(1.0);
         moves = moves || motion != dmat4(1.0);

@@ -50,11 +50,7 @@ struct CasterPath {
 
 /// \param count of instants, above 0
 [[nodiscard]] CasterPath followCaster(
-    const ShadowCaster& caster,
-    const FrameView& view,
-    const ExtractedFrame& frame,
-    const scene::ShutterResponse& response,
-    uint32_t count
+    const ShadowCaster& caster, const FrameView& view, const ExtractedFrame& frame, uint32_t count
 );
 
 /// A light as casters see it: the way to it (w 0, unit) or its place (w 1).

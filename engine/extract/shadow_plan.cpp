@@ -179,14 +179,12 @@ class Planner {
         for (const PlacedLight& light : mLights)
             lights.push_back(light.place());
         size_t left = kMaxPartLayers / lights.size();
-        const scene::ShutterResponse& response = mView.exposure.shutter.response;
         for (PlannedMover& mover : mMovers) {
-            mover.path =
-                followCaster(mover.caster, mFrameView, mFrame, response, mView.shadows.instants);
+            mover.path = followCaster(mover.caster, mFrameView, mFrame, mView.shadows.instants);
             const uint32_t parts = countParts(mover.caster, mover.path, lights);
             if (parts == 0 || parts > left)
                 continue;
-            mover.parts = followCaster(mover.caster, mFrameView, mFrame, response, parts).instants;
+            mover.parts = followCaster(mover.caster, mFrameView, mFrame, parts).instants;
             if (!std::all_of(
                     mover.parts.begin(),
                     mover.parts.end(),

@@ -41,6 +41,13 @@ Box growBox(const Bounds& bounds) {
     return {math::vec3(bounds.min - margin), math::vec3(bounds.max + margin)};
 }
 
+/// Rays have times of their own: what appears or is hidden during the exposure they meet, or not,
+/// as a part of it shows it.
+scene::ExposureInterval showEvents(const scene::ExposureInterval& exposure) {
+    return exposure.open < exposure.close ? scene::takePart(exposure, exposure.open, exposure.close)
+                                          : exposure;
+}
+
 class Builder {
   public:
     Builder(
@@ -51,7 +58,7 @@ class Builder {
     )
         : mWorld(world), mLayout(layout), mRequest(request), mFrame(frame),
           mCamera(world.registry.get<scene::Camera>(request.camera)),
-          mMotion(world, request.camera, request.exposure) {
+          mMotion(world, request.camera, showEvents(request.exposure)) {
         mOrigin = dvec3(viewAt(request.exposure.rasterTime)[3]);
     }
 
@@ -205,7 +212,7 @@ class Builder {
                 ++next;
                 continue;
             }
-            if (scene::isHidden(mWorld, entity))
+            if (mMotion.isHidden(entity))
                 continue;
             const Bounds& bounds = mLayout.bounds[instance.mesh];
             const uint32_t firstGeometry = mLayout.firstGeometry[instance.mesh];

@@ -38,7 +38,8 @@ class WorldWatch {
         std::tuple<std::pair<Components*, ecs::ChangeCursor>...> all;
     };
 
-    /// What worldFromObject, mayObjectMove and findBlurScale ask of an entity and its ancestors.
+    /// What worldFromObject, mayObjectMove, findBlurScale and mayComeOrGo ask of an entity and
+    /// its ancestors.
     Cursors<
         scene::LocalTransform,
         scene::LocalMatrix,
@@ -46,12 +47,13 @@ class WorldWatch {
         scene::AngularVelocity,
         scene::Animated,
         scene::PathMotion,
-        scene::MotionBlur>
+        scene::MotionBlur,
+        scene::Appeared>
         mPlacing;
     /// Any change of these concerns more than the entity itself.
-    Cursors<scene::Parent> mHierarchy;
+    Cursors<scene::Parent, scene::Hidden> mHierarchy;
     /// These are there or not; with one more or less, other rows are drawn, or in another way.
-    Cursors<scene::Hidden, scene::Skinned, scene::MorphWeights> mPresence;
+    Cursors<scene::Skinned, scene::MorphWeights> mPresence;
     ecs::ChangeCursor mDrawn;
 };
 

@@ -28,7 +28,7 @@ FrameTables::Addresses FrameTables::upload(
     const VkDeviceSize total =
         deformed.empty() ? geometriesAt
                          : geometriesAt + (own.size() + deformed.size()) * sizeof(shader::Geometry);
-    const auto response = scene::computeResponseTable(view.exposure.shutter.response);
+    const auto response = scene::computeLightTable(view.exposure);
     if (mBuffer.bytes() < total)
         mBuffer = gpu::Buffer(
             mDevice,

@@ -41,6 +41,8 @@ struct ViewFacts {
     core::Decision reveal;
     /// False: the frame is drawn for what effects keep for the next one alone, and shown by none.
     bool pictureWanted = true;
+    /// False: the frame after looks nothing up in this one, and what effects kept before stays.
+    bool isFollowed = true;
     /// Somebody reads what effects count on the device, beyond what they need themselves.
     bool countersWanted = true;
     bool displayWanted = false; ///< a display-encoded picture is wanted, not only the linear one
@@ -72,12 +74,11 @@ class Intermediates {
     std::map<std::string, graph::ImageHandle> mImages;
 };
 
-/// The world at the other end of the exposure.
-struct SecondRasterView {
+/// A raster of the world at another time. What it points to lives as long as the graph.
+struct OtherRasterView {
     GBuffer gbuffer;
-    const extract::ExtractedFrame* frame = nullptr; ///< lives as long as the graph
-    gpu_scene::DeformedMeshes shapes;               ///< of `frame`
-    double instant = 0.0;                           ///< shutter time, [0, 1]
+    const extract::ExtractedFrame* frame = nullptr;
+    const extract::ViewRequest* view = nullptr; ///< what `frame` was extracted for
 };
 
 struct PostContext {
@@ -88,10 +89,13 @@ struct PostContext {
     const gpu_scene::DeformedMeshes& shapes; ///< of `frame`
     const ViewFacts& facts;
     const GBuffer& gbuffer;
-    const graph::RayScene* rays;          ///< null where no effect asked for rays
-    const graph::TimedRays* timedRays;    ///< null where no effect asked for moving rays
-    const SecondRasterView* secondRaster; ///< null where the effect does not ask for it
-    graph::ImageHandle color;             ///< linear HDR so far; an effect replaces it
+    const graph::RayScene* rays;       ///< null where no effect asked for rays
+    const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
+    /// Of the exposure's other end (ViewRequest::instant); null where the effect does not ask for
+    /// it.
+    const OtherRasterView* secondRaster;
+    const OtherRasterView* lastRaster; ///< of the frame before; likewise
+    graph::ImageHandle color;          ///< linear HDR so far; an effect replaces it
     /// Jitter of `color`: the raster's (ViewRequest::jitterPx), until an effect takes it out.
     math::dvec2 colorJitterPx;
     graph::ImageHandle display; ///< display-encoded, once somebody made it
@@ -136,6 +140,15 @@ class PostEffect {
     /// The same for a raster of the world at the other end of the exposure
     /// (PostContext::secondRaster).
     [[nodiscard]] virtual core::Decision askSecondRaster(const ViewFacts&) const { return {}; }
+
+    /// The same for the raster of the frame before, drawn once more (PostContext::lastRaster): for
+    /// what did not keep it. It runs only where extract::makeViewBefore() finds that frame.
+    /// \param view of this frame
+    [[nodiscard]] virtual core::Decision askLastRaster(
+        const ViewFacts&, const scene::World&, const extract::ViewRequest& /*view*/
+    ) const {
+        return {};
+    }
 
     /// Declares passes; called only when ask() said run.
     virtual void declare(PostContext& context) = 0;

@@ -34,6 +34,7 @@ ViewFacts stateFacts(const FrameRequest& request, bool moves, const gpu::Device&
     facts.deviceHasRays = device.hasRays();
     facts.deviceHasRayQuery = device.hasRayQuery();
     facts.pictureWanted = request.wantPicture;
+    facts.isFollowed = request.isFollowed;
     facts.countersWanted = request.wantCounters;
     facts.displayWanted = request.wantDisplay || request.showsDisplay;
     facts.lastBrightest = request.lastBrightest;
@@ -48,12 +49,6 @@ decideEnvironment(const extract::ExtractedFrame& frame, const gpu_scene::GpuScen
     return {false, scene.layout().hasEnvironment ? "the view leaves it out" : "the scene has none"};
 }
 
-/// What all effects together want: the first that wants it, or the last that says why not.
-void join(core::Decision& all, const std::string& effect, const core::Decision& own) {
-    if (!all.run && !own.reason.empty())
-        all = {own.run, effect + ": " + own.reason};
-}
-
 void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer) {
     const extract::SurfaceDemand surfaces = extract::decideSurfaces(frame);
     explainer.decide(ExplainedKind::Work, "deformed meshes", surfaces.deformation);
@@ -65,7 +60,8 @@ void explainSurfaces(const extract::ExtractedFrame& frame, Explainer& explainer)
 
 Renderer::Slot::Slot(gpu::Device& device)
     : frame(device), readback(device), tables(device), deformation(device), frameTlas(device),
-      timedScene(device), secondRaster(device), shadows(std::make_unique<ShadowMaps>(device)) {}
+      timedScene(device), secondRaster(device), lastRaster(device),
+      shadows(std::make_unique<ShadowMaps>(device)) {}
 
 Renderer::Slot::~Slot() = default;
 
@@ -81,33 +77,6 @@ Renderer::Renderer(gpu::Device& device, const scene::Assets& assets, uint32_t fr
 }
 
 Renderer::~Renderer() = default;
-
-Renderer::RunningEffects Renderer::askEffects(
-    std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer
-) {
-    RunningEffects running;
-    running.rays = running.timedRays = {false, "no effect that runs traces any"};
-    running.secondRaster = {false, "no effect that runs looks anything up in it"};
-    for (PostEffect* effect : effects) {
-        core::Decision decision = effect->ask(facts);
-        const core::Decision rays = effect->askRays(facts);
-        const core::Decision timedRays = effect->askTimedRays(facts);
-        if (decision.run && (rays.run || timedRays.run) && !facts.deviceHasRays)
-            decision = {false, "it needs rays, which the device cannot trace"};
-        if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
-            decision = {false, "it needs ray queries, which the device lacks"};
-        explainer.decide(ExplainedKind::Effect, effect->name(), decision);
-        if (!decision.run)
-            continue;
-        const core::Decision secondRaster = effect->askSecondRaster(facts);
-        running.effects.push_back({effect, secondRaster.run});
-        running.mayTrace = running.mayTrace || !rays.reason.empty();
-        join(running.rays, effect->name(), rays);
-        join(running.timedRays, effect->name(), timedRays);
-        join(running.secondRaster, effect->name(), secondRaster);
-    }
-    return running;
-}
 
 void Renderer::declareTlas(
     Slot& slot,
@@ -159,12 +128,13 @@ core::Status Renderer::submitFrame(
     FrameStatistics& statistics = pending.result.statistics;
     statistics.measures["extraction ms"] = nowMilliseconds() - pending.startMilliseconds;
     Explainer explainer;
-    RunningEffects running = askEffects(effects, facts, explainer);
+    RunningEffects running = askEffects(world, request.view, effects, facts, explainer);
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
         explainer.decide(ExplainedKind::Work, "rays at any time", running.timedRays);
         explainer.decide(ExplainedKind::Work, "second raster", running.secondRaster);
+        explainer.decide(ExplainedKind::Work, "last raster", running.lastRaster);
     }
 
     std::optional<extract::TimedTables> moving;
@@ -175,9 +145,7 @@ core::Status Renderer::submitFrame(
         moving = std::move(computed).value();
     }
 
-    if (running.secondRaster.run)
-        SHUTTER_TRY(slot.secondRaster->extract(world, mScene.layout(), request.view));
-
+    SHUTTER_TRY(extractOtherRasters(slot, world, request.view, running));
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
@@ -240,49 +208,6 @@ FrameResult Renderer::finishFrame() {
         result.intermediates[name] = slot.readback.take(ticket);
     result.trace = pending.trace.take(slot.readback);
     return result;
-}
-
-std::vector<Renderer::PendingEffect> Renderer::listPending(
-    std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
-) {
-    std::vector<PendingEffect> pending;
-    for (PostEffect* effect : effects) {
-        PendingEffect& own = pending.emplace_back();
-        own.effect = effect;
-        for (const RunningEffect& one : running.effects) {
-            if (one.effect != effect)
-                continue;
-            own.ran = true;
-            for (size_t i = 0; i < plan.passes.size(); ++i)
-                if (plan.passes[i].pass >= one.firstPass && plan.passes[i].pass < one.endPass)
-                    own.times.push_back(i);
-        }
-    }
-    return pending;
-}
-
-void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running) {
-    // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
-    const bool anyRays = running.mayTrace || running.timedRays.run;
-    const bool deformationIdle = mDeformationIdle.advance(!frame.deformed.empty());
-    const bool raysIdle = mRaysIdle.advance(running.rays.run);
-    const bool timedRaysIdle = mTimedRaysIdle.advance(running.timedRays.run);
-    const bool secondRasterIdle = mSecondRasterIdle.advance(running.secondRaster.run);
-    for (const auto& slot : mSlots) {
-        if (deformationIdle)
-            slot->deformation.emplace(mDevice);
-        if (raysIdle)
-            slot->frameTlas.emplace(mDevice);
-        if (timedRaysIdle)
-            slot->timedScene.emplace(mDevice);
-        if (secondRasterIdle)
-            slot->secondRaster.emplace(mDevice);
-    }
-    if (mShadowsIdle.advance((frame.constants.flags & shader::kFrameShadows) != 0))
-        for (const auto& slot : mSlots)
-            slot->shadows = std::make_unique<ShadowMaps>(mDevice);
-    if (mBlasIdle.advance(anyRays))
-        mScene.releaseBlas();
 }
 
 Renderer::Tickets Renderer::declareFrame(
@@ -377,6 +302,7 @@ Renderer::Tickets Renderer::declareFrame(
         running.rays.run ? &rays : nullptr,
         moving ? &timedRays : nullptr,
         nullptr,
+        nullptr,
         gbuffer.color,
         request.view.jitterPx,
         {},
@@ -385,15 +311,25 @@ Renderer::Tickets Renderer::declareFrame(
         tables.constants,
         explainer,
         mNextSlot};
-    std::optional<SecondRasterView> second;
+    const auto declareOther = [&](OtherRaster& other, const char* name) {
+        return other.declare(graph, name, mScene, mGBufferPass, mShadowPipelines.get());
+    };
+    std::optional<OtherRasterView> second;
+    std::optional<OtherRasterView> last;
     for (RunningEffect& one : running.effects) {
+        // Not among the effect's own passes: what a frame takes now and then says nothing of the
+        // frames to come, which a budget is about.
+        if (one.readsLastRaster && !last) {
+            explainer.beginPasses(graph, one.effect->owner(), running.lastRaster.reason);
+            last = declareOther(*slot.lastRaster, "last G-buffer");
+        }
         one.firstPass = graph.passes().size();
         if (one.readsSecondRaster && !second) {
             explainer.beginPasses(graph, one.effect->owner(), running.secondRaster.reason);
-            second =
-                slot.secondRaster->declare(graph, mScene, mGBufferPass, mShadowPipelines.get());
-            context.secondRaster = &*second;
+            second = declareOther(*slot.secondRaster, "second G-buffer");
         }
+        context.secondRaster = one.readsSecondRaster ? &*second : nullptr;
+        context.lastRaster = one.readsLastRaster ? &*last : nullptr;
         explainer.beginPasses(graph, one.effect->owner(), one.effect->name() + " runs");
         one.effect->declare(context);
         one.endPass = graph.passes().size();

@@ -15,10 +15,10 @@
 #include "engine/render/frame_tables.h"
 #include "engine/render/gbuffer.h"
 #include "engine/render/longest_motion.h"
+#include "engine/render/other_raster.h"
 #include "engine/render/pass_trace.h"
 #include "engine/render/post_effect.h"
 #include "engine/render/readback.h"
-#include "engine/render/second_raster.h"
 
 #include <cstdint>
 #include <deque>
@@ -47,6 +47,8 @@ struct FrameRequest {
     bool showsDisplay = false;
     /// False: nothing of the frame is shown. Effects only keep what the next frame looks up.
     bool wantPicture = true;
+    /// False: the frame after looks nothing up in this one. Effects keep what they kept before.
+    bool isFollowed = true;
     /// It measures something and is no frame of the picture: what frames no longer use stays.
     bool isLook = false;
     bool wantDump = false;  ///< describe the graph in FrameResult::dump
@@ -154,6 +156,7 @@ class Renderer {
     struct RunningEffect {
         PostEffect* effect = nullptr;
         bool readsSecondRaster = false;
+        bool readsLastRaster = false;
         size_t firstPass = 0; ///< of its own: indices into Graph::passes()
         size_t endPass = 0;
     };
@@ -164,6 +167,7 @@ class Renderer {
         core::Decision rays;
         core::Decision timedRays;
         core::Decision secondRaster;
+        core::Decision lastRaster;
         bool mayTrace = false; ///< in another frame, if not in this
     };
 
@@ -179,7 +183,8 @@ class Renderer {
         std::optional<gpu_scene::DeformationPass> deformation;
         std::optional<rays::FrameTlas> frameTlas;
         std::optional<rays::TimedScene> timedScene;
-        std::optional<SecondRaster> secondRaster;
+        std::optional<OtherRaster> secondRaster;
+        std::optional<OtherRaster> lastRaster;
         std::unique_ptr<ShadowMaps> shadows;
     };
 
@@ -205,8 +210,20 @@ class Renderer {
     /// per row, and the sky's behind them
     core::Result<std::vector<float>>
     lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
-    static RunningEffects
-    askEffects(std::span<PostEffect* const> effects, const ViewFacts& facts, Explainer& explainer);
+    static RunningEffects askEffects(
+        const scene::World& world,
+        const extract::ViewRequest& view,
+        std::span<PostEffect* const> effects,
+        const ViewFacts& facts,
+        Explainer& explainer
+    );
+    /// Extracts what the running effects look up beside the frame's own raster.
+    [[nodiscard]] core::Status extractOtherRasters(
+        Slot& slot,
+        const scene::World& world,
+        const extract::ViewRequest& view,
+        const RunningEffects& running
+    );
     Tickets declareFrame(
         Slot& slot,
         graph::Graph& graph,
@@ -247,6 +264,7 @@ class Renderer {
     IdleCounter mRaysIdle;
     IdleCounter mTimedRaysIdle;
     IdleCounter mSecondRasterIdle;
+    IdleCounter mLastRasterIdle;
     IdleCounter mBlasIdle;
     IdleCounter mShadowsIdle;
     // Statistics of the frame declared last.

@@ -144,9 +144,12 @@ struct MotionBlur {
 };
 
 /// Neither the entity nor its descendants are drawn or give light. history.h: hide(), show().
-struct Hidden {};
+struct Hidden {
+    double seconds = -std::numeric_limits<double>::infinity(); ///< from this time on
+};
 
-/// The entity came to be, or came into sight, at this time: it has no past (history.h).
+/// The entity came to be, or came into sight, at this time: it has no past, and is not there before
+/// (history.h).
 struct Appeared {
     double seconds = 0.0;
 };

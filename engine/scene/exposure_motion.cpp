@@ -22,13 +22,13 @@ double scaleOf(const MotionBlur& blur) {
 }
 
 /// Times that the picture depends on: the exposure, and what scales reach beyond it.
-TimeSpan findReach(const World& world, const ExposureInterval& exposure) {
+TimeSpan
+findReach(const World& world, const ExposureTimes& exposure, const CameraShutter& shutter) {
     double entityScale = 1.0;
     for (auto [entity, blur] : world.registry.view<MotionBlur>()) {
         (void)entity;
         entityScale = std::max(entityScale, scaleOf(blur));
     }
-    const CameraShutter& shutter = exposure.shutter;
     const double reach =
         entityScale *
         std::max(
@@ -48,6 +48,11 @@ template <class Event> bool anyHappened(const World& world, const TimeSpan& span
             return true;
     }
     return false;
+}
+
+template <class Component> bool hasAny(const World& world) {
+    const auto view = world.registry.view<Component>();
+    return view.begin() != view.end();
 }
 
 bool anyPathCut(const World& world, const TimeSpan& span) {
@@ -71,17 +76,18 @@ double findBlurScale(const World& world, ecs::Entity entity) {
 ExposureMotion::ExposureMotion(
     const World& world, ecs::Entity camera, const ExposureInterval& exposure
 )
-    : mWorld(world), mCamera(camera), mExposure(exposure) {
+    : mWorld(world), mCamera(camera), mExposure(exposure), mFrame(exposure.frame()),
+      mAnyHidden(hasAny<Hidden>(world)) {
     // A still picture has no past to lose.
-    if (!(exposure.open < exposure.close))
+    if (!(mFrame.open < mFrame.close))
         return;
-    const TimeSpan reach = findReach(world, exposure);
+    mReach = findReach(world, mFrame, exposure.shutter);
     // Times of frames are rounded: an event at the time of the frame before must not fall an ulp
     // behind it and count in this one again.
     const double slack = 4.0 * std::numeric_limits<double>::epsilon() *
-                         std::max(std::abs(exposure.raster), exposure.frameSeconds);
-    const double before = exposure.raster - exposure.frameSeconds;
-    mSpan = {std::min(reach.after, before) + slack, reach.until};
+                         std::max(std::abs(mFrame.raster), exposure.frameSeconds);
+    const double before = mFrame.raster - exposure.frameSeconds;
+    mSpan = {std::min(mReach.after, before) + slack, mReach.until};
     mAnyEvents = anyHappened<Appeared>(world, mSpan) || anyHappened<Teleported>(world, mSpan) ||
                  anyPathCut(world, mSpan);
     for (auto [entity, blur] : world.registry.view<MotionBlur>()) {
@@ -89,12 +95,66 @@ ExposureMotion::ExposureMotion(
         mAnyBlurScale = mAnyBlurScale || scaleOf(blur) != 1.0;
     }
     mIsCut = scene::isCut(world, camera, mSpan);
-    if (mIsCut || isHeld(camera) || !scene::mayMove(world, camera))
+    if (!mIsCut)
+        findCut();
+    if (!mIsCut && exposure.whole)
+        noteComings();
+}
+
+void ExposureMotion::findCut() {
+    if (isHeld(mCamera) || !scene::mayMove(mWorld, mCamera))
         return;
     const auto poseAt = [&](double seconds) {
-        return scene::worldFromRigid(world, camera, seconds);
+        return scene::worldFromRigid(mWorld, mCamera, seconds);
     };
-    mIsCut = findsCameraCut(poseAt, reach.after, reach.until, exposure.shutter.cuts);
+    mIsCut = findsCameraCut(poseAt, mReach.after, mReach.until, mExposure.shutter.cuts);
+}
+
+void ExposureMotion::noteComings() {
+    const TimeSpan frame{mFrame.open, mFrame.close};
+    mHasComings = anyHappened<Appeared>(mWorld, frame) || anyHappened<Hidden>(mWorld, frame);
+    if (!mHasComings)
+        return;
+    ExposureInterval whole = mExposure;
+    whole.whole.reset();
+    whole.open = mFrame.open;
+    whole.close = mFrame.close;
+    mLastComing = whole.at(invertLight(whole, 1.0 - kLeastLight));
+}
+
+bool ExposureMotion::isThere(ecs::Entity entity, double seconds) const {
+    return findUpwards(mWorld, entity, [&](ecs::Entity at) {
+               const auto* appeared = mWorld.registry.find<Appeared>(at);
+               const auto* hidden = mWorld.registry.find<Hidden>(at);
+               return (hidden && hidden->seconds <= seconds) ||
+                      (appeared && appeared->seconds > seconds && appeared->seconds < mLastComing);
+           }) == ecs::kNullEntity;
+}
+
+bool ExposureMotion::isHidden(ecs::Entity entity) const {
+    const bool isPart = mExposure.whole.has_value() && !mIsCut;
+    return mAnyHidden && scene::isHidden(mWorld, entity, isPart ? mExposure.open : mFrame.raster);
+}
+
+bool ExposureMotion::isHiddenAt(ecs::Entity entity, double s) const {
+    return scene::isHidden(mWorld, entity, secondsAt(s));
+}
+
+std::vector<double> ExposureMotion::comingsOf(ecs::Entity entity) const {
+    std::vector<double> comings;
+    if (!mHasComings)
+        return comings;
+    (void)findUpwards(mWorld, entity, [&](ecs::Entity at) {
+        const auto* appeared = mWorld.registry.find<Appeared>(at);
+        const auto* hidden = mWorld.registry.find<Hidden>(at);
+        const TimeSpan span{mExposure.open, mExposure.close};
+        if (appeared && span.contains(appeared->seconds) && appeared->seconds < mLastComing)
+            comings.push_back(appeared->seconds);
+        if (hidden && span.contains(hidden->seconds))
+            comings.push_back(hidden->seconds);
+        return false;
+    });
+    return comings;
 }
 
 double ExposureMotion::secondsAt(double s) const {
@@ -104,7 +164,7 @@ double ExposureMotion::secondsAt(double s) const {
 
 double ExposureMotion::scaleTime(double seconds, double scale) const {
     // Not one rounding beside it either: a scale of 1 changes no bit.
-    return scale == 1.0 ? seconds : mExposure.raster + scale * (seconds - mExposure.raster);
+    return scale == 1.0 ? seconds : mFrame.raster + scale * (seconds - mFrame.raster);
 }
 
 bool ExposureMotion::isHeld(ecs::Entity entity) const {
@@ -125,9 +185,22 @@ double ExposureMotion::screenScaleOf(ecs::Entity entity) const {
     return (mAnyBlurScale ? findBlurScale(mWorld, entity) : 1.0) * mExposure.cap.of(entity);
 }
 
+double ExposureMotion::speedOf(ecs::Entity entity) const {
+    return isObjectHeld(entity) ? 0.0 : screenScaleOf(entity) * mExposure.shutter.objectScale;
+}
+
+std::array<double, 2> ExposureMotion::cameraSpeeds() const {
+    if (isHeld(mCamera))
+        return {0.0, 0.0};
+    const CameraShutter& shutter = mExposure.shutter;
+    return {
+        mExposure.cap.camera * shutter.cameraRotationScale,
+        mExposure.cap.camera * shutter.cameraTranslationScale};
+}
+
 dmat4 ExposureMotion::cameraAt(double seconds) const {
     if (isHeld(mCamera))
-        return scene::worldFromRigid(mWorld, mCamera, mExposure.raster);
+        return scene::worldFromRigid(mWorld, mCamera, mFrame.raster);
     const double turned = scaleTime(seconds, mExposure.shutter.cameraRotationScale);
     const double displaced = scaleTime(seconds, mExposure.shutter.cameraTranslationScale);
     dmat4 world = scene::worldFromRigid(mWorld, mCamera, turned);
@@ -137,8 +210,8 @@ dmat4 ExposureMotion::cameraAt(double seconds) const {
 }
 
 double ExposureMotion::yFovAt(double seconds) const {
-    const double seen = isHeld(mCamera) ? mExposure.raster
-                                        : scaleTime(seconds, mExposure.shutter.cameraRotationScale);
+    const double seen =
+        isHeld(mCamera) ? mFrame.raster : scaleTime(seconds, mExposure.shutter.cameraRotationScale);
     return scene::yFovAt(mWorld, mCamera, seen);
 }
 
@@ -164,7 +237,7 @@ bool ExposureMotion::mayCameraMove() const {
 }
 
 double ExposureMotion::entitySeconds(ecs::Entity entity, double s) const {
-    return isHeld(entity) ? mExposure.raster
+    return isHeld(entity) ? mFrame.raster
                           : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
 }
 
@@ -178,12 +251,14 @@ dmat4 ExposureMotion::worldFromLight(ecs::Entity entity, double s) const {
 
 double ExposureMotion::objectSeconds(ecs::Entity entity, double seconds, double screenScale) const {
     if (isObjectHeld(entity))
-        return mExposure.raster;
+        return mFrame.raster;
     return scaleTime(scaleTime(seconds, screenScale), mExposure.shutter.objectScale);
 }
 
 dmat4 ExposureMotion::worldFromObject(ecs::Entity entity, double s) const {
     const double seconds = secondsAt(s);
+    if (mHasComings && !isThere(entity, seconds))
+        return dmat4(math::dmat3(0.0));
     const double screenScale = screenScaleOf(entity);
     const dmat4 object =
         scene::worldFromObject(mWorld, entity, objectSeconds(entity, seconds, screenScale));
@@ -220,6 +295,8 @@ bool ExposureMotion::mayMove(ecs::Entity entity) const {
 }
 
 bool ExposureMotion::mayObjectMove(ecs::Entity entity) const {
+    if (mHasComings && !comingsOf(entity).empty())
+        return true;
     const double screenScale = screenScaleOf(entity);
     if (screenScale != mExposure.cap.camera && mayCameraMove())
         return true;

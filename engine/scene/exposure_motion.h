@@ -16,6 +16,9 @@
 #include "engine/scene/shutter.h"
 #include "engine/scene/world.h"
 
+#include <array>
+#include <vector>
+
 namespace shutter::scene {
 
 /// Scale of the nearest MotionBlur upwards, [0, 2]; 1 if there is none.
@@ -31,15 +34,39 @@ class ExposureMotion {
     /// Nothing has a past in this frame: all stands as at the raster instant.
     [[nodiscard]] bool isCut() const { return mIsCut; }
 
+    /// Whether the entity is hidden as long as the exposure lasts: a part of one is asked when it
+    /// begins, a whole one, which shows an entity all the time or never, at its raster instant.
+    [[nodiscard]] bool isHidden(ecs::Entity entity) const;
+    /// Whether it is at shutter time s.
+    [[nodiscard]] bool isHiddenAt(ecs::Entity entity, double s) const;
+
+    /// Something appears or is hidden during the frame's exposure, of which this is a part.
+    [[nodiscard]] bool hasComings() const { return mHasComings; }
+
+    /// When this entity does in the exposure itself, seconds. What appears as the exposure ends
+    /// (kLeastLight) is there for all of it.
+    [[nodiscard]] std::vector<double> comingsOf(ecs::Entity entity) const;
+
+    /// Times of the world that the frame's whole exposure shows, scales included.
+    [[nodiscard]] const TimeSpan& reach() const { return mReach; }
+
+    /// How many times as fast as the exposure an entity's own motion runs away from the frame's
+    /// raster instant; 0: it has none.
+    [[nodiscard]] double speedOf(ecs::Entity entity) const;
+    /// The same of the camera's turning and of its displacement.
+    [[nodiscard]] std::array<double, 2> cameraSpeeds() const;
+
     /// Shutter time s in [0, 1] below; `entity` and its parents are alive.
     [[nodiscard]] math::dmat4 worldFromEntity(ecs::Entity entity, double s) const;
     /// The same of a light (motion.h, worldFromLight).
     [[nodiscard]] math::dmat4 worldFromLight(ecs::Entity entity, double s) const;
     /// From the space that deformed vertices are given in (deformation.h), where the picture has
     /// it: an entity of its own scale (MotionBlur) rides with the camera for the part that is not
-    /// its.
+    /// its. In a part of an exposure (takePart()) it is singular while the entity is not there.
     [[nodiscard]] math::dmat4 worldFromObject(ecs::Entity entity, double s) const;
     [[nodiscard]] Deformation deformationAt(ecs::Entity entity, double s) const;
+    /// Deformation::objectFromBind of one joint of a skinned entity.
+    [[nodiscard]] math::dmat4 objectFromBind(ecs::Entity entity, size_t joint, double s) const;
     /// Rigid (motion.h, worldFromRigid), from the space of the camera's entity.
     [[nodiscard]] math::dmat4 worldFromCamera(double s) const;
     /// Vertical field of view of the camera, radians; orthographic cameras have none.
@@ -59,7 +86,10 @@ class ExposureMotion {
     [[nodiscard]] double secondsAt(double s) const;
     /// From when the pose is that an entity has at s.
     [[nodiscard]] double entitySeconds(ecs::Entity entity, double s) const;
-    /// `seconds` run `scale` times as fast away from the raster instant.
+    void findCut();
+    void noteComings();
+    [[nodiscard]] bool isThere(ecs::Entity entity, double seconds) const;
+    /// `seconds` run `scale` times as fast away from the frame's raster instant.
     [[nodiscard]] double scaleTime(double seconds, double scale) const;
     [[nodiscard]] math::dmat4 cameraAt(double seconds) const;
     [[nodiscard]] double yFovAt(double seconds) const;
@@ -77,10 +107,15 @@ class ExposureMotion {
     const World& mWorld;
     ecs::Entity mCamera;
     ExposureInterval mExposure;
+    ExposureTimes mFrame; ///< of the frame, of whose exposure mExposure may be a part
+    TimeSpan mReach;
     TimeSpan mSpan;             ///< the frame and all times that scales reach
     bool mAnyEvents = false;    ///< false: isHeld() needs not look
     bool mAnyBlurScale = false; ///< false: no entity has a MotionBlur
+    bool mAnyHidden = false;    ///< false: isHidden() needs not look
     bool mIsCut = false;
+    bool mHasComings = false;
+    double mLastComing = 0.0; ///< what appears after it stands for the whole exposure
 };
 
 } // namespace shutter::scene

@@ -67,6 +67,10 @@ void hide(World& world, ecs::Entity entity) {
     world.registry.add(entity, Hidden{});
 }
 
+void hide(World& world, ecs::Entity entity, double seconds) {
+    stamp<Hidden>(world, entity, seconds);
+}
+
 void show(World& world, ecs::Entity entity, double seconds) {
     if (world.registry.remove<Hidden>(entity))
         appear(world, entity, seconds);
@@ -91,9 +95,23 @@ void despawn(World& world, ecs::Entity entity) {
     }
 }
 
-bool isHidden(const World& world, ecs::Entity entity) {
+bool isHidden(const World& world, ecs::Entity entity, double seconds) {
     return findUpwards(world, entity, [&](ecs::Entity at) {
-               return world.registry.has<Hidden>(at);
+               const auto* hidden = world.registry.find<Hidden>(at);
+               return hidden && hidden->seconds <= seconds;
+           }) != ecs::kNullEntity;
+}
+
+bool isAlwaysHidden(const World& world, ecs::Entity entity) {
+    return isHidden(world, entity, -std::numeric_limits<double>::infinity());
+}
+
+bool mayComeOrGo(const World& world, ecs::Entity entity, double seconds) {
+    return findUpwards(world, entity, [&](ecs::Entity at) {
+               const auto* appeared = world.registry.find<Appeared>(at);
+               const auto* hidden = world.registry.find<Hidden>(at);
+               return (appeared && appeared->seconds > seconds) ||
+                      (hidden && std::isfinite(hidden->seconds));
            }) != ecs::kNullEntity;
 }
 

@@ -7,6 +7,8 @@
 #include "engine/math/transform.h"
 #include "engine/scene/world.h"
 
+#include <limits>
+
 namespace shutter::scene {
 
 /// Times after `after` and not after `until`, seconds. What happens at `after` itself is over: all
@@ -30,16 +32,28 @@ void cutTo(World& world, ecs::Entity camera, const math::Transform& transform, d
 void cut(World& world, ecs::Entity camera, double seconds);
 /// The entity was made at `seconds`.
 void appear(World& world, ecs::Entity entity, double seconds);
-/// No longer draws the entity and its descendants.
+/// Does not draw the entity and its descendants, at whatever time.
 void hide(World& world, ecs::Entity entity);
+/// The same from `seconds` on (finite): until then they are drawn, also in an exposure that it lies
+/// in.
+void hide(World& world, ecs::Entity entity, double seconds);
 /// Draws them again, from `seconds` on.
 void show(World& world, ecs::Entity entity, double seconds);
 /// Destroys the entity, its descendants and skinned meshes that hang on one of them; cameras leave
 /// World::cameras.
 void despawn(World& world, ecs::Entity entity);
 
-/// True for a hidden entity and for descendants of one.
-[[nodiscard]] bool isHidden(const World& world, ecs::Entity entity);
+/// True for an entity that is hidden at `seconds`, and for descendants of one; by default for one
+/// that is at some time.
+[[nodiscard]] bool isHidden(
+    const World& world, ecs::Entity entity, double seconds = std::numeric_limits<double>::infinity()
+);
+
+/// True for one that is hidden at all times.
+[[nodiscard]] bool isAlwaysHidden(const World& world, ecs::Entity entity);
+
+/// True when the entity or an ancestor appears after `seconds`, or is hidden from some time on.
+[[nodiscard]] bool mayComeOrGo(const World& world, ecs::Entity entity, double seconds);
 
 /// True when the entity or an ancestor appeared, was teleported, or has a path that jumps, in
 /// `span`.

@@ -6,6 +6,7 @@
 #include "shaders/common/shutter_response.glsl"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace shutter::scene {
@@ -50,6 +51,40 @@ std::vector<math::ResponsePoint> listPoints(const ShutterResponse& response) {
     return {{0.0, 1.0}, {1.0, 1.0}};
 }
 
+double sensitivityAt(const std::vector<math::ResponsePoint>& points, double s) {
+    size_t next = 1;
+    while (next + 1 < points.size() && points[next].s < s)
+        ++next;
+    const math::ResponsePoint& from = points[next - 1];
+    const math::ResponsePoint& to = points[next];
+    const double share = std::clamp((s - from.s) / (to.s - from.s), 0.0, 1.0);
+    return std::lerp(from.sensitivity, to.sensitivity, share);
+}
+
+/// Between the shutter times `from` and `to`, as shutter times of that part.
+std::vector<math::ResponsePoint>
+cutPoints(const std::vector<math::ResponsePoint>& points, double from, double to) {
+    std::vector<math::ResponsePoint> part{{0.0, sensitivityAt(points, from)}};
+    for (const math::ResponsePoint& point : points) {
+        const double s = (point.s - from) / (to - from);
+        if (s > kShortestShare && s < 1.0 - kShortestShare)
+            part.push_back({s, point.sensitivity});
+    }
+    part.push_back({1.0, sensitivityAt(points, to)});
+    return part;
+}
+
+/// Of the exposure's shutter, or of the part that the exposure is.
+std::vector<math::ResponsePoint> listPoints(const ExposureInterval& exposure) {
+    std::vector<math::ResponsePoint> points = listPoints(exposure.shutter.response);
+    if (!exposure.whole)
+        return points;
+    const auto& [open, raster, close] = *exposure.whole;
+    (void)raster;
+    const double length = close - open;
+    return cutPoints(points, (exposure.open - open) / length, (exposure.close - open) / length);
+}
+
 /// Written so that NaN is outside.
 bool isShare(double value) {
     return value >= 0.0 && value <= 1.0;
@@ -65,6 +100,10 @@ core::Status validateSamples(const std::vector<double>& samples) {
     if (std::all_of(samples.begin(), samples.end(), [](double sample) { return sample == 0.0; }))
         return core::makeError("samples are all 0: no light is taken");
     return {};
+}
+
+double invertTable(const std::optional<shader::ResponseTable>& table, double u) {
+    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
 }
 
 double orZero(double value) {
@@ -111,9 +150,37 @@ ExposureInterval computeExposure(const CameraShutter& shutter, double raster, do
     return interval;
 }
 
+ExposureInterval computeExposureBefore(const ExposureInterval& exposure, uint32_t frames) {
+    return computeExposure(
+        exposure.shutter,
+        exposure.frame().raster - frames * exposure.frameSeconds,
+        exposure.frameSeconds
+    );
+}
+
+ExposureInterval takePart(const ExposureInterval& exposure, double open, double close) {
+    SHUTTER_CHECK(
+        exposure.open <= open && open < close && close <= exposure.close,
+        "the part from {} to {} s of the exposure from {} to {} s",
+        open,
+        close,
+        exposure.open,
+        exposure.close
+    );
+    ExposureInterval part = exposure;
+    part.whole = exposure.frame();
+    if (open == exposure.open && close == exposure.close)
+        return part;
+    part.open = open;
+    part.close = close;
+    part.raster = std::clamp(part.whole->raster, open, close);
+    part.rasterTime = (part.raster - open) / (close - open);
+    return part;
+}
+
 int64_t numberFrame(const ExposureInterval& exposure) {
     constexpr double kMost = 9.0e15; // whole numbers are exact below
-    const double number = exposure.raster / exposure.frameSeconds;
+    const double number = exposure.frame().raster / exposure.frameSeconds;
     return std::abs(number) < kMost ? std::llround(number) : 0; // nor NaN
 }
 
@@ -143,9 +210,25 @@ std::optional<shader::ResponseTable> computeResponseTable(const ShutterResponse&
     return math::makeResponseTable(listPoints(response));
 }
 
+std::optional<shader::ResponseTable> computeLightTable(const ExposureInterval& exposure) {
+    const core::Status valid = validateResponse(exposure.shutter.response);
+    SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
+    return math::makeResponseTable(listPoints(exposure));
+}
+
 double invertResponse(const ShutterResponse& response, double u) {
-    const auto table = computeResponseTable(response);
-    return table ? double(shader::inverseResponse({*table}, static_cast<float>(u))) : u;
+    return invertTable(computeResponseTable(response), u);
+}
+
+double invertLight(const ExposureInterval& exposure, double u) {
+    return invertTable(computeLightTable(exposure), u);
+}
+
+double measureLightBefore(const ExposureInterval& exposure, double seconds) {
+    const double length = exposure.close - exposure.open;
+    const double s = std::clamp((seconds - exposure.open) / length, 0.0, 1.0);
+    const auto table = computeLightTable(exposure);
+    return table ? double(shader::cumulativeResponse({*table}, static_cast<float>(s))) : s;
 }
 
 } // namespace shutter::scene

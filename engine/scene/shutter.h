@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,12 @@ struct MotionCap {
     }
 };
 
+struct ExposureTimes {
+    double open = 0.0;   ///< seconds
+    double raster = 0.0; ///< seconds: when the raster image is taken
+    double close = 0.0;  ///< seconds
+};
+
 /// The exposure around a frame's own time, and the shutter it is one of.
 struct ExposureInterval {
     double open = 0.0;   ///< seconds
@@ -64,6 +71,13 @@ struct ExposureInterval {
     double frameSeconds = 0.0; ///< since the frame before, 0 or more
     CameraShutter shutter{};
     MotionCap cap{}; ///< of this frame; Renderer::measureMotionCap() finds it
+    /// Of the frame, if this is a part of its exposure (takePart()); nothing: this is all of it.
+    std::optional<ExposureTimes> whole{};
+
+    /// Of the frame: what its events, scales and number go by.
+    [[nodiscard]] ExposureTimes frame() const {
+        return whole.value_or(ExposureTimes{open, raster, close});
+    }
 };
 
 /// Length of the exposure, 0 or more and finite. A frame of duration 0 is paused: nothing moves,
@@ -77,6 +91,20 @@ struct ExposureInterval {
     const CameraShutter& shutter, double raster, double frameSeconds = kStillFrameSeconds
 );
 
+/// The exposure of an earlier frame of the same shutter and duration.
+/// \param frames how many frames ago, 1 or more
+[[nodiscard]] ExposureInterval
+computeExposureBefore(const ExposureInterval& exposure, uint32_t frames);
+
+/// Share of a frame's light below which what is seen of it is left out.
+inline constexpr double kLeastLight = 1.0 / 512.0;
+
+/// The part of the exposure from `open` to `close` seconds, as one of its own: its raster instant
+/// is the one nearest to the frame's, and it takes its own share of the light as the shutter does.
+/// \param open, close within the exposure, open < close; the whole of it is a part, too
+[[nodiscard]] ExposureInterval
+takePart(const ExposureInterval& exposure, double open, double close);
+
 /// By its time, so that a frame has the same number however it was reached. Where frames differ in
 /// length, their numbers need not follow one another; where they have none, all are 0.
 [[nodiscard]] int64_t numberFrame(const ExposureInterval& exposure);
@@ -88,9 +116,17 @@ struct ExposureInterval {
 /// (CHECKed).
 [[nodiscard]] std::optional<shader::ResponseTable>
 computeResponseTable(const ShutterResponse& response);
+/// That of the exposure's shutter, over the exposure or the part of it.
+[[nodiscard]] std::optional<shader::ResponseTable>
+computeLightTable(const ExposureInterval& exposure);
 
 /// Shutter time before which the share u of the light is taken; a box response returns u.
 [[nodiscard]] double invertResponse(const ShutterResponse& response, double u);
+/// The same of the exposure, or of the part of it.
+[[nodiscard]] double invertLight(const ExposureInterval& exposure, double u);
+
+/// Share of the exposure's light that is taken before `seconds`, [0, 1].
+[[nodiscard]] double measureLightBefore(const ExposureInterval& exposure, double seconds);
 
 // The settings as rows (engine/core/setting_row.h): the command line, settings files, panels and
 // flythroughs read their names, ranges and meanings here.

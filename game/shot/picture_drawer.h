@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// One picture by any method, however many frames it takes: raster with a filter is one frame, an
-// average of instants or of batches of rays is many.
+// One picture by any method, however many frames it takes: raster with a filter is one frame, or
+// one for each part of the exposure where something jumps; an average of instants or of batches of
+// rays is many.
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/extract/exposure_parts.h"
 #include "engine/render/renderer.h"
 #include "game/shot/instants.h"
 #include "game/shot/shot.h"
@@ -14,6 +16,7 @@
 #include "modules/truth/truth.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -47,6 +50,8 @@ struct PictureRequest {
     /// up is drawn: no blur, rays nor second raster. Without them, places in the pixel follow one
     /// another as frames are drawn.
     bool drawsFramesBefore = true;
+    /// Of MethodFamily::MotionBlur; the drawer finds them.
+    std::vector<extract::ExposurePart> exposureParts{};
     /// What follows the method's own effect, e.g. the tone map. Must live until the picture is
     /// finished. With FrameRequest::wantBrightest, they are told of the slot's last finished
     /// picture.
@@ -164,6 +169,10 @@ class PictureDrawer {
         uint32_t count = 1;  ///< its samples
         uint32_t total = 1;  ///< of the picture
         bool isShown = true; ///< its colour and display are the picture's so far
+        /// Of PictureRequest::exposureParts; null: the whole exposure.
+        const extract::ExposurePart* exposure = nullptr;
+        bool isFirstOfExposure = true;
+        bool isLastOfExposure = true; ///< the one that the frame after looks things up in
     };
 
     /// A submitted frame: what to do with it when it is finished.
@@ -174,16 +183,24 @@ class PictureDrawer {
         bool isLast = true;
         bool isIntermediates = false; ///< drawn for the picture's intermediates alone
         bool isBefore = false; ///< the frame before the picture's, drawn for what the effect keeps
+        size_t exposureParts = 0; ///< of the picture
     };
 
     /// Sets the method's samples.
     [[nodiscard]] core::Status prepareInstants(const scene::World& world, PictureRequest& request);
     [[nodiscard]] core::Result<PictureRequest>
     prepare(const scene::World& world, const PictureRequest& request);
+    /// In what parts the method takes the view's exposure.
+    [[nodiscard]] std::vector<extract::ExposurePart> planExposure(
+        const scene::World& world, const MethodOptions& method, const extract::ViewRequest& view
+    ) const;
     [[nodiscard]] std::vector<uint32_t>
     planParts(const PictureRequest& request, const std::vector<uint32_t>& stops) const;
     [[nodiscard]] core::Status
     submitPart(const scene::World& world, const PictureRequest& request, const Part& part);
+    /// Of the whole exposure, or of a part of it.
+    [[nodiscard]] core::Status
+    submitOwnFrame(const scene::World& world, const PictureRequest& request, const Part& part);
     [[nodiscard]] core::Status
     submitFramesBefore(const scene::World& world, const PictureRequest& request);
     /// \param age in frames, above 0
@@ -216,6 +233,8 @@ class PictureDrawer {
     );
     [[nodiscard]] bool isGoodEnough(const PictureRequest& request, uint32_t rays) const;
     [[nodiscard]] render::FrameResult takeOnly();
+    /// Says of the picture that its exposure was drawn in parts.
+    static void explainParts(render::FrameStatistics& statistics, size_t parts);
     /// Adds what a frame's passes wrote to the picture's.
     static void keepTrace(Slot& slot, std::vector<render::WrittenImage> written);
     void finishOldest();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What has to be known of a picture before its frames can be drawn: what its shutter caps, and how
-// many instants it takes.
+// What has to be known of a picture before its frames can be drawn: what its shutter caps, how many
+// instants it takes, and in what parts.
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "game/shot/picture_drawer.h"
@@ -27,7 +27,17 @@ PictureDrawer::prepare(const scene::World& world, const PictureRequest& request)
     prepared.frame.view.exposure.cap = *prepared.cap;
     if (prepared.method.maxStepPx)
         SHUTTER_TRY(prepareInstants(world, prepared));
+    prepared.exposureParts = planExposure(world, prepared.method, prepared.frame.view);
     return prepared;
+}
+
+std::vector<extract::ExposurePart> PictureDrawer::planExposure(
+    const scene::World& world, const MethodOptions& method, const extract::ViewRequest& view
+) const {
+    // The other families take each instant by itself, or one.
+    if (method.method->family != MethodFamily::MotionBlur)
+        return {};
+    return extract::planExposureParts(world, mRenderer.scene().layout(), view);
 }
 
 core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRequest& request) {
@@ -54,9 +64,15 @@ core::Status PictureDrawer::prepareInstants(const scene::World& world, PictureRe
 
 core::Result<scene::MotionCap>
 PictureDrawer::measureCap(const scene::World& world, const extract::ViewRequest& view) {
-    if (std::isfinite(view.exposure.shutter.maxBlurPercent))
+    extract::ViewRequest look = view;
+    if (std::isfinite(view.exposure.shutter.maxBlurPercent)) {
         finishUntil(0); // measuring draws frames of its own
-    return mRenderer.measureMotionCap(world, view);
+        // What jumps goes no way from one place to the other.
+        const auto parts = extract::planExposureParts(world, mRenderer.scene().layout(), view);
+        if (!parts.empty())
+            look.exposure = parts.back().exposure;
+    }
+    return mRenderer.measureMotionCap(world, look);
 }
 
 } // namespace shutter::game

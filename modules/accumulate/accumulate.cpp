@@ -47,7 +47,10 @@ extract::ViewRequest makeInstant(
 ) {
     SHUTTER_CHECK(index < count, "{} of {}", index, count);
     extract::ViewRequest instant = view;
-    instant.instant = scene::invertResponse(view.exposure.shutter.response, (index + 0.5) / count);
+    // What appears or is hidden during the exposure is there at some instants and not at others.
+    if (view.exposure.open < view.exposure.close)
+        instant.exposure = scene::takePart(view.exposure, view.exposure.open, view.exposure.close);
+    instant.instant = scene::invertLight(view.exposure, (index + 0.5) / count);
     if (pixel == PixelModel::Centre)
         return instant;
     return makeSubpixel(instant, index, count, seed);
@@ -70,12 +73,11 @@ Accumulate::Accumulate(gpu::Device& device)
 
 void Accumulate::setInstant(uint32_t index, uint32_t count) {
     SHUTTER_CHECK(index < count, "{} of {}", index, count);
-    mIndex = index;
-    mCount = count;
+    mFrame = {index == 0, index + 1 == count, 1.0, double(count)};
 }
 
 core::Decision Accumulate::ask(const render::ViewFacts&) const {
-    return {true, "every instant is added"};
+    return {true, "every frame of the picture is added"};
 }
 
 void Accumulate::declare(render::PostContext& context) {
@@ -85,8 +87,8 @@ void Accumulate::declare(render::PostContext& context) {
     };
 
     const render::ViewFacts& facts = context.facts;
-    if (mIndex == 0 || mSum.desc().width != facts.width || mSum.desc().height != facts.height) {
-        SHUTTER_CHECK(mIndex == 0, "the picture's size changed between instants");
+    if (mFrame.isFirst || mSum.desc().width != facts.width || mSum.desc().height != facts.height) {
+        SHUTTER_CHECK(mFrame.isFirst, "the picture's size changed between its frames");
         gpu::ImageDesc desc;
         desc.width = facts.width;
         desc.height = facts.height;
@@ -96,15 +98,15 @@ void Accumulate::declare(render::PostContext& context) {
         if (!(mSum.desc() == desc))
             mSum = gpu::Image(mDevice, "accumulated color", desc);
     }
-    const bool last = mIndex + 1 == mCount;
     shader::AccumulateParams params{};
     params.sizePx = {facts.width, facts.height};
-    params.index = mIndex;
-    params.scale = last ? 1.0f / static_cast<float>(mCount) : 1.0f;
+    params.clears = mFrame.isFirst ? 1 : 0;
+    params.weight = static_cast<float>(mFrame.weight);
+    params.scale = mFrame.isLast ? 1.0f / static_cast<float>(mFrame.total) : 1.0f;
     const auto imported = context.graph.importImage(
         "accumulated color",
         mSum,
-        mIndex == 0 ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL,
+        mFrame.isFirst ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL,
         VK_IMAGE_LAYOUT_GENERAL
     );
     const Data& pass = context.graph.addPass<Data>(
@@ -124,7 +126,7 @@ void Accumulate::declare(render::PostContext& context) {
             );
         }
     );
-    if (last)
+    if (mFrame.isLast)
         context.color = pass.sum;
 }
 

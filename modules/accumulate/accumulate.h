@@ -33,13 +33,22 @@ using extract::PixelModel;
 [[nodiscard]] extract::ViewRequest
 makeSubpixel(const extract::ViewRequest& view, uint32_t index, uint32_t count, uint32_t seed);
 
-/// Adds each frame's colour to a sum. Call setInstant() before each frame; in the last one the
-/// context's colour becomes the mean.
+/// What a frame is of the mean of several.
+struct SummedFrame {
+    bool isFirst = true; ///< the sum starts with it
+    bool isLast = true;  ///< the context's colour becomes the mean
+    double weight = 1.0; ///< above 0
+    double total = 1.0;  ///< of all frames' weights, where `isLast`
+};
+
+/// Adds each frame's colour to a sum. Call setFrame() or setInstant() before each frame.
 class Accumulate : public render::PostEffect {
   public:
     explicit Accumulate(gpu::Device& device);
 
-    /// \param index below `count`
+    void setFrame(const SummedFrame& frame) { mFrame = frame; }
+
+    /// Of as many frames that count alike. \param index below `count`
     void setInstant(uint32_t index, uint32_t count);
 
     [[nodiscard]] std::string name() const override { return "accumulate"; }
@@ -51,8 +60,7 @@ class Accumulate : public render::PostEffect {
     gpu::Device& mDevice;
     gpu::Pipeline mPipeline;
     gpu::Image mSum; ///< RGBA32F, in GENERAL layout between frames
-    uint32_t mIndex = 0;
-    uint32_t mCount = 1;
+    SummedFrame mFrame;
 };
 
 } // namespace shutter::accumulate

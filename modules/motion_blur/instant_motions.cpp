@@ -102,12 +102,12 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
 }
 
 bool RasterHistory::holds(glm::uvec2 sizePx) const {
-    return mHasContents && hasSize(newest().color, sizePx);
+    return mHasContents.at(mNewest) && hasSize(newest().color, sizePx);
 }
 
 const RasterHistory::Raster& RasterHistory::turn(glm::uvec2 sizePx) {
     mNewest = 1 - mNewest;
-    mHasContents = true;
+    mHasContents.at(mNewest) = true;
     Raster& raster = mRasters.at(mNewest);
     if (hasSize(raster.color, sizePx))
         return raster;
@@ -135,12 +135,12 @@ void RasterHistory::imagine(glm::uvec2 sizePx) {
         desc.format = VK_FORMAT_R32G32_UINT;
         raster.surface = gpu::Image::adopt(mDevice, "kept surface", image, desc);
     }
-    mHasContents = true;
+    mHasContents = {true, true};
 }
 
 void RasterHistory::forget() {
     mRasters = {};
-    mHasContents = false;
+    mHasContents = {};
 }
 
 uint64_t RasterHistory::bytes() const {

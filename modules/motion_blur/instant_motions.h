@@ -36,6 +36,9 @@ class RasterHistory {
     /// The raster kept last; holds() must be true.
     [[nodiscard]] const Raster& newest() const { return mRasters.at(mNewest); }
 
+    /// The raster kept before the newest one, which must be there, is the newest again.
+    void stepBack() { mNewest = 1 - mNewest; }
+
     /// Images for another raster, which becomes the newest; the one before stays as it is until the
     /// next call.
     [[nodiscard]] const Raster& turn(glm::uvec2 sizePx);
@@ -52,8 +55,8 @@ class RasterHistory {
   private:
     gpu::Device& mDevice;
     std::array<Raster, 2> mRasters; ///< in turns: one is read while the other is written
-    uint32_t mNewest = 0;           ///< of mRasters
-    bool mHasContents = false;      ///< the newest does
+    std::array<bool, 2> mHasContents{};
+    uint32_t mNewest = 0; ///< of mRasters
 };
 
 } // namespace shutter::motion_blur

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sum of sharp frames; the last one divides.
+// Weighted sum of frames; the last one divides.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -13,7 +13,7 @@ layout(binding = 1, rgba32f) uniform image2D uSum;
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(uvec2(pixel), params.sizePx))) return;
-    vec4 sum = vec4(texelFetch(uColor, pixel, 0).rgb, 1.0f);
-    if (params.index > 0u) sum += imageLoad(uSum, pixel);
+    vec4 sum = vec4(texelFetch(uColor, pixel, 0).rgb, 1.0f) * params.weight;
+    if (params.clears == 0u) sum += imageLoad(uSum, pixel);
     imageStore(uSum, pixel, sum * params.scale);
 }

@@ -8,14 +8,15 @@ SHUTTER_SHADER_BEGIN
 
 struct AccumulateParams {
     uvec2 sizePx;
-    uint index;  // of this instant, 0 clears
-    float scale; // 1 / instants at the last one, which turns the sum into the mean; else 1
+    uint clears;  // 1: the sum starts with this frame
+    float weight; // of this frame
+    float scale;  // of the sum behind it: at the last frame what turns it into the mean, else 1
 };
 
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::AccumulateParams) == 16);
+static_assert(sizeof(shutter::shader::AccumulateParams) == 20);
 #endif
 
 #endif

@@ -62,7 +62,7 @@ TEST_F(BindingsDeathTest, AFrameRefusesAStorageImageOfAnotherFormat) {
     const gpu::Pipeline scale = test::makeScalePipeline(device());
     const gpu::Image halves = makeImage(device(), "halves", VK_FORMAT_R16G16B16A16_SFLOAT);
     const gpu::BindingList bindings = bind(device(), halves, halves);
-    const shader::AccumulateParams params{{8, 8}, 0, 1.0f};
+    const shader::AccumulateParams params{{8, 8}, 1, 1.0f, 1.0f};
     gpu::Frame frame(device());
     frame.begin();
     EXPECT_DEATH(

@@ -20,6 +20,7 @@ struct EffectRig {
     scene::World world;
     extract::ViewRequest view;
     extract::ExtractedFrame frame;
+    gpu_scene::DeformedMeshes shapes;
     render::ViewFacts facts;
     render::GBuffer gbuffer;
     render::Intermediates intermediates{{}};

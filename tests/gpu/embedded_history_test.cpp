@@ -73,8 +73,9 @@ class EmbeddedHistory : public test::EmbeddedTest {
         uint32_t width = 64;
         const char* method = "resolved";
         bool history = true;
-        uint32_t id = 0; ///< of all its pixels; there is one row
-        int index = 1;   ///< of the frame: the pictures of each show another part of the wall
+        uint32_t id = 0;      ///< of all its pixels; there is one row
+        int index = 1;        ///< of the frame: the pictures of each show another part of the wall
+        bool isStill = false; ///< the camera stands where the frame ends
     };
 
     void SetUp() override {
@@ -93,9 +94,9 @@ class EmbeddedHistory : public test::EmbeddedTest {
     }
 
     /// A wall 5 m away, and a camera that has panned by a third of the picture in each frame.
-    static std::array<HostCameraKey, 2> makeKeys(int index) {
+    static std::array<HostCameraKey, 2> makeKeys(int index, bool isStill) {
         const auto key = [&](double time) {
-            const double angle = 0.4 * (index - 1.0 + time);
+            const double angle = 0.4 * (index - 1.0 + (isStill ? 1.0 : time));
             const glm::dvec3 up(0.0, 1.0, 0.0);
             return HostCameraKey{
                 time,
@@ -107,7 +108,7 @@ class EmbeddedHistory : public test::EmbeddedTest {
 
     core::Status
     record(VkCommandBuffer commands, uint32_t slot, const Frame& frame, HostInputs in) {
-        const std::array<HostCameraKey, 2> keys = makeKeys(frame.index);
+        const std::array<HostCameraKey, 2> keys = makeKeys(frame.index, frame.isStill);
         in.motion.keys = keys;
         in.motion.movers = mMovers;
         in.motion.rowCount = 1;
@@ -215,6 +216,20 @@ TEST_F(EmbeddedHistory, AFrameThatIsLentGivesTheBitsOfOneThatIsKept) {
     EXPECT_TRUE(test::sameBits(lent, kept));
     EXPECT_NE(*std::min_element(kept.pixels.begin(), kept.pixels.end()), 4.0f) << "it is looked up";
     EXPECT_LT(livingWithout.images, living.images) << "what the first frame kept is gone";
+}
+
+TEST_F(EmbeddedHistory, AFrameInWhichNothingMovedNeedsNoRecording) {
+    const auto drawLast = [&](int stillFrames) {
+        drawFirst();
+        for (int i = 0; i < stillFrames; ++i)
+            (void)draw({.brightness = 1.0f, .index = 0, .isStill = true});
+        return draw({.brightness = 4.0f});
+    };
+    const Range without = drawLast(0);
+    const Range with = drawLast(3);
+    EXPECT_LT(without.low, 3.9f) << "it is looked up";
+    EXPECT_EQ(without.low, with.low);
+    EXPECT_EQ(without.mean, with.mean);
 }
 
 TEST_F(EmbeddedHistory, TheFirstFrameHasNoneWhateverTheHostSays) {

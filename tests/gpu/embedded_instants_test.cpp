@@ -139,10 +139,8 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
             Sequence sequence(device(), scene, *blur, teller, phase);
             if (isTriangle)
                 sequence.giveTriangle();
-            const Drawn first = sequence.draw(0);
-            EXPECT_EQ(first.fromLast, 0u);
-            expectSame(first);
-            EXPECT_TRUE(test::sameBits(first.byC, first.plugin));
+            // The plugin draws the raster of the frame before the first one. The host has none.
+            (void)sequence.draw(0);
             teller.followsLast = true;
             scene::despawn(scene.world, scene.guest); // and all rows move up
             for (const int frame : {1, 2}) {
@@ -154,6 +152,19 @@ TEST_F(EmbeddedInstants, KeysAtTheInstantsGiveTheBitsOfThePlugin) {
         }
 }
 
+TEST_F(EmbeddedInstants, WithoutHistoryAFirstFrameHasTheBitsOfThePlugin) {
+    Scene scene;
+    const auto blur = create(describeHost());
+    ASSERT_TRUE(blur);
+    MotionBlurSettings settings = resolved();
+    settings.history = false;
+    Teller teller(kInstants);
+    Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End, settings);
+    const Drawn first = sequence.draw(0);
+    EXPECT_EQ(first.fromLast, 0u);
+    expectSame(first);
+}
+
 TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
     for (const InstantNoise noise : {InstantNoise::Fixed, InstantNoise::Turning}) {
         Scene scene;
@@ -162,10 +173,10 @@ TEST_F(EmbeddedInstants, NoiseHasTheBitsOfThePluginInEachFrame) {
         const MotionBlurSettings settings = resolved(noise);
         Teller teller(motion_blur::countInstants(settings));
         Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End, settings);
-        for (const int frame : {0, 1, 2}) {
+        (void)sequence.draw(0);
+        teller.followsLast = true;
+        for (const int frame : {1, 2})
             expectSame(sequence.draw(frame));
-            teller.followsLast = true;
-        }
     }
 }
 
@@ -175,7 +186,7 @@ TEST_F(EmbeddedInstants, ThreeKeysAreAsGoodAsOnesAtEachInstant) {
     ASSERT_TRUE(blur);
     Teller teller(0, {0.0, 0.5, 1.0});
     Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
-    EXPECT_GT(image::computePsnr(sequence.draw(0).output, sequence.draw(0).plugin), 60.0);
+    (void)sequence.draw(0);
     teller.followsLast = true;
     const Drawn next = sequence.draw(1);
     EXPECT_GT(next.fromLast, 0u);
@@ -203,7 +214,7 @@ TEST_F(EmbeddedInstants, AnOrthographicCameraIsTheSame) {
     ASSERT_TRUE(blur);
     Teller teller(kInstants);
     Sequence sequence(device(), scene, *blur, teller, scene::ShutterPhase::End);
-    expectSame(sequence.draw(0));
+    (void)sequence.draw(0);
     teller.followsLast = true;
     expectSame(sequence.draw(1));
 }

@@ -57,7 +57,7 @@ ImageHandle addScale(
     ImageHandle source,
     float scale
 ) {
-    const shader::AccumulateParams params{{kWidth, kHeight}, 0, scale};
+    const shader::AccumulateParams params{{kWidth, kHeight}, 1, 1.0f, scale};
     return graph
         .addPass<Data>(
             "scale",

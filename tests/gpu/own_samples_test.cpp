@@ -36,6 +36,7 @@ MotionBlurSettings settingsOf(const char* method, float raysPerPixel) {
     settings.method = &motion_blur::getMethod(method);
     settings.sampleCount = kInstants;
     settings.raysPerPixel = raysPerPixel;
+    settings.history = false; // of a single frame the host has none
     return settings;
 }
 

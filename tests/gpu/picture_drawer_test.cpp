@@ -89,6 +89,41 @@ TEST_F(PictureDrawerTest, AFrameOfASequenceIsTheFrameDrawnAlone) {
     ));
 }
 
+TEST_F(PictureDrawerTest, AFrameInWhichSomethingJumpsIsTheFrameDrawnAloneAndLeavesTheSame) {
+    const ecs::Entity stepping = mScene.add(
+        test::makeBox({0.5, 0.5, 0.5}, mScene.addWaves()), {.position = {-0.8, 0.4, -3.5}}
+    );
+    scene::AnimationClip clip;
+    clip.duration = 1.0;
+    clip.channels.push_back(
+        {0,
+         scene::AnimationPath::Translation,
+         scene::Interpolation::Step,
+         {0.0f, 1.0f},
+         {math::vec4(-0.8f, 0.4f, -3.5f, 0.0f), math::vec4(0.6f, -0.3f, -3.5f, 0.0f)}}
+    );
+    mScene.world.assets.clips.push_back(std::move(clip));
+    mScene.world.registry.add(stepping, scene::Animated{{{0, 0}}});
+    useShutter({.exposureSeconds = 1.0 / 30.0});
+    // It steps in frame 2: within its exposure, or at its very end.
+    for (const double steps : {2.0 - 0.3, 2.0})
+        for (const game::AntiAliasing antiAliasing :
+             {game::AntiAliasing::None, game::AntiAliasing::Box}) {
+            mShot.world.assets.clips[0].channels[0].times[1] =
+                static_cast<float>(steps * mOptions.frameSeconds);
+            mOptions.antiAliasing = antiAliasing;
+            game::PictureDrawer inSequence(device(), *mRenderer);
+            for (int frame = 0; frame < 5; ++frame) {
+                const double seconds = frame * mOptions.frameSeconds;
+                const image::Image drawn = draw(inSequence, "resolved", seconds);
+                game::PictureDrawer alone(device(), *mRenderer);
+                EXPECT_TRUE(test::sameBits(draw(alone, "resolved", seconds), drawn))
+                    << "step at " << steps << ", frame " << frame << ", anti-aliasing "
+                    << int(antiAliasing);
+            }
+        }
+}
+
 TEST_F(PictureDrawerTest, BloomFollowsTheHighlightsOfTheLastPictureThatIsFinished) {
     // A bright box comes into the picture between 0.5 s and 1 s, and never leaves it.
     mScene.add(

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What has no past is sharp, in every method alike.
+// What has no past is sharp, in every method alike, from when it is there on.
 #include "engine/scene/history.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,7 +25,7 @@ class HistoryLaw : public test::GpuTest {
             GTEST_SKIP() << device().info().name << " has no ray queries";
     }
 
-    /// Frames of 0.1 s at t = 1.
+    /// Frames of 0.1 s at t = 1, exposed from 0.96 to 1.04 s.
     static image::Image draw(Stage& stage, std::string_view method, double frameSeconds = 0.1) {
         return stage
             .render(
@@ -44,6 +46,26 @@ class HistoryLaw : public test::GpuTest {
             }
         EXPECT_EQ(test::sameBits(draw(stage, "truth"), draw(stage, "truth", 0.0)), sharp)
             << what << ", truth";
+    }
+
+    /// In every method that blurs, a share of one picture and the rest of another. `truth` draws a
+    /// jump out over 1/1024 of the exposure: one of a pixel's 16 rays may be on its other side.
+    static void
+    expectMean(Stage& stage, const image::Image& one, double share, const image::Image& other) {
+        std::vector<std::string_view> methods = test::listBlurMethods(device());
+        methods.insert(methods.end(), {"accumulate", "truth"});
+        for (const std::string_view method : methods) {
+            const image::Image picture = draw(stage, method);
+            const double rays = method == "truth" ? 1.0 / 16.0 : 0.0;
+            double most = 0.0;
+            for (size_t i = 0; i < picture.pixels.size(); ++i) {
+                const double expected = std::lerp(other.pixels[i], one.pixels[i], share);
+                const double off = std::abs(double{picture.pixels[i]} - expected);
+                const double jump = std::abs(double{one.pixels[i]} - other.pixels[i]);
+                most = std::max(most, off - rays * jump);
+            }
+            EXPECT_LT(most, 0.01) << method;
+        }
     }
 };
 
@@ -78,7 +100,7 @@ TEST_F(HistoryLaw, WhatAppearedOrWasTeleportedIsSharpForThatFrame) {
         {"shown",
          [](Scene& s) {
              scene::hide(s.builder.world, s.mover);
-             scene::show(s.builder.world, s.mover, 0.97);
+             scene::show(s.builder.world, s.mover, 0.955);
          }},
     };
     for (const auto& [name, happen] : events) {
@@ -88,6 +110,37 @@ TEST_F(HistoryLaw, WhatAppearedOrWasTeleportedIsSharpForThatFrame) {
         happen(scene);
         expectSharp(stage, name, true);
     }
+}
+
+TEST_F(HistoryLaw, WhatAppearsDuringTheExposureStandsInItsPlaceFromThenOn) {
+    Scene scene({0, 0, 0});
+    Stage stage(device(), scene.builder);
+    const image::Image there = draw(stage, "sharp");
+    scene::hide(scene.builder.world, scene.mover);
+    const image::Image without = draw(stage, "sharp");
+    scene::show(scene.builder.world, scene.mover, 0.98);
+    expectMean(stage, without, 0.25, there);
+    EXPECT_TRUE(test::sameBits(draw(stage, "sharp"), there)) << "at the raster instant it is there";
+    scene::appear(scene.builder.world, scene.mover, 1.04);
+    expectMean(stage, there, 1.0, without);
+}
+
+TEST_F(HistoryLaw, WhatIsHiddenDuringTheExposureIsThereUntilThen) {
+    Scene scene({0, 0, 0});
+    scene.builder.world.registry.remove<scene::LinearVelocity>(scene.mover);
+    scene.builder.world.registry.get<scene::LocalTransform>(scene.mover).transform.translation.x =
+        0.0;
+    Stage stage(device(), scene.builder);
+    const image::Image there = draw(stage, "sharp");
+    scene::hide(scene.builder.world, scene.mover);
+    const image::Image without = draw(stage, "sharp");
+    scene::hide(scene.builder.world, scene.mover, 0.98);
+    expectMean(stage, there, 0.25, without);
+    EXPECT_TRUE(test::sameBits(draw(stage, "sharp"), without)) << "at the raster instant it is not";
+    scene::hide(scene.builder.world, scene.mover, 1.04);
+    expectMean(stage, there, 1.0, without);
+    scene::hide(scene.builder.world, scene.mover, 0.96);
+    expectMean(stage, there, 0.0, without);
 }
 
 TEST_F(HistoryLaw, ACutIsSharpForThatFrameEverywhere) {

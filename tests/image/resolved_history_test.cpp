@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What `resolved` may look up in the last frame's raster, and what it must not: pictures drawn one
-// after the other by one renderer, with something in between.
+// after the other by one renderer, with something in between. A frame finds the same there whether
+// the frame before kept it or it is drawn once more.
+#include "engine/image/metrics.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/history.h"
+#include "engine/scene/path.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -12,6 +15,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,6 +52,7 @@ struct FrameOptions {
     uint32_t width = 192;
     uint32_t height = 128;
     ecs::Entity camera; ///< null: the scene's
+    double exposureSeconds = kExposureSeconds;
 };
 
 /// Draws frames of a scene in any order, as an application does.
@@ -66,8 +71,9 @@ class Frames {
         request.view.camera =
             options.camera == ecs::Entity{} ? mScene.builder.camera : options.camera;
         request.view.exposure = scene::computeExposure(
-            {kExposureSeconds}, frame / kFramesPerSecond, 1.0 / kFramesPerSecond
+            {options.exposureSeconds}, frame / kFramesPerSecond, 1.0 / kFramesPerSecond
         );
+        request.wantReasons = true;
         request.view.width = options.width;
         request.view.height = options.height;
         render::PostEffect* effects[] = {&mBlur};
@@ -89,8 +95,30 @@ uint64_t countFromLast(const render::FrameResult& frame) {
     return found == counters.end() ? 0 : found->second;
 }
 
+bool hasPass(const render::FrameResult& frame, std::string_view name) {
+    const auto& passes = frame.statistics.passes;
+    return std::any_of(passes.begin(), passes.end(), [&](const render::PassTime& pass) {
+        return pass.name == name;
+    });
+}
+
+/// The raster of the frame before was drawn once more.
+bool drawsLast(const render::FrameResult& frame) {
+    return hasPass(frame, "last G-buffer");
+}
+
 class ResolvedHistory : public test::GpuTest {
   protected:
+    /// The frame as it is after one that kept its raster.
+    render::FrameResult drawFollowing(Scene& scene, FrameOptions options = {}, int frame = 0) {
+        Frames frames(device(), scene);
+        (void)frames.draw(frame - 1, options);
+        auto drawn = frames.draw(frame, options);
+        EXPECT_FALSE(drawsLast(drawn));
+        EXPECT_GT(countFromLast(drawn), 0u);
+        return drawn;
+    }
+
     /// The frame as it is drawn without the one before.
     render::FrameResult drawAlone(Scene& scene, FrameOptions options = {}, int frame = 0) {
         options.history = false;
@@ -113,10 +141,10 @@ TEST_F(ResolvedHistory, NothingFromBeforeACutIs) {
     (void)frames.draw(-1);
     // The frame of the cut is sharp; the one after it moves, and must not see past the cut.
     scene::cut(scene.world(), scene.builder.camera, -0.75 / kFramesPerSecond);
-    EXPECT_EQ(countFromLast(frames.draw(0)), 0u);
-    const auto drawn = frames.draw(1);
-    EXPECT_TRUE(drawn.statistics.counters.contains("samples from the last frame")) << "it moves";
-    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene, {}, 1).color));
+    const auto ofCut = frames.draw(0);
+    EXPECT_EQ(countFromLast(ofCut), 0u);
+    EXPECT_TRUE(test::sameBits(ofCut.color, drawAlone(scene).color));
+    EXPECT_TRUE(test::sameBits(frames.draw(1).color, Frames(device(), scene).draw(1).color));
 }
 
 TEST_F(ResolvedHistory, NorOfAnotherCamera) {
@@ -130,31 +158,123 @@ TEST_F(ResolvedHistory, NorOfAnotherCamera) {
         (void)frames.draw(frame);
         (void)frames.draw(frame, {.camera = other});
     }
-    const auto drawn = frames.draw(0);
-    EXPECT_EQ(countFromLast(drawn), 0u);
-    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
-    const auto drawnByOther = frames.draw(0, {.camera = other});
-    EXPECT_TRUE(test::sameBits(drawnByOther.color, drawAlone(scene, {.camera = other}).color));
+    EXPECT_TRUE(test::sameBits(frames.draw(0).color, drawFollowing(scene).color));
+    EXPECT_TRUE(test::sameBits(
+        frames.draw(0, {.camera = other}).color, drawFollowing(scene, {.camera = other}).color
+    ));
 }
 
-TEST_F(ResolvedHistory, NorOfAnotherSizeAndTheNextFrameIsLookedUpAgain) {
+TEST_F(ResolvedHistory, AFrameThatFollowsNoneOfItsKindFindsWhatItWouldHaveFound) {
+    const FrameOptions small = {.width = 96, .height = 64};
+
+    struct Before {
+        std::string what;
+        int frame;
+        FrameOptions options;
+        FrameOptions own;
+    };
+
+    const std::vector<Before> cases = {
+        {"after another size", -1, {}, small},
+        {"after a gap", -3, {}, {}},
+        {"after another method", -1, {.method = "gather"}, {}},
+        {"after a sharp frame", -1, {.exposureSeconds = 0.0}, {}},
+        {"after one without history", -1, {.history = false}, {}}};
+    for (const auto& [what, before, options, own] : cases) {
+        Scene scene;
+        Frames frames(device(), scene);
+        (void)frames.draw(before, options);
+        const auto drawn = frames.draw(0, own);
+        EXPECT_TRUE(drawsLast(drawn)) << what;
+        EXPECT_TRUE(test::sameBits(drawn.color, drawFollowing(scene, own).color)) << what;
+        EXPECT_FALSE(drawsLast(frames.draw(1, own))) << what << ": this one kept its own";
+    }
+    Scene scene;
+    const auto first = Frames(device(), scene).draw(0);
+    EXPECT_TRUE(drawsLast(first));
+    EXPECT_TRUE(test::sameBits(first.color, drawFollowing(scene).color)) << "the first frame";
+}
+
+TEST_F(ResolvedHistory, AFrameThatIsDrawnAgainFindsTheSameAgain) {
     Scene scene;
     Frames frames(device(), scene);
     (void)frames.draw(-1);
-    const FrameOptions small = {.width = 96, .height = 64};
-    const auto drawn = frames.draw(0, small);
-    EXPECT_EQ(countFromLast(drawn), 0u);
-    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene, small).color));
-    EXPECT_GT(countFromLast(frames.draw(1, small)), 0u);
+    const auto first = frames.draw(0);
+    EXPECT_GT(countFromLast(first), 0u);
+    // As while time stands still: nothing is drawn for it, however long.
+    for (int i = 0; i < 3; ++i) {
+        const auto again = frames.draw(0);
+        EXPECT_FALSE(drawsLast(again)) << i;
+        EXPECT_TRUE(test::sameBits(again.color, first.color)) << i;
+    }
+    const auto resumed = frames.draw(1);
+    EXPECT_FALSE(drawsLast(resumed));
+    EXPECT_TRUE(test::sameBits(resumed.color, drawFollowing(scene, {}, 1).color));
 }
 
-TEST_F(ResolvedHistory, NorAfterAGap) {
+TEST_F(ResolvedHistory, WhereNothingIsLookedUpNothingIsDrawnForIt) {
     Scene scene;
     Frames frames(device(), scene);
-    (void)frames.draw(-3);
+    EXPECT_FALSE(drawsLast(frames.draw(0, {.exposureSeconds = 0.0})));
+    EXPECT_FALSE(drawsLast(frames.draw(1, {.method = "gather"})));
+    EXPECT_FALSE(drawsLast(frames.draw(2, {.history = false})));
+    scene::cut(scene.world(), scene.builder.camera, 2.5 / kFramesPerSecond);
+    EXPECT_FALSE(drawsLast(frames.draw(3))) << "nothing moves in the frame of a cut";
+    const auto afterCut = frames.draw(4);
+    EXPECT_TRUE(drawsLast(afterCut)) << "the frame of the cut is history of the one after it";
+    EXPECT_GT(countFromLast(afterCut), 0u);
+    scene.world().registry.remove<scene::LinearVelocity>(scene.box);
+    const auto still = frames.draw(5);
+    EXPECT_FALSE(drawsLast(still));
+    EXPECT_FALSE(hasPass(still, "pack surface") || hasPass(still, "keep colour"));
+}
+
+TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
+    Scene scene;
+    // It stands still until the shutter opens for frame 0.
+    scene::PathMotion path;
+    path.interpolation = scene::PathInterpolation::Linear;
+    path.keys.resize(3);
+    for (const auto& [key, seconds, x] :
+         {std::tuple{0, -1.0, -0.3}, {1, -kExposureSeconds, -0.3}, {2, 1.0, 24.0}}) {
+        path.keys[key].seconds = seconds;
+        path.keys[key].position = {x, 0.6, -3};
+    }
+    scene.world().registry.remove<scene::LinearVelocity>(scene.box);
+    scene.world().registry.add(scene.box, path);
+    Frames frames(device(), scene);
+    for (int frame = -3; frame < 0; ++frame)
+        EXPECT_FALSE(hasPass(frames.draw(frame), "resolve")) << frame;
     const auto drawn = frames.draw(0);
-    EXPECT_EQ(countFromLast(drawn), 0u);
-    EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
+    test::Shot truth{
+        .method = "accumulate",
+        .width = 192,
+        .height = 128,
+        .exposureSeconds = kExposureSeconds,
+        .phase = scene::ShutterPhase::End,
+        .frameSeconds = 1.0 / kFramesPerSecond,
+        .instants = 15};
+    const auto expected = test::renderOnce(device(), scene.builder, truth);
+    EXPECT_GT(countFromLast(drawn), 0u);
+    EXPECT_GT(
+        image::computePsnr(drawn.color, expected.color),
+        image::computePsnr(drawAlone(scene).color, expected.color) + 3.0
+    );
+}
+
+TEST_F(ResolvedHistory, WhatNoFrameLooksUpIsGivenBackAfterAWhile) {
+    Scene scene;
+    Frames frames(device(), scene);
+    (void)frames.draw(0, {.method = "gather"});
+    (void)frames.draw(1, {.method = "gather"});
+    device().collect();
+    const uint32_t without = device().living().images;
+    (void)frames.draw(2);
+    (void)frames.draw(3);
+    for (uint32_t i = 0; i <= render::kFramesKept; ++i)
+        (void)frames.draw(int(i % 2), {.method = "gather"}); // in which the box is in the picture
+    device().collect();
+    EXPECT_EQ(device().living().images, without);
 }
 
 /// What red exceeds green by at most: where the red box or a ghost of it is.

@@ -360,7 +360,8 @@ typedef struct ShutterBlurInputs {
     const ShutterBlurMover* movers; /* every row without one stands still in the world */
     const uint64_t* rowIds;         /* rowCount ids that last from frame to frame; null: the rows */
     uint32_t view;                  /* number of the view, below framesInFlight */
-    /* The recording before of this view shows the frame before: its raster is looked up, too. */
+    /* The recording before of this view shows the frame before, or all has stood still since: its
+     * raster is looked up, too. */
     VkBool32 followsLast;
 
     /* For "hybrid", with entityId and noEntity: */

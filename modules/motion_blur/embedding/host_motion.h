@@ -72,9 +72,9 @@ struct HostMotion {
     /// method that keeps no raster drops the history of its view.
     uint32_t view = 0;
     /// The recording before of this view was submitted before this one, to the same queue, and
-    /// shows the frame before in the same world space: no cut, and no frame in between. Its raster
-    /// is looked up, too, unless it had another size or kind of projection. Counts with
-    /// MotionBlurSettings::history.
+    /// shows the frame before in the same world space: no cut, and no frame in between but those in
+    /// which all stood still as it was recorded. Its raster is looked up, too, unless it had
+    /// another size or kind of projection. Counts with MotionBlurSettings::history.
     bool followsLast = false;
 };
 

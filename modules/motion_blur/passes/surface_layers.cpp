@@ -83,7 +83,7 @@ SurfaceLayersOutputs SurfaceLayers::add(
             )};
     else if (wantLast)
         outputs.last = importRaster(graph, history->newest(), kKeptLayout);
-    if (history) {
+    if (history && inputs.instantMotions->keepsRaster) {
         const SurfaceLayer target =
             importRaster(graph, history->turn(params.sizePx), VK_IMAGE_LAYOUT_UNDEFINED);
         graph.markOutput(addKeepColor(graph, inputs.color, target.color));

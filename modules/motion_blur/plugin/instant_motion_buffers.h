@@ -23,22 +23,41 @@ class InstantMotionBuffers {
     InstantMotionBuffers(gpu::Device& device, const gpu_scene::GpuScene& scene)
         : mDevice(device), mScene(scene), mHistory(device) {}
 
-    /// \param context the slot's last frame must be finished
-    /// \param keepsRaster the next frame may look things up in this one's raster
-    [[nodiscard]] InstantMotions
-    update(const render::PostContext& context, uint32_t instantCount, bool keepsRaster);
+    /// Whether the raster of the frame before the view's is kept, for a frame that keeps its own.
+    [[nodiscard]] bool
+    holdsFrameBefore(const scene::World& world, const extract::ViewRequest& view) const;
 
-    /// The next frame has none before it.
+    /// \param context the slot's last frame must be finished
+    /// \param hasHistory things are looked up in the raster of the frame before, which
+    /// PostContext::lastRaster shows where it is not kept, and the next frame may look up things in
+    /// this one's (ViewFacts::isFollowed)
+    [[nodiscard]] InstantMotions
+    update(const render::PostContext& context, uint32_t instantCount, bool hasHistory);
+
+    /// Keeps no raster any more, nor memory for one.
     void forget();
 
   private:
     /// \return empty where nothing deforms
     [[nodiscard]] DrawWays
     declareWays(const render::PostContext& context, const extract::InstantTables& tables);
+    [[nodiscard]] extract::InstantTables
+    computeTables(const render::PostContext& context, uint32_t instantCount) const;
+
+    /// Whether the view's frame was the last one and is drawn again: the one before it counts.
+    [[nodiscard]] bool isAgain(const scene::World& world, const extract::ViewRequest& view) const;
+    /// What was kept before the newest raster is the newest again.
+    void stepBack();
+    [[nodiscard]] bool isOfFrameBefore(
+        const scene::World& world,
+        const extract::ViewRequest& view,
+        const std::optional<extract::RasterRecord>& record
+    ) const;
 
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
-    std::optional<extract::RasterRecord> mLast; ///< of what mHistory keeps
+    std::optional<extract::RasterRecord> mLast;   ///< of the newest raster of mHistory
+    std::optional<extract::RasterRecord> mBefore; ///< of the one kept before
     std::array<std::optional<render::ShapeWays>, gpu::kMaxFramesInFlight> mWays; ///< by slot
     RasterHistory mHistory;
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;

@@ -79,6 +79,10 @@ core::Decision MotionBlurPlugin::askRays(const render::ViewFacts& facts) const {
     return facts.reveal;
 }
 
+bool MotionBlurPlugin::readsHistory() const {
+    return settings().method->readsInstantMotions && settings().history;
+}
+
 bool MotionBlurPlugin::onlyKeeps(const render::ViewFacts& facts) const {
     return !facts.pictureWanted && settings().method->readsInstantMotions;
 }
@@ -97,6 +101,20 @@ core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts& facts)
     if (onlyKeeps(facts))
         return {false, kNoPicture};
     return {true, "secondRaster is set"};
+}
+
+core::Decision MotionBlurPlugin::askLastRaster(
+    const render::ViewFacts& facts, const scene::World& world, const extract::ViewRequest& view
+) const {
+    if (!readsHistory())
+        return {};
+    if (onlyKeeps(facts))
+        return {false, kNoPicture};
+    if (mInstantMotions.holdsFrameBefore(world, view))
+        return {false, "the frame before left its own"};
+    if (!extract::makeViewBefore(world, view))
+        return {false, "the frame before shows something else"};
+    return {true, "the frame before left none"};
 }
 
 void MotionBlurPlugin::declare(render::PostContext& context) {
@@ -119,8 +137,6 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     if (settings().method->readsInstantMotions)
         inputs.instantMotions =
             mInstantMotions.update(context, countInstants(settings()), settings().history);
-    else
-        mInstantMotions.forget();
     const bool keepsOnly = onlyKeeps(context.facts);
     const bool standsIn = mStandIn.has_value();
     // Counts of blocks choose how the next frames' still pixels are copied, whoever else reads
@@ -128,7 +144,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     inputs.wantsPicture = inputs.wantsCounters = !keepsOnly;
     inputs.wantsMethodCounters = context.facts.countersWanted;
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
-    mDrawn.at(context.slot) = {level, keepsOnly, standsIn};
+    mDrawn.at(context.slot) = {level, keepsOnly, standsIn, readsHistory()};
     inputs.slot = context.slot;
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
@@ -160,6 +176,8 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
     if (!frame.passes.empty())
         mBudget.observe(drawn.level, milliseconds);
     chooseStandIn();
+    if (mHistoryIdle.advance(frame.ran && drawn.hasHistory))
+        mInstantMotions.forget();
     if (!frame.ran || drawn.keepsOnly)
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))

@@ -54,6 +54,13 @@ class MotionBlurPlugin : public render::PostEffect {
     /// shown.
     [[nodiscard]] core::Decision askSecondRaster(const render::ViewFacts& facts) const override;
 
+    /// With MotionBlurSettings::history, for methods that read it, in frames that are shown and
+    /// follow one that left no raster: nothing moved in it, another method drew it, or it had
+    /// another size.
+    [[nodiscard]] core::Decision askLastRaster(
+        const render::ViewFacts& facts, const scene::World& world, const extract::ViewRequest& view
+    ) const override;
+
     void declare(render::PostContext& context) override;
     /// Measures what the effect took and, under a budget, its level.
     void finish(render::FinishedFrame& frame) override;
@@ -61,9 +68,10 @@ class MotionBlurPlugin : public render::PostEffect {
   private:
     /// What was declared for a slot's frame.
     struct Drawn {
-        size_t level = 0;       ///< of the budget, or kNoLevel
-        bool keepsOnly = false; ///< onlyKeeps()
-        bool standsIn = false;  ///< by Method::standIn
+        size_t level = 0;        ///< of the budget, or kNoLevel
+        bool keepsOnly = false;  ///< onlyKeeps()
+        bool standsIn = false;   ///< by Method::standIn
+        bool hasHistory = false; ///< readsHistory()
     };
 
     /// The next frame is drawn with them.
@@ -74,6 +82,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// Decides whether another method draws the next frame in place of the budget's.
     void chooseStandIn();
 
+    /// Whether the next frame's method looks things up in the raster of the one before.
+    [[nodiscard]] bool readsHistory() const;
+
     /// Whether the frame is drawn for what the next one looks up, and the method keeps something.
     [[nodiscard]] bool onlyKeeps(const render::ViewFacts& facts) const;
 
@@ -83,6 +94,7 @@ class MotionBlurPlugin : public render::PostEffect {
     std::optional<MotionBlurSettings> mStandIn; ///< of the next frame; nothing: the budget's
     std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     InstantMotionBuffers mInstantMotions;
+    render::IdleCounter mHistoryIdle;
     MotionBlur mEffect;
 };
 

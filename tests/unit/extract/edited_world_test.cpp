@@ -143,10 +143,13 @@ class EditedWorld : public KeptFrame {
     void editPresence(ecs::Entity entity) {
         switch (below(8)) {
         case 0:
-            scene::hide(world, entity);
+            if (below(2) == 0)
+                scene::hide(world, entity);
+            else
+                scene::hide(world, entity, seconds + uniform(-1.0, 0.5));
             break;
         case 1:
-            scene::show(world, entity, seconds);
+            scene::show(world, entity, seconds + (below(2) == 0 ? 0.0 : uniform(-0.5, 0.5)));
             break;
         case 2:
             if (entities.size() > 8)
@@ -240,7 +243,7 @@ class EditedWorld : public KeptFrame {
             editView();
             break;
         case 5:
-            seconds += 0.125;
+            seconds += below(8) == 0 ? -0.25 : 0.125;
             break;
         case 6:
             if (auto* blur = world.registry.find<scene::MotionBlur>(entity); blur && below(2) == 0)
@@ -257,6 +260,12 @@ class EditedWorld : public KeptFrame {
         }
         const scene::MotionCap cap = request.exposure.cap;
         request.exposure = {seconds - exposureSeconds, seconds, seconds, 1.0, 0.125, {}, cap};
+        if (exposureSeconds > 0.0 && below(3) == 0) {
+            const double open = seconds - exposureSeconds * uniform(0.2, 1.0);
+            request.exposure = scene::takePart(
+                request.exposure, open, std::lerp(open, seconds, uniform(0.1, 1.0))
+            );
+        }
     }
 
     std::mt19937 random;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What has no past, is hidden, or is scaled by an artist, in the entity table and for rays.
+#include "engine/extract/frame_view.h"
 #include "engine/extract/timed_tables.h"
 #include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
@@ -37,10 +38,29 @@ class ExtractionHistory : public Extraction {
 TEST_F(ExtractionHistory, WhatAppearedStandsStillAndNothingMoves) {
     const ecs::Entity mover = addMover();
     EXPECT_TRUE(extract().moves);
-    scene::appear(world, mover, 0.7);
+    scene::appear(world, mover, 1.0);
     const ExtractedFrame frame = extract();
     EXPECT_FALSE(frame.moves);
     expectStill(frame, 0);
+}
+
+TEST_F(ExtractionHistory, RaysMeetWhatAppearsFromThenOnAndWhatIsHiddenUntilThen) {
+    const ecs::Entity mover = addMover();
+    scene::appear(world, mover, 0.7);
+    ExtractedFrame frame = extract();
+    EXPECT_FALSE(frame.moves) << "a raster shows it all the time or never";
+    auto keys = computeTables(frame).rows.at(0).keys;
+    EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.69)));
+    EXPECT_EQ(interpolateKeys(keys, 0.71), interpolateKeys(keys, 1.0)) << "it stands still";
+    EXPECT_TRUE(isDrawable(interpolateKeys(keys, 1.0)));
+    world.registry.remove<scene::Appeared>(mover);
+    scene::hide(world, mover, 0.4);
+    frame = extract();
+    EXPECT_TRUE(frame.entities.empty()) << "at the raster instant it is hidden";
+    keys = computeTables(frame).rows.at(0).keys;
+    EXPECT_TRUE(isDrawable(interpolateKeys(keys, 0.39)));
+    EXPECT_NEAR(interpolateKeys(keys, 0.39)[3].x, 0.39, 1e-3) << "it moves until then";
+    EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.41)));
 }
 
 TEST_F(ExtractionHistory, ACutLeavesNothingMoving) {

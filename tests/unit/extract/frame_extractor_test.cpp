@@ -130,6 +130,33 @@ TEST_F(KeptFrame, WhatBecomesDrawableGetsItsRow) {
     EXPECT_EQ(update().entities.size(), 1u);
 }
 
+TEST_F(KeptFrame, WhatComesAndGoesInTimeHasARowWhileItIsThere) {
+    addBox({-2.0, 0.0, -10.0});
+    const ecs::Entity parent = addBox({0.0, 0.0, -10.0});
+    const ecs::Entity box = addBox({2.0, 0.0, 0.0});
+    world.registry.add(box, scene::Parent{parent});
+    const auto countAt = [&](double open, double close, bool isPart) {
+        request.exposure = {0.0, 4.0, 4.0, 1.0, 4.0};
+        request.exposure = isPart ? scene::takePart(request.exposure, open, close)
+                                  : scene::ExposureInterval{open, close, close, 1.0, close - open};
+        return update().entities.size();
+    };
+    EXPECT_EQ(countAt(0.0, 1.0, false), 3u);
+    scene::appear(world, parent, 1.0);
+    scene::hide(world, parent, 3.0);
+    // In any order of time, also once nothing is written to any more.
+    for (int round = 0; round < 2; ++round) {
+        EXPECT_EQ(countAt(0.0, 0.9, true), 1u);
+        EXPECT_EQ(countAt(1.1, 2.9, true), 3u);
+        EXPECT_EQ(countAt(3.1, 4.0, true), 1u);
+        EXPECT_EQ(countAt(1.1, 2.9, true), 3u);
+        EXPECT_EQ(countAt(4.0, 5.0, false), 1u) << "hidden all the time";
+        EXPECT_EQ(countAt(2.0, 2.5, false), 3u);
+        EXPECT_EQ(countAt(0.5, 1.5, false), 3u) << "as at the raster instant";
+        EXPECT_EQ(countAt(2.5, 3.5, false), 1u) << "likewise";
+    }
+}
+
 TEST_F(KeptFrame, MoreChangesThanAreRememberedAreNotMissed) {
     const ecs::Entity first = addBox({0.0, 0.0, -10.0});
     const ecs::Entity second = addBox({1.0, 0.0, -10.0});

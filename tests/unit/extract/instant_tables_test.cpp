@@ -8,6 +8,8 @@
 #include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
+#include <utility>
+
 namespace shutter::extract {
 namespace {
 
@@ -211,6 +213,32 @@ TEST_F(InstantTablesTest, RowsThatMoveUpAreFoundByTheirEntity) {
     EXPECT_EQ(tables.last->rasterRows, (std::vector<uint32_t>{shader::kNoRasterRow, 0}));
 }
 
+TEST_F(InstantTablesTest, WhatHasShrunkToNothingIsStillInTheLastRaster) {
+    const ecs::Entity shrinking = addBox({0.5, 0.2, -8.0});
+    scene::AnimationClip clip;
+    clip.channels.push_back(
+        {0,
+         scene::AnimationPath::Scale,
+         scene::Interpolation::Linear,
+         {0.5f, 1.0f},
+         {vec4(1.0f), vec4(0.0f)}}
+    );
+    world.assets.clips.push_back(std::move(clip));
+    world.registry.add(shrinking, scene::Animated{{{0, 0}}});
+    const dvec3 corner(0.9, -0.7, 0.3);
+    setTime(1.0 - kFrameSeconds);
+    const Seen then = project(shrinking, corner, 1.0);
+    const InstantTables tables = computeSecondFrame();
+    EXPECT_TRUE(extract().entities.empty());
+    ASSERT_TRUE(tables.last.has_value());
+    expectMaps(*tables.last, 0, then, shrinking, corner);
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    setTime(1.0);
+    scene::hide(world, shrinking);
+    EXPECT_EQ(compute(&last).last->movers.at(0), shader::kNoMover) << "what is hidden is not there";
+}
+
 TEST_F(InstantTablesTest, WhatWasTeleportedHasNoPast) {
     const ecs::Entity tumbler = addTumbler();
     addTumbler();
@@ -242,6 +270,76 @@ TEST_F(InstantTablesTest, ARasterOfMoreThanOneFrameAgoSaysNothing) {
     EXPECT_TRUE(compute(&last).last.has_value());
     last.seconds -= kFrameSeconds;
     EXPECT_FALSE(compute(&last).last.has_value());
+}
+
+TEST_F(InstantTablesTest, TheLastRasterIsThatOfEachPartOfTheExposure) {
+    moveCamera();
+    const ecs::Entity tumbler = addTumbler();
+    const dvec3 corner(0.9, -0.7, 0.3);
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    const Seen then = project(tumbler, corner, 1.0);
+    setTime(1.0);
+    const scene::ExposureInterval whole = request.exposure;
+    for (const auto& [from, to] : {std::pair{0.0, 0.3}, {0.3, 1.0}}) {
+        request.exposure = scene::takePart(whole, whole.at(from), whole.at(to));
+        const InstantTables tables = compute(&last);
+        ASSERT_TRUE(tables.last.has_value());
+        expectMaps(*tables.last, 0, then, tumbler, corner);
+        EXPECT_EQ(tables.record.seconds, 1.0) << "the frame's own time";
+    }
+}
+
+TEST_F(InstantTablesTest, TheViewBeforeDrawsTheLastRaster) {
+    moveCamera();
+    addTumbler();
+    setTime(1.0 - kFrameSeconds);
+    const RasterRecord last = compute().record;
+    setTime(1.0);
+    const auto before = makeViewBefore(world, request);
+    ASSERT_TRUE(before.has_value());
+    const auto frame = extractFrame(world, layout, *before);
+    const scene::ExposureMotion motionBefore(world, camera, before->exposure);
+    const RasterRecord record =
+        makeRasterRecord(world, *before, motionBefore, frame.value(), before->exposure.rasterTime);
+    EXPECT_EQ(record.seconds, last.seconds);
+    EXPECT_EQ(record.pictureFromWorld, last.pictureFromWorld);
+    EXPECT_EQ(record.entities, last.entities);
+    EXPECT_EQ(record.worldFromObject, last.worldFromObject);
+    const scene::ExposureMotion motion(world, camera, request.exposure);
+    EXPECT_TRUE(isOfFrameBefore(world, request, motion, record));
+}
+
+TEST_F(InstantTablesTest, AFrameThatIsDrawnAgainIsKnownByItsTimeAndItsCamera) {
+    moveCamera();
+    addTumbler();
+    const RasterRecord drawn = compute().record;
+    const auto isAgain = [&] {
+        const scene::ExposureMotion motion(world, request.camera, request.exposure);
+        return isOfSameFrame(world, request, motion, drawn);
+    };
+    EXPECT_TRUE(isAgain());
+    request.jitterPx = {0.3, -0.2};
+    EXPECT_TRUE(isAgain()) << "wherever in the pixel";
+    setTime(1.0 + kFrameSeconds);
+    EXPECT_FALSE(isAgain());
+    setTime(1.0);
+    world.registry.get<scene::LocalTransform>(camera).transform.translation.x += 0.1;
+    EXPECT_FALSE(isAgain());
+}
+
+TEST_F(InstantTablesTest, NothingIsBeforeACutAPauseOrTheBeginning) {
+    moveCamera();
+    ASSERT_TRUE(makeViewBefore(world, request).has_value());
+    request.exposure.frameSeconds = 0.0;
+    EXPECT_FALSE(makeViewBefore(world, request).has_value());
+    setTime(1.0);
+    scene::cut(world, camera, 0.8);
+    EXPECT_FALSE(makeViewBefore(world, request).has_value());
+    scene::cut(world, camera, 0.7);
+    EXPECT_TRUE(makeViewBefore(world, request).has_value()) << "before the frame before";
+    world.startSeconds = 0.9;
+    EXPECT_FALSE(makeViewBefore(world, request).has_value());
 }
 
 TEST_F(InstantTablesTest, AnotherCameraOrSizeHasNoLastRaster) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <utility>
 
 namespace shutter::scene {
@@ -217,6 +218,35 @@ TEST_F(Artist, DeformationIsTakenAtTheScaledTime) {
     EXPECT_NEAR(now.deformationAt(entity, 0.5).morphWeights.at(0), kRaster / 10.0, 1e-7);
     mShutter.objectScale = 0.0;
     EXPECT_FALSE(motion().mayDeform(entity));
+}
+
+TEST_F(Artist, APartOfTheExposureShowsWhatTheWholeShowsThen) {
+    const ecs::Entity mover = addMover({1, 0, 0}, {0, 3, 0});
+    const ecs::Entity held = addMover({2, 0, 0}, {0, 0, 0});
+    teleport(mWorld, held, {}, kRaster - 0.01);
+    mWorld.registry.add(mover, MotionBlur{.scale = 0.5});
+    mShutter.objectScale = 0.8;
+    mShutter.cameraRotationScale = 2.0;
+    const ExposureMotion whole = motion();
+    const ExposureInterval& exposure = whole.exposure();
+    for (const auto& [from, to] : {std::pair{0.0, 0.25}, {0.25, 0.75}, {0.75, 1.0}}) {
+        const ExposureMotion part(
+            mWorld, mCamera, takePart(exposure, exposure.at(from), exposure.at(to))
+        );
+        for (const double s : {0.0, 0.3, 1.0}) {
+            const double at = std::lerp(from, to, s);
+            for (const ecs::Entity entity : {mover, held}) {
+                expectNearMatrix(
+                    part.worldFromEntity(entity, s), whole.worldFromEntity(entity, at)
+                );
+                expectNearMatrix(
+                    part.worldFromObject(entity, s), whole.worldFromObject(entity, at)
+                );
+            }
+            expectNearMatrix(part.worldFromCamera(s), whole.worldFromCamera(at));
+        }
+        EXPECT_FALSE(part.mayMove(held)) << "a frame's events are those of all its parts";
+    }
 }
 
 TEST_F(Artist, AnEventThatAScaleReachesCounts) {

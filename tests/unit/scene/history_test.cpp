@@ -259,6 +259,25 @@ TEST_F(History, HiddenIsHiddenWithItsDescendantsAndShowingStamps) {
     expectHeld(mover, false, 1.1); // it was in sight all the time
 }
 
+TEST_F(History, WhatIsHiddenFromATimeOnIsNotBefore) {
+    const ecs::Entity mover = addMover({1, 0, 0});
+    const ecs::Entity child = addChild(mover);
+    hide(mWorld, mover, 0.5);
+    EXPECT_FALSE(isHidden(mWorld, child, 0.4999));
+    EXPECT_TRUE(isHidden(mWorld, child, 0.5));
+    EXPECT_TRUE(isHidden(mWorld, child)) << "at some time";
+    EXPECT_FALSE(isAlwaysHidden(mWorld, child));
+    EXPECT_TRUE(mayComeOrGo(mWorld, child, 9.0));
+    hide(mWorld, mover);
+    EXPECT_TRUE(isHidden(mWorld, child, -1e300));
+    EXPECT_TRUE(isAlwaysHidden(mWorld, child));
+    EXPECT_FALSE(mayComeOrGo(mWorld, child, 0.0));
+    show(mWorld, mover, 0.6);
+    EXPECT_FALSE(isHidden(mWorld, child));
+    EXPECT_TRUE(mayComeOrGo(mWorld, child, 0.5));
+    EXPECT_FALSE(mayComeOrGo(mWorld, child, 0.6));
+}
+
 TEST_F(History, DespawningTakesDescendantsAndWhatHangsOnThem) {
     const ecs::Entity parent = addMover({1, 0, 0});
     const ecs::Entity child = addChild(addChild(parent));

@@ -245,6 +245,63 @@ TEST(Response, OnlyTheShapeCounts) {
         );
 }
 
+TEST(ExposurePart, ItsRasterInstantIsTheNearestToTheFramesAndItKnowsTheFrame) {
+    CameraShutter shutter = makeShutter(ShutterMode::Angle);
+    shutter.phase = ShutterPhase::Centre;
+    const ExposureInterval whole = computeExposure(shutter, 2.0, 0.4); // from 1.9 to 2.1
+    const ExposureInterval before = takePart(whole, 1.9, 1.95);
+    EXPECT_EQ(before.raster, 1.95);
+    EXPECT_EQ(before.rasterTime, 1.0);
+    const ExposureInterval around = takePart(whole, 1.95, 2.05);
+    EXPECT_EQ(around.raster, 2.0);
+    EXPECT_NEAR(around.rasterTime, 0.5, 1e-12);
+    const ExposureInterval after = takePart(whole, 2.05, 2.1);
+    EXPECT_EQ(after.raster, 2.05);
+    EXPECT_EQ(after.rasterTime, 0.0);
+    for (const ExposureInterval& part : {before, around, after, takePart(around, 1.97, 1.98)}) {
+        EXPECT_EQ(part.frame().open, whole.open);
+        EXPECT_EQ(part.frame().raster, whole.raster);
+        EXPECT_EQ(part.frame().close, whole.close);
+        EXPECT_EQ(numberFrame(part), numberFrame(whole));
+        EXPECT_EQ(computeExposureBefore(part, 2).raster, 2.0 - 0.8);
+    }
+}
+
+TEST(ExposurePart, ItTakesItsOwnShareOfTheLight) {
+    CameraShutter shutter = makeShutter(ShutterMode::Physical);
+    shutter.exposureSeconds = 1.0;
+    for (const ShutterResponse& response :
+         {ShutterResponse{},
+          triangle(),
+          trapezoid(0.25, 0.5),
+          trapezoid(0.0, 1.0),
+          sampled({0.0, 5.0, 5.0, 0.0, 0.0, 2.0, 1.0}),
+          sampled(std::vector<double>(64, 1.0))}) {
+        shutter.response = response;
+        const ExposureInterval whole = computeExposure(shutter, 1.0, 2.0); // from 0 to 1
+        for (const auto& [from, to] :
+             {std::pair{0.0, 0.3}, {0.3, 0.45}, {0.125, 1.0}, {0.0, 1.0}}) {
+            const ExposureInterval part = takePart(whole, from, to);
+            const double before = measureLightBefore(whole, from);
+            const double light = measureLightBefore(whole, to) - before;
+            for (const double u : {0.05, 0.3, 0.5, 0.8, 0.95}) {
+                const double expected = invertResponse(response, before + u * light);
+                EXPECT_NEAR(part.at(invertLight(part, u)), expected, 2e-4) << from << to << u;
+                EXPECT_NEAR(measureLightBefore(part, expected), u, 2e-4) << from << to << u;
+            }
+        }
+    }
+}
+
+TEST(ExposurePart, OneWithoutLightIsTakenEvenly) {
+    CameraShutter shutter = makeShutter(ShutterMode::Physical);
+    shutter.exposureSeconds = 1.0;
+    shutter.response = sampled({1.0, 0.0, 0.0, 1.0});
+    const ExposureInterval whole = computeExposure(shutter, 1.0, 2.0);
+    EXPECT_EQ(invertLight(takePart(whole, 0.4, 0.6), 0.25), 0.25);
+    EXPECT_EQ(measureLightBefore(whole, 0.4), measureLightBefore(whole, 0.6));
+}
+
 TEST(Response, BadOnesAreRefused) {
     EXPECT_TRUE(validateResponse(triangle()).ok());
     EXPECT_TRUE(validateResponse(trapezoid(0.5, 0.5)).ok());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The world as it is at the other end of the exposure, drawn for effects that look up there what
-// the frame's own raster does not hold.
+// The world at another time than the frame's own, drawn for effects that look up there what the
+// frame's own raster does not hold: at the other end of the exposure, or as the frame before had
+// it.
 #pragma once
 
 #include "engine/core/result.h"
@@ -18,25 +19,30 @@ namespace shutter::render {
 class ShadowMaps;
 struct ShadowPipelines;
 
-/// Shutter time of the end of the exposure that is farther from the raster instant: 0 or 1.
-[[nodiscard]] double findOtherEnd(double rasterTime);
+/// The view of the end of the exposure that is farther from the raster instant.
+[[nodiscard]] extract::ViewRequest makeViewOfOtherEnd(const extract::ViewRequest& view);
 
 /// One for each frame in flight: the GPU must be done with the frame that it was declared for last.
-class SecondRaster {
+class OtherRaster {
   public:
-    explicit SecondRaster(gpu::Device& device);
-    ~SecondRaster();
+    explicit OtherRaster(gpu::Device& device);
+    ~OtherRaster();
 
-    /// \param view the frame's own, which gets the other instant
+    /// \param view of the raster's own time. With an instant, what moves casts the shadow of the
+    /// whole exposure all the same, as in the frame's own raster
     /// Error: as FrameExtractor::update.
     [[nodiscard]] core::Status extract(
-        const scene::World& world, const extract::SceneLayout& layout, extract::ViewRequest view
+        const scene::World& world,
+        const extract::SceneLayout& layout,
+        const extract::ViewRequest& view
     );
 
     /// Declares the passes of what was extracted, which must live until they have been recorded.
+    /// \param name of the pass that draws it
     /// \param shadows null: lights cast none
-    [[nodiscard]] SecondRasterView declare(
+    [[nodiscard]] OtherRasterView declare(
         graph::Graph& graph,
+        const char* name,
         const gpu_scene::GpuScene& scene,
         const GBufferPass& pass,
         const ShadowPipelines* shadows

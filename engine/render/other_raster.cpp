@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/second_raster.h"
+#include "engine/render/other_raster.h"
 
 #include "engine/render/shadow_maps.h"
 
@@ -7,33 +7,34 @@
 
 namespace shutter::render {
 
-SecondRaster::SecondRaster(gpu::Device& device)
-    : mTables(device), mDeformation(device), mShadows(std::make_unique<ShadowMaps>(device)) {}
-
-SecondRaster::~SecondRaster() = default;
-
-double findOtherEnd(double rasterTime) {
-    return rasterTime < 0.5 ? 1.0 : 0.0;
+extract::ViewRequest makeViewOfOtherEnd(const extract::ViewRequest& view) {
+    extract::ViewRequest other = view;
+    other.instant = view.exposure.rasterTime < 0.5 ? 1.0 : 0.0;
+    return other;
 }
 
-core::Status SecondRaster::extract(
-    const scene::World& world, const extract::SceneLayout& layout, extract::ViewRequest view
+OtherRaster::OtherRaster(gpu::Device& device)
+    : mTables(device), mDeformation(device), mShadows(std::make_unique<ShadowMaps>(device)) {}
+
+OtherRaster::~OtherRaster() = default;
+
+core::Status OtherRaster::extract(
+    const scene::World& world, const extract::SceneLayout& layout, const extract::ViewRequest& view
 ) {
-    view.instant = findOtherEnd(view.exposure.rasterTime);
     auto extracted = mExtractor.update(world, layout, view);
     if (!extracted)
         return extracted.error();
     mFrame = extracted.value();
     mView = view;
-    // Lit as the frame's own raster: what moves casts the shadow of the whole exposure in both.
     mShadows->prepare(
         extract::planShadows(world, layout, view, *mFrame, /*keepsExposure=*/true), *mFrame
     );
     return {};
 }
 
-SecondRasterView SecondRaster::declare(
+OtherRasterView OtherRaster::declare(
     graph::Graph& graph,
+    const char* name,
     const gpu_scene::GpuScene& scene,
     const GBufferPass& pass,
     const ShadowPipelines* shadows
@@ -46,14 +47,9 @@ SecondRasterView SecondRaster::declare(
         shadowMaps =
             mShadows->declare(graph, *shadows, *mFrame, scene, shapes.buffer, tables.constants);
     const GBuffer gbuffer = pass.declare(
-        graph,
-        "second G-buffer",
-        *mFrame,
-        scene,
-        std::array{shapes.buffer, shadowMaps},
-        tables.constants
+        graph, name, *mFrame, scene, std::array{shapes.buffer, shadowMaps}, tables.constants
     );
-    return {gbuffer, mFrame, shapes, *mView.instant};
+    return {gbuffer, mFrame, shapes, &mView};
 }
 
 } // namespace shutter::render

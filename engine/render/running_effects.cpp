@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// What the effects of a frame ask for beside the frame's own raster, and what goes once none did
+// for a while.
+#include "engine/core/check.h"
+#include "engine/extract/raster_record.h"
+#include "engine/render/renderer.h"
+#include "engine/render/shadow_maps.h"
+
+namespace shutter::render {
+
+namespace {
+
+/// What all effects together want: the first that wants it, or the last that says why not.
+void join(core::Decision& all, const std::string& effect, const core::Decision& own) {
+    if (!all.run && !own.reason.empty())
+        all = {own.run, effect + ": " + own.reason};
+}
+
+} // namespace
+
+Renderer::RunningEffects Renderer::askEffects(
+    const scene::World& world,
+    const extract::ViewRequest& view,
+    std::span<PostEffect* const> effects,
+    const ViewFacts& facts,
+    Explainer& explainer
+) {
+    RunningEffects running;
+    running.rays = running.timedRays = {false, "no effect that runs traces any"};
+    running.secondRaster =
+        running.lastRaster = {false, "no effect that runs looks anything up in it"};
+    for (PostEffect* effect : effects) {
+        core::Decision decision = effect->ask(facts);
+        const core::Decision rays = effect->askRays(facts);
+        const core::Decision timedRays = effect->askTimedRays(facts);
+        if (decision.run && (rays.run || timedRays.run) && !facts.deviceHasRays)
+            decision = {false, "it needs rays, which the device cannot trace"};
+        if (decision.run && timedRays.run && !facts.deviceHasRayQuery)
+            decision = {false, "it needs ray queries, which the device lacks"};
+        explainer.decide(ExplainedKind::Effect, effect->name(), decision);
+        if (!decision.run)
+            continue;
+        const core::Decision secondRaster = effect->askSecondRaster(facts);
+        const core::Decision lastRaster = effect->askLastRaster(facts, world, view);
+        running.effects.push_back({effect, secondRaster.run, lastRaster.run});
+        running.mayTrace = running.mayTrace || !rays.reason.empty();
+        join(running.rays, effect->name(), rays);
+        join(running.timedRays, effect->name(), timedRays);
+        join(running.secondRaster, effect->name(), secondRaster);
+        join(running.lastRaster, effect->name(), lastRaster);
+    }
+    return running;
+}
+
+core::Status Renderer::extractOtherRasters(
+    Slot& slot,
+    const scene::World& world,
+    const extract::ViewRequest& view,
+    const RunningEffects& running
+) {
+    const extract::SceneLayout& layout = mScene.layout();
+    if (running.secondRaster.run)
+        SHUTTER_TRY(slot.secondRaster->extract(world, layout, makeViewOfOtherEnd(view)));
+    if (!running.lastRaster.run)
+        return {};
+    const auto before = extract::makeViewBefore(world, view);
+    SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
+    return slot.lastRaster->extract(world, layout, *before);
+}
+
+std::vector<Renderer::PendingEffect> Renderer::listPending(
+    std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
+) {
+    std::vector<PendingEffect> pending;
+    for (PostEffect* effect : effects) {
+        PendingEffect& own = pending.emplace_back();
+        own.effect = effect;
+        for (const RunningEffect& one : running.effects) {
+            if (one.effect != effect)
+                continue;
+            own.ran = true;
+            for (size_t i = 0; i < plan.passes.size(); ++i)
+                if (plan.passes[i].pass >= one.firstPass && plan.passes[i].pass < one.endPass)
+                    own.times.push_back(i);
+        }
+    }
+    return pending;
+}
+
+void Renderer::releaseIdle(const extract::ExtractedFrame& frame, const RunningEffects& running) {
+    // Building bottom levels takes longer than a frame: an effect that may trace keeps them.
+    const bool anyRays = running.mayTrace || running.timedRays.run;
+    const bool deformationIdle = mDeformationIdle.advance(!frame.deformed.empty());
+    const bool raysIdle = mRaysIdle.advance(running.rays.run);
+    const bool timedRaysIdle = mTimedRaysIdle.advance(running.timedRays.run);
+    const bool secondRasterIdle = mSecondRasterIdle.advance(running.secondRaster.run);
+    const bool lastRasterIdle = mLastRasterIdle.advance(running.lastRaster.run);
+    for (const auto& slot : mSlots) {
+        if (deformationIdle)
+            slot->deformation.emplace(mDevice);
+        if (raysIdle)
+            slot->frameTlas.emplace(mDevice);
+        if (timedRaysIdle)
+            slot->timedScene.emplace(mDevice);
+        if (secondRasterIdle)
+            slot->secondRaster.emplace(mDevice);
+        if (lastRasterIdle)
+            slot->lastRaster.emplace(mDevice);
+    }
+    if (mShadowsIdle.advance((frame.constants.flags & shader::kFrameShadows) != 0))
+        for (const auto& slot : mSlots)
+            slot->shadows = std::make_unique<ShadowMaps>(mDevice);
+    if (mBlasIdle.advance(anyRays))
+        mScene.releaseBlas();
+}
+
+} // namespace shutter::render

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// When clips may move things without a way in between: at a key of STEP, between two keys at nearly
+// the same time, and where a clip that loops begins anew.
+#pragma once
+
+#include "engine/ecs/entity.h"
+#include "engine/scene/animation.h"
+#include "engine/scene/assets.h"
+#include "engine/scene/history.h"
+#include "engine/scene/world.h"
+
+#include <compare>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace shutter::scene {
+
+/// At `before` nothing of it has happened, at `after` all has. Where a property steps, the two are
+/// as near as rounding allows for them to be on different sides of it.
+struct Jump {
+    double before = 0.0; ///< seconds
+    double after = 0.0;  ///< seconds
+
+    [[nodiscard]] auto operator<=>(const Jump&) const = default;
+};
+
+class ClipJumps {
+  public:
+    /// Most rounds of a clip in `span` that are looked at: of one with more, nothing is.
+    static constexpr double kMostRounds = 64.0;
+
+    /// Looks once at all that clips drive.
+    /// \param span seconds; both ends are looked at
+    /// \param longestSeconds between two keys that count as one place in time
+    ClipJumps(const World& world, const TimeSpan& span, double longestSeconds);
+
+    [[nodiscard]] bool empty() const { return mPlaces.empty() && mShapes.empty(); }
+
+    /// Of what places the entity, or its joints, and of what deforms its mesh; in rising order,
+    /// some of them at which nothing is seen to jump.
+    [[nodiscard]] std::vector<Jump> of(const World& world, ecs::Entity entity) const;
+
+  private:
+    using Jumps = std::unordered_map<uint32_t, std::vector<Jump>>; ///< by entity index
+
+    void addPlaces(const World& world, ecs::Entity entity, std::vector<Jump>& jumps) const;
+
+    Jumps mPlaces; ///< of what clips place themselves
+    Jumps mShapes; ///< of morph targets' weights
+};
+
+} // namespace shutter::scene

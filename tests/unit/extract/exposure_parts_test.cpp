@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// How an exposure is cut where something jumps: shares of the light by arithmetic, and which jumps
+// are seen.
+#include "engine/extract/exposure_parts.h"
+#include "engine/extract/frame_view.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "tests/unit/extract/extraction_fixture.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace shutter::extract {
+namespace {
+
+using math::dvec3;
+using math::vec4;
+using scene::AnimationPath;
+using scene::Interpolation;
+
+/// The exposure runs from 1 s to 2 s, and the raster instant is its end.
+class ExposureParts : public Extraction {
+  protected:
+    ExposureParts() {
+        mShutter.exposureSeconds = 1.0;
+        mShutter.cuts.enabled = false;
+        mBox = addBox({0.0, 0.0, -10.0});
+    }
+
+    void animate(
+        ecs::Entity entity,
+        AnimationPath path,
+        Interpolation interpolation,
+        std::vector<float> times,
+        std::vector<vec4> values
+    ) {
+        scene::AnimationClip clip;
+        clip.duration = double{times.back()};
+        scene::AnimationChannel& channel = clip.channels.emplace_back();
+        channel.path = path;
+        channel.interpolation = interpolation;
+        channel.times = std::move(times);
+        channel.values = std::move(values);
+        const auto index = static_cast<uint32_t>(world.assets.clips.size());
+        world.assets.clips.push_back(std::move(clip));
+        if (!world.registry.has<scene::Animated>(entity))
+            world.registry.add(entity, scene::Animated{});
+        world.registry.get<scene::Animated>(entity).channels.push_back({index, 0});
+    }
+
+    /// Scales by 0 and 1 in turns, beginning with `first`.
+    void blink(ecs::Entity entity, std::vector<float> times, float first = 0.0f) {
+        std::vector<vec4> values;
+        for (size_t i = 0; i < times.size(); ++i)
+            values.emplace_back(vec4(i % 2 == 0 ? first : 1.0f - first));
+        animate(
+            entity, AnimationPath::Scale, Interpolation::Step, std::move(times), std::move(values)
+        );
+    }
+
+    std::vector<ExposurePart> plan() {
+        request.exposure = scene::computeExposure(mShutter, mRaster, 1.0 / 24.0);
+        return planExposureParts(world, layout, request);
+    }
+
+    /// The parts in their order, and which of them is the last one.
+    static void expectParts(
+        const std::vector<ExposurePart>& parts,
+        const std::vector<std::pair<double, double>>& times,
+        const std::vector<double>& shares
+    ) {
+        ASSERT_EQ(parts.size(), times.size());
+        for (size_t i = 0; i < parts.size(); ++i) {
+            EXPECT_NEAR(parts[i].exposure.open, times[i].first, 1e-9) << i;
+            EXPECT_NEAR(parts[i].exposure.close, times[i].second, 1e-9) << i;
+            EXPECT_NEAR(parts[i].share, shares[i], 1e-6) << i;
+        }
+    }
+
+    scene::CameraShutter mShutter;
+    double mRaster = 2.0;
+    ecs::Entity mBox;
+};
+
+TEST_F(ExposureParts, NothingThatJumpsIsOneExposure) {
+    EXPECT_TRUE(plan().empty());
+    world.registry.add(mBox, scene::LinearVelocity{{100.0, 0.0, 0.0}});
+    EXPECT_TRUE(plan().empty()) << "however fast it goes";
+    animate(
+        addBox({0, 0, -9}),
+        AnimationPath::Scale,
+        Interpolation::Linear,
+        {1.0f, 1.5f},
+        {vec4(0.0f), vec4(1.0f)}
+    );
+    EXPECT_TRUE(plan().empty()) << "what grows goes a way";
+}
+
+TEST_F(ExposureParts, WhatAppearsTakesItsShareOfTheLight) {
+    blink(mBox, {0.0f, 1.25f});
+    expectParts(plan(), {{1.0, 1.25}, {1.25, 2.0}}, {0.25, 0.75});
+    // A triangle takes 2 (1/4)^2 of its light in its first quarter.
+    mShutter.response.shape = scene::ResponseShape::Triangle;
+    expectParts(plan(), {{1.0, 1.25}, {1.25, 2.0}}, {0.125, 0.875});
+}
+
+TEST_F(ExposureParts, TheLastPartHoldsTheRasterInstantOrIsTheNearest) {
+    blink(mBox, {0.0f, 1.25f, 1.75f});
+    auto parts = plan();
+    expectParts(parts, {{1.0, 1.25}, {1.25, 1.75}, {1.75, 2.0}}, {0.25, 0.5, 0.25});
+    EXPECT_EQ(parts[2].exposure.rasterTime, 1.0);
+    EXPECT_EQ(parts[2].exposure.raster, 2.0);
+    EXPECT_EQ(parts[0].exposure.rasterTime, 1.0) << "as near to the frame's instant as it is";
+    mShutter.phase = scene::ShutterPhase::Start;
+    mRaster = 1.0;
+    parts = plan();
+    expectParts(parts, {{1.25, 1.75}, {1.75, 2.0}, {1.0, 1.25}}, {0.5, 0.25, 0.25});
+    EXPECT_EQ(parts[2].exposure.rasterTime, 0.0);
+    mShutter.phase = scene::ShutterPhase::Centre;
+    mRaster = 1.5;
+    parts = plan();
+    expectParts(parts, {{1.0, 1.25}, {1.75, 2.0}, {1.25, 1.75}}, {0.25, 0.25, 0.5});
+    EXPECT_NEAR(parts[2].exposure.rasterTime, 0.5, 1e-9);
+}
+
+TEST_F(ExposureParts, AStepAtAnEndOfTheExposureLeavesOnePartThatDoesNotReachIt) {
+    blink(mBox, {0.0f, 2.0f});
+    auto parts = plan();
+    expectParts(parts, {{1.0, 2.0}}, {1.0});
+    const scene::ExposureMotion motion(world, camera, parts[0].exposure);
+    for (const double s : {0.0, 0.5, 1.0})
+        EXPECT_EQ(motion.worldFromObject(mBox, s)[0].x, 0.0) << s << ": it has not come yet";
+    mRaster = 3.0;
+    EXPECT_LE(plan().size(), 1u) << "it was there all the time";
+    for (const ExposurePart& part : plan())
+        EXPECT_EQ(
+            scene::ExposureMotion(world, camera, part.exposure).worldFromObject(mBox, 0.0)[0].x, 1.0
+        );
+}
+
+TEST_F(ExposureParts, InNoPartAnythingIsBetweenItsPlaces) {
+    // Children of one that steps, a loop that begins anew, keys at nearly the same time.
+    const ecs::Entity parent = world.registry.create();
+    world.registry.add(parent, scene::LocalTransform{});
+    world.registry.add(mBox, scene::Parent{parent});
+    world.playback.loop = true;
+    animate(
+        parent,
+        AnimationPath::Translation,
+        Interpolation::Step,
+        {0.0f, 0.3f, 0.6f},
+        {vec4(-2.0f, 0, 0, 0), vec4(2.0f, 0, 0, 0), vec4(-2.0f, 0, 0, 0)}
+    );
+    const auto parts = plan();
+    ASSERT_GE(parts.size(), 3u);
+    double light = 0.0;
+    for (const ExposurePart& part : parts) {
+        light += part.share;
+        const scene::ExposureMotion motion(world, camera, part.exposure);
+        const double x = motion.worldFromObject(mBox, 0.5)[3].x;
+        EXPECT_EQ(std::abs(x), 2.0);
+        EXPECT_EQ(motion.worldFromObject(mBox, 0.0)[3].x, x);
+        EXPECT_EQ(motion.worldFromObject(mBox, 1.0)[3].x, x);
+    }
+    EXPECT_NEAR(light, 1.0, 1e-12);
+}
+
+TEST_F(ExposureParts, KeysAtNearlyTheSameTimeAreAPartOfTheirOwn) {
+    animate(
+        mBox,
+        AnimationPath::Translation,
+        Interpolation::Linear,
+        {1.0f, 1.5f, 1.5625f, 2.0f},
+        {vec4(0.0f), vec4(0.0f), vec4(3.0f, 0, 0, 0), vec4(3.0f, 0, 0, 0)}
+    );
+    expectParts(plan(), {{1.0, 1.5}, {1.5, 1.5625}, {1.5625, 2.0}}, {0.5, 0.0625, 0.4375});
+}
+
+TEST_F(ExposureParts, DenseKeysOfASmoothWayAreNone) {
+    std::vector<float> times;
+    std::vector<vec4> values;
+    for (int i = 0; i <= 40; ++i) {
+        times.push_back(1.0f + float(i) / 40.0f);
+        values.emplace_back(3.0f * std::sin(0.2f * float(i)), 0.0f, 0.0f, 0.0f);
+    }
+    animate(
+        mBox, AnimationPath::Translation, Interpolation::Linear, std::move(times), std::move(values)
+    );
+    EXPECT_TRUE(plan().empty());
+}
+
+TEST_F(ExposureParts, ALoopThatClosesIsNone) {
+    world.playback.loop = true;
+    animate(
+        mBox,
+        AnimationPath::Translation,
+        Interpolation::Linear,
+        {0.0f, 0.35f, 0.7f},
+        {vec4(0.0f), vec4(2.0f, 0, 0, 0), vec4(0.0f)}
+    );
+    EXPECT_TRUE(plan().empty());
+}
+
+TEST_F(ExposureParts, WhatNobodySeesDoesNotCount) {
+    const ecs::Entity outside = addBox({0.0, 0.0, 10.0});
+    blink(outside, {0.0f, 1.25f});
+    EXPECT_TRUE(plan().empty()) << "behind the camera";
+    request.shadows.mode = ShadowMode::Sharp;
+    EXPECT_EQ(plan().size(), 2u) << "it may cast a shadow into the picture";
+    request.shadows.mode = ShadowMode::None;
+    const ecs::Entity hidden = addBox({0.0, 0.0, -8.0});
+    blink(hidden, {0.0f, 1.25f});
+    scene::hide(world, hidden);
+    EXPECT_TRUE(plan().empty());
+    animate(
+        mBox,
+        AnimationPath::Translation,
+        Interpolation::Step,
+        {0.0f, 1.5f},
+        {vec4(0, 0, -10, 0), vec4(0.01f, 0, -10, 0)}
+    );
+    EXPECT_TRUE(plan().empty()) << "an eighth of a pixel";
+}
+
+TEST_F(ExposureParts, WhatAppearsOrIsHiddenByAGameIsThereInSomePartsAndNotInOthers) {
+    const auto isThereIn = [&](const ExposurePart& part) {
+        const scene::ExposureMotion motion(world, camera, part.exposure);
+        const bool atOpen = isDrawable(motion.worldFromObject(mBox, 0.0));
+        EXPECT_EQ(isDrawable(motion.worldFromObject(mBox, 1.0)), atOpen);
+        EXPECT_FALSE(motion.mayObjectMove(mBox)) << "nothing comes within a part";
+        return atOpen && !motion.isHidden(mBox);
+    };
+    scene::appear(world, mBox, 1.25);
+    auto parts = plan();
+    expectParts(parts, {{1.0, 1.25}, {1.25, 2.0}}, {0.25, 0.75});
+    EXPECT_FALSE(isThereIn(parts[0]));
+    EXPECT_TRUE(isThereIn(parts[1]));
+    scene::hide(world, mBox, 1.5);
+    parts = plan();
+    expectParts(parts, {{1.0, 1.25}, {1.25, 1.5}, {1.5, 2.0}}, {0.25, 0.25, 0.5});
+    EXPECT_FALSE(isThereIn(parts[0]));
+    EXPECT_TRUE(isThereIn(parts[1]));
+    EXPECT_FALSE(isThereIn(parts[2]));
+    scene::hide(world, mBox);
+    EXPECT_TRUE(plan().empty()) << "hidden at all times";
+}
+
+TEST_F(ExposureParts, WhatAppearsAtTheFramesOwnTimeStandsForAllOfItsExposure) {
+    scene::appear(world, mBox, 2.0);
+    EXPECT_TRUE(plan().empty());
+    blink(addBox({1.0, 0.0, -9.0}), {0.0f, 1.5f});
+    const auto parts = plan();
+    ASSERT_EQ(parts.size(), 2u);
+    for (const ExposurePart& part : parts) {
+        const scene::ExposureMotion motion(world, camera, part.exposure);
+        EXPECT_TRUE(isDrawable(motion.worldFromObject(mBox, 0.0)));
+    }
+}
+
+TEST_F(ExposureParts, WhatIsHiddenAtTheFramesOwnTimeIsThereUntilThen) {
+    scene::hide(world, mBox, 2.0);
+    const auto parts = plan();
+    expectParts(parts, {{1.0, 2.0}}, {1.0});
+    const scene::ExposureMotion motion(world, camera, parts.at(0).exposure);
+    EXPECT_TRUE(isDrawable(motion.worldFromObject(mBox, 1.0)));
+    mRaster = 3.0;
+    EXPECT_TRUE(plan().empty()) << "hidden all the time";
+}
+
+TEST_F(ExposureParts, WhatHasNoPastGoesNoWay) {
+    blink(mBox, {0.0f, 1.25f});
+    scene::teleport(world, mBox, {.translation = {0, 0, -10}}, 1.5);
+    EXPECT_TRUE(plan().empty());
+}
+
+TEST_F(ExposureParts, ACameraThatStepsIsCutIntoPartsUnlessItIsACut) {
+    animate(
+        camera,
+        AnimationPath::Translation,
+        Interpolation::Step,
+        {0.0f, 1.5f},
+        {vec4(0.0f), vec4(0.1f, 0, 0, 0)}
+    );
+    expectParts(plan(), {{1.0, 1.5}, {1.5, 2.0}}, {0.5, 0.5});
+    mShutter.cuts = {.enabled = true, .degrees = 10.0, .metres = 0.05};
+    EXPECT_TRUE(plan().empty()) << "nothing moves in the frame of a cut";
+}
+
+TEST_F(ExposureParts, ScalesOfTheBlurPlaceJumpsWhereTheyAreSeen) {
+    // At half its speed, what steps a quarter of the exposure before the raster instant is seen to
+    // do so half of it before.
+    mShutter.objectScale = 0.5;
+    blink(mBox, {0.0f, 1.75f});
+    const auto parts = plan();
+    expectParts(parts, {{1.0, 1.5}, {1.5, 2.0}}, {0.5, 0.5});
+    for (const ExposurePart& part : parts) {
+        const scene::ExposureMotion motion(world, camera, part.exposure);
+        EXPECT_EQ(motion.worldFromObject(mBox, 0.0)[0].x, motion.worldFromObject(mBox, 1.0)[0].x);
+    }
+    mShutter.objectScale = 0.0;
+    EXPECT_TRUE(plan().empty());
+}
+
+TEST_F(ExposureParts, OfManyJumpsTheShortestPartsAreJoined) {
+    std::vector<float> times{0.0f};
+    for (int i = 1; i < 40; ++i)
+        times.push_back(1.0f + float(i) / 40.0f);
+    blink(mBox, std::move(times));
+    const auto parts = plan();
+    ASSERT_EQ(parts.size(), kMaxExposureParts);
+    double light = 0.0;
+    for (const ExposurePart& part : parts) {
+        EXPECT_LT(part.share, 0.35);
+        light += part.share;
+    }
+    EXPECT_NEAR(light, 1.0, 1e-12);
+}
+
+TEST_F(ExposureParts, AnInstantOfTheExposureHasNone) {
+    blink(mBox, {0.0f, 1.25f});
+    request.instant = 0.5;
+    EXPECT_TRUE(plan().empty());
+}
+
+} // namespace
+} // namespace shutter::extract
