@@ -78,6 +78,7 @@ class Intermediates {
 struct OtherRasterView {
     GBuffer gbuffer;
     const extract::ExtractedFrame* frame = nullptr;
+    gpu_scene::DeformedMeshes shapes;            ///< of `frame`
     const extract::ViewRequest* view = nullptr; ///< what `frame` was extracted for
 };
 
@@ -111,11 +112,12 @@ struct PostContext {
 
 /// A frame that the GPU is done with, as one effect sees it.
 struct FinishedFrame {
-    uint32_t slot = 0;                     ///< PostContext::slot of it
-    bool ran = false;                      ///< the effect declared passes for it
-    std::span<const gpu::PassTime> passes; ///< of those it declared
-    Counters& counters;                    ///< takes what the effect counted, if it ran
-    Measures& measures;                    ///< takes what the effect measured, if it ran
+    uint32_t slot = 0;                      ///< PostContext::slot of it
+    bool ran = false;                       ///< the effect declared passes for it
+    std::span<const gpu::PassTime> passes;  ///< of those it declared
+    Counters& counters;                     ///< takes what the effect counted, if it ran
+    Measures& measures;                     ///< takes what the effect measured, if it ran
+    std::vector<Explanation>& explanations; ///< takes what only those counts and measures explain
 };
 
 class PostEffect {

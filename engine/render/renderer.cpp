@@ -196,7 +196,12 @@ FrameResult Renderer::finishFrame() {
         for (const size_t index : one.times)
             own.push_back(statistics.passes.at(index));
         FinishedFrame finished{
-            pending.slot, one.ran, own, statistics.counters, statistics.measures};
+            pending.slot,
+            one.ran,
+            own,
+            statistics.counters,
+            statistics.measures,
+            statistics.explanations};
         one.effect->finish(finished);
     }
     const Tickets& tickets = pending.tickets;

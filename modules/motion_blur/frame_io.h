@@ -54,9 +54,15 @@ using DrawWays = std::function<graph::ImageHandle(
 /// Where the surfaces of this frame's rasters, and of the one before, are seen at each instant of
 /// the exposure.
 struct InstantMotions {
-    VkDeviceAddress table = 0; ///< shader::InstantMotions (common/instant_motion_shared.h)
-    uint32_t instantCount = 0; ///< countInstants() (settings.h)
-    bool hasLast = false;      ///< of the raster that `history` keeps or `lent` is, too
+    VkDeviceAddress table = 0;     ///< shader::InstantMotions (common/instant_motion_shared.h)
+    uint32_t instantCount = 0;     ///< countInstants() (settings.h)
+    bool hasLast = false;          ///< of the raster that `history` keeps or `lent` is, too
+    std::array<bool, 3> deforms{}; ///< by layer: `table` has a shader::kDeformedMover
+    /// A tile may see more entities that move than its list holds (mayCrowdTiles()).
+    bool mayCrowd = true;
+    /// For the layers in which something deforms. Empty: motion vectors are followed, of this
+    /// frame's raster alone.
+    DrawWays drawWays;
     /// The view's: the raster of the frame before is read from it, unless it is `lent`. Null: none
     /// is kept, nor read from it.
     RasterHistory* history = nullptr;

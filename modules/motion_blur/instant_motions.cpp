@@ -2,6 +2,7 @@
 #include "modules/motion_blur/instant_motions.h"
 
 #include "engine/gpu/vulkan.h"
+#include "shaders/motion_blur/resolved_shared.h"
 
 #include <optional>
 #include <span>
@@ -58,6 +59,22 @@ glm::uvec2 writeRasterRows(gpu::Buffer& buffer, const PlacedLayer& layer) {
     return gpu::splitAddress(buffer.address() + layer.rasterRows);
 }
 
+/// Whether more rows, the sky's among them, or parts of what deforms may be candidates than a list
+/// holds.
+bool mayCrowd(const math::LayerTables& layer) {
+    if (layer.deforms)
+        return true;
+    uint32_t count = 0;
+    for (const uint32_t mover : layer.movers) {
+        const bool isFixed = mover == shader::kWorldMover || mover == shader::kSkyMover;
+        if (mover != shader::kNoMover && !(layer.isStill && isFixed))
+            ++count;
+        if (count > shader::kCandidatesPerTile)
+            return true;
+    }
+    return false;
+}
+
 bool hasSize(const gpu::Image& image, glm::uvec2 sizePx) {
     return image.handle() && image.desc().width == sizePx.x && image.desc().height == sizePx.y;
 }
@@ -99,6 +116,11 @@ writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::
     head[0].isPerspective = layers.isPerspective ? 1 : 0;
     buffer.write(std::span<const shader::InstantMotions>(head), headAt);
     return buffer.address() + headAt;
+}
+
+bool mayCrowdTiles(const math::InstantLayers& layers) {
+    return mayCrowd(layers.raster) || (layers.second && mayCrowd(*layers.second)) ||
+           (layers.last && mayCrowd(*layers.last));
 }
 
 bool RasterHistory::holds(glm::uvec2 sizePx) const {

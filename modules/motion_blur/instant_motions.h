@@ -19,6 +19,9 @@ namespace shutter::motion_blur {
 [[nodiscard]] VkDeviceAddress
 writeInstantLayers(gpu::Device& device, const math::InstantLayers& layers, gpu::Buffer& buffer);
 
+/// Whether so many entities move that a tile may see more of them than its list holds.
+[[nodiscard]] bool mayCrowdTiles(const math::InstantLayers& layers);
+
 /// A view's raster, kept for the frame after. Whoever declares the frames of a view holds one; the
 /// methods that look things up fill and read it, whichever of them runs.
 class RasterHistory {

@@ -36,6 +36,9 @@ const uint kRasterLayer = 0u;
 const uint kLastLayer = 1u;
 const uint kSecondLayer = 2u; // the exposure's other end
 
+/// \param bits of ResolvedParams::has
+bool has(ResolvedParams method, uint bits) { return (method.has & bits) != 0u; }
+
 LayerMotion getLayer(InstantMotionsRef motions, uint index) {
     LayerMotion layer = motions.value.raster;
     if (index == kLastLayer) layer = motions.value.last;

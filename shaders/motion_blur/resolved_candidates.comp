@@ -27,6 +27,7 @@ layout(binding = 4, scalar) buffer DeformingTiles {
 } uDeforming;
 
 #include "motion_blur/resolved_enter.glsl"
+#include "motion_blur/resolved_extents.glsl"
 
 // What the group found in its tile.
 shared uint sKeys[kCandidatesPerTile];
@@ -37,21 +38,7 @@ shared int sLowY[kCandidatesPerTile];
 shared int sHighX[kCandidatesPerTile];
 shared int sHighY[kCandidatesPerTile];
 shared bool sDeforms; // something in it does
-
-/// Beyond the box: half a pixel to its border, one for what is interpolated, and some for rounding.
-const float kMarginPx = 2.0f;
-
-/// Pixels of one entity.
-struct Extent {
-    uint key;     // kNoKey: none
-    bool isOfUse; // it moves, and it is known how
-    vec2 depths;
-    ivec2 low;
-    ivec2 high;
-};
-
-const Extent kNoExtent =
-    Extent(kNoKey, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF));
+shared uint sIsFull;  // 1: there are more
 
 void note(uint slot, Extent extent) {
     atomicMin(sNearest[slot], floatBitsToUint(extent.depths.x));
@@ -72,66 +59,43 @@ void listExtent(Extent extent) {
             return;
         }
     }
-    atomicAdd(uCounters.overflown, 1u);
+    atomicOr(sIsFull, 1u);
+}
+
+/// What the group found in the slot.
+Extent getListed(uint slot) {
+    Extent extent = kNoExtent;
+    extent.key = sKeys[slot];
+    extent.isOfUse = true;
+    extent.depths = vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot]));
+    extent.low = ivec2(sLowX[slot], sLowY[slot]);
+    extent.high = ivec2(sHighX[slot], sHighY[slot]);
+    return extent;
 }
 
 /// Adds a pixel to the extent if it is of the same entity; lists the extent and begins another if it
 /// is not.
 void addPixel(LayerMotion layer, ivec2 pixel, inout Extent extent) {
-    vec2 uv = (vec2(pixel) + 0.5f) / vec2(params.sizePx); // texelFetch is slow on software devices
-    uvec2 surface = textureLod(uSurface, uv, 0.0f).xy;
+    uvec2 surface = textureLod(uSurface, uvOfPixel(pixel), 0.0f).xy;
     uint key = keyOf(surface);
     if (key != extent.key) {
         listExtent(extent);
-        uint mover = findMover(layer, key);
-        extent = kNoExtent;
-        extent.key = key;
-        // What deforms is listed part by part (resolved_parts.comp).
-        extent.isOfUse = mover != kNoMover && mover != kDeformedMover && !isStillMover(layer, mover);
-        if (mover == kDeformedMover) sDeforms = true;
+        extent = beginExtent(layer, key);
+        if (extent.deforms) {
+            // What deforms is listed part by part (resolved_parts.comp).
+            extent.isOfUse = false;
+            sDeforms = true;
+        }
     }
-    if (!extent.isOfUse) return;
-    float depth = depthOfKey(key, uintBitsToFloat(surface.x));
-    extent.depths = vec2(min(extent.depths.x, depth), max(extent.depths.y, depth));
-    extent.low = min(extent.low, pixel);
-    extent.high = max(extent.high, pixel);
-}
-
-void addRigid(
-    LayerMotion layer, uint slot, uint mover, uint instant, bool perspective, inout SeenBox box
-) {
-    InstantMotion motion =
-        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
-    if (motion.instantFromRaster[2] == vec4(0.0f)) return;
-    vec2 low = vec2(1.0e9f);
-    vec2 high = vec2(-1.0e9f);
-    vec2 depths = vec2(3.0e38f, 0.0f);
-    bool isInFront = false;
-    for (uint corner = 0u; corner < 8u; ++corner) {
-        vec2 at = vec2(
-            (corner & 1u) != 0u ? float(sHighX[slot] + 1) : float(sLowX[slot]),
-            (corner & 2u) != 0u ? float(sHighY[slot] + 1) : float(sLowY[slot])
-        );
-        float depth = uintBitsToFloat((corner & 4u) != 0u ? sFarthest[slot] : sNearest[slot]);
-        vec3 seen = transformRows(motion.instantFromRaster, pictureSpace(at, depth, perspective));
-        vec2 place = clamp(projectPicture(seen, perspective), -1.0e8f, 1.0e8f);
-        low = min(low, place);
-        high = max(high, place);
-        depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
-        isInFront = isInFront || seen.z > 0.0f || !perspective;
-    }
-    if (isInFront) addBox(instant, low - kMarginPx, high + kMarginPx, depths, box);
+    growExtent(surface, pixel, extent);
 }
 
 /// Where an entity of the tile is seen at the instants of a sample: those of all sets, which follow one
 /// another. It is entered once for all of them, since that takes longest.
-SeenBox findBox(LayerMotion layer, uint slot, uint sample_, bool perspective) {
+SeenBox findBox(LayerMotion layer, Extent extent, uint sample_, bool perspective) {
     SeenBox box = kNoBox;
-    uint mover = findMover(layer, sKeys[slot]);
-    for (uint set = 0u; set < method.setCount; ++set) {
-        uint instant = sample_ * method.setCount + set;
-        addRigid(layer, slot, mover, instant, perspective, box);
-    }
+    for (uint set = 0u; set < method.setCount; ++set)
+        addInstant(layer, extent, sample_ * method.setCount + set, perspective, box);
     return box;
 }
 
@@ -153,7 +117,10 @@ void main() {
         sLowX[slot] = sLowY[slot] = 0x7FFFFFFF;
         sHighX[slot] = sHighY[slot] = -0x7FFFFFFF;
     }
-    if (thread == 0u) sDeforms = false;
+    if (thread == 0u) {
+        sDeforms = false;
+        sIsFull = 0u;
+    }
     barrier();
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kLayer);
@@ -167,18 +134,21 @@ void main() {
     listExtent(extent);
     barrier();
     if (sDeforms && thread == 0u) listDeforming();
+    uint ownTile = gl_WorkGroupID.y * countTiles().x + gl_WorkGroupID.x;
+    if (sIsFull != 0u) {
+        // Which of them are listed is chance: none counts.
+        if (thread == 0u) noteUnlistedSource(ownTile, kLayer);
+        return;
+    }
     bool perspective = motions.value.isPerspective != 0u;
     for (uint pair = thread; pair < kCandidatesPerTile * params.sampleCount; pair += kThreads) {
         uint slot = pair / params.sampleCount;
         if (sKeys[slot] == kNoKey) break;
         uint sample_ = pair - slot * params.sampleCount;
+        Extent listed = getListed(slot);
         // What is in the tile now must be looked at, even if at no instant it is.
-        if (kLayer == kRasterLayer && sample_ == 0u)
-            enter(
-                gl_WorkGroupID.y * countTiles().x + gl_WorkGroupID.x, sKeys[slot],
-                vec2(uintBitsToFloat(sNearest[slot]), uintBitsToFloat(sFarthest[slot])), 0u
-            );
-        SeenBox box = findBox(layer, slot, sample_, perspective);
-        if (box.parts != 0u) enterBox(sKeys[slot], box);
+        if (kLayer == kRasterLayer && sample_ == 0u) enter(ownTile, listed.key, listed.depths, 0u);
+        SeenBox box = findBox(layer, listed, sample_, perspective);
+        if (box.parts != 0u) enterBox(listed.key, box);
     }
 }

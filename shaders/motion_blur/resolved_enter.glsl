@@ -4,12 +4,26 @@
 #ifndef SHUTTER_RESOLVED_ENTER_GLSL
 #define SHUTTER_RESOLVED_ENTER_GLSL
 
-#include "motion_blur/resolved.glsl"
+#include "motion_blur/resolved_boxes.glsl"
+#include "motion_blur/resolved_crowds.glsl"
 
 layout(binding = 2, scalar) buffer Candidates { TileCandidates uTiles[]; };
-layout(binding = 3, scalar) buffer Counters { ResolvedCounters uCounters; };
+layout(binding = 3, scalar) buffer CrowdArguments { DispatchArguments uCrowdArguments; };
 
-uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
+/// No list holds all that the tile sees.
+/// \param bits of TileCrowd::listed
+void noteCrowd(uint tile, uint bits) {
+    if (!mayHaveCrowds()) return;
+    noteUnlisted(tile, bits);
+    atomicMax(uCrowdArguments.groupsX, countTiles().x);
+    atomicMax(uCrowdArguments.groupsY, countTiles().y);
+    atomicMax(uCrowdArguments.groupsZ, countLayers());
+}
+
+/// What a layer shows in the tile is more than can be listed, and is in no list.
+void noteUnlistedSource(uint tile, uint layer) {
+    noteCrowd(tile, kSourceIsListed << layer | (layer == kRasterLayer ? kTileIsListed : 0u));
+}
 
 void enter(uint tile, uint key, vec2 depths, uint bits) {
     for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
@@ -23,37 +37,15 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
         atomicAnd(uTiles[tile].parts[slot], ~bits);
         return;
     }
-    atomicAdd(uCounters.overflown, 1u);
-}
-
-/// Where an entity is seen at some instants, with the margin around it.
-struct SeenBox {
-    vec2 low;
-    vec2 high;
-    vec2 depths;
-    uint parts; // of the exposure, a bit each; 0: it is not seen
-};
-
-const SeenBox kNoBox = SeenBox(vec2(3.0e38f), vec2(-3.0e38f), vec2(3.0e38f, 0.0f), 0u);
-
-/// \param low, high with the margin around what is seen
-void addBox(uint instant, vec2 low, vec2 high, vec2 depths, inout SeenBox box) {
-    if (any(lessThan(high, vec2(0.0f))) || any(greaterThan(low, vec2(params.sizePx)))) return;
-    box.low = min(box.low, low);
-    box.high = max(box.high, high);
-    box.depths = vec2(min(box.depths.x, depths.x), max(box.depths.y, depths.y));
-    box.parts |= 1u << partOf(instant, partsPerInstant(method.instantCount));
+    noteCrowd(tile, kTileIsListed);
 }
 
 void enterBox(uint key, SeenBox box) {
-    vec2 size = vec2(params.sizePx);
-    uvec2 tiles = countTiles();
-    vec2 lowTile = clamp(box.low, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
-    vec2 highTile = clamp(box.high, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
-    uvec2 from = min(uvec2(lowTile), tiles - 1u);
-    uvec2 to = min(uvec2(highTile), tiles - 1u);
-    for (uint y = from.y; y <= to.y; ++y)
-        for (uint x = from.x; x <= to.x; ++x) enter(y * tiles.x + x, key, box.depths, box.parts);
+    TileRange range = findTiles(box);
+    uint across = countTiles().x;
+    for (uint y = range.from.y; y <= range.to.y; ++y)
+        for (uint x = range.from.x; x <= range.to.x; ++x)
+            enter(y * across + x, key, box.depths, box.parts);
 }
 
 #endif

@@ -96,8 +96,9 @@ void addHidden(PixelSearch pixel, uint instant, Candidate candidate, inout Subst
 
 /// Looks for a color that stands for what the pixel saw at an instant where no layer holds it: of the
 /// surfaces that this frame's raster hides there, the one that comes out from behind what hides it
-/// nearest to there.
+/// nearest to there. Crowded tiles have no list of them.
 Substitute findSubstitute(PixelSearch pixel, uint instant) {
+    if (kHasCrowds && pixel.isCrowded) return Substitute(0.0f, fetchOwnTap(pixel, instant));
     Substitute best = Substitute(kFarthest, vec3(0.0f));
     if (pixel.raster.isStill != 0u) {
         Probe surface = fetchSurface(kRasterLayer, ivec2(pixel.x));

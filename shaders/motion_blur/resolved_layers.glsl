@@ -32,7 +32,7 @@ layout(binding = 15) uniform sampler2D uSecondColorLinear;
 layout(binding = 16, scalar) readonly buffer RasterParts { TilePart uRasterParts[]; };
 layout(binding = 17, scalar) readonly buffer LastParts { TilePart uLastParts[]; };
 layout(binding = 18, scalar) readonly buffer SecondParts { TilePart uSecondParts[]; };
-// Where what deforms goes (common/pixel_way.glsl); with ResolvedParams::hasWays.
+// Where what deforms goes (common/pixel_way.glsl); with kHasWays.
 layout(binding = 19) uniform usampler2D uWays;
 layout(binding = 20) uniform usampler2D uLastWays;
 layout(binding = 21) uniform usampler2D uSecondWays;

@@ -28,6 +28,14 @@ layout(binding = 4, scalar) buffer BlockLists {
 layout(binding = 5, scalar) buffer Arguments { DispatchArguments uArguments[kListCount]; };
 layout(binding = 6, scalar) readonly buffer SecondCandidates { TileCandidates uSecond[]; };
 layout(binding = 7, scalar) readonly buffer Parts { TilePart uParts[]; };
+layout(binding = 8, scalar) buffer CrowdedBlocks {
+    BlockHeader header;
+    uint entries[];
+} uCrowded;
+layout(binding = 9, scalar) buffer CrowdedArguments { DispatchArguments uCrowdedArguments; };
+layout(binding = 10, scalar) buffer Counters { ResolvedCounters uCounters; };
+
+#include "motion_blur/resolved_crowds.glsl"
 
 /// Beyond the places that are looked at: what a linear fetch reads.
 const float kFetchMarginPx = 1.0f;
@@ -262,6 +270,16 @@ struct Found {
     bool isUniform; // it sees a plane at each instant
 };
 
+/// \param way how far the block looks in the course of the exposure, pixels
+void chooseInstants(float way, inout Found found) {
+    // About one for each pixel of the way, if that is few enough to leave some out evenly.
+    found.instants = uint(min(way, kFarAway)) + kLeastInstants;
+    if (2u * found.instants > params.sampleCount) found.instants = params.sampleCount;
+    float distancePx = way / float(params.sampleCount);
+    found.noise = 0.0f;
+    if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
+}
+
 /// Finds the look of each instant that the block's pixels may take.
 Found findLooks(BlockSearch search) {
     uint middle = method.setCount / 2u;
@@ -279,21 +297,16 @@ Found findLooks(BlockSearch search) {
     found.isUniform = planes == params.sampleCount;
     if (!found.isUniform) {
         way = measureWay(kRasterLayer, search.block, search.tile, search.perspective);
-        if (method.hasLast != 0u)
+        if (has(method, kHasLastLayer))
             way = max(
                 way, measureWay(kLastLayer, search.block, search.tile, search.perspective)
             );
-        if (method.hasSecond != 0u)
+        if (has(method, kHasSecondLayer))
             way = max(
                 way, measureWay(kSecondLayer, search.block, search.tile, search.perspective)
             );
     }
-    // About one for each pixel of the way, if that is few enough to leave some out evenly.
-    found.instants = uint(min(way, kFarAway)) + kLeastInstants;
-    if (2u * found.instants > params.sampleCount) found.instants = params.sampleCount;
-    float distancePx = way / float(params.sampleCount);
-    found.noise = 0.0f;
-    if (method.setCount > 1u) found.noise = saturate((distancePx - kNoiseFromPx) / kNoiseRampPx);
+    chooseInstants(way, found);
     if (found.noise == 0.0f) return found;
     for (uint instant = 0u; instant < method.instantCount; ++instant)
         if (instant % method.setCount != middle && !findLook(search, instant).isAffine)
@@ -309,6 +322,25 @@ void listBlock(uvec2 block, uvec2 blocks, uint list) {
     if (index % kListRow == 0u) atomicAdd(uArguments[list].groupsY, 1u);
 }
 
+void listCrowded(uvec2 block) {
+    uint index = atomicAdd(uCrowded.header.uniformCount, 1u); // kCandidateList is the first of its own
+    uCrowded.entries[index] = block.x | block.y << 16;
+    atomicMax(uCrowdedArguments.groupsX, min(index + 1u, kListRow));
+    if (index % kListRow == 0u) atomicAdd(uCrowdedArguments.groupsY, 1u);
+}
+
+/// A block of a crowded tile, of which nothing is known but how far things go.
+void addCrowded(uvec2 block, uint tile, uint looks) {
+    if (block % (kCandidateTilePx / kGroupSize) == uvec2(0u))
+        atomicAdd(uCounters.crowdedTiles, 1u);
+    listCrowded(block);
+    if (params.uniformMotionPx == 0.0f) return;
+    Found found;
+    chooseInstants(uintBitsToFloat(~CrowdTable(method.crowds).tiles[tile].wayInverted), found);
+    uLooks[looks].perX = found.instants;
+    uLooks[looks].perY = floatBitsToUint(found.noise);
+}
+
 void main() {
     uvec2 block = gl_GlobalInvocationID.xy;
     uvec2 blocks = countBlocks();
@@ -316,14 +348,18 @@ void main() {
     uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
     uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
     uint tile = tileAt.y * tiles.x + tileAt.x;
+    uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
+    if (isCrowded(tile)) {
+        addCrowded(block, tile, looks);
+        return;
+    }
     bool moves = uRaster[tile].candidates[0].key != kNoKey;
-    if (method.hasLast != 0u) moves = moves || uLast[tile].candidates[0].key != kNoKey;
-    if (method.hasSecond != 0u) moves = moves || uSecond[tile].candidates[0].key != kNoKey;
+    if (has(method, kHasLastLayer)) moves = moves || uLast[tile].candidates[0].key != kNoKey;
+    if (has(method, kHasSecondLayer)) moves = moves || uSecond[tile].candidates[0].key != kNoKey;
     if (!moves) return;
     bool isUniform = false;
     if (params.uniformMotionPx > 0.0f) {
         InstantMotionsRef motions = InstantMotionsRef(method.motions);
-        uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);
         BlockSearch search = BlockSearch(
             ivec2(block), tile, looks + 1u, partsPerInstant(method.instantCount),
             motions.value.isPerspective != 0u, getLayer(motions, kRasterLayer)

@@ -13,7 +13,7 @@ const float kMostDeviationReachPx = 8.0f;
 bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
     vec2 uv = uvOf(vec2(texel) + 0.5f);
     displacement = vec2(0.0f);
-    if (method.hasWays == 0u) {
+    if (!has(method, kHasWays)) {
         vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
         displacement = motion * (s - params.rasterTime);
         return true;

@@ -64,7 +64,7 @@ shared vec2 sPartDepths[kPartsPerTile];
 ivec2 placeOf(uint pixel) { return ivec2(pixel % kCandidateTilePx, pixel / kCandidateTilePx); }
 
 uvec2 fetchWay(vec2 uv) {
-    if (method.hasWays != 0u) return textureLod(uWays, uv, 0.0f).xy;
+    if (has(method, kHasWays)) return textureLod(uWays, uv, 0.0f).xy;
     vec2 motion = textureLod(uMotionDepth, uv, 0.0f).xy;
     return packWay(straightWay(motion, params.rasterTime));
 }
@@ -319,13 +319,15 @@ float deviationOf(TilePart part) {
     return max(max(off.x, off.y), 0.5f * (off.x + off.y) + off.z);
 }
 
-/// \return how many parts the tile has
-uint findParts(uvec2 tile) {
+/// \param isFull the tile has more
+/// \return how many parts of it are found
+uint findParts(uvec2 tile, out bool isFull) {
     uint count = 0u;
+    isFull = false;
     for (uint key = findNextKey(kNoKey); key != kNoKey; key = findNextKey(key)) {
         if (count == kPartsPerTile) {
-            if (gl_LocalInvocationIndex == 0u) atomicAdd(uCounters.overflown, 1u);
-            continue;
+            isFull = true;
+            break;
         }
         findPart(Choice(key, 0u, 0.0f, 0), tile, count);
         bool isOne =
@@ -354,9 +356,10 @@ void main() {
     if (listed >= uDeforming.header.count) return;
     uvec2 tile = uvec2(uDeforming.entries[listed] & 0xFFFFu, uDeforming.entries[listed] >> 16u);
     loadTile(tile, getLayer(InstantMotionsRef(method.motions), kLayer));
-    uint count = findParts(tile);
-    uvec2 tiles = countTiles();
-    uint tileIndex = tile.y * tiles.x + tile.x;
+    bool isFull;
+    uint count = findParts(tile, isFull);
+    uint tileIndex = tile.y * countTiles().x + tile.x;
+    if (isFull && gl_LocalInvocationIndex == 0u) noteUnlistedSource(tileIndex, kLayer);
     uint first = firstPartOf(tileIndex);
     if (count < kPartsPerTile && gl_LocalInvocationIndex == 0u) uParts[first + count].key = kNoKey;
     barrier();

@@ -15,6 +15,8 @@ layout(binding = 0) uniform usampler2D uSurface;
 layout(binding = 1, scalar) readonly buffer Candidates { TileCandidates uTiles[]; };
 layout(binding = 2, scalar) writeonly buffer Planes { BlockPlane uPlanes[]; };
 
+#include "motion_blur/resolved_crowds.glsl"
+
 const BlockPlane kNoPlane = BlockPlane(0u, kNoMover, 0.0f, vec2(0.0f), 0.0f);
 
 uvec2 fetchSurface(ivec2 pixel) {
@@ -89,8 +91,9 @@ void main() {
     ivec2 first = ivec2(block * kGroupSize);
     ivec2 size = min(ivec2(params.sizePx) - first, ivec2(kGroupSize));
     BlockPlane plane = kNoPlane;
-    // What a raster shows is a candidate of its tile, unless it stands still.
-    if (uTiles[tile.y * tiles.x + tile.x].candidates[0].key != kNoKey)
+    uint index = tile.y * tiles.x + tile.x;
+    // What a raster shows is a candidate of its tile, unless it stands still or is one of too many.
+    if (uTiles[index].candidates[0].key != kNoKey || isCrowded(index))
         plane = findKeys(first, size, layer, perspective);
     if (plane.mover != kNoMover && plane.mover != kDeformedMover)
         fitPlane(first, perspective, plane);

@@ -229,6 +229,7 @@ struct PixelSearch {
     uint looks;  // index of the first BlockLook of its block
     uint set;    // of instants
     vec2 inBlock; // from the block's centre
+    bool isCrowded; // its tile is: what it may see is in no list
     uint partsPerInstant; // found once: software devices divide integers one by one
     LayerMotion raster;
     LayerMotion second;
@@ -269,6 +270,8 @@ bool isRefuted(PixelSearch pixel, uint instant, Seen found) {
     return surface.key != row &&
            behindSky(surface.key, surface.depth) > inRaster.z * (1.0f + kRefutingShare);
 }
+
+#include "motion_blur/resolved_crowd_search.glsl"
 
 /// \param slots a bit for each candidate of the tile that is looked for
 void searchLayer(
@@ -325,6 +328,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     float noise = 1.0f;
     if (params.uniformMotionPx > 0.0f) noise = uintBitsToFloat(uLooks[search.looks - 1u].perY);
     search.set = findSet(method, pixel, noise);
+    search.isCrowded = kHasCrowds && isCrowded(search.tile);
     search.perspective = motions.value.isPerspective != 0u;
     search.partsPerInstant = partsPerInstant(method.instantCount);
     search.raster = getLayer(motions, kRasterLayer);
@@ -335,7 +339,7 @@ PixelSearch beginSearch(ivec2 pixel) {
     if (kHasSecond && !search.still.isFound)
         search.secondStill = findStill(kSecondLayer, search.second, pixel);
     search.lastStill = Seen(false, kLastLayer, kNoKey, search.x, 0.0f, false);
-    if (method.hasLast != 0u && !search.still.isFound)
+    if (has(method, kHasLastLayer) && !search.still.isFound)
         search.lastStill = findStill(kLastLayer, search.last, pixel);
     return search;
 }
@@ -350,6 +354,7 @@ Guesses beginGuesses(PixelSearch pixel) {
 
 /// \param instant of the tables
 Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout Doubt doubt) {
+    if (kHasCrowds && pixel.isCrowded) return searchCrowds(pixel, instant);
     uint slots = ~0u;
     if (params.uniformMotionPx > 0.0f) {
         BlockLook look = uLooks[pixel.looks + instant];
@@ -365,7 +370,7 @@ Seen searchInstant(PixelSearch pixel, uint instant, inout Guesses guesses, inout
             kSecondLayer, pixel.second, pixel, instant, ~0u, guesses.second, seen, doubt
         );
     }
-    if (!seen.isFound && method.hasLast != 0u) {
+    if (!seen.isFound && has(method, kHasLastLayer)) {
         seen = pixel.lastStill;
         searchLayer(kLastLayer, pixel.last, pixel, instant, ~0u, guesses.last, seen, doubt);
     }

@@ -37,6 +37,26 @@ struct TileCandidates {
     uint parts[kExposureParts];
 };
 
+/// Places that the search in a crowded tile begins at, most: one for each way of moving.
+SHUTTER_CONST uint kCrowdSeeds = 30u;
+SHUTTER_CONST uint kNoSeed = 0xFFFFFFFFu;
+
+// Bits of TileCrowd::listed.
+SHUTTER_CONST uint kTileIsListed = 1u; // 0: the tile is crowded, and its lists mean nothing
+/// Shifted by the layer. 0: what the layer shows in the tile is more than a list holds, and in
+/// none.
+SHUTTER_CONST uint kSourceIsListed = 2u;
+
+/// What is known of a tile and layer in a frame whose lists may not hold all. Every field has all
+/// bits set to begin with, and only loses some: nothing depends on the order of threads.
+struct TileCrowd {
+    uint listed;      // of the raster's layer, for all layers
+    uint wayInverted; // inverted bits of the longest way of what comes over the tile, pixels
+    /// x | y << 16 of the first pixel of the layer's raster that moves that way; kNoSeed: none
+    /// does.
+    uint seeds[kCrowdSeeds];
+};
+
 /// What a block of kGroupSize x kGroupSize pixels of this frame's raster shows, as one plane: the
 /// sky, before a perspective camera, belongs to the world, infinitely far away.
 struct BlockPlane {
@@ -81,10 +101,16 @@ SHUTTER_CONST uint kInstantSets = 5u;
 /// Side of the mask that they choose by; a power of two.
 SHUTTER_CONST uint kNoiseSidePx = 64u;
 
+// Bits of ResolvedParams::has.
+SHUTTER_CONST uint kHasLastLayer = 1u;   // the last frame's raster
+SHUTTER_CONST uint kHasSecondLayer = 2u; // the raster of the exposure's other end
+/// Images of where what deforms goes (common/pixel_way.glsl), for all layers. Without, motion
+/// vectors say it, for this frame's raster alone.
+SHUTTER_CONST uint kHasWays = 4u;
+
 struct ResolvedParams {
     uvec2 motions;  // address of InstantMotions
-    uint hasLast;   // 1: the last frame's raster is a layer
-    uint hasSecond; // 1: the raster of the exposure's other end is a layer
+    uint has;       // bits of kHasLastLayer and the others
     uint rayLimit;  // of the frame; kNoRayLimit: none
     uvec2 frame;    // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
@@ -92,17 +118,17 @@ struct ResolvedParams {
     float turn;        // added to the mask, modulo 1
     uint setCount;     // 1 without noise
     uint instantCount; // of the tables: sampleCount of each set; set s has s, s + setCount, ...
-    uint hasWays; // 1: images say where what deforms goes (common/pixel_way.glsl), of all layers;
-                  // 0: motion vectors do, of this frame's raster
+    /// Address of TileCrowd by layer and tile; 0: no tile can see more than its list holds.
+    uvec2 crowds;
 };
 
 /// What a frame counted.
 struct ResolvedCounters {
-    uint unresolved; // instants of pixels that no layer explains
-    uint fromSecond; // instants of pixels that the raster of the exposure's other end explains
-    uint fromLast;   // instants of pixels that the last frame's raster explains
-    uint overflown;  // candidates that found no place in a tile's list
-    uint rays;       // traced
+    uint unresolved;   // instants of pixels that no layer explains
+    uint fromSecond;   // instants of pixels that the raster of the exposure's other end explains
+    uint fromLast;     // instants of pixels that the last frame's raster explains
+    uint crowdedTiles; // that see more than their lists hold
+    uint rays;         // traced
     uint classes[kSampleClasses];
     uint listedPixels; // entries of the list of pixels that rays may go to
     uint padding0;
@@ -116,6 +142,7 @@ static_assert(sizeof(shutter::shader::TileCandidates) == 640);
 static_assert(shutter::shader::kCandidatesPerTile == shutter::shader::kExposureParts);
 static_assert(sizeof(shutter::shader::BlockPlane) == 24);
 static_assert(sizeof(shutter::shader::BlockLook) == 16);
+static_assert(sizeof(shutter::shader::TileCrowd) == 128);
 static_assert(sizeof(shutter::shader::ResolvedParams) == 60);
 static_assert(sizeof(shutter::shader::ResolvedCounters) == 64);
 #endif

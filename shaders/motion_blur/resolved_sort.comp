@@ -94,6 +94,6 @@ void main() {
     if (any(greaterThanEqual(tile, tiles))) return;
     uint index = tile.y * tiles.x + tile.x;
     prepareTile(kRasterLayer, index);
-    if (method.hasLast != 0u) prepareTile(kLastLayer, index);
-    if (method.hasSecond != 0u) prepareTile(kSecondLayer, index);
+    if (has(method, kHasLastLayer)) prepareTile(kLastLayer, index);
+    if (has(method, kHasSecondLayer)) prepareTile(kSecondLayer, index);
 }

@@ -86,7 +86,8 @@ class BrightestChannel : public Tonemap {
         mDisplay = rig.take(ticket);
         render::Counters counters;
         render::Measures measures;
-        render::FinishedFrame finished{0, true, {}, counters, measures};
+        std::vector<render::Explanation> explanations;
+        render::FinishedFrame finished{0, true, {}, counters, measures, explanations};
         mTonemap->finish(finished);
         const auto found = measures.find(render::kBrightest);
         return found == measures.end() ? std::nullopt : std::optional(found->second);

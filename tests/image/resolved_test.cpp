@@ -189,12 +189,12 @@ TEST_F(Resolved, AnotherMethodInBetweenLeavesNoGhost) {
     EXPECT_TRUE(test::sameBits(draw(0, "resolved").color, expected.color));
 }
 
-TEST_F(Resolved, NothingIsDroppedFromTheListsOfASmallScene) {
+TEST_F(Resolved, ASmallSceneHasNoCrowdedTiles) {
     const auto drawn = test::renderOnce(device(), makeScene(), shotOf("resolved"));
-    EXPECT_EQ(drawn.statistics.counters.at("candidates dropped"), 0u);
+    EXPECT_EQ(drawn.statistics.counters.at("crowded tiles"), 0u);
 }
 
-TEST_F(Resolved, MoreEntitiesThanATileListsAreCounted) {
+TEST_F(Resolved, TilesThatSeeMoreEntitiesThanAListHoldsAreCounted) {
     test::SceneBuilder scene;
     scene.setPixelView(64);
     const scene::AssetIndex color = scene.addColor(math::vec3(1.0f));
@@ -206,7 +206,7 @@ TEST_F(Resolved, MoreEntitiesThanATileListsAreCounted) {
     test::Shot shot = shotOf("resolved");
     shot.width = shot.height = 64;
     const auto drawn = test::renderOnce(device(), scene, shot);
-    EXPECT_GT(drawn.statistics.counters.at("candidates dropped"), 0u);
+    EXPECT_GT(drawn.statistics.counters.at("crowded tiles"), 0u);
     EXPECT_TRUE(test::allFinite(drawn.color));
 }
 

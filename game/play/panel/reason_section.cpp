@@ -32,9 +32,12 @@ void drawCounters(const render::FrameStatistics& statistics, const math::uvec2& 
     if (!ImGui::BeginTable("counters", 3, ImGuiTableFlags_SizingFixedFit))
         return;
     const uint64_t pixels = uint64_t(pictureSize.x) * pictureSize.y;
-    for (const char* name : {"pixels masked", "rays traced", "rays a pixel"})
+    for (const char* name : {"pixels masked", "rays traced"})
         if (const auto count = findCounter(statistics, name))
-            drawShare(name, *count, std::string_view(name) == "rays a pixel" ? 0 : pixels);
+            drawShare(name, *count, pixels);
+    for (const char* name : {"rays a pixel", "crowded tiles"})
+        if (const auto count = findCounter(statistics, name))
+            drawShare(name, *count, 0);
     constexpr const char* kBlocks[] = {
         "blocks still", "blocks uniform", "blocks mixed", "blocks masked"};
     uint64_t blocks = 0;

@@ -71,6 +71,9 @@ struct EmbeddedMotionBlur::Frame {
     bool wantsCounters = false;
     /// Handles are of nothing: the graph is compiled and never run.
     bool isImagined = false;
+    /// What frames to come may have and this one does not is planned for, too: movers that follow
+    /// their vectors, and more of them than a tile's list holds.
+    bool hasAll = false;
 
     bool isHosts = false;     ///< the host will submit it: it may be checked and dumped
     OwnReveal dumpedReveal{}; ///< the host's, whose answer is dumped

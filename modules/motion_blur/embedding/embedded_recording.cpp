@@ -63,7 +63,9 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     motions.table = writeInstantLayers(*mDevice, made.layers, frame.slot.instants);
     motions.instantCount = countInstants(frame.settings);
     motions.hasLast = made.layers.last.has_value();
-    motions.deforms[size_t(LayerIndex::Raster)] = made.layers.raster.deforms;
+    const bool hasAll = frame.hasAll && inputs.entityId.image;
+    motions.deforms[size_t(LayerIndex::Raster)] = hasAll || made.layers.raster.deforms;
+    motions.mayCrowd = hasAll || mayCrowdTiles(made.layers);
     if (!keeps)
         return motions;
     if (lent)

@@ -21,14 +21,13 @@ namespace {
 
 using graph::Access;
 
-gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout, bool hasSecond) {
+gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout) {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.push_back(kBuffer);
     bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
     gpu::ComputePipelineDesc desc =
         describePass("trace samples", motion_blur_adaptive_comp, std::move(bindings));
     desc.interface.sceneLayout = sceneLayout;
-    desc.specialization = {0, 0, hasSecond ? 1u : 0u}; // the shader has the third alone
     return desc;
 }
 
@@ -36,8 +35,7 @@ class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
         : mDevice(device), mLookUp(device, true), mOwnSamples(device),
-          mTrace(device, describeTrace(sceneLayout, false)),
-          mTraceSecond(device, describeTrace(sceneLayout, true)) {}
+          mTrace(device, describeTrace(sceneLayout)) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -59,8 +57,7 @@ class AdaptivePasses : public MethodPasses {
     gpu::Device& mDevice;
     LookUp mLookUp;
     OwnSamplesPass mOwnSamples;
-    gpu::LazyPipeline mTrace;
-    gpu::LazyPipeline mTraceSecond; ///< with a second raster
+    SearchPipelines mTrace;
 };
 
 uint32_t countRays(float perPixel, glm::uvec2 sizePx) {
@@ -126,9 +123,10 @@ void AdaptivePasses::addTrace(
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
-            const bool hasSecond = data.search.candidates.second.isValid();
-            const gpu::LazyPipeline& pipeline = hasSecond ? mTraceSecond : mTrace;
-            context.frame.bind(pipeline.get(), bindings, &params, sizeof(params), textures);
+            const PassParams own = withCrowds(params, resources, data.search.crowds);
+            const gpu::Pipeline& pipeline =
+                mTrace.get(data.search.candidates.second.isValid(), data.search.crowds.isValid());
+            context.frame.bind(pipeline, bindings, &own, sizeof(own), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }
     );

@@ -26,9 +26,7 @@ gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
 
 gpu::ComputePipelineDesc describeFind(bool sortsUniform) {
     gpu::ComputePipelineDesc desc = describePass(
-        "find looks",
-        motion_blur_resolved_looks_comp,
-        {kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer, kBuffer}
+        "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
     desc.specialization = {sortsUniform ? 1u : 0u};
     return desc;
@@ -62,11 +60,11 @@ bool BlockLooks::canFind(const PassParams& params) const {
 graph::BufferHandle BlockLooks::addFit(
     graph::Graph& graph,
     const SurfaceLayer& raster,
-    const SortedCandidates& candidates,
+    const TileInputs& tiles,
     const PassParams& params
 ) const {
     struct Data {
-        graph::BufferHandle candidates;
+        TileInputs tiles;
         graph::BufferHandle planes;
     };
 
@@ -79,7 +77,10 @@ graph::BufferHandle BlockLooks::addFit(
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 builder.read(raster.surface, Access::SampledCompute);
-                data.candidates = builder.read(candidates.raster, Access::StorageRead);
+                data.tiles = tiles;
+                builder.read(tiles.candidates.raster, Access::StorageRead);
+                if (tiles.crowds.isValid())
+                    builder.read(tiles.crowds, Access::StorageRead);
                 data.planes = builder.write(planes, Access::StorageWrite);
             },
             [this,
@@ -88,9 +89,10 @@ graph::BufferHandle BlockLooks::addFit(
                 const graph::PassResources& resources = context.resources;
                 gpu::BindingList bindings;
                 bindings.sampled(resources.view(surface), mDevice.nearestSampler())
-                    .buffer(resources.buffer(data.candidates))
+                    .buffer(resources.buffer(data.tiles.candidates.raster))
                     .buffer(resources.buffer(data.planes));
-                dispatchPixels(context, mFit.get(), bindings, params, countBlocks(params));
+                const PassParams own = withCrowds(params, resources, data.tiles.crowds);
+                dispatchPixels(context, mFit.get(), bindings, own, countBlocks(params));
             }
         )
         .planes;
@@ -99,14 +101,12 @@ graph::BufferHandle BlockLooks::addFit(
 BlockLookOutputs BlockLooks::addFind(
     graph::Graph& graph,
     const SurfaceLayer& raster,
-    const SortedCandidates& candidates,
-    graph::BufferHandle parts,
+    const TileInputs& tiles,
     const SortedBlocks& empty,
     const PassParams& params
 ) const {
     struct Data {
-        SortedCandidates candidates;
-        graph::BufferHandle parts;
+        TileInputs tiles;
         graph::BufferHandle planes;
         BlockLookOutputs sorted;
     };
@@ -114,7 +114,7 @@ BlockLookOutputs BlockLooks::addFind(
     graph::BufferHandle planes;
     graph::BufferHandle looks;
     if (params.uniformMotionPx > 0.0f) {
-        planes = addFit(graph, raster, candidates, params);
+        planes = addFit(graph, raster, tiles, params);
         looks = graph.createBuffer("block looks", {countLookBytes(params), kListUsage});
     }
     return graph
@@ -122,13 +122,12 @@ BlockLookOutputs BlockLooks::addFind(
             "find looks",
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
-                data.candidates = candidates;
-                for (const graph::BufferHandle layer :
-                     {candidates.raster, candidates.second, candidates.last})
-                    if (layer.isValid())
-                        builder.read(layer, Access::StorageRead);
-                if (parts.isValid())
-                    data.parts = builder.read(parts, Access::StorageRead);
+                data.tiles = tiles;
+                const SortedCandidates& layers = tiles.candidates;
+                for (const graph::BufferHandle buffer :
+                     {layers.raster, layers.second, layers.last, tiles.parts, tiles.crowds})
+                    if (buffer.isValid())
+                        builder.read(buffer, Access::StorageRead);
                 if (planes.isValid()) {
                     data.planes = builder.read(planes, Access::StorageRead);
                     data.sorted.looks = builder.write(looks, Access::StorageWrite);
@@ -137,13 +136,22 @@ BlockLookOutputs BlockLooks::addFind(
                 BlockLists& lists = data.sorted.blocks.lists;
                 lists.blocks = builder.write(lists.blocks, Access::StorageWrite);
                 lists.arguments = builder.write(lists.arguments, Access::StorageWrite);
+                data.sorted.counters = tiles.counters;
+                if (!tiles.crowds.isValid())
+                    return;
+                BlockLists& crowded = data.sorted.blocks.candidates;
+                crowded.blocks = builder.write(crowded.blocks, Access::StorageWrite);
+                crowded.arguments = builder.write(crowded.arguments, Access::StorageWrite);
+                data.sorted.counters = builder.write(tiles.counters, Access::StorageWrite);
             },
             [this, params](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;
                 const BlockLists& lists = data.sorted.blocks.lists;
                 // Bindings that the shader does not use are some buffer all the same.
                 const bool hasPlanes = data.planes.isValid();
-                const SortedCandidates& layers = data.candidates;
+                const SortedCandidates& layers = data.tiles.candidates;
+                const bool mayCrowd = data.tiles.crowds.isValid();
+                const BlockLists& crowded = data.sorted.blocks.candidates;
                 gpu::BindingList bindings;
                 for (const graph::BufferHandle buffer :
                      {layers.raster,
@@ -153,9 +161,13 @@ BlockLookOutputs BlockLooks::addFind(
                       lists.blocks,
                       lists.arguments,
                       layers.second.isValid() ? layers.second : layers.raster,
-                      data.parts.isValid() ? data.parts : layers.raster})
+                      data.tiles.parts.isValid() ? data.tiles.parts : layers.raster,
+                      mayCrowd ? crowded.blocks : lists.blocks,
+                      mayCrowd ? crowded.arguments : lists.arguments,
+                      mayCrowd ? data.sorted.counters : lists.blocks})
                     bindings.buffer(resources.buffer(buffer));
-                dispatchPixels(context, mFind.get(), bindings, params, countBlocks(params));
+                const PassParams own = withCrowds(params, resources, data.tiles.crowds);
+                dispatchPixels(context, mFind.get(), bindings, own, countBlocks(params));
             }
         )
         .sorted;

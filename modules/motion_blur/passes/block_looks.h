@@ -7,6 +7,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
+#include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 
 namespace shutter::motion_blur {
@@ -18,8 +19,17 @@ struct SortedCandidates {
     graph::BufferHandle last;   ///< the same
 };
 
+/// What is known of each tile of a frame.
+struct TileInputs {
+    SortedCandidates candidates;
+    graph::BufferHandle parts; ///< of DeformingParts, this frame's raster; invalid: nothing deforms
+    graph::BufferHandle crowds;   ///< shader::TileCrowd; invalid: no tile can be crowded
+    graph::BufferHandle counters; ///< shader::ResolvedCounters
+};
+
 struct BlockLookOutputs {
-    SortedBlocks blocks;       ///< kUniformList, kMixedList
+    SortedBlocks blocks; ///< kUniformList, kMixedList; of crowded tiles: the candidates
+    graph::BufferHandle counters;
     graph::BufferHandle looks; ///< shader::BlockLook[block]: a head, then one per instant of the
                                ///< tables; invalid: none is known
 };
@@ -35,15 +45,13 @@ class BlockLooks {
 
     /// Sorts the blocks that something moves in.
     /// \param raster this frame's
-    /// \param parts of DeformingParts; invalid: nothing deforms
     /// \param empty BlockSorter::getEmpty()
     /// \param params with shader::ResolvedParams; uniformMotionPx 0: each pixel searches for
     /// itself, as it must unless canFind()
     [[nodiscard]] BlockLookOutputs addFind(
         graph::Graph& graph,
         const SurfaceLayer& raster,
-        const SortedCandidates& candidates,
-        graph::BufferHandle parts,
+        const TileInputs& tiles,
         const SortedBlocks& empty,
         const PassParams& params
     ) const;
@@ -64,7 +72,7 @@ class BlockLooks {
     [[nodiscard]] graph::BufferHandle addFit(
         graph::Graph& graph,
         const SurfaceLayer& raster,
-        const SortedCandidates& candidates,
+        const TileInputs& tiles,
         const PassParams& params
     ) const;
 

@@ -80,28 +80,33 @@ CandidateOutputs CandidateLists::add(
         [&](graph::PassBuilder& builder, CandidateOutputs& data) {
             builder.read(inputs.surface, Access::SampledCompute);
             data.candidates = builder.write(inputs.empty, Access::StorageWrite);
-            data.counters = builder.write(inputs.counters, Access::StorageWrite);
             if (inputs.deforming.tiles.isValid())
                 data.deforming = {
                     builder.write(inputs.deforming.tiles, Access::StorageWrite),
                     builder.write(inputs.deforming.arguments, Access::StorageWrite)};
+            if (inputs.crowds.tiles.isValid())
+                data.crowds = {
+                    builder.write(inputs.crowds.tiles, Access::StorageWrite),
+                    builder.write(inputs.crowds.arguments, Access::StorageWrite)};
         },
         [this, inputs, layer, params, tiles](
             const CandidateOutputs& data, graph::PassContext& context
         ) {
             const graph::PassResources& resources = context.resources;
-            // Where nothing deforms the shader leaves two bindings alone: some buffer all the same.
+            // Bindings of what no tile has are some buffer all the same.
             const DeformingTiles deforming = data.deforming.tiles.isValid()
                                                  ? data.deforming
-                                                 : DeformingTiles{data.counters, data.counters};
+                                                 : DeformingTiles{data.candidates, data.candidates};
+            const bool mayCrowd = data.crowds.tiles.isValid();
             gpu::BindingList bindings;
             bindings.sampled(resources.view(inputs.surface), mSampler)
                 .buffer(resources.buffer(deforming.arguments))
                 .buffer(resources.buffer(data.candidates))
-                .buffer(resources.buffer(data.counters))
+                .buffer(resources.buffer(mayCrowd ? data.crowds.arguments : data.candidates))
                 .buffer(resources.buffer(deforming.tiles));
+            const PassParams own = withCrowds(params, resources, data.crowds.tiles);
             const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
-            context.frame.bind(pipeline.get(), bindings, &params, sizeof(params));
+            context.frame.bind(pipeline.get(), bindings, &own, sizeof(own));
             vkCmdDispatch(context.commands, tiles.x, tiles.y, 1);
         }
     );

@@ -7,6 +7,7 @@
 #include "modules/motion_blur/frame_io.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/clears.h"
+#include "modules/motion_blur/passes/crowds.h"
 #include "shaders/motion_blur/resolved_shared.h"
 
 #include <array>
@@ -19,18 +20,18 @@ struct DeformingTiles {
     graph::BufferHandle arguments; ///< shader::DispatchArguments: a group for each
 };
 
-/// Handles of a frame: the passes of all layers count into one.
+/// Handles of a frame.
 struct CandidateInputs {
-    graph::ImageHandle surface;   ///< of the layer
-    graph::BufferHandle counters; ///< shader::ResolvedCounters
-    graph::BufferHandle empty;    ///< of CandidateLists::create(), cleared
-    DeformingTiles deforming;     ///< of createDeforming(), cleared; invalid: nothing deforms
+    graph::ImageHandle surface; ///< of the layer
+    graph::BufferHandle empty;  ///< of CandidateLists::create(), cleared
+    DeformingTiles deforming;   ///< of createDeforming(), cleared; invalid: nothing deforms
+    CrowdBuffers crowds;        ///< of all layers
 };
 
 struct CandidateOutputs {
     graph::BufferHandle candidates; ///< shader::TileCandidates[tile], not sorted
-    graph::BufferHandle counters;
-    DeformingTiles deforming; ///< invalid: nothing deforms
+    DeformingTiles deforming;       ///< invalid: nothing deforms
+    CrowdBuffers crowds;
 };
 
 /// Tiles that have a list, across and down.

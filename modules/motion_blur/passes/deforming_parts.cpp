@@ -12,7 +12,7 @@ namespace {
 
 using graph::Access;
 
-const char* namePass(LayerIndex layer) {
+const char* nameFind(LayerIndex layer) {
     switch (layer) {
     case LayerIndex::Raster:
         return "find parts";
@@ -26,7 +26,7 @@ const char* namePass(LayerIndex layer) {
 
 gpu::ComputePipelineDesc describeFind(const gpu::Device& device, LayerIndex layer) {
     gpu::ComputePipelineDesc desc = describePass(
-        namePass(layer),
+        nameFind(layer),
         motion_blur_resolved_parts_comp,
         {kSampled, kSampled, kBuffer, kBuffer, kBuffer, kBuffer, kSampled}
     );
@@ -61,7 +61,7 @@ PartOutputs DeformingParts::add(
 
     return graph
         .addPass<Data>(
-            namePass(layer),
+            nameFind(layer),
             graph::PassKind::Compute,
             [&](graph::PassBuilder& builder, Data& data) {
                 builder.read(inputs.surface, Access::SampledCompute);
@@ -74,8 +74,9 @@ PartOutputs DeformingParts::add(
                 data.outputs.listed = inputs.listed;
                 data.outputs.listed.candidates =
                     builder.write(inputs.listed.candidates, Access::StorageWrite);
-                data.outputs.listed.counters =
-                    builder.write(inputs.listed.counters, Access::StorageWrite);
+                data.outputs.listed.crowds = {
+                    builder.write(inputs.listed.crowds.tiles, Access::StorageWrite),
+                    builder.write(inputs.listed.crowds.arguments, Access::StorageWrite)};
                 data.outputs.parts = builder.write(inputs.parts, Access::StorageWrite);
             },
             [this, inputs, layer, params](const Data& data, graph::PassContext& context) {
@@ -84,7 +85,7 @@ PartOutputs DeformingParts::add(
                 bindings.sampled(resources.view(inputs.surface), mSampler)
                     .sampled(resources.view(inputs.motion), mSampler)
                     .buffer(resources.buffer(data.outputs.listed.candidates))
-                    .buffer(resources.buffer(data.outputs.listed.counters))
+                    .buffer(resources.buffer(data.outputs.listed.crowds.arguments))
                     .buffer(resources.buffer(data.tiles.tiles))
                     .buffer(resources.buffer(data.outputs.parts))
                     .sampled(
@@ -92,7 +93,9 @@ PartOutputs DeformingParts::add(
                         mSampler
                     );
                 const gpu::LazyPipeline& pipeline = mPipelines.at(static_cast<size_t>(layer));
-                dispatchList(context, pipeline.get(), bindings, params, data.tiles.arguments, 0);
+                const PassParams own =
+                    withCrowds(params, resources, data.outputs.listed.crowds.tiles);
+                dispatchList(context, pipeline.get(), bindings, own, data.tiles.arguments, 0);
             }
         )
         .outputs;

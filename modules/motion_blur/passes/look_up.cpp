@@ -23,12 +23,22 @@ using graph::Access;
 /// Of a surface's second word: resolved.glsl has it as kKeyBits.
 constexpr uint32_t kKeyMask = 0xFFFFFFu;
 
-gpu::ComputePipelineDesc describeResolve(bool listsPixels, bool hasSecond) {
+gpu::ComputePipelineDesc describeResolve(bool listsPixels) {
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.insert(bindings.end(), 3, kBuffer);
     gpu::ComputePipelineDesc desc =
         describePass("resolve", motion_blur_resolved_comp, std::move(bindings));
-    desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u, hasSecond ? 1u : 0u};
+    desc.specialization = {shader::kMixedList, listsPixels ? 1u : 0u};
+    return desc;
+}
+
+/// \param desc with constants 0 and 1, if it has any
+gpu::ComputePipelineDesc specialize(gpu::ComputePipelineDesc desc, bool hasSecond, bool hasCrowds) {
+    desc.specialization.resize(2);
+    if (hasCrowds)
+        desc.specialization[0] = shader::kCandidateList;
+    desc.specialization.push_back(hasSecond ? 1u : 0u);
+    desc.specialization.push_back(hasCrowds ? 1u : 0u);
     return desc;
 }
 
@@ -63,6 +73,7 @@ struct Starts {
     ListedPixels listed;
     std::array<graph::BufferHandle, 3> candidates; ///< by LayerIndex; invalid: no such layer
     std::array<DeformingTiles, 3> deforming;       ///< the same; invalid: nothing deforms
+    CrowdBuffers crowds;                           ///< invalid: no tile can be crowded
     SortedBlocks blocks;
 };
 
@@ -71,7 +82,7 @@ Starts createStarts(
     const SurfaceLayersOutputs& layers,
     const PassParams& params,
     bool listsPixels,
-    const std::array<bool, 3>& deforms,
+    const InstantMotions& motions,
     Clears& clears
 ) {
     Starts starts;
@@ -94,13 +105,16 @@ Starts createStarts(
             return;
         const auto at = static_cast<size_t>(index);
         starts.candidates.at(at) = CandidateLists::create(graph, params, clears);
-        if (deforms.at(at))
+        if (motions.deforms.at(at))
             starts.deforming.at(at) = CandidateLists::createDeforming(graph, params, clears);
     };
     create(layers.raster, LayerIndex::Raster);
     create(layers.second, LayerIndex::Second);
     create(layers.last, LayerIndex::Last);
-    starts.blocks = BlockSorter::create(graph, params, false, clears);
+    if (motions.mayCrowd)
+        starts.crowds = Crowds::create(graph, params, clears);
+    // Blocks of crowded tiles have the place of those that a ray mask looks at.
+    starts.blocks = BlockSorter::create(graph, params, motions.mayCrowd, clears);
     return starts;
 }
 
@@ -125,6 +139,7 @@ void SearchResources::use(graph::PassBuilder& builder) {
          {candidates.raster,
           candidates.second,
           candidates.last,
+          crowds,
           looks,
           parts[0],
           parts[1],
@@ -167,17 +182,23 @@ gpu::BindingList SearchResources::bind(
     return bindings;
 }
 
+SearchPipelines::SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc)
+    : mPipelines{
+          gpu::LazyPipeline(device, specialize(desc, false, false)),
+          gpu::LazyPipeline(device, specialize(desc, true, false)),
+          gpu::LazyPipeline(device, specialize(desc, false, true)),
+          gpu::LazyPipeline(device, specialize(desc, true, true))} {}
+
 LookUp::LookUp(gpu::Device& device, bool listsPixels)
     : mListsPixels(listsPixels), mDevice(device), mLayers(device), mCandidates(device),
-      mParts(device),
+      mCrowds(device), mParts(device),
       mSort(
           device,
           describePass(
               "sort candidates", motion_blur_resolved_sort_comp, {kBuffer, kBuffer, kBuffer}
           )
       ),
-      mBlocks(device, !listsPixels), mResolve(device, describeResolve(listsPixels, false)),
-      mResolveSecond(device, describeResolve(listsPixels, true)),
+      mBlocks(device, !listsPixels), mResolve(device, describeResolve(listsPixels)),
       mRead(
           device,
           "resolved counters",
@@ -201,9 +222,9 @@ LookUpOutputs LookUp::add(
     const bool isKept = history && history->holds(params.sizePx);
     const bool hasLast = motions.hasLast && (isKept || motions.lent);
     auto own = params.getMethod<shader::ResolvedParams>();
-    own.hasLast = hasLast ? 1 : 0;
-    own.hasSecond = motions.second ? 1 : 0;
-    own.hasWays = motions.drawWays ? 1 : 0;
+    own.has = (hasLast ? shader::kHasLastLayer : 0u) |
+              (motions.second ? shader::kHasSecondLayer : 0u) |
+              (motions.drawWays ? shader::kHasWays : 0u);
     describeInstants(inputs, settings, own);
     params.setMethod(own);
     if (!mBlocks.canFind(params))
@@ -215,19 +236,21 @@ LookUpOutputs LookUp::add(
     mHistoryBytes = history ? history->bytes() : 0;
     const SurfaceLayer& raster = search.layers.raster;
     Clears clears;
-    const Starts starts =
-        createStarts(graph, search.layers, params, mListsPixels, motions.deforms, clears);
+    const Starts starts = createStarts(graph, search.layers, params, mListsPixels, motions, clears);
     clears.declare(graph);
     outputs.listed = starts.listed;
     if (mListsPixels)
         outputs.listed.arguments = clears.get(starts.listed.arguments);
     search.counters = clears.get(starts.counters);
+    CrowdBuffers crowds;
+    if (motions.mayCrowd)
+        crowds = {clears.get(starts.crowds.tiles), clears.get(starts.crowds.arguments)};
     const auto list = [&](const SurfaceLayer& layer, LayerIndex index) -> graph::BufferHandle {
         if (!layer.surface.isValid())
             return {};
         const auto at = static_cast<size_t>(index);
         const DeformingTiles& deforming = starts.deforming.at(at);
-        CandidateInputs given{layer.surface, search.counters, clears.get(starts.candidates.at(at))};
+        CandidateInputs given{layer.surface, clears.get(starts.candidates.at(at)), {}, crowds};
         if (deforming.tiles.isValid())
             given.deforming = {clears.get(deforming.tiles), clears.get(deforming.arguments)};
         CandidateOutputs listed = mCandidates.add(graph, given, index, params);
@@ -248,23 +271,28 @@ LookUpOutputs LookUp::add(
             listed = found.listed;
             search.parts.at(at) = found.parts;
         }
-        search.counters = listed.counters;
+        crowds = listed.crowds;
         return listed.candidates;
     };
     SortedCandidates candidates;
     candidates.raster = list(raster, LayerIndex::Raster);
     candidates.second = list(search.layers.second, LayerIndex::Second);
     candidates.last = list(search.layers.last, LayerIndex::Last);
+    if (motions.mayCrowd)
+        search.crowds = mCrowds.add(graph, search.layers, inputs.motionDepth, crowds, params);
     search.candidates = addSort(graph, candidates, params);
     const BlockLookOutputs looks = mBlocks.addFind(
         graph,
         raster,
-        search.candidates,
-        search.parts[static_cast<size_t>(LayerIndex::Raster)],
+        {search.candidates,
+         search.parts[static_cast<size_t>(LayerIndex::Raster)],
+         search.crowds,
+         search.counters},
         BlockSorter::getEmpty(starts.blocks, clears),
         params
     );
     outputs.blocks = looks.blocks;
+    search.counters = looks.counters;
     search.looks = looks.looks;
     if (inputs.wantsCounters)
         shared.sorter.addCounters(graph, outputs.blocks, params, inputs.slot);
@@ -275,7 +303,9 @@ LookUpOutputs LookUp::add(
         outputs.picture = mBlocks.addResolve(
             graph, raster, outputs.blocks, search.looks, outputs.picture, params
         );
-    addResolve(graph, outputs, params);
+    addResolve(graph, outputs, false, params);
+    if (motions.mayCrowd)
+        addResolve(graph, outputs, true, params);
     return outputs;
 }
 
@@ -315,8 +345,9 @@ SortedCandidates LookUp::addSort(
     );
 }
 
-void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params)
-    const {
+void LookUp::addResolve(
+    graph::Graph& graph, LookUpOutputs& outputs, bool areCrowded, const PassParams& params
+) const {
     struct Data {
         SearchResources search;
         BlockLists blocks;
@@ -324,22 +355,23 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
         graph::ImageHandle picture;
     };
 
+    const BlockLists& lists = areCrowded ? outputs.blocks.candidates : outputs.blocks.lists;
     const Data& pass = graph.addPass<Data>(
-        "resolve",
+        areCrowded ? "resolve crowds" : "resolve",
         graph::PassKind::Compute,
         [&](graph::PassBuilder& builder, Data& data) {
             data.search = outputs.search;
             data.search.use(builder);
             data.blocks = {
-                builder.read(outputs.blocks.lists.blocks, Access::StorageRead),
-                builder.read(outputs.blocks.lists.arguments, Access::IndirectRead)};
+                builder.read(lists.blocks, Access::StorageRead),
+                builder.read(lists.arguments, Access::IndirectRead)};
             if (mListsPixels)
                 data.listed = {
                     builder.write(outputs.listed.pixels, Access::StorageWrite),
                     builder.write(outputs.listed.arguments, Access::StorageWrite)};
             data.picture = builder.write(outputs.picture, Access::StorageWrite);
         },
-        [this, params](const Data& data, graph::PassContext& context) {
+        [this, areCrowded, params](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.blocks.blocks));
@@ -350,11 +382,11 @@ void LookUp::addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassP
             const bool hasSecond = data.search.candidates.second.isValid();
             dispatchList(
                 context,
-                (hasSecond ? mResolveSecond : mResolve).get(),
+                mResolve.get(hasSecond, areCrowded),
                 bindings,
-                params,
+                withCrowds(params, resources, data.search.crowds),
                 data.blocks.arguments,
-                shader::kMixedList
+                areCrowded ? shader::kCandidateList : shader::kMixedList
             );
         }
     );
@@ -374,7 +406,13 @@ MotionBlurOutputs LookUp::end(
         readCounters(graph, found.search.counters, inputs.slot);
     MotionBlurOutputs outputs;
     outputs.color = shared.stillPixels.end(
-        graph, inputs.color, found.picture, found.blocks, false, params, shared.stillPixelsBy
+        graph,
+        inputs.color,
+        found.picture,
+        found.blocks,
+        found.search.crowds.isValid(),
+        params,
+        shared.stillPixelsBy
     );
     const SurfaceLayersOutputs& layers = found.search.layers;
     for (const View& view : {View{"second", layers.second.color}, View{"last", layers.last.color}})
@@ -420,7 +458,7 @@ void LookUp::count(uint32_t slot, Counters& counters) const {
     counters["unresolved samples"] = counted.unresolved;
     counters["samples from the second raster"] = counted.fromSecond;
     counters["samples from the last frame"] = counted.fromLast;
-    counters["candidates dropped"] = counted.overflown;
+    counters["crowded tiles"] = counted.crowdedTiles;
     counters["history bytes"] = mHistoryBytes;
     if (!mListsPixels)
         return;

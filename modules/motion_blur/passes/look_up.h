@@ -8,6 +8,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/passes/block_looks.h"
 #include "modules/motion_blur/passes/candidate_lists.h"
+#include "modules/motion_blur/passes/crowds.h"
 #include "modules/motion_blur/passes/deforming_parts.h"
 #include "modules/motion_blur/passes/surface_layers.h"
 #include "modules/motion_blur/shared_passes.h"
@@ -25,7 +26,8 @@ struct SearchResources {
     SurfaceLayersOutputs layers;
     graph::ImageHandle motionDepth; ///< of this frame's raster
     SortedCandidates candidates;
-    graph::BufferHandle looks; ///< of BlockLooks
+    graph::BufferHandle crowds; ///< of Crowds; invalid: no tile can be crowded
+    graph::BufferHandle looks;  ///< of BlockLooks
     // By LayerIndex; invalid: nothing deforms there.
     std::array<graph::BufferHandle, 3> parts; ///< of DeformingParts
     std::array<graph::ImageHandle, 3> ways;   ///< of DrawWays; invalid, too, without one
@@ -42,6 +44,22 @@ struct SearchResources {
 struct ListedPixels {
     graph::BufferHandle pixels; ///< x | y << 16, classes (resolved_shared.h)
     graph::BufferHandle arguments;
+};
+
+/// The pipelines of a pass that searches.
+class SearchPipelines {
+  public:
+    /// \param desc whose constants 2 and 3 are set here (resolved_layers.glsl,
+    /// resolved_crowd_search.glsl)
+    SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
+
+    /// \param hasCrowds pixels of crowded tiles are searched
+    [[nodiscard]] const gpu::Pipeline& get(bool hasSecond, bool hasCrowds) const {
+        return mPipelines.at((hasSecond ? 1 : 0) + (hasCrowds ? 2 : 0)).get();
+    }
+
+  private:
+    std::array<gpu::LazyPipeline, 4> mPipelines;
 };
 
 struct LookUpOutputs {
@@ -85,20 +103,23 @@ class LookUp {
     /// Nearest first.
     [[nodiscard]] SortedCandidates
     addSort(graph::Graph& graph, const SortedCandidates& listed, const PassParams& params) const;
-    void addResolve(graph::Graph& graph, LookUpOutputs& outputs, const PassParams& params) const;
+    /// \param areCrowded the blocks of crowded tiles; otherwise those that look at several planes
+    void addResolve(
+        graph::Graph& graph, LookUpOutputs& outputs, bool areCrowded, const PassParams& params
+    ) const;
 
     bool mListsPixels;
     gpu::Device& mDevice;
     SurfaceLayers mLayers;
     CandidateLists mCandidates;
+    Crowds mCrowds;
     DeformingParts mParts;
     gpu::LazyPipeline mSort;
     BlockLooks mBlocks;
-    gpu::LazyPipeline mResolve;
-    gpu::LazyPipeline mResolveSecond; ///< with a second raster
-    gpu::Buffer mNoise;               ///< the mask; empty until a frame has noise
-    gpu::Buffer mRead;                ///< shader::ResolvedCounters by slot
-    uint64_t mHistoryBytes = 0;       ///< of the frame declared last
+    SearchPipelines mResolve;
+    gpu::Buffer mNoise;         ///< the mask; empty until a frame has noise
+    gpu::Buffer mRead;          ///< shader::ResolvedCounters by slot
+    uint64_t mHistoryBytes = 0; ///< of the frame declared last
 };
 
 /// Bindings 0 to 21 of a pipeline that searches.

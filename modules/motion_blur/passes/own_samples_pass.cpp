@@ -25,7 +25,6 @@ describeSamples(const char* name, std::span<const uint32_t> spirv, size_t buffer
     std::vector<VkDescriptorType> bindings = listSearchBindings();
     bindings.insert(bindings.end(), bufferCount, kBuffer);
     gpu::ComputePipelineDesc desc = describePass(name, spirv, std::move(bindings));
-    desc.specialization = {0, 0, 0}; // no second raster
     return desc;
 }
 
@@ -126,7 +125,9 @@ void OwnSamplesPass::addList(
             for (const graph::BufferHandle buffer :
                  {data.lists.samples, data.lists.answers, data.lists.first, data.lists.groups})
                 bindings.buffer(resources.buffer(buffer));
-            dispatchList(context, mList.get(), bindings, params, data.listed.arguments, 0);
+            const PassParams own = withCrowds(params, resources, data.search.crowds);
+            const gpu::Pipeline& pipeline = mList.get(false, data.search.crowds.isValid());
+            dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );
     found.search.counters = pass.search.counters;
@@ -200,7 +201,9 @@ void OwnSamplesPass::addCollect(
             for (const graph::BufferHandle buffer :
                  {data.listed.pixels, data.lists.samples, data.lists.answers, data.lists.first})
                 bindings.buffer(resources.buffer(buffer));
-            dispatchList(context, mCollect.get(), bindings, params, data.listed.arguments, 0);
+            const PassParams own = withCrowds(params, resources, data.search.crowds);
+            const gpu::Pipeline& pipeline = mCollect.get(false, data.search.crowds.isValid());
+            dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );
     found.search.counters = pass.search.counters;

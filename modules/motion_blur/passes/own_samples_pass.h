@@ -35,8 +35,8 @@ class OwnSamplesPass {
     ) const;
 
     gpu::Device& mDevice;
-    gpu::LazyPipeline mList;
-    gpu::LazyPipeline mCollect;
+    SearchPipelines mList; ///< hosts have no second raster
+    SearchPipelines mCollect;
 };
 
 } // namespace shutter::motion_blur

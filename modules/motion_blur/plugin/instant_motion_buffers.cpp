@@ -79,6 +79,12 @@ InstantMotions InstantMotionBuffers::update(
     motions.table = writeInstantLayers(mDevice, tables, mBuffers.at(context.slot));
     motions.instantCount = instantCount;
     motions.hasLast = tables.last.has_value();
+    motions.deforms = {
+        tables.raster.deforms,
+        tables.last && tables.last->deforms,
+        tables.second && tables.second->deforms};
+    motions.mayCrowd = mayCrowdTiles(tables);
+    motions.drawWays = declareWays(context, tables);
     if (const render::OtherRasterView* const second = context.secondRaster)
         motions.second = SecondRaster{
             second->gbuffer.color, second->gbuffer.motionDepth, second->gbuffer.entityId};
@@ -94,6 +100,30 @@ InstantMotions InstantMotionBuffers::update(
     mBefore = std::move(mLast);
     mLast = std::move(tables.record);
     return motions;
+}
+
+DrawWays InstantMotionBuffers::declareWays(
+    const render::PostContext& context, const extract::InstantTables& tables
+) {
+    if (tables.rasterWays.empty() && tables.lastWays.empty() && tables.secondWays.empty())
+        return {};
+    auto& ways = mWays.at(context.slot);
+    if (!ways)
+        ways.emplace(mDevice);
+    const render::ShapedFrame now{&context.frame, &context.shapes};
+    std::array<render::ShapeWayLayer, 3> layers;
+    layers[size_t(LayerIndex::Raster)] = {tables.rasterWays, now};
+    if (const render::OtherRasterView* const last = context.lastRaster)
+        layers[size_t(LayerIndex::Last)] = {tables.lastWays, {last->frame, &last->shapes}};
+    else
+        layers[size_t(LayerIndex::Last)] = {tables.lastWays, {}, mLast ? &*mLast : nullptr};
+    if (const render::OtherRasterView* const second = context.secondRaster)
+        layers[size_t(LayerIndex::Second)] = {tables.secondWays, {second->frame, &second->shapes}};
+    ways->declareShapes(context.graph, now, tables.middles, layers, mScene);
+    return
+        [&ways = *ways, &scene = mScene](
+            graph::Graph& graph, LayerIndex layer, graph::ImageHandle surface, uint32_t keyMask
+        ) { return ways.declareLayer(graph, static_cast<size_t>(layer), surface, keyMask, scene); };
 }
 
 void InstantMotionBuffers::stepBack() {

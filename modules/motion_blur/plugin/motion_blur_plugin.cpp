@@ -3,6 +3,7 @@
 
 #include "engine/core/words.h"
 #include "engine/gpu/vulkan.h"
+#include "shaders/motion_blur/resolved_shared.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,8 @@
 namespace shutter::motion_blur {
 
 namespace {
+
+constexpr uint32_t kListed = shader::kCandidatesPerTile;
 
 void explainBudget(render::Explainer& explainer, const BudgetController& budget) {
     const std::string& gaveUp = budget.current().gaveUp;
@@ -22,6 +25,23 @@ void explainBudget(render::Explainer& explainer, const BudgetController& budget)
                            "{} ms is too little: gave up {}", budget.budget().milliseconds, gaveUp
                        );
     explainer.decide(render::ExplainedKind::Work, "blur budget", {!gaveUp.empty(), reason});
+}
+
+void explainCrowds(render::FinishedFrame& frame) {
+    const auto found = frame.counters.find("crowded tiles");
+    if (found == frame.counters.end())
+        return;
+    const uint64_t count = found->second;
+    const std::string reason =
+        count == 0 ? fmt::format("no tile may see more than {} movers", kListed)
+                   : fmt::format(
+                         "{} more than {} movers",
+                         core::countOf(count, "tile may see", "tiles may see"),
+                         kListed
+                     );
+    frame.explanations.push_back(
+        {render::ExplainedKind::Work, "search without lists", {count > 0, reason}}
+    );
 }
 
 constexpr const char* kNoPicture = "the frame is drawn for what the next one looks up in it";
@@ -182,6 +202,7 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))
         frame.counters[name] = value;
+    explainCrowds(frame);
     frame.measures["blur ms"] = milliseconds;
     if (drawn.standsIn)
         frame.measures["blur stands in"] = 1.0;

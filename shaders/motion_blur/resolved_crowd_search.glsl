@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The search in crowded tiles, which have no list of what they may see. It asks for no entity: from each
+// seed it goes to wherever the layer shows something that is at the pixel at the instant. Part of
+// resolved_search.glsl.
+#ifndef SHUTTER_RESOLVED_CROWD_SEARCH_GLSL
+#define SHUTTER_RESOLVED_CROWD_SEARCH_GLSL
+
+#include "motion_blur/resolved_crowds.glsl"
+
+/// Whether tiles may be crowded.
+layout(constant_id = 3) const bool kHasCrowds = false;
+
+/// Where something that a layer shows is at an instant.
+struct Displaced {
+    bool isKnown;
+    vec2 place;
+    float depth;
+};
+
+Displaced displace(
+    uint index, LayerMotion layer, PixelSearch pixel, Probe surface, vec2 at, uint instant
+) {
+    Displaced unknown = Displaced(false, at, 0.0f);
+    uint mover = findMover(layer, surface.key);
+    if (mover == kNoMover) return unknown;
+    if (isStillMover(layer, mover)) return Displaced(true, at, surface.depth);
+    if (mover == kDeformedMover) {
+        if (!has(method, kHasWays) && index != kRasterLayer) return unknown;
+        vec2 displacement;
+        float s = timeOf(InstantMotionsRef(method.motions), instant);
+        bool isKnown = findDisplacement(index, ivec2(at), s, displacement);
+        return Displaced(isKnown, at + displacement, surface.depth);
+    }
+    InstantMotion motion =
+        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
+    if (motion.instantFromRaster[2] == vec4(0.0f)) return unknown;
+    float depth = depthOfKey(surface.key, surface.depth);
+    vec3 seen =
+        transformRows(motion.instantFromRaster, pictureSpace(at, depth, pixel.perspective));
+    if (pixel.perspective && seen.z < kLeastDepth) return unknown;
+    return Displaced(true, projectPicture(seen, pixel.perspective), seen.z);
+}
+
+void searchFrom(
+    uint index, LayerMotion layer, PixelSearch pixel, uint instant, vec2 at, inout Seen best
+) {
+    for (uint step_ = 0u; step_ < kSteps; ++step_) {
+        if (!isInside(at)) return;
+        Probe surface = fetchSurface(index, ivec2(at));
+        Displaced displaced = displace(index, layer, pixel, surface, at, instant);
+        if (!displaced.isKnown) return;
+        vec2 way = pixel.x - displaced.place;
+        float distancePx = length(way);
+        vec2 next = at + way;
+        if (distancePx > kArrivedPx && step_ + 1u < kSteps) {
+            at = next;
+            continue;
+        }
+        if (distancePx > kTolerancePx || !isInside(next)) return;
+        if (fetchSurface(index, ivec2(next)).key != surface.key) return;
+        // Among many small entities colours beside edges are interpolated as elsewhere.
+        float depth = behindSky(surface.key, displaced.depth);
+        keepNearer(best, Seen(true, index, surface.key, next, depth, true), pixel.x);
+        return;
+    }
+}
+
+void searchCrowd(
+    uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Seen best
+) {
+    searchFrom(index, layer, pixel, instant, pixel.x, best);
+    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    TileCrowd crowd = CrowdTable(method.crowds).tiles[index * tiles.x * tiles.y + pixel.tile];
+    for (uint slot = 0u; slot < kCrowdSeeds; ++slot) {
+        uint seed = crowd.seeds[slot];
+        if (seed == kNoSeed) continue;
+        vec2 at = vec2(seed & 0xFFFFu, seed >> 16) + 0.5f;
+        Probe surface = fetchSurface(index, ivec2(at));
+        Displaced displaced = displace(index, layer, pixel, surface, at, instant);
+        if (!displaced.isKnown) continue;
+        searchFrom(index, layer, pixel, instant, pixel.x - (displaced.place - at), best);
+    }
+}
+
+/// What a pixel of a crowded tile sees.
+Seen searchCrowds(PixelSearch pixel, uint instant) {
+    Seen seen = pixel.still;
+    searchCrowd(kRasterLayer, pixel.raster, pixel, instant, seen);
+    if (kHasSecond && !seen.isFound) {
+        seen = pixel.secondStill;
+        searchCrowd(kSecondLayer, pixel.second, pixel, instant, seen);
+    }
+    if (!seen.isFound && has(method, kHasLastLayer)) {
+        seen = pixel.lastStill;
+        searchCrowd(kLastLayer, pixel.last, pixel, instant, seen);
+    }
+    return seen;
+}
+
+/// What stands for a sample of which nothing is known: the tap of `own_velocity`.
+vec3 fetchOwnTap(PixelSearch pixel, uint instant) {
+    float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
+    vec2 motion = textureLod(uMotionDepth, uvOf(pixel.x), 0.0f).xy;
+    return fetchColor(kRasterLayer, keepInside(ivec2(floor(pixel.x - motion * time))));
+}
+
+#endif

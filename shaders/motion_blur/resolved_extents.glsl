@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Pixels of one entity in a layer, and where they are seen in the course of the exposure. Whoever
+// includes this has the push constants `params` and `method`.
+#ifndef SHUTTER_RESOLVED_EXTENTS_GLSL
+#define SHUTTER_RESOLVED_EXTENTS_GLSL
+
+#include "motion_blur/resolved_boxes.glsl"
+
+/// Beyond the box: half a pixel to its border, one for what is interpolated, and some for rounding.
+const float kMarginPx = 2.0f;
+
+/// Pixels of one entity.
+struct Extent {
+    uint key;     // kNoKey: none
+    bool isOfUse; // it moves, and it is known how
+    bool deforms;
+    vec2 depths;
+    ivec2 low;
+    ivec2 high;
+    vec2 motionLow; // of what deforms: bounds of its motion vectors
+    vec2 motionHigh;
+};
+
+const Extent kNoExtent = Extent(
+    kNoKey, false, false, vec2(3.0e38f, 0.0f), ivec2(0x7FFFFFFF), ivec2(-0x7FFFFFFF), vec2(3.0e38f),
+    vec2(-3.0e38f)
+);
+
+Extent beginExtent(LayerMotion layer, uint key) {
+    uint mover = findMover(layer, key);
+    Extent extent = kNoExtent;
+    extent.key = key;
+    extent.isOfUse = mover != kNoMover && !isStillMover(layer, mover);
+    extent.deforms = mover == kDeformedMover;
+    return extent;
+}
+
+// texelFetch is slow on software devices.
+vec2 uvOfPixel(ivec2 pixel) { return (vec2(pixel) + 0.5f) / vec2(params.sizePx); }
+
+/// \param surface of the pixel, which is of the extent's entity
+void growExtent(uvec2 surface, ivec2 pixel, inout Extent extent) {
+    if (!extent.isOfUse) return;
+    float depth = depthOfKey(extent.key, uintBitsToFloat(surface.x));
+    extent.depths = vec2(min(extent.depths.x, depth), max(extent.depths.y, depth));
+    extent.low = min(extent.low, pixel);
+    extent.high = max(extent.high, pixel);
+}
+
+void addRigid(
+    LayerMotion layer, Extent extent, uint mover, uint instant, bool perspective, inout SeenBox box
+) {
+    InstantMotion motion =
+        InstantMotionTable(layer.motions).motions[mover * method.instantCount + instant];
+    if (motion.instantFromRaster[2] == vec4(0.0f)) return;
+    vec2 low = vec2(1.0e9f);
+    vec2 high = vec2(-1.0e9f);
+    vec2 depths = vec2(3.0e38f, 0.0f);
+    bool isInFront = false;
+    for (uint corner = 0u; corner < 8u; ++corner) {
+        vec2 at = vec2(
+            (corner & 1u) != 0u ? float(extent.high.x + 1) : float(extent.low.x),
+            (corner & 2u) != 0u ? float(extent.high.y + 1) : float(extent.low.y)
+        );
+        float depth = (corner & 4u) != 0u ? extent.depths.y : extent.depths.x;
+        vec3 seen = transformRows(motion.instantFromRaster, pictureSpace(at, depth, perspective));
+        vec2 place = clamp(projectPicture(seen, perspective), -1.0e8f, 1.0e8f);
+        low = min(low, place);
+        high = max(high, place);
+        depths = vec2(min(depths.x, seen.z), max(depths.y, seen.z));
+        isInFront = isInFront || seen.z > 0.0f || !perspective;
+    }
+    if (isInFront) addBox(instant, low - kMarginPx, high + kMarginPx, depths, box);
+}
+
+void addDeformed(Extent extent, uint instant, inout SeenBox box) {
+    float time = timeOf(InstantMotionsRef(method.motions), instant) - params.rasterTime;
+    vec2 a = extent.motionLow * time;
+    vec2 b = extent.motionHigh * time;
+    vec2 low = vec2(extent.low) + min(a, b);
+    vec2 high = vec2(extent.high + 1) + max(a, b);
+    addBox(instant, low - kMarginPx, high + kMarginPx, extent.depths, box);
+}
+
+void addInstant(
+    LayerMotion layer, Extent extent, uint instant, bool perspective, inout SeenBox box
+) {
+    uint mover = findMover(layer, extent.key);
+    if (mover == kDeformedMover)
+        addDeformed(extent, instant, box);
+    else
+        addRigid(layer, extent, mover, instant, perspective, box);
+}
+
+#endif
