@@ -5,6 +5,7 @@
 // there.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #include "motion_blur/resolved.glsl"
 #include "motion_blur/resolved_parts_shared.h"
@@ -51,7 +52,8 @@ void note(uint slot, Extent extent) {
 
 void listExtent(Extent extent) {
     if (!extent.isOfUse) return;
-    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+    // Unrolled, within the loops over pixels, it takes compilers half a minute.
+    [[dont_unroll]] for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
         uint held = sKeys[slot];
         if (held == kNoKey) held = atomicCompSwap(sKeys[slot], kNoKey, extent.key);
         if (held == kNoKey || held == extent.key) {
@@ -126,8 +128,8 @@ void main() {
     LayerMotion layer = getLayer(motions, kLayer);
     uvec2 origin = gl_WorkGroupID.xy * kCandidateTilePx + gl_LocalInvocationID.xy;
     Extent extent = kNoExtent;
-    for (uint y = 0u; y < kCandidateTilePx; y += kThreadRows)
-        for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
+    [[dont_unroll]] for (uint y = 0u; y < kCandidateTilePx; y += kThreadRows)
+        [[dont_unroll]] for (uint x = 0u; x < kCandidateTilePx; x += kGroupSize) {
             uvec2 pixel = origin + uvec2(x, y);
             if (all(lessThan(pixel, params.sizePx))) addPixel(layer, ivec2(pixel), extent);
         }

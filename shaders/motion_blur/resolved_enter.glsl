@@ -4,6 +4,8 @@
 #ifndef SHUTTER_RESOLVED_ENTER_GLSL
 #define SHUTTER_RESOLVED_ENTER_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "motion_blur/resolved_boxes.glsl"
 #include "motion_blur/resolved_crowds.glsl"
 
@@ -26,7 +28,7 @@ void noteUnlistedSource(uint tile, uint layer) {
 }
 
 void enter(uint tile, uint key, vec2 depths, uint bits) {
-    for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
+    [[dont_unroll]] for (uint slot = 0u; slot < kCandidatesPerTile; ++slot) {
         uint held = uTiles[tile].candidates[slot].key;
         if (held == kNoKey) held = atomicCompSwap(uTiles[tile].candidates[slot].key, kNoKey, key);
         if (held != kNoKey && held != key) continue;

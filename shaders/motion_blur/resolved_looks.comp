@@ -11,6 +11,7 @@
 #include "motion_blur/resolved_parts.glsl"
 
 layout(constant_id = 0) const bool kSortsUniform = true; // false: all that moves is in one list
+layout(constant_id = 1) const bool kHasParts = false;     // something deforms in this frame's raster
 
 layout(local_size_x = kGroupSize, local_size_y = kGroupSize) in;
 layout(push_constant, scalar) uniform Push {
@@ -181,7 +182,7 @@ uint findShown(
         uint slot = uint(findLSB(slots));
         Candidate candidate = uRaster[tile].candidates[slot];
         bool isSeen;
-        if (candidate.mover == kDeformedMover)
+        if (kHasParts && candidate.mover == kDeformedMover)
             isSeen = isPartShown(block, candidate.key, instant);
         else
             isSeen = isShown(
@@ -253,9 +254,10 @@ PlaneMap findLook(BlockSearch search, uint instant) {
     uint shown = 0u;
     if (!map.isAffine) {
         shown = findShown(search.block, search.tile, slots, instant, table, search.perspective);
-        map = lookAtParts(
-            search.block, search.tile, shown, instant, search.layer.isStill != 0u
-        );
+        if (kHasParts)
+            map = lookAtParts(
+                search.block, search.tile, shown, instant, search.layer.isStill != 0u
+            );
     }
     BlockLook look = BlockLook(map.place, packHalf2x16(map.perX), packHalf2x16(map.perY));
     if (!map.isAffine) look = BlockLook(vec2(0.0f), kSearchedLook, shown);

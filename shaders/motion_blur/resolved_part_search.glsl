@@ -9,6 +9,9 @@ const float kWideDeviationPx = 1.0f;
 /// Farthest from where the fit has it that a part is looked for, pixels.
 const float kMostDeviationReachPx = 8.0f;
 
+/// Places that a part is searched from, at most.
+const uint kPartSeeds = 6u;
+
 /// \return whether it is known where the layer's pixel is seen at shutter time s
 bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
     vec2 uv = uvOf(vec2(texel) + 0.5f);
@@ -38,7 +41,7 @@ struct PartSearch {
 /// By Newton's steps from one place, each on the motion of the pixel there.
 /// \return whether the pixel sees the entity
 bool searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt) {
-    for (uint step_ = 0u; step_ < kSteps; ++step_) {
+    [[dont_unroll]] for (uint step_ = 0u; step_ < kSteps; ++step_) {
         if (!isInside(at)) return false;
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurface(search.layer, texel);
@@ -84,15 +87,16 @@ void searchPart(
         return;
     PartSearch search = PartSearch(layer, keyOfPart(part), s, x, back.back);
     bool isWide = way.deviation > kWideDeviationPx;
-    if (searchFrom(search, at, found, doubt) && !isWide) return;
-    vec2 inside = clamp(at, box.xy + 0.5f, box.zw - 0.5f);
-    if (inside != at && searchFrom(search, inside, found, doubt) && !isWide) return;
-    if (!isWide) return;
-    // The nearest of what is seen around it hides the rest: a leg before the other.
-    for (uint i = 0u; i < 4u; ++i) {
+    // From the place itself, from the nearest one in the part, and, if it may be seen at several
+    // places, from around it: the nearest of what is found hides the rest, a leg before the other. One
+    // loop, since compilers write out every call.
+    uint count = isWide ? kPartSeeds : 2u;
+    [[dont_unroll]] for (uint i = 0u; i < count; ++i) {
         vec2 side = vec2((i & 1u) != 0u ? 1.0f : -1.0f, (i & 2u) != 0u ? 1.0f : -1.0f);
-        vec2 from = clamp(at + 0.7f * reach * side, box.xy + 0.5f, box.zw - 0.5f);
-        searchFrom(search, from, found, doubt);
+        vec2 from = at + (i < 2u ? 0.0f : 0.7f * reach) * side;
+        if (i > 0u) from = clamp(from, box.xy + 0.5f, box.zw - 0.5f);
+        if (i == 1u && from == at) continue;
+        if (searchFrom(search, from, found, doubt) && !isWide) return;
     }
 }
 

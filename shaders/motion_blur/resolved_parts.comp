@@ -3,6 +3,7 @@
 // the lists of the tiles that may see them. A group takes a tile, one entity after the other.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #include "common/numeric.glsl"
 #include "motion_blur/resolved.glsl"
@@ -44,6 +45,7 @@ const float kSteepestChange = 1024.0f;
 /// Around the bounds of a part.
 const float kPartMarginPx = 0.5f;
 
+// Loops over pixels stay loops: each is in every part that is found, and compilers write them out.
 shared uint sKeys[kPixels]; // kNoKey: nothing that deforms
 shared float sDepths[kPixels];
 shared uvec2 sWays[kPixels]; // packWay()
@@ -72,7 +74,7 @@ uvec2 fetchWay(vec2 uv) {
 void loadTile(uvec2 tile, LayerMotion layer) {
     uint lastKey = kNoKey;
     bool deforms = false;
-    for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
+    [[dont_unroll]] for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
         uvec2 at = tile * kCandidateTilePx + uvec2(placeOf(i));
         sKeys[i] = kNoKey;
         if (any(greaterThanEqual(at, params.sizePx))) continue;
@@ -96,7 +98,7 @@ uint findNextKey(uint last) {
     if (gl_LocalInvocationIndex == 0u) sNext = kNoKey;
     barrier();
     uint least = kNoKey;
-    for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads)
+    [[dont_unroll]] for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads)
         if (last == kNoKey || sKeys[i] > last) least = min(least, sKeys[i]);
     atomicMin(sNext, least);
     barrier();
@@ -142,7 +144,7 @@ void sumPixels(Choice choice) {
     vec2 depths = vec2(3.0e38f, 0.0f);
     ivec2 low = ivec2(0x7FFFFFFF);
     ivec2 high = ivec2(-0x7FFFFFFF);
-    for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
+    [[dont_unroll]] for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
         if (!isChosen(choice, i)) continue;
         ivec2 place = placeOf(i);
         // From the tile's middle: small numbers, whose squares keep their digits.
@@ -178,7 +180,7 @@ void sumPixels(Choice choice) {
     // In one order, so that a frame has the same bits in each run.
     for (uint i = gl_LocalInvocationIndex; i < kSums; i += kThreads) {
         float total = 0.0f;
-        for (uint thread = 0u; thread < kThreads; ++thread) total += sSums[thread][i];
+        [[dont_unroll]] for (uint thread = 0u; thread < kThreads; ++thread) total += sSums[thread][i];
         sTotals[i] = total;
     }
     barrier();
@@ -243,7 +245,7 @@ TilePart fitPart(Choice choice, uvec2 tile) {
 /// Greatest deviations of a chosen pixel's way from the fits; after sumPixels().
 vec3 measureDeviations(Choice choice, TilePart part, uvec2 tile) {
     vec3 greatest = vec3(0.0f);
-    for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
+    [[dont_unroll]] for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
         if (!isChosen(choice, i)) continue;
         vec2 from = vec2(tile * kCandidateTilePx) + vec2(placeOf(i)) + 0.5f - part.centre;
         PixelWay way = unpackWay(sWays[i]);
@@ -279,14 +281,14 @@ bool findPart(Choice choice, uvec2 tile, uint index) {
     return true;
 }
 
-/// Cuts at the middle of the component of its ways to open and close that varies most.
-/// \return how many parts that makes
-uint halve(uint key, uvec2 tile, uint index) {
+/// Where an entity is cut: at the middle of the component of its ways to open and close that varies
+/// most.
+Choice findCut(uint key) {
     // The fit's sums are no longer needed: bounds of the ways take their place.
     barrier();
     vec4 low = vec4(3.0e38f);
     vec4 high = vec4(-3.0e38f);
-    for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
+    [[dont_unroll]] for (uint i = gl_LocalInvocationIndex; i < kPixels; i += kThreads) {
         if (sKeys[i] != key) continue;
         PixelWay way = unpackWay(sWays[i]);
         low = min(low, vec4(way.open, way.close));
@@ -300,23 +302,37 @@ uint halve(uint key, uvec2 tile, uint index) {
     barrier();
     uint widest = 0u;
     for (uint i = 0u; i < 4u; ++i) {
-        for (uint other = 0u; other < kThreads; ++other) {
+        [[dont_unroll]] for (uint other = 0u; other < kThreads; ++other) {
             low[i] = min(low[i], sSums[other][i]);
             high[i] = max(high[i], sSums[other][i + 4u]);
         }
         if (high[i] - low[i] > high[widest] - low[widest]) widest = i;
     }
-    float limit = 0.5f * (low[widest] + high[widest]);
-    uint count = 0u;
-    for (int side = -1; side <= 1; side += 2)
-        if (findPart(Choice(key, widest, limit, side), tile, index + count)) ++count;
-    return count;
+    return Choice(key, widest, 0.5f * (low[widest] + high[widest]), -1);
 }
 
 /// Greatest deviation of the part at any shutter time, about.
 float deviationOf(TilePart part) {
     vec3 off = vec3(unpackHalf2x16(part.deviations.x), unpackHalf2x16(part.deviations.y).x);
     return max(max(off.x, off.y), 0.5f * (off.x + off.y) + off.z);
+}
+
+/// \return how many parts the entity has
+uint findPartsOf(uint key, uvec2 tile, uint index) {
+    Choice choice = Choice(key, 0u, 0.0f, 0);
+    uint count = 0u;
+    // The whole, and then both sides of a cut.
+    [[dont_unroll]] for (uint step_ = 0u; step_ < 3u; ++step_) {
+        if (step_ == 1u) {
+            bool isLast = index + 1u == kPartsPerTile;
+            if (isLast || deviationOf(sParts[index]) <= kMostDeviationPx) return 1u;
+            choice = findCut(key);
+            count = 0u;
+        }
+        if (step_ == 2u) choice.side = 1;
+        if (findPart(choice, tile, index + count)) ++count;
+    }
+    return count;
 }
 
 /// \param isFull the tile has more
@@ -329,10 +345,7 @@ uint findParts(uvec2 tile, out bool isFull) {
             isFull = true;
             break;
         }
-        findPart(Choice(key, 0u, 0.0f, 0), tile, count);
-        bool isOne =
-            deviationOf(sParts[count]) <= kMostDeviationPx || count + 1u == kPartsPerTile;
-        count += isOne ? 1u : halve(key, tile, count);
+        count += findPartsOf(key, tile, count);
     }
     return count;
 }

@@ -4,6 +4,8 @@
 #ifndef SHUTTER_RESOLVED_SEARCH_GLSL
 #define SHUTTER_RESOLVED_SEARCH_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "common/numeric.glsl"
 #include "motion_blur/pixel_ray.glsl"
 #include "motion_blur/resolved_layers.glsl"

@@ -124,8 +124,7 @@ void AdaptivePasses::addTrace(
             gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
             bindings.buffer(resources.buffer(data.listed.pixels)).accelerationStructure(tlas);
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline =
-                mTrace.get(data.search.candidates.second.isValid(), data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mTrace.get(data.search, data.search.crowds.isValid());
             context.frame.bind(pipeline, bindings, &own, sizeof(own), textures);
             vkCmdDispatchIndirect(context.commands, resources.buffer(data.listed.arguments), 0);
         }

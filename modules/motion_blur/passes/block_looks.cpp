@@ -24,11 +24,11 @@ gpu::ComputePipelineDesc describeResolve(const gpu::Device& device) {
     return desc;
 }
 
-gpu::ComputePipelineDesc describeFind(bool sortsUniform) {
+gpu::ComputePipelineDesc describeFind(bool sortsUniform, bool hasParts) {
     gpu::ComputePipelineDesc desc = describePass(
         "find looks", motion_blur_resolved_looks_comp, std::vector<VkDescriptorType>(11, kBuffer)
     );
-    desc.specialization = {sortsUniform ? 1u : 0u};
+    desc.specialization = {sortsUniform ? 1u : 0u, hasParts ? 1u : 0u};
     return desc;
 }
 
@@ -50,7 +50,9 @@ BlockLooks::BlockLooks(gpu::Device& device, bool sortsUniform)
           device,
           describePass("fit planes", motion_blur_resolved_planes_comp, {kSampled, kBuffer, kBuffer})
       ),
-      mFind(device, describeFind(sortsUniform)), mResolve(device, describeResolve(device)) {}
+      mFind(device, describeFind(sortsUniform, false)),
+      mFindParts(device, describeFind(sortsUniform, true)),
+      mResolve(device, describeResolve(device)) {}
 
 bool BlockLooks::canFind(const PassParams& params) const {
     return params.sampleCount <= shader::kMostLooks &&
@@ -167,7 +169,8 @@ BlockLookOutputs BlockLooks::addFind(
                       mayCrowd ? data.sorted.counters : lists.blocks})
                     bindings.buffer(resources.buffer(buffer));
                 const PassParams own = withCrowds(params, resources, data.tiles.crowds);
-                dispatchPixels(context, mFind.get(), bindings, own, countBlocks(params));
+                const gpu::LazyPipeline& pipeline = data.tiles.parts.isValid() ? mFindParts : mFind;
+                dispatchPixels(context, pipeline.get(), bindings, own, countBlocks(params));
             }
         )
         .sorted;

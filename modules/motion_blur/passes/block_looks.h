@@ -79,6 +79,7 @@ class BlockLooks {
     gpu::Device& mDevice;
     gpu::LazyPipeline mFit;
     gpu::LazyPipeline mFind;
+    gpu::LazyPipeline mFindParts; ///< where something deforms
     gpu::LazyPipeline mResolve;
 };
 

@@ -54,12 +54,10 @@ class SearchPipelines {
     SearchPipelines(gpu::Device& device, const gpu::ComputePipelineDesc& desc);
 
     /// \param hasCrowds pixels of crowded tiles are searched
-    [[nodiscard]] const gpu::Pipeline& get(bool hasSecond, bool hasCrowds) const {
-        return mPipelines.at((hasSecond ? 1 : 0) + (hasCrowds ? 2 : 0)).get();
-    }
+    [[nodiscard]] const gpu::Pipeline& get(const SearchResources& search, bool hasCrowds) const;
 
   private:
-    std::array<gpu::LazyPipeline, 4> mPipelines;
+    std::vector<gpu::LazyPipeline> mPipelines;
 };
 
 struct LookUpOutputs {

@@ -126,7 +126,7 @@ void OwnSamplesPass::addList(
                  {data.lists.samples, data.lists.answers, data.lists.first, data.lists.groups})
                 bindings.buffer(resources.buffer(buffer));
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline = mList.get(false, data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mList.get(data.search, data.search.crowds.isValid());
             dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );
@@ -202,7 +202,7 @@ void OwnSamplesPass::addCollect(
                  {data.listed.pixels, data.lists.samples, data.lists.answers, data.lists.first})
                 bindings.buffer(resources.buffer(buffer));
             const PassParams own = withCrowds(params, resources, data.search.crowds);
-            const gpu::Pipeline& pipeline = mCollect.get(false, data.search.crowds.isValid());
+            const gpu::Pipeline& pipeline = mCollect.get(data.search, data.search.crowds.isValid());
             dispatchList(context, pipeline, bindings, own, data.listed.arguments, 0);
         }
     );
