@@ -217,9 +217,9 @@ bool FrameExtractor::refreshWritten(const Frame& frame, const WorldChanges& chan
         // It is there: a component that was removed would have changed the structure.
         const uint32_t mesh = frame.world.registry.get<scene::MeshInstance>(entity).mesh;
         const uint32_t row = rowOf(entity.index);
-        const bool isAsListed =
-            row == kNone ? !hasTriangles(frame.layout, mesh) || scene::isAlwaysHidden(frame.world, entity)
-                         : row != kLatent && mesh == mFrame.entityMeshes[row];
+        const bool isAsListed = row == kNone ? !hasTriangles(frame.layout, mesh) ||
+                                                   scene::isAlwaysHidden(frame.world, entity)
+                                             : row != kLatent && mesh == mFrame.entityMeshes[row];
         if (!isAsListed)
             return false;
     }

@@ -62,8 +62,7 @@ JumpSight::JumpSight(
       mCamera(world.registry.get<scene::Camera>(view.camera)) {
     const double raster = view.exposure.rasterTime;
     const bool perspective = mCamera.kind == scene::CameraKind::Perspective;
-    const math::dvec2 half =
-        glm::abs(computeHalfExtents(mCamera, motion.cameraYFov(raster), view));
+    const math::dvec2 half = glm::abs(computeHalfExtents(mCamera, motion.cameraYFov(raster), view));
     const double pixel = 2.0 * half.y / view.height;
     (perspective ? mTolerance.pixelAtOne : mTolerance.pixelAnywhere) = pixel;
     mTolerance.near = perspective ? mCamera.near : 0.0;

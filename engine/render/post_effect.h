@@ -78,7 +78,7 @@ class Intermediates {
 struct OtherRasterView {
     GBuffer gbuffer;
     const extract::ExtractedFrame* frame = nullptr;
-    gpu_scene::DeformedMeshes shapes;            ///< of `frame`
+    gpu_scene::DeformedMeshes shapes;           ///< of `frame`
     const extract::ViewRequest* view = nullptr; ///< what `frame` was extracted for
 };
 

@@ -237,8 +237,7 @@ bool ExposureMotion::mayCameraMove() const {
 }
 
 double ExposureMotion::entitySeconds(ecs::Entity entity, double s) const {
-    return isHeld(entity) ? mFrame.raster
-                          : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
+    return isHeld(entity) ? mFrame.raster : scaleTime(secondsAt(s), mExposure.shutter.objectScale);
 }
 
 dmat4 ExposureMotion::worldFromEntity(ecs::Entity entity, double s) const {

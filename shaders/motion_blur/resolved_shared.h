@@ -109,10 +109,10 @@ SHUTTER_CONST uint kHasSecondLayer = 2u; // the raster of the exposure's other e
 SHUTTER_CONST uint kHasWays = 4u;
 
 struct ResolvedParams {
-    uvec2 motions;  // address of InstantMotions
-    uint has;       // bits of kHasLastLayer and the others
-    uint rayLimit;  // of the frame; kNoRayLimit: none
-    uvec2 frame;    // addresses of the scene's FrameConstants and TimedConstants: for rays only
+    uvec2 motions; // address of InstantMotions
+    uint has;      // bits of kHasLastLayer and the others
+    uint rayLimit; // of the frame; kNoRayLimit: none
+    uvec2 frame;   // addresses of the scene's FrameConstants and TimedConstants: for rays only
     uvec2 timed;
     uvec2 noise;       // address of the mask, float[kNoiseSidePx^2] in [0, 1); 0: no noise
     float turn;        // added to the mask, modulo 1

@@ -158,9 +158,8 @@ TEST_F(EmbeddedCare, AHostInCIsAskedForItsOwnFields) {
     };
     ShutterBlur* blur = nullptr;
     ASSERT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS);
-    const gpu::Image depth = test::makeImage(
-        device(), "depth", VK_FORMAT_R32_SFLOAT, kMisusedWidth, kMisusedHeight
-    );
+    const gpu::Image depth =
+        test::makeImage(device(), "depth", VK_FORMAT_R32_SFLOAT, kMisusedWidth, kMisusedHeight);
     ShutterBlurInputs inputs = makeInputsOfC();
     inputs.vectors = inputs.depth = inputs.motionDepth;
     inputs.depth.image = depth.handle();

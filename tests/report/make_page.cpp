@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// make_page FOLDER: the report page of FOLDER/results.json, for the tests that open it in a browser.
+// make_page FOLDER: the report page of FOLDER/results.json, for the tests that open it in a
+// browser.
 #include "game/bench/report/report_page.h"
 
 #include <cstdio>

@@ -32,13 +32,13 @@ void explainCrowds(render::FinishedFrame& frame) {
     if (found == frame.counters.end())
         return;
     const uint64_t count = found->second;
-    const std::string reason =
-        count == 0 ? fmt::format("no tile may see more than {} movers", kListed)
-                   : fmt::format(
-                         "{} more than {} movers",
-                         core::countOf(count, "tile may see", "tiles may see"),
-                         kListed
-                     );
+    const std::string reason = count == 0
+                                   ? fmt::format("no tile may see more than {} movers", kListed)
+                                   : fmt::format(
+                                         "{} more than {} movers",
+                                         core::countOf(count, "tile may see", "tiles may see"),
+                                         kListed
+                                     );
     frame.explanations.push_back(
         {render::ExplainedKind::Work, "search without lists", {count > 0, reason}}
     );

@@ -59,7 +59,10 @@ TEST(GltfEnvironment, IsRefusedWithTheField) {
     expectField("7", "EXT_lights_image_based.lights");
     expectField(R"({"specularImages":7})", "specularImages");
     expectField(R"({"specularImages":[]})", "EXT_lights_image_based.lights");
-    expectField(R"({"specularImages":[[0,0,0]]})", "specularImages[0] is not an array of at least 6 elements");
+    expectField(
+        R"({"specularImages":[[0,0,0]]})",
+        "specularImages[0] is not an array of at least 6 elements"
+    );
     expectField(R"({"specularImages":[[0,0,0,0,0,9]]})", "specularImages[0][5]");
     expectField(R"({"specularImages":[[0,0,0,0,0,0.5]]})", "specularImages[0][5]");
     expectField(R"({"specularImages":[[0,0,0,0,0,-1]]})", "specularImages[0][5]");
