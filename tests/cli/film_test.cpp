@@ -238,7 +238,7 @@ TEST_F(Film, ContradictionsAreRefusedBeforeAnythingIsWritten) {
     refuse({"--wait"}, {"--wait", "--slurm"});
     refuse({"--jobs", "0"}, {"--jobs"});
     expectRefusal(draw("film", "f.exr"), 2, {"%04d"});
-    expectRefusal({"film", "drifting.gltf", "--out", "f.exr"}, 2, {"--flythrough or --frames"});
+    expectRefusal({"film", "drifting.gltf", "--out", "f.exr"}, 2, {"--frames or --flythrough"});
     refuse({"--slurm", "--jobs", "2"}, {"--jobs", "--slurm"});
     refuse({"--parts", "x"}, {"--parts x"});
     refuse({"--part", "1/2"}, {"--part", "shutter render"});

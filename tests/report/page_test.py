@@ -101,11 +101,10 @@ class Page(PageCase):
         results = example_results.make("paper")
         for case in results["cases"]:
             case["crops"] = []
-            del case["truth"]["image"], case["truth"]["linear"]
+            del case["truth"]["image"]
             for m in case["measurements"]:
                 m.pop("image", None)
                 m.pop("errorMap", None)
-                m.pop("linear", None)
         for row in results["equalTime"][0]["rows"]:
             row.pop("image", None)
         change(results)

@@ -28,7 +28,7 @@ constexpr std::array kRows = {
     Row{"jimenez2014", 0.0, 0.5},
     Row{"gather", 22.7, 2.0},
     Row{"hybrid", 7.5, 2.0},
-    Row{"resolved", 1.1, 0.5},
+    Row{"resolved", 0.2, 0.5},
     Row{"denoised", -2.1, 1.0},
     Row{"accumulate", 0.0, 0.5},
     Row{"truth", 0.0, 0.5},

@@ -17,6 +17,8 @@ using math::dvec3;
 
 /// Inside the frame in each phase of the shutter: shortly before the raster instant.
 constexpr double kEvent = -0.01;
+/// As the shutter opens: what appears later is there for the rest of the exposure alone.
+constexpr double kOpening = -0.4999;
 
 const View kView{.background = math::vec3(0.1f, 0.2f, 0.3f), .ambient = math::vec3(0.3f)};
 
@@ -143,9 +145,9 @@ std::vector<HardCase> listHistoryCases() {
         makeCase(
             "Spawn",
             "An entity that was just made",
-            "The mover appears within the frame: nothing streaks in from anywhere.",
+            "The mover appears as the shutter opens: nothing streaks in from anywhere.",
             [](SceneBuilder& scene, ecs::Entity sphere) {
-                scene::appear(scene.world, sphere, kEvent);
+                scene::appear(scene.world, sphere, kOpening);
             }
         ),
         {"Despawn",
