@@ -117,7 +117,7 @@ std::string Cli::readFile(const std::string& name) const {
 std::set<std::string> Cli::listFiles() const {
     std::set<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(mFolder))
-        names.insert(fs::relative(entry.path(), mFolder).string());
+        names.insert(entry.path().lexically_relative(mFolder).string()); // links may lead nowhere
     return names;
 }
 
