@@ -36,6 +36,9 @@ const uint kRasterLayer = 0u;
 const uint kLastLayer = 1u;
 const uint kSecondLayer = 2u; // the exposure's other end
 
+/// Tiles that have a list of candidates, across and down.
+uvec2 countTiles(uvec2 sizePx) { return (sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
+
 /// \param bits of ResolvedParams::has
 bool has(ResolvedParams method, uint bits) { return (method.has & bits) != 0u; }
 

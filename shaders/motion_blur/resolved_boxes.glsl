@@ -6,8 +6,6 @@
 
 #include "motion_blur/resolved.glsl"
 
-uvec2 countTiles() { return (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx; }
-
 /// Where an entity is seen at some instants, with the margin around it.
 struct SeenBox {
     vec2 low;
@@ -35,7 +33,7 @@ struct TileRange {
 
 TileRange findTiles(SeenBox box) {
     vec2 size = vec2(params.sizePx);
-    uvec2 last = countTiles() - 1u;
+    uvec2 last = countTiles(params.sizePx) - 1u;
     vec2 low = clamp(box.low, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
     vec2 high = clamp(box.high, vec2(0.0f), size - 1.0f) / float(kCandidateTilePx);
     return TileRange(min(uvec2(low), last), min(uvec2(high), last));

@@ -136,7 +136,7 @@ void main() {
     listExtent(extent);
     barrier();
     if (sDeforms && thread == 0u) listDeforming();
-    uint ownTile = gl_WorkGroupID.y * countTiles().x + gl_WorkGroupID.x;
+    uint ownTile = gl_WorkGroupID.y * countTiles(params.sizePx).x + gl_WorkGroupID.x;
     if (sIsFull != 0u) {
         // Which of them are listed is chance: none counts.
         if (thread == 0u) noteUnlistedSource(ownTile, kLayer);

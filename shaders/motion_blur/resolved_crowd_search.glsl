@@ -69,7 +69,7 @@ void searchCrowd(
     uint index, LayerMotion layer, PixelSearch pixel, uint instant, inout Seen best
 ) {
     searchFrom(index, layer, pixel, instant, pixel.x, best);
-    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tiles = countTiles(params.sizePx);
     TileCrowd crowd = CrowdTable(method.crowds).tiles[index * tiles.x * tiles.y + pixel.tile];
     for (uint slot = 0u; slot < kCrowdSeeds; ++slot) {
         uint seed = crowd.seeds[slot];

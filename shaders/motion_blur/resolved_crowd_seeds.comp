@@ -110,7 +110,7 @@ void enterExtent(
     uint wayInverted = ~floatBitsToUint(way.lengthPx);
     uint slot = findSlot(way.farthest);
     uint seed = uint(extent.low.x) | uint(extent.low.y) << 16;
-    uint across = countTiles().x;
+    uint across = countTiles(params.sizePx).x;
     CrowdTable crowds = CrowdTable(method.crowds);
     SeenBox before = kNoBox;
     for (uint i = 0u; i < kWayInstants; ++i) {
@@ -136,7 +136,7 @@ void main() {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, index);
     bool perspective = motions.value.isPerspective != 0u;
-    uvec2 tiles = countTiles();
+    uvec2 tiles = countTiles(params.sizePx);
     bool unlisted = isUnlisted(index, gl_WorkGroupID.y * tiles.x + gl_WorkGroupID.x);
     uvec2 begin = gl_WorkGroupID.xy * kCandidateTilePx + uvec2(0u, gl_LocalInvocationID.x);
     if (begin.y >= params.sizePx.y) return;

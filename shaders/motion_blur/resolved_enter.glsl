@@ -17,8 +17,8 @@ layout(binding = 3, scalar) buffer CrowdArguments { DispatchArguments uCrowdArgu
 void noteCrowd(uint tile, uint bits) {
     if (!mayHaveCrowds()) return;
     noteUnlisted(tile, bits);
-    atomicMax(uCrowdArguments.groupsX, countTiles().x);
-    atomicMax(uCrowdArguments.groupsY, countTiles().y);
+    atomicMax(uCrowdArguments.groupsX, countTiles(params.sizePx).x);
+    atomicMax(uCrowdArguments.groupsY, countTiles(params.sizePx).y);
     atomicMax(uCrowdArguments.groupsZ, countLayers());
 }
 
@@ -44,7 +44,7 @@ void enter(uint tile, uint key, vec2 depths, uint bits) {
 
 void enterBox(uint key, SeenBox box) {
     TileRange range = findTiles(box);
-    uint across = countTiles().x;
+    uint across = countTiles(params.sizePx).x;
     for (uint y = range.from.y; y <= range.to.y; ++y)
         for (uint x = range.from.x; x <= range.to.x; ++x)
             enter(y * across + x, key, box.depths, box.parts);

@@ -347,7 +347,7 @@ void main() {
     uvec2 block = gl_GlobalInvocationID.xy;
     uvec2 blocks = countBlocks();
     if (any(greaterThanEqual(block, blocks))) return;
-    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tiles = countTiles(params.sizePx);
     uvec2 tileAt = block * kGroupSize / kCandidateTilePx;
     uint tile = tileAt.y * tiles.x + tileAt.x;
     uint looks = (block.y * blocks.x + block.x) * (method.instantCount + 1u);

@@ -79,7 +79,7 @@ bool seesOneMotion(PlaneMap map, float off, uint key, float s, ivec2 block) {
     vec2 reach = kHalfBlockPx * (abs(map.perX) + abs(map.perY)) + kFetchMarginPx + off;
     uvec2 low = uvec2(map.place - reach) / kCandidateTilePx;
     uvec2 high = uvec2(map.place + reach) / kCandidateTilePx;
-    uint tilesAcross = (params.sizePx.x + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uint tilesAcross = countTiles(params.sizePx).x;
     for (uint y = low.y; y <= high.y; ++y)
         for (uint x = low.x; x <= high.x; ++x)
             if (!movesAs(map, y * tilesAcross + x, key, s, block)) return false;

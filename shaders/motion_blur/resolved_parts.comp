@@ -371,7 +371,7 @@ void main() {
     loadTile(tile, getLayer(InstantMotionsRef(method.motions), kLayer));
     bool isFull;
     uint count = findParts(tile, isFull);
-    uint tileIndex = tile.y * countTiles().x + tile.x;
+    uint tileIndex = tile.y * countTiles(params.sizePx).x + tile.x;
     if (isFull && gl_LocalInvocationIndex == 0u) noteUnlistedSource(tileIndex, kLayer);
     uint first = firstPartOf(tileIndex);
     if (count < kPartsPerTile && gl_LocalInvocationIndex == 0u) uParts[first + count].key = kNoKey;

@@ -86,7 +86,7 @@ void main() {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
     LayerMotion layer = getLayer(motions, kRasterLayer);
     bool perspective = motions.value.isPerspective != 0u;
-    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tiles = countTiles(params.sizePx);
     uvec2 tile = block * kGroupSize / kCandidateTilePx;
     ivec2 first = ivec2(block * kGroupSize);
     ivec2 size = min(ivec2(params.sizePx) - first, ivec2(kGroupSize));

@@ -318,7 +318,7 @@ Seen findStill(uint index, LayerMotion layer, ivec2 pixel) {
 
 PixelSearch beginSearch(ivec2 pixel) {
     InstantMotionsRef motions = InstantMotionsRef(method.motions);
-    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tiles = countTiles(params.sizePx);
     uvec2 tile = uvec2(pixel) / kCandidateTilePx;
     PixelSearch search;
     search.x = vec2(pixel) + 0.5f;

@@ -90,7 +90,7 @@ void prepareTile(uint layer, uint tile) { transposeParts(layer, tile, sortCandid
 
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
-    uvec2 tiles = (params.sizePx + kCandidateTilePx - 1u) / kCandidateTilePx;
+    uvec2 tiles = countTiles(params.sizePx);
     if (any(greaterThanEqual(tile, tiles))) return;
     uint index = tile.y * tiles.x + tile.x;
     prepareTile(kRasterLayer, index);
