@@ -140,6 +140,8 @@ function(shutter_install_package)
         install(TARGETS shutter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime)
         install(PROGRAMS ${CMAKE_BINARY_DIR}/shutter_film DESTINATION ${CMAKE_INSTALL_BINDIR}
                 COMPONENT Runtime)
+    endif()
+    if(TARGET shutter_bench)
         # Where it was built.
         install(TARGETS shutter_bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Runtime
                 OPTIONAL)

@@ -26,9 +26,11 @@ WITH_VOLK = ["-DHOST_USES_VOLK", "-DVK_NO_PROTOTYPES"] if VOLK else []
 # As in hosts/scene.h.
 WIDTH, HEIGHT = 96, 64
 LEFT, TOP, SIDE, MOVED = 40, 20, 24, 16
-# PSNR against the right picture, dB, that each method reaches at least; unblurred, it is 21.0.
+# PSNR against the right picture, dB, that each method reaches at least; unblurred, it is 21.0. No
+# method can know the stripe of the wall that the square hides in the one picture: `resolved` takes
+# the wall's nearest visible colour, which here is that of the other stripes.
 LEAST_PSNR = {"own_velocity": 24.7, "mcguire2012": 25.4, "guertin2014": 24.8, "jimenez2014": 32.2,
-              "gather": 24.9, "hybrid": 29.5, "resolved": 33.8}
+              "gather": 24.9, "hybrid": 29.5, "resolved": 32.2}
 
 
 def make_rays(folder):
