@@ -135,11 +135,13 @@ template <class Value> uint64_t findMost(std::span<const Holdings> cycles, const
     return most;
 }
 
-/// What the last third of the cycles held more than the first third did, where that is beyond its
-/// bound: names. The first cycle does not count: in it shaders are compiled and memory is taken.
+/// Names what grew beyond its bound from the first to the last third of the counted cycles. The
+/// first half of all cycles does not count: shaders are compiled in it, and each frame in flight
+/// has tables of its own (a 16 MiB buffer of shadow casters) that reach their size when the largest
+/// frame first meets them, in the third cycle at the latest.
 std::vector<std::string> listGrowth(const SoakRun& run) {
-    const std::span<const Holdings> counted = std::span(run.cycles).subspan(1);
-    const size_t third = counted.size() / 3;
+    const std::span<const Holdings> counted = std::span(run.cycles).subspan(run.cycles.size() / 2);
+    const size_t third = std::max(counted.size() / 3, size_t{1});
     std::vector<std::string> grown;
     const auto hold = [&](const char* what, uint64_t bound, const auto& value) {
         const uint64_t early = findMost(counted.first(third), value);
@@ -222,7 +224,7 @@ class Saboteur {
                 hideAll(moment.stage.world());
             return;
         }
-        constexpr size_t kLeak = size_t{64} << 10u;
+        constexpr size_t kLeak = size_t{128} << 10u;
         mBytes.push_back(std::make_unique<char[]>(kLeak));
         std::memset(mBytes.back().get(), 1, kLeak); // else it takes no memory
         if (moment.picture % 20 == 0)
