@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
+// What a frame asks for: deformation, masks, blending, and what may come into sight.
 #include "engine/extract/demand.h"
+#include "engine/extract/instance_masks.h"
+#include "tests/unit/extract/extraction_fixture.h"
 
 #include <gtest/gtest.h>
 
-namespace shutter::extract {
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <vector>
 
+namespace shutter::extract {
 namespace {
 
 DrawItem makeDraw(scene::AlphaMode mode) {
@@ -12,8 +19,6 @@ DrawItem makeDraw(scene::AlphaMode mode) {
     draw.alphaMode = mode;
     return draw;
 }
-
-} // namespace
 
 TEST(Demand, AFrameOfPlainMeshesAsksForNothingMore) {
     ExtractedFrame frame;
@@ -36,4 +41,183 @@ TEST(Demand, WhatIsDrawnAsksForWhatItNeedsAndSaysHowMuchOfItThereIs) {
     EXPECT_EQ(describe(demand.blending), "ran: 1 blended draw in the picture");
 }
 
+/// Boxes that fill [-1, 1]^3 before a camera at the origin that looks down -Z.
+class Backdrop : public Extraction {
+  protected:
+    ecs::Entity addMover(const math::dvec3& position) {
+        const ecs::Entity entity = addBox(position);
+        world.registry.add(entity, scene::LinearVelocity{{0.5, 0.0, 0.0}});
+        return entity;
+    }
+
+    core::Decision decide() { return decideReveal(extract(), layout); }
+};
+
+TEST_F(Backdrop, WhatStandsBehindOrAdjoinsAMoverMayComeIntoSight) {
+    struct Case {
+        const char* name;
+        std::vector<math::dvec3> movers;
+        std::vector<math::dvec3> still;
+        bool isRevealed;
+    };
+
+    const std::vector<Case> cases = {
+        {"nothing but sky", {{0, 0, -10}}, {}, false},
+        {"behind", {{0, 0, -10}}, {{0, 0, -20}}, true},
+        {"before it, and beside it", {{0, 0, -10}}, {{0, 0, -4}, {12, 0, -20}}, false},
+        // The mover's right side at 1/9 of the distance, the other's left one at 2/18.
+        {"adjoins it", {{0, 0, -10}}, {{3.302, 0, -19}}, true},
+        {"another mover", {{0, 0, -10}, {0.5, 0, -14}}, {}, true},
+        {"boxes that reach into each other", {{0, 0, -10}}, {{0, 0, -9}}, true},
+        {"across the near plane: fills the picture", {{0, 0, -0.5}}, {{14, 0, -20}}, true},
+        {"nothing moves", {}, {{0, 0, -10}, {0, 0, -20}}, false}};
+    for (const Case& each : cases) {
+        SCOPED_TRACE(each.name);
+        world = {};
+        request.camera = addCamera({});
+        for (const math::dvec3& position : each.movers)
+            addMover(position);
+        for (const math::dvec3& position : each.still)
+            addBox(position);
+        const core::Decision decision = decide();
+        EXPECT_EQ(decision.run, each.isRevealed);
+        EXPECT_EQ(decision.reason == "nothing but sky lies behind what moves", !each.isRevealed);
+    }
+}
+
+TEST_F(Backdrop, WhatIsNoNumberMayBeAnywhere) {
+    addMover({0.0, 0.0, -10.0});
+    addBox({12.0, 0.0, -20.0});
+    ExtractedFrame frame = extract();
+    ASSERT_FALSE(decideReveal(frame, layout).run);
+    frame.entities[1].eyeFromObject[2][3] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(decideReveal(frame, layout).run);
+}
+
+TEST_F(Backdrop, BlendedSurfacesAlwaysCount) {
+    addMover({0.0, 0.0, -10.0});
+    const uint32_t glass = addMesh(scene::AlphaMode::Blend, 1);
+    addBox(math::dvec3(12.0, 0.0, -20.0), glass);
+    EXPECT_TRUE(decide().run);
+}
+
+TEST_F(Backdrop, ACameraThatMovesMakesEverythingAMover) {
+    addBox({0.0, 0.0, -10.0});
+    world.registry.add(camera, scene::LinearVelocity{{0.5, 0.0, 0.0}});
+    EXPECT_FALSE(decide().run);
+    addBox({0.0, 0.0, -20.0});
+    EXPECT_TRUE(decide().run);
+}
+
+TEST_F(Backdrop, ManyMoversAreNotLookedAtOneByOne) {
+    // In a fan: none lies behind another.
+    for (int i = 0; i < 65; ++i)
+        addMover({-8.0 + 0.25 * i, i % 2 == 0 ? 3.0 : -3.0, -900.0 - 10.0 * i});
+    EXPECT_TRUE(decide().run);
+}
+
+/// Whether a ray that leaves `passed` out meets an instance of `mask`.
+bool isMet(uint32_t mask, uint32_t passed) {
+    return (mask & shader::kSolidMask & ~passed) != 0;
+}
+
+TEST(InstanceMasks, ARayPassesTheInstanceOfItsMaskAndNoOther) {
+    std::vector<uint32_t> masks(listInstanceMasks().begin(), listInstanceMasks().end());
+    ASSERT_EQ(masks.size(), 34u);
+    for (size_t i = 0; i < masks.size(); ++i) {
+        EXPECT_EQ(masks[i] & ~shader::kSolidMask, 0u);
+        for (size_t j = 0; j < masks.size(); ++j)
+            EXPECT_EQ(isMet(masks[j], masks[i]), i != j) << i << ", " << j;
+        EXPECT_TRUE(isMet(kSharedInstanceMask, masks[i]));
+        EXPECT_TRUE(isMet(shader::kSolidMask, masks[i]));
+        EXPECT_TRUE(isMet(masks[i], 0));
+    }
+}
+
+/// Boxes of one mesh: row i at distance distances[i], moving or not.
+class InstanceMasksOfAFrame : public ::testing::Test {
+  protected:
+    InstanceMasksOfAFrame() { layout.bounds = {{math::dvec3(-1.0), math::dvec3(1.0)}}; }
+
+    void add(double distance, bool moves) {
+        shader::EntityRow row{};
+        row.motion = moves ? 0u : shader::kNoMotion;
+        for (int i = 0; i < 3; ++i)
+            row.eyeFromObject[i][i] = 1.0f;
+        row.eyeFromObject[2][3] = static_cast<float>(-distance);
+        row.instanceMask = moves ? 0x55u : 0u; // whatever an earlier frame left
+        if (moves)
+            frame.movingRows.push_back(static_cast<uint32_t>(frame.entities.size()));
+        DrawItem draw;
+        draw.entity = static_cast<uint32_t>(frame.entities.size());
+        (moves ? frame.opaque.moving : frame.opaque.still).push_back(draw);
+        frame.entities.push_back(row);
+        frame.entityMeshes.push_back(0);
+        frame.changes.ownRows = frame.entities.size();
+    }
+
+    std::vector<uint32_t> assign() {
+        assignInstanceMasks(frame, layout);
+        std::vector<uint32_t> masks;
+        for (const shader::EntityRow& row : frame.entities)
+            masks.push_back(row.instanceMask);
+        return masks;
+    }
+
+    ExtractedFrame frame;
+    SceneLayout layout;
+};
+
+TEST_F(InstanceMasksOfAFrame, WhatMovesGetsOneOfItsOwnAndWhatStandsStillGetsNone) {
+    for (int i = 0; i < 20; ++i)
+        add(5.0, i % 2 == 0);
+    const auto masks = assign();
+    std::set<uint32_t> given;
+    for (size_t i = 0; i < masks.size(); ++i) {
+        EXPECT_EQ(masks[i] != 0, i % 2 == 0) << i;
+        if (masks[i] != 0) {
+            EXPECT_TRUE(given.insert(masks[i]).second) << i;
+        }
+        EXPECT_EQ(solidMaskOf(frame.entities[i]), masks[i] != 0 ? masks[i] : kSharedInstanceMask);
+    }
+}
+
+TEST_F(InstanceMasksOfAFrame, BeforeAMovingCameraWhatStandsStillInTheWorldGetsOneToo) {
+    add(5.0, false);
+    add(5.0, true);
+    frame.movingRows.clear(); // it moves in the picture only
+    std::swap(frame.opaque.moving, frame.opaque.still);
+    frame.stillMotions.resize(1);
+    const auto masks = assign();
+    EXPECT_EQ(masks[0], 0u);
+    EXPECT_NE(masks[1], 0u);
+}
+
+TEST_F(InstanceMasksOfAFrame, OnlyAnotherMaskChangesARow) {
+    add(5.0, false);
+    add(5.0, true);
+    frame.changes.all = false;
+    (void)assign();
+    EXPECT_EQ(frame.changes.rows, std::vector<uint32_t>{1});
+    frame.changes.rows.clear();
+    (void)assign();
+    EXPECT_TRUE(frame.changes.rows.empty());
+}
+
+TEST_F(InstanceMasksOfAFrame, WithMoreMoversThanMasksTheApparentlyLargestGetThem) {
+    for (int i = 0; i < 100; ++i)
+        add(3.0 + (i * 37) % 100, true);
+    add(0.0, true); // the camera's own place: no division by zero
+    const auto masks = assign();
+    std::set<uint32_t> given;
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(masks[size_t(i)] != 0, (i * 37) % 100 < 33) << i;
+        if (masks[size_t(i)] != 0) {
+            EXPECT_TRUE(given.insert(masks[size_t(i)]).second) << i;
+        }
+    }
+    EXPECT_NE(masks[100], 0u);
+}
+
+} // namespace
 } // namespace shutter::extract

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// How an exposure is cut where something jumps: shares of the light by arithmetic, and which jumps
-// are seen.
+// How an exposure is cut where something jumps, and how many parts motion within it takes.
 #include "engine/extract/exposure_parts.h"
 #include "engine/extract/frame_view.h"
+#include "engine/extract/motion_parts.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -321,6 +322,59 @@ TEST_F(ExposureParts, AnInstantOfTheExposureHasNone) {
     blink(mBox, {0.0f, 1.25f});
     request.instant = 0.5;
     EXPECT_TRUE(plan().empty());
+}
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+class MotionPartsTest : public Extraction {
+  protected:
+    MotionParts plan() { return planMotionParts(world, layout, extract(), request); }
+};
+
+TEST_F(MotionPartsTest, PartsFollowHowFarAMotionIsFromStraight) {
+    const ecs::Entity box = addBox({0.0, 0.0, -5.0});
+    EXPECT_EQ(plan().count, 0u) << "nothing moves";
+    world.registry.add(box, scene::LinearVelocity{{1.0, 0.5, 0.0}});
+    EXPECT_EQ(plan().count, 1u) << "a straight way";
+    request.exposure = {1.0, 1.0, 1.0, 1.0};
+    EXPECT_EQ(plan().count, 0u) << "no exposure";
+    // At open, raster and close the box is where it was.
+    request.exposure = {0.0, 1.0, 1.0, 1.0};
+    world.registry.remove<scene::LinearVelocity>(box);
+    world.registry.add(box, scene::AngularVelocity{{0.0, kTurn, 0.0}});
+    const uint32_t parts = plan().count;
+    EXPECT_GE(parts, 4u); // a quarter's chord is 0.9003 of its arc
+    EXPECT_LE(parts, 8u);
+    world.registry.add(box, scene::AngularVelocity{{0.0, 4 * kTurn, 0.0}});
+    EXPECT_GE(plan().count, 16u);
+    EXPECT_LE(plan().count, kMaxMotionParts);
+}
+
+TEST_F(MotionPartsTest, ACameraThatTurnsOnceIsNotAtRestEither) {
+    world.registry.add(camera, scene::AngularVelocity{{0.0, kTurn, 0.0}});
+    EXPECT_GE(plan().count, 4u);
+}
+
+TEST_F(MotionPartsTest, ACasterBesideThePictureCountsWithShadowsOnly) {
+    // Behind the camera, by 5 m; at the raster instant it has moved by 1 m.
+    world.registry.add(addBox({0.0, 0.0, 5.0}), scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    EXPECT_EQ(plan().casterPx, 0.0);
+    request.shadows.mode = ShadowMode::Sharp;
+    const double pixel = double{extract().constants.pixelFootprint.x} * std::hypot(5.0, 1.0);
+    EXPECT_NEAR(plan().casterPx, 1.0 / pixel, 1.0e-6 / pixel);
+    request.unlit = true;
+    EXPECT_EQ(plan().casterPx, 0.0);
+}
+
+TEST_F(MotionPartsTest, AMovingLightIsToldUnlessThePictureIsUnlit) {
+    const ecs::Entity light = world.registry.create();
+    world.registry.add(light, scene::LocalTransform{});
+    world.registry.add(light, scene::Light{});
+    EXPECT_FALSE(plan().movesLight);
+    world.registry.add(light, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+    EXPECT_TRUE(plan().movesLight);
+    request.unlit = true;
+    EXPECT_FALSE(plan().movesLight);
 }
 
 } // namespace

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
+// Rows, draws and deformed meshes on their way from the world to the tables of a frame.
+#include "engine/extract/timed_tables.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <cmath>
 #include <limits>
 
 namespace shutter::extract {
-
 namespace {
+
+using math::dmat4;
+using math::dvec3;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -16,39 +20,6 @@ std::vector<uint32_t> entitiesOf(const std::vector<DrawItem>& items) {
     for (const DrawItem& item : items)
         entities.push_back(item.entity);
     return entities;
-}
-
-} // namespace
-
-TEST_F(Extraction, AnEmptyWorldHasNoRowsAndDoesNotMove) {
-    const ExtractedFrame frame = extract();
-    EXPECT_TRUE(frame.entities.empty());
-    EXPECT_TRUE(frame.opaque.empty());
-    EXPECT_TRUE(frame.blended.empty());
-    EXPECT_TRUE(frame.lights.empty());
-    EXPECT_EQ(frame.constants.lightCount, 0u);
-    EXPECT_FALSE(frame.moves);
-}
-
-TEST_F(Extraction, RowsFollowTheEntitiesThatDrawWithoutGaps) {
-    const uint32_t second = addMesh(scene::AlphaMode::Opaque, 2);
-    addBox({0.0, 0.0, -5.0}, second);
-    [[maybe_unused]] const ecs::Entity drawsNothing = world.registry.create();
-    addBox({0.0, 0.0, -9.0}, 0);
-    const ExtractedFrame frame = extract();
-    EXPECT_EQ(frame.entityMeshes, (std::vector<uint32_t>{second, 0}));
-    ASSERT_EQ(frame.entities.size(), 2u);
-    EXPECT_EQ(frame.entities[0].firstGeometry, layout.firstGeometry[second]);
-    EXPECT_EQ(frame.entities[1].firstGeometry, layout.firstGeometry[0]);
-}
-
-TEST_F(Extraction, EveryGeometryOfAMeshIsDrawnOnce) {
-    const uint32_t mesh = addMesh(scene::AlphaMode::Opaque, 3);
-    addBox({0.0, 0.0, -5.0}, mesh);
-    const ExtractedFrame frame = extract();
-    ASSERT_EQ(frame.opaque.size(), 3u);
-    for (uint32_t i = 0; i < 3; ++i)
-        EXPECT_EQ(frame.opaque.merge()[i].geometry, layout.firstGeometry[mesh] + i);
 }
 
 TEST_F(Extraction, OpaqueComesNearToFarAndBlendedFarToNear) {
@@ -66,34 +37,22 @@ TEST_F(Extraction, OpaqueComesNearToFarAndBlendedFarToNear) {
     EXPECT_EQ(frame.opaque.merge()[0].alphaMode, scene::AlphaMode::Mask);
 }
 
-TEST_F(Extraction, AMeshWithoutTrianglesGetsNoRow) {
+TEST_F(Extraction, WhatHasNoTrianglesNoVolumeOrNoPlaceGetsNoRow) {
     const uint32_t points = addMesh(scene::AlphaMode::Opaque, 0);
     const uint32_t empty = addMesh(scene::AlphaMode::Opaque, 1);
     layout.bounds[empty] = math::Bounds{};
     addBox({0.0, 0.0, -5.0}, points);
     addBox({0.0, 0.0, -5.0}, empty);
-    addBox({0.0, 0.0, -5.0}, 0);
-    EXPECT_EQ(extract().entityMeshes, (std::vector<uint32_t>{0}));
-}
-
-TEST_F(Extraction, ASingularTransformGetsNoRow) {
-    math::Transform flat;
-    flat.translation = {0.0, 0.0, -5.0};
-    flat.scale = {1.0, 0.0, 1.0};
-    addBox(flat);
-    flat.scale = math::dvec3(0.0);
-    addBox(flat);
-    EXPECT_TRUE(extract().entities.empty());
-}
-
-TEST_F(Extraction, ATransformThatIsNotFiniteGetsNoRow) {
+    for (const math::dvec3& scale : {math::dvec3(1.0, 0.0, 1.0), math::dvec3(0.0)})
+        addBox(math::Transform{.translation = {0.0, 0.0, -5.0}, .scale = scale});
     addBox({kNan, 0.0, -5.0});
     addBox({0.0, kInfinity, -5.0});
     const ecs::Entity fast = addBox({0.0, 0.0, -5.0});
     // Fine at open (time 0), out of range at the close.
     world.registry.add(fast, scene::LinearVelocity{{1e308, 0.0, 0.0}});
     request.exposure = {0.0, 0.0, 1e10, 0.0};
-    EXPECT_TRUE(extract().entities.empty());
+    const ecs::Entity drawn = addBox({0.0, 0.0, -5.0});
+    EXPECT_EQ(extract().entityHandles, std::vector<ecs::Entity>{drawn});
 }
 
 TEST_F(Extraction, AMirroringTransformIsMarked) {
@@ -171,20 +130,6 @@ TEST_F(Extraction, EachInstantHasTheEntityWhereItIsThen) {
     EXPECT_NEAR(row.eyeFromObject[0].w, 1.5f, 1e-6f);
 }
 
-TEST_F(Extraction, AStillSceneDoesNotMove) {
-    addBox({0.0, 0.0, -10.0});
-    EXPECT_FALSE(extract().moves);
-}
-
-TEST_F(Extraction, ASceneWithAMoverInViewMoves) {
-    addBox({0.0, 0.0, -10.0});
-    const ecs::Entity box = addBox({0.0, 0.0, -20.0});
-    world.registry.add(box, scene::AngularVelocity{{0.0, 0.1, 0.0}});
-    EXPECT_TRUE(extract().moves);
-    request.exposure = {1.0, 1.0, 1.0, 1.0}; // no exposure, no motion
-    EXPECT_FALSE(extract().moves);
-}
-
 TEST_F(Extraction, AMoverThatEndsWhereItBeganMoves) {
     // There and back by a clip, with the raster instant between the two.
     const ecs::Entity box = addBox({0.0, 0.0, -20.0});
@@ -207,4 +152,289 @@ TEST_F(Extraction, AMoverOutOfViewDoesNotMakeThePictureMove) {
     EXPECT_FALSE(extract().moves);
 }
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The fixture's mesh 0 is a box of [-1, 1]^3; here it has a vertex at each corner, deformed by
+/// joints 0 (below) and 1 (above), and a morph target that lifts the upper ones by 1 m.
+class DeformedEntities : public Extraction {
+  protected:
+    DeformedEntities() {
+        scene::Primitive box;
+        box.influenceCount = 4;
+        scene::MorphTarget target;
+        for (int corner = 0; corner < 8; ++corner) {
+            const bool above = corner & 2;
+            box.positions.push_back(
+                {corner & 1 ? 1.0f : -1.0f, above ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f}
+            );
+            box.joints.insert(box.joints.end(), {uint16_t(above ? 1 : 0), 0, 0, 0});
+            box.weights.insert(box.weights.end(), {1.0f, 0.0f, 0.0f, 0.0f});
+            target.positions.push_back({0.0f, above ? 1.0f : 0.0f, 0.0f});
+        }
+        box.morphTargets.push_back(target);
+        layout.geometries[0].vertexCount = 8;
+        layout.reaches.push_back(scene::computePoseReach({&box, 1}));
+        world.assets.skins.push_back({"", {dmat4(1.0), dmat4(1.0)}});
+    }
+
+    ecs::Entity addJoint(const math::Transform& transform) {
+        const ecs::Entity joint = world.registry.create();
+        world.registry.add(joint, scene::LocalTransform{transform});
+        return joint;
+    }
+
+    ecs::Entity addSkinned(ecs::Entity below, ecs::Entity above) {
+        const ecs::Entity entity = addBox(dvec3(0.0));
+        world.registry.add(entity, scene::Skinned{0, {below, above}});
+        return entity;
+    }
+
+    ecs::Entity addSkinned(const dvec3& below, const dvec3& above) {
+        return addSkinned(addJoint(at(below)), addJoint(at(above)));
+    }
+
+    ecs::Entity addMorphed(const dvec3& position, float from, float to) {
+        const ecs::Entity entity = addBox(position);
+        scene::WeightChannel channel;
+        channel.targetCount = 1;
+        channel.times = {0.0f, 1.0f};
+        channel.values = {from, to};
+        world.assets.clips.push_back({"", 1.0, {}, {channel}});
+        const auto clip = static_cast<uint32_t>(world.assets.clips.size() - 1);
+        world.registry.add(entity, scene::MorphWeights{{from}, {{clip, 0}}});
+        return entity;
+    }
+
+    static math::Transform at(const dvec3& position) {
+        math::Transform transform;
+        transform.translation = position;
+        return transform;
+    }
+
+    core::Result<TimedTables> computeTables(ExtractedFrame& frame) {
+        return computeTimedTables(world, layout, request, frame);
+    }
+};
+
+TEST_F(DeformedEntities, TheirGeometriesStandBehindTheScenesOwn) {
+    const uint32_t two = addMesh(scene::AlphaMode::Opaque, 2);
+    layout.reaches.push_back(layout.reaches[0]);
+    addBox(dvec3(0, 0, -5), two);
+    addSkinned({0, 0, -5}, {0, 0, -5});
+    const ecs::Entity both = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    world.registry.get<scene::MeshInstance>(both).mesh = two;
+    addSkinned({0, 0, -5}, {0, 0, -5});
+
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entities.size(), 4u);
+    ASSERT_EQ(frame.deformed.size(), 3u);
+    EXPECT_EQ(frame.entities[0].firstGeometry, 1u);
+    EXPECT_EQ(frame.entities[1].firstGeometry, 3u);
+    EXPECT_EQ(frame.entities[2].firstGeometry, 4u);
+    EXPECT_EQ(frame.entities[3].firstGeometry, 6u);
+    for (const DrawItem& item : frame.opaque.merge()) {
+        const uint32_t mesh = frame.entityMeshes[item.entity];
+        EXPECT_EQ(
+            item.geometryRow - frame.entities[item.entity].firstGeometry,
+            item.geometry - layout.firstGeometry[mesh]
+        );
+    }
+    EXPECT_EQ(frame.opaque.size(), 6u);
+}
+
+TEST_F(DeformedEntities, TheyAreLeftOutByWhereTheyAreDeformedTo) {
+    // The box at rest is in the picture, its pose is not; and the other way round.
+    addSkinned({100, 0, -5}, {100, 0, -5});
+    EXPECT_TRUE(extract().opaque.empty());
+    addSkinned({100, 0, -5}, {0, 0, -5});
+    EXPECT_EQ(extract().opaque.size(), 1u);
+}
+
+TEST_F(DeformedEntities, AChangeOfShapeIsMotion) {
+    addMorphed({0, 0, -5}, 0.5f, 0.5f);
+    EXPECT_FALSE(extract().moves);
+    EXPECT_FALSE(extract().deformed.at(0).changes);
+    addMorphed({0, 0, -5}, 0.5f, 0.75f);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.moves);
+    EXPECT_TRUE(frame.deformed.at(1).changes);
+    EXPECT_EQ(frame.deformed[1].open.morphWeights.at(0), 0.5);
+    EXPECT_EQ(frame.deformed[1].close.morphWeights.at(0), 0.75);
+    EXPECT_EQ(frame.deformed[1].raster.morphWeights.at(0), 0.75);
+}
+
+TEST_F(DeformedEntities, AHeldSkeletonThatIsCarriedIsOneShape) {
+    for (const double away : {0.0, 0.3, 1.0e4, 1.0e6}) {
+        const ecs::Entity root = addJoint(at({away, -3.0 * away, -5.0}));
+        world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
+        const ecs::Entity above = addJoint(
+            {.translation = {0.1, 0.2, 0.3}, .rotation = glm::angleAxis(0.7, dvec3(0.6, 0, 0.8))}
+        );
+        world.registry.add(above, scene::Parent{root});
+        addSkinned(root, above);
+        const ExtractedFrame frame = extract();
+        EXPECT_FALSE(frame.deformed.back().changes) << away;
+        EXPECT_TRUE(frame.moves);
+    }
+}
+
+TEST_F(DeformedEntities, ASmallBendIsAChangeOfShape) {
+    const ecs::Entity above = addJoint(at({0, 0, -5}));
+    world.registry.add(above, scene::AngularVelocity{{0.0, 0.0, 1.0e-6}});
+    addSkinned(addJoint(at({0, 0, -5})), above);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.deformed.at(0).changes);
+    EXPECT_FALSE(frame.deformed[0].carrier) << "a body in two pieces";
+}
+
+TEST_F(DeformedEntities, AHeldSkeletonThatTurnsIsCarriedByAJoint) {
+    const ecs::Entity root = addJoint(at({1.0e4, 0, -5}));
+    world.registry.add(root, scene::LinearVelocity{{0.7, 0.3, 0.1}});
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity above = addJoint({.translation = {0.1, 0.2, 0.3}, .scale = {1.0, 0.5, -2.0}});
+    world.registry.add(above, scene::Parent{root});
+    addSkinned(root, above);
+    const ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.deformed.at(0).changes) << "in the world's axes";
+    EXPECT_TRUE(frame.deformed[0].carrier);
+}
+
+TEST_F(DeformedEntities, AJointOfScaleZeroCarriesNothing) {
+    const ecs::Entity root = addJoint({.translation = {0, 0, -5}, .scale = dvec3(0.0)});
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity above = addJoint(at({0, 0, -5}));
+    addSkinned(root, above);
+    EXPECT_FALSE(extract().deformed.at(0).carrier) << "one joint stands, the other is a point";
+    world.registry.get<scene::LocalTransform>(above).transform.scale = dvec3(0.0);
+    EXPECT_FALSE(extract().deformed.at(0).carrier) << "all is a point";
+}
+
+TEST_F(DeformedEntities, AHeldSkeletonWhoseWeightsChangeDeforms) {
+    const ecs::Entity root = addJoint(at({0, 0, -5}));
+    world.registry.add(root, scene::AngularVelocity{{0.0, 2.0, 0.5}});
+    const ecs::Entity entity = addSkinned(root, root);
+    EXPECT_TRUE(extract().deformed.at(0).carrier);
+    const ecs::Entity other = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    world.registry.add(entity, scene::MorphWeights(world.registry.get<scene::MorphWeights>(other)));
+    EXPECT_FALSE(extract().deformed.at(0).carrier);
+}
+
+TEST_F(DeformedEntities, AMirroredSkeletonTurnsTheWindingRound) {
+    math::Transform mirrored = at({0, 0, -5});
+    mirrored.scale.x = -1.0;
+    const ecs::Entity root = addJoint(mirrored);
+    addSkinned(root, root);
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.opaque.size(), 1u);
+    EXPECT_TRUE(frame.opaque.merge()[0].mirrored);
+    EXPECT_EQ(frame.entities[0].handedness, -1.0f);
+    EXPECT_TRUE(frame.deformed.at(0).mirrored);
+}
+
+TEST_F(DeformedEntities, MostJointsDecideWhetherASkeletonMirrors) {
+    const dmat4 mirror = glm::scale(dmat4(1.0), dvec3(-1, 1, 1));
+    const dmat4 flat = glm::scale(dmat4(1.0), dvec3(-1, 0, 1));
+    const math::Bounds deformed{dvec3(-1.0), dvec3(1.0)};
+    scene::PoseReach all;
+    all.joints = {deformed, deformed, deformed};
+    EXPECT_FALSE(isMirrored({{}, {1.0}}, all));
+    EXPECT_FALSE(isMirrored({{mirror, dmat4(1.0)}, {}}, all));
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), mirror}, {}}, all));
+    EXPECT_TRUE(isMirrored({{flat, mirror, flat}, {}}, all));
+    // Only this mesh's joints of a skeleton that several meshes share have a say.
+    scene::PoseReach first;
+    first.joints = {deformed, {}, {}};
+    EXPECT_TRUE(isMirrored({{mirror, dmat4(1.0), dmat4(1.0)}, {}}, first));
+}
+
+TEST_F(DeformedEntities, AShapeThatIsNotFiniteIsNotDrawn) {
+    math::Transform bad = at({0, 0, -5});
+    bad.scale.y = kNaN;
+    addSkinned(addJoint(at({0, 0, -5})), addJoint(bad));
+    EXPECT_TRUE(extract().entities.empty());
+    addMorphed({0, 0, -5}, float(kNaN), float(kNaN));
+    EXPECT_TRUE(extract().entities.empty());
+    // Too far away for acceleration structures.
+    addSkinned({0, 0, -5}, {1e19, 0, -5});
+    EXPECT_TRUE(extract().entities.empty());
+}
+
+TEST_F(DeformedEntities, AJointThatBendsNothingMayBeAnywhere) {
+    math::Transform bad = at({0, 0, -5});
+    bad.scale.y = kNaN;
+    const ecs::Entity joint = addJoint(at({0, 0, -5}));
+    const ecs::Entity entity = addSkinned(joint, joint);
+    world.registry.get<scene::Skinned>(entity).joints.push_back(addJoint(bad));
+    world.assets.skins[0].jointFromBind.push_back(dmat4(1.0));
+    EXPECT_EQ(extract().entities.size(), 1u);
+}
+
+TEST_F(DeformedEntities, ASkeletonScaledToNothingIsFinite) {
+    math::Transform nothing = at({0, 0, -5});
+    nothing.scale = dvec3(0.0);
+    const ecs::Entity joint = addJoint(nothing);
+    addSkinned(joint, joint);
+    const ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entities.size(), 1u);
+    EXPECT_FALSE(frame.deformed.at(0).bounds.isEmpty());
+}
+
+TEST_F(DeformedEntities, AShapeThatChangesOnTheSpotIsABoxForRays) {
+    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].keys.size(), 2u);
+    ASSERT_EQ(tables.value().boxes.size(), 1u);
+    EXPECT_LE(tables.value().boxes[0].min.y, -1.0f);
+    EXPECT_GE(tables.value().boxes[0].max.y, 2.0f) << "the upper vertices are lifted";
+}
+
+TEST_F(DeformedEntities, AShapeThatStandsStillIsAMeshLikeAnyOther) {
+    addSkinned({0, 0, -5}, {0, 1, -5});
+    addBox(dvec3(0, 0, -7));
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    EXPECT_TRUE(tables.value().moving.empty());
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].row, 0u);
+    EXPECT_FALSE(tables.value().shapes[0].changes());
+    EXPECT_EQ(tables.value().rows.size(), 2u);
+}
+
+TEST_F(DeformedEntities, WhatIsScaledToNothingAtTheRasterInstantMayBeMetBefore) {
+    const ecs::Entity entity = addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    scene::AnimationChannel channel;
+    channel.path = scene::AnimationPath::Scale;
+    channel.times = {0.0f, 1.0f};
+    channel.values = {{1, 1, 1, 0}, {0, 0, 0, 0}};
+    world.assets.clips.push_back({"", 1.0, {channel}, {}});
+    world.registry.add(entity, scene::Animated{{{1, 0}}});
+    ExtractedFrame frame = extract();
+    EXPECT_TRUE(frame.entities.empty());
+    const auto tables = computeTables(frame);
+    ASSERT_TRUE(tables.ok());
+    ASSERT_EQ(frame.entities.size(), 1u);
+    ASSERT_EQ(tables.value().shapes.size(), 1u);
+    EXPECT_EQ(tables.value().shapes[0].row, 0u);
+    EXPECT_EQ(tables.value().moving, std::vector<uint32_t>{0});
+}
+
+TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
+    layout.geometries[0].vertexCount = 20'000'000;
+    addMorphed({0, 0, -5}, 0.0f, 1.0f);
+    ExtractedFrame frame = extract();
+    const auto tables = computeTables(frame);
+    ASSERT_FALSE(tables.ok());
+    EXPECT_EQ(
+        tables.error().message,
+        "rays that each have their own time need 2441 MiB for 1 skinned or morphed entity with up "
+        "to 2 shapes each, more than the 1024 MiB there may be: shorten the exposure"
+    );
+}
+
+} // namespace
 } // namespace shutter::extract

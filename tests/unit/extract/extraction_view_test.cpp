@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
+// What a frame sees from its camera, and what has no past, is hidden, or is scaled by an artist.
+#include "engine/extract/frame_view.h"
+#include "engine/extract/timed_tables.h"
 #include "engine/math/transform.h"
+#include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
 #include <algorithm>
@@ -8,7 +12,6 @@
 #include <vector>
 
 namespace shutter::extract {
-
 namespace {
 
 void expectNear(const math::mat4& a, const math::mat4& b, float tolerance) {
@@ -21,13 +24,6 @@ void expectNear(const math::mat4& a, const math::mat4& b, float tolerance) {
 
 /// Five units in the last place of a float.
 constexpr float kRounding = 6e-7f;
-
-} // namespace
-
-TEST_F(Extraction, AMovingCameraMovesAnEmptyPicture) {
-    world.registry.add(camera, scene::LinearVelocity{{0.0, 0.0, 1.0}});
-    EXPECT_TRUE(extract().moves);
-}
 
 TEST_F(Extraction, ATurningCameraMovesTheSkyInFrontOfIt) {
     world.registry.add(camera, scene::AngularVelocity{{0.0, 0.1, 0.0}});
@@ -55,20 +51,6 @@ TEST_F(Extraction, AMovingCameraSeesAStillPointFromWhereItIsAtOpenAndClose) {
     EXPECT_NEAR(open.x / open.w, 0.0f, 1e-6f);
     const double focal = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0;
     EXPECT_NEAR(close.x / close.w, -0.5 * focal, 1e-5);
-}
-
-TEST_F(Extraction, AMovingCameraSeesAStillEntityFromWhereItIsAtEachInstant) {
-    world.registry.add(camera, scene::LinearVelocity{{1.0, 0.0, 0.0}});
-    addBox({0.0, 0.0, -10.0});
-    request.exposure = {0.0, 0.25, 1.0, 0.25};
-    const ExtractedFrame frame = extract();
-    const shader::EntityRow& row = frame.entities.at(0);
-    const shader::EntityMotion motion = motionOf(frame, 0);
-    const math::vec3 centre(0.0f);
-    const double perMetre = 1.0 / std::tan(scene::Camera{}.yFov / 2.0) / 2.0 / 10.0;
-    EXPECT_NEAR(project(motion.clipFromObjectOpen, centre).x, 0.0, 1e-6);
-    EXPECT_NEAR(project(row.clipFromObjectRaster, centre).x, -0.25 * perMetre, 1e-6);
-    EXPECT_NEAR(project(motion.clipFromObjectClose, centre).x, -perMetre, 1e-6);
 }
 
 TEST_F(Extraction, APhaseOnlyChoosesTheRasterInstant) {
@@ -126,27 +108,6 @@ TEST_F(Extraction, APerspectivePixelGrowsWithDistance) {
     EXPECT_NEAR(constants.pixelFootprint.x, 2.0 * std::tan(0.4) / 100.0, 1e-7);
     EXPECT_EQ(constants.pixelFootprint.y, 0.0f);
     EXPECT_FLOAT_EQ(constants.forward.w, 0.05f); // the near plane
-}
-
-TEST_F(Extraction, AnOrthographicCameraSeesOneSizeAtEveryDistance) {
-    auto& lens = world.registry.get<scene::Camera>(camera);
-    lens.kind = scene::CameraKind::Orthographic;
-    lens.yMag = 4.0;
-    lens.near = 1.0;
-    lens.far = 101.0;
-    addBox({2.0, 2.0, -10.0});
-    addBox({2.0, 2.0, -90.0});
-    addBox({2.0, 2.0, 10.0}); // behind
-    const ExtractedFrame frame = extract();
-    ASSERT_EQ(frame.entities.size(), 3u);
-    for (int i = 0; i < 2; ++i) {
-        const math::vec3 at = project(frame.entities[size_t(i)].clipFromObjectRaster, math::vec3());
-        EXPECT_NEAR(at.x, 0.25f, 1e-6f); // half width 4 * aspect 2
-        EXPECT_NEAR(at.y, -0.5f, 1e-6f); // up is negative in Vulkan
-    }
-    EXPECT_EQ(frame.opaque.size(), 2u);
-    EXPECT_EQ(frame.constants.pixelFootprint, math::vec2(0.0f, 0.08f));
-    EXPECT_EQ(frame.constants.forward.w, 0.5f);
 }
 
 TEST_F(Extraction, ACamerasFrameIsSeenWholeInAPictureOfAnotherShape) {
@@ -344,4 +305,61 @@ TEST_F(Extraction, WhatIsAskedForStandsInTheConstants) {
     EXPECT_EQ(constants.flags, shader::kFrameUnlit);
 }
 
+class ExtractionHistory : public Extraction {
+  protected:
+    ExtractionHistory() {
+        scene::CameraShutter shutter;
+        shutter.exposureSeconds = 1.0;
+        request.exposure = scene::computeExposure(shutter, 1.0, 1.0);
+    }
+
+    ecs::Entity addMover() {
+        const ecs::Entity mover = addBox({0.0, 0.0, -10.0});
+        world.registry.add(mover, scene::LinearVelocity{{1.0, 0.0, 0.0}});
+        return mover;
+    }
+
+    TimedTables computeTables(ExtractedFrame& frame) const {
+        auto tables = computeTimedTables(world, layout, request, frame);
+        EXPECT_TRUE(tables.ok());
+        return std::move(tables).value();
+    }
+};
+
+TEST_F(ExtractionHistory, RaysMeetWhatAppearsFromThenOnAndWhatIsHiddenUntilThen) {
+    const ecs::Entity mover = addMover();
+    scene::appear(world, mover, 0.7);
+    ExtractedFrame frame = extract();
+    EXPECT_FALSE(frame.moves) << "a raster shows it all the time or never";
+    auto keys = computeTables(frame).rows.at(0).keys;
+    EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.69)));
+    EXPECT_EQ(interpolateKeys(keys, 0.71), interpolateKeys(keys, 1.0)) << "it stands still";
+    EXPECT_TRUE(isDrawable(interpolateKeys(keys, 1.0)));
+    world.registry.remove<scene::Appeared>(mover);
+    scene::hide(world, mover, 0.4);
+    frame = extract();
+    EXPECT_TRUE(frame.entities.empty()) << "at the raster instant it is hidden";
+    keys = computeTables(frame).rows.at(0).keys;
+    EXPECT_TRUE(isDrawable(interpolateKeys(keys, 0.39)));
+    EXPECT_NEAR(interpolateKeys(keys, 0.39)[3].x, 0.39, 1e-3) << "it moves until then";
+    EXPECT_FALSE(isDrawable(interpolateKeys(keys, 0.41)));
+}
+
+TEST_F(ExtractionHistory, WhatIsHiddenHasNoRowNorLight) {
+    const ecs::Entity mover = addMover();
+    const ecs::Entity other = addMover();
+    const ecs::Entity lamp = world.registry.create();
+    world.registry.add(lamp, scene::Light{});
+    world.registry.add(lamp, scene::Parent{mover});
+    scene::hide(world, mover);
+    ExtractedFrame frame = extract();
+    ASSERT_EQ(frame.entityHandles, std::vector<ecs::Entity>{other});
+    EXPECT_TRUE(frame.lights.empty());
+    EXPECT_EQ(computeTables(frame).rows.size(), 1u) << "rays meet it no more than the picture";
+    scene::show(world, mover, 0.7);
+    EXPECT_EQ(extract().entities.size(), 2u);
+    EXPECT_EQ(extract().lights.size(), 1u);
+}
+
+} // namespace
 } // namespace shutter::extract
