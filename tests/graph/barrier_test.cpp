@@ -92,18 +92,6 @@ TEST(Barriers, PassesThatWriteDisjointPartsHaveNoneBetweenThem) {
     EXPECT_TRUE(findHazards(graph, plan).empty());
 }
 
-TEST(Barriers, OtherPassesThatWriteHaveOneBetweenThem) {
-    Graph graph;
-    storeThrice(graph, Access::StorageWrite);
-    const Plan plan = mustCompile(graph);
-    expectHalves(
-        onlyBarrier(plan, 1),
-        {kComputeStage, kStorageWrite},
-        {kComputeStage, kStorageRead | kStorageWrite}
-    );
-    (void)onlyBarrier(plan, 2);
-}
-
 TEST(Barriers, WhereTheyAreToBeOrderedDisjointWritesAreWritesLikeOthers) {
     Graph graph;
     storeThrice(graph, Access::StorageWriteDisjoint);
@@ -111,29 +99,6 @@ TEST(Barriers, WhereTheyAreToBeOrderedDisjointWritesAreWritesLikeOthers) {
     ASSERT_TRUE(plan);
     (void)onlyBarrier(plan.value(), 1);
     (void)onlyBarrier(plan.value(), 2);
-}
-
-TEST(Barriers, ADisjointWriteWaitsForWhoReadTheVersionBefore) {
-    Graph graph;
-    ImageHandle image = makeImage(graph, "target");
-    const auto store = [&](const char* name) {
-        addPass(graph, name, PassKind::Compute, [&](PassBuilder& builder) {
-            image = builder.write(image, Access::StorageWriteDisjoint);
-        });
-    };
-    store("first");
-    addPass(graph, "read", PassKind::Compute, [&](PassBuilder& builder) {
-        builder.read(image, Access::SampledCompute);
-        builder.sideEffect();
-    });
-    store("second");
-    graph.markOutput(image);
-    const Plan plan = mustCompile(graph);
-    ASSERT_EQ(plan.passes.size(), 3u);
-    expectLayouts(
-        onlyBarrier(plan, 2), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL
-    );
-    EXPECT_TRUE(findHazards(graph, plan).empty());
 }
 
 TEST(Barriers, ALaunchOfRaysTouchesResourcesInItsOwnStage) {
@@ -169,14 +134,6 @@ TEST(Barriers, ALaunchOfRaysReadsItsSizeWhereDispatchesDo) {
     );
 }
 
-TEST(Barriers, AFirstUseComesFromNothing) {
-    Graph graph;
-    graph.markOutput(store(graph, "store", makeImage(graph, "a")));
-    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 0);
-    expectHalves(barrier, {0, 0}, {kComputeStage, kStorageRead | kStorageWrite});
-    expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-}
-
 TEST(Barriers, AReadAfterAWriteWaitsAndSees) {
     Graph graph;
     sample(graph, "sample", draw(graph, "draw", makeImage(graph, "a"), true));
@@ -189,30 +146,6 @@ TEST(Barriers, AReadAfterAWriteWaitsAndSees) {
     expectLayouts(
         barrier, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
     );
-}
-
-TEST(Barriers, ASecondReadInTheSameLayoutNeedsNone) {
-    Graph graph;
-    const ImageHandle a = store(graph, "store", makeImage(graph, "a"));
-    sample(graph, "one", a);
-    sample(graph, "two", a);
-    const Plan plan = mustCompile(graph);
-    EXPECT_EQ(plan.passes[1].imageBarriers.size(), 1u);
-    EXPECT_TRUE(plan.passes[2].imageBarriers.empty());
-}
-
-TEST(Barriers, ReadersInSeveralStagesShareTheFirstOnesBarrier) {
-    Graph graph;
-    const ImageHandle a = store(graph, "store", makeImage(graph, "a"));
-    sample(graph, "compute", a);
-    addPass(graph, "raster", PassKind::Raster, [&](PassBuilder& builder) {
-        builder.read(a, Access::SampledFragment);
-        graph.markOutput(builder.colorTarget(makeImage(graph, "b"), std::nullopt));
-    });
-    const Plan plan = mustCompile(graph);
-    EXPECT_EQ(onlyBarrier(plan, 1).dstStages, kComputeStage | kFragmentStage);
-    for (const ImageBarrier& barrier : plan.passes[2].imageBarriers)
-        EXPECT_NE(barrier.resource, a.resource);
 }
 
 TEST(Barriers, AReadInAnotherLayoutIsATransitionBehindTheReaders) {
@@ -254,17 +187,6 @@ TEST(Barriers, AWriteAfterAReadElsewhereSeesWhatItAddsTo) {
     );
 }
 
-TEST(Barriers, AWriteAfterAWriteWaitsAndSees) {
-    Graph graph;
-    const ImageHandle v1 = store(graph, "one", makeImage(graph, "a"));
-    graph.markOutput(store(graph, "two", v1));
-    const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 1);
-    expectHalves(
-        barrier, {kComputeStage, kStorageWrite}, {kComputeStage, kStorageRead | kStorageWrite}
-    );
-    expectLayouts(barrier, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL);
-}
-
 TEST(Barriers, AClearDropsTheOldContentsWithTheLayout) {
     Graph graph;
     const ImageHandle v1 = store(graph, "store", makeImage(graph, "a"));
@@ -273,56 +195,6 @@ TEST(Barriers, AClearDropsTheOldContentsWithTheLayout) {
     const ImageBarrier barrier = onlyBarrier(mustCompile(graph), 2);
     EXPECT_EQ(barrier.srcStages, kComputeStage);
     expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-}
-
-TEST(Barriers, ADepthTargetIsTestedEarlyAndLate) {
-    Graph graph;
-    ImageHandle depth = makeImage(graph, "depth", 16, kDepth);
-    addPass(graph, "draw", PassKind::Raster, [&](PassBuilder& builder) {
-        depth = builder.depthTarget(depth, 0.0f);
-    });
-    sample(graph, "sample", depth);
-    const Plan plan = mustCompile(graph);
-    EXPECT_EQ(onlyBarrier(plan, 0).newLayout, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    expectHalves(
-        onlyBarrier(plan, 1),
-        {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-         VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-        {kComputeStage, kSampledRead}
-    );
-}
-
-TEST(Barriers, ReusedMemoryWaitsForItsLastTenant) {
-    Graph graph;
-    const ImageHandle a = draw(graph, "draw", makeImage(graph, "a"), true);
-    const ImageHandle b = filter(graph, "filter", a, makeImage(graph, "b"));
-    const ImageHandle c = filter(graph, "reuse", b, makeImage(graph, "c"));
-    graph.markOutput(c);
-    const Plan plan = mustCompile(graph);
-    ASSERT_EQ(placementOf(plan, a).offset, placementOf(plan, c).offset);
-    ASSERT_EQ(plan.passes[2].imageBarriers.size(), 2u);
-    for (const ImageBarrier& barrier : plan.passes[2].imageBarriers)
-        if (barrier.resource == c.resource) {
-            expectHalves(
-                barrier, {kComputeStage, 0}, {kComputeStage, kStorageRead | kStorageWrite}
-            );
-            expectLayouts(barrier, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-        }
-}
-
-TEST(Barriers, ReusedMemoryWaitsForALastTenantThatWrote) {
-    Graph graph;
-    ImageHandle scratch = makeImage(graph, "scratch");
-    addPass(graph, "scribble", PassKind::Compute, [&](PassBuilder& builder) {
-        scratch = builder.write(scratch, Access::StorageWrite);
-        builder.sideEffect();
-    });
-    graph.markOutput(draw(graph, "reuse", makeImage(graph, "b"), true));
-    const Plan plan = mustCompile(graph);
-    EXPECT_EQ(plan.blockBytes, 16u * 16 * 4);
-    const ImageBarrier barrier = onlyBarrier(plan, 1);
-    EXPECT_EQ(barrier.srcStages, kComputeStage);
-    EXPECT_EQ(barrier.srcAccess, kStorageWrite);
 }
 
 TEST(Barriers, AFirstUseDoesNotWaitForTenantsOfOtherMemory) {
@@ -450,68 +322,6 @@ TEST(Barriers, AnImportedImageThatNobodyReadsStaysInTheLayoutThatAnySuits) {
     const Plan plan = mustCompile(graph);
     ASSERT_EQ(plan.finalImageBarriers.size(), 1u) << "no image can go over to no layout";
     expectLayouts(plan.finalImageBarriers[0], kept, kept);
-}
-
-TEST(Barriers, AnImportedBufferWaitsForEarlierSubmissions) {
-    Graph graph;
-    const BufferHandle lights = graph.importBuffer("lights", fakeBuffer(1), 64);
-    readBuffer(graph, lights, Access::ShaderRead, PassKind::Raster);
-    expectHalves(
-        onlyBufferBarrier(mustCompile(graph), 0),
-        {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | kFragmentStage | kComputeStage,
-         VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT}
-    );
-}
-
-TEST(Barriers, AnOutputBufferIsShownToTheHost) {
-    Graph graph;
-    BufferHandle result = graph.importBuffer("result", fakeBuffer(1), 64);
-    addPass(graph, "copy", PassKind::Transfer, [&](PassBuilder& builder) {
-        result = builder.write(result, Access::TransferWrite);
-    });
-    graph.markOutput(result);
-    const Plan plan = mustCompile(graph);
-    ASSERT_EQ(plan.finalBufferBarriers.size(), 1u);
-    expectHalves(
-        plan.finalBufferBarriers[0],
-        {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT},
-        {VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}
-    );
-}
-
-TEST(Barriers, ABufferAPassLetsTheHostReadIsShownToTheHostAtTheEnd) {
-    Graph graph;
-    const BufferHandle result = fill(graph, graph.importBuffer("result", fakeBuffer(1), 64));
-    readBuffer(graph, result, Access::HostRead, PassKind::Transfer);
-    const Plan plan = mustCompile(graph);
-    EXPECT_TRUE(plan.passes[1].bufferBarriers.empty());
-    ASSERT_EQ(plan.finalBufferBarriers.size(), 1u);
-    EXPECT_EQ(plan.finalBufferBarriers[0].dstStages, VK_PIPELINE_STAGE_2_HOST_BIT);
-}
-
-TEST(Barriers, ATraceWaitsForTheBuild) {
-    Graph graph;
-    BufferHandle top = graph.importBuffer("TLAS", fakeBuffer(1), 64);
-    addPass(graph, "build", PassKind::Build, [&](PassBuilder& builder) {
-        top = builder.write(top, Access::AccelerationBuild);
-    });
-    readBuffer(graph, top, Access::AccelerationRead, PassKind::Compute);
-    expectHalves(
-        onlyBufferBarrier(mustCompile(graph), 1),
-        {VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR,
-         VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR},
-        {kComputeStage, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR}
-    );
-}
-
-TEST(Barriers, ABuildReadsItsInputsInItsOwnStage) {
-    Graph graph;
-    const BufferHandle instances = fill(graph, makeBuffer(graph, "instances"));
-    readBuffer(graph, instances, Access::ShaderRead, PassKind::Build);
-    const BufferBarrier barrier = onlyBufferBarrier(mustCompile(graph), 1);
-    EXPECT_EQ(barrier.dstStages, VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR);
-    EXPECT_EQ(barrier.dstAccess, VK_ACCESS_2_SHADER_READ_BIT);
 }
 
 } // namespace

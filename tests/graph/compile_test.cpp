@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a frame: passes culled, ordered and told, memory shared.
+#include "engine/graph/compile.h"
+#include "engine/graph/compile_stages.h"
+#include "tests/graph/story.h"
+
+namespace shutter::graph {
+namespace {
+
+TEST(Culling, AnEmptyGraphCompilesToNothing) {
+    const Graph graph;
+    const Plan plan = mustCompile(graph);
+    EXPECT_TRUE(plan.passes.empty());
+    EXPECT_TRUE(plan.culled.empty());
+    EXPECT_TRUE(plan.images.empty());
+    EXPECT_EQ(plan.blockBytes, 0u);
+    EXPECT_EQ(plan.unaliasedBytes, 0u);
+}
+
+TEST(Culling, APassNobodyReadsIsCulledWithTheReason) {
+    Graph graph;
+    const ImageHandle shown = store(graph, "draw", makeImage(graph, "shown"));
+    (void)store(graph, "forgotten", makeImage(graph, "tiles"));
+    graph.markOutput(shown);
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(namesOf(graph, plan), Names{"draw"});
+    ASSERT_EQ(plan.culled.size(), 1u);
+    EXPECT_EQ(plan.culled[0].name, "forgotten");
+    EXPECT_EQ(plan.culled[0].reason, "nobody reads 'tiles'");
+    EXPECT_EQ(plan.images.size(), 1u) << "what only culled passes write needs no memory";
+}
+
+TEST(Culling, AChainThatEndsNowhereIsCulledAsAWhole) {
+    Graph graph;
+    const ImageHandle a = store(graph, "first", makeImage(graph, "a"));
+    const ImageHandle b = filter(graph, "second", a, makeImage(graph, "b"));
+    (void)filter(graph, "third", b, makeImage(graph, "c"));
+    const Plan plan = mustCompile(graph);
+    EXPECT_TRUE(plan.passes.empty());
+    ASSERT_EQ(plan.culled.size(), 3u);
+    EXPECT_EQ(plan.culled[0].reason, "only culled passes read 'a'");
+    EXPECT_EQ(plan.culled[2].reason, "nobody reads 'c'");
+}
+
+TEST(Culling, APassThatOnlyReadsIsCulled) {
+    Graph graph;
+    const ImageHandle a = store(graph, "draw", makeImage(graph, "a"));
+    addPass(graph, "look", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(a, Access::SampledCompute);
+    });
+    const Plan plan = mustCompile(graph);
+    EXPECT_TRUE(plan.passes.empty());
+    ASSERT_EQ(plan.culled.size(), 2u);
+    EXPECT_EQ(plan.culled[1].reason, "writes nothing");
+}
+
+TEST(Order, IndependentPassesRunAsDeclared) {
+    Graph graph;
+    for (const char* name : {"c", "a", "b"})
+        graph.markOutput(store(graph, name, makeImage(graph, name)));
+    EXPECT_EQ(namesOf(graph, mustCompile(graph)), (Names{"c", "a", "b"}));
+}
+
+TEST(Order, ASetupMayAddPassesOfItsOwn) {
+    Graph graph;
+    addPass(graph, "outer", PassKind::Compute, [&](PassBuilder& builder) {
+        const ImageHandle inner = store(graph, "inner", makeImage(graph, "a"));
+        builder.read(inner, Access::SampledCompute);
+        builder.sideEffect();
+    });
+    EXPECT_EQ(namesOf(graph, mustCompile(graph)), (Names{"inner", "outer"}));
+}
+
+TEST(Order, TheDataFilledBySetupReachesExecute) {
+    struct Data {
+        int number = 0;
+    };
+
+    Graph graph;
+    int seen = 0;
+    const Data& data = graph.addPass<Data>(
+        "pass",
+        PassKind::Compute,
+        [](PassBuilder&, Data& filled) { filled.number = 7; },
+        [&seen](const Data& given, PassContext&) { seen = given.number; }
+    );
+    for (int i = 0; i < 100; ++i) // the first pass's data stays where it is
+        (void)store(graph, "more", makeImage(graph, "a"));
+    EXPECT_EQ(data.number, 7);
+    // The callback looks at neither the frame nor the resources.
+    alignas(PassContext) std::byte unused[sizeof(PassContext)]{};
+    graph.passes()[0].execute(reinterpret_cast<PassContext&>(unused));
+    EXPECT_EQ(seen, 7);
+}
+
+TEST(Order, ACycleThroughAnOldVersionIsRefusedWithThePassesOnIt) {
+    Graph graph;
+    const ImageHandle a1 = store(graph, "make a", makeImage(graph, "a"));
+    const ImageHandle a2 = store(graph, "change a", a1);
+    const ImageHandle b = filter(graph, "make b from the new a", a2, makeImage(graph, "b"));
+    addPass(graph, "compare b with the old a", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(a1, Access::SampledCompute);
+        builder.read(b, Access::SampledCompute);
+        builder.sideEffect();
+    });
+    EXPECT_EQ(
+        errorOf(graph),
+        "the passes form a cycle: 'change a' waits for 'compare b with the old a' "
+        "waits for 'make b from the new a' waits for 'change a'"
+    );
+}
+
+constexpr VkDeviceSize kBytes = 16 * 16 * 4;
+
+/// a -> b -> c -> d: a's life ends where c's begins behind it.
+struct Chain {
+    Graph graph;
+    ImageHandle a = store(graph, "1", makeImage(graph, "a"));
+    ImageHandle b = filter(graph, "2", a, makeImage(graph, "b"));
+    ImageHandle c = filter(graph, "3", b, makeImage(graph, "c"));
+};
+
+TEST(Alias, ImagesWithDisjointLivesShareMemory) {
+    Chain chain;
+    chain.graph.markOutput(chain.c);
+    const Plan plan = mustCompile(chain.graph);
+    EXPECT_EQ(placementOf(plan, chain.a).offset, placementOf(plan, chain.c).offset);
+    EXPECT_EQ(plan.blockBytes, 2 * kBytes);
+    EXPECT_EQ(plan.unaliasedBytes, 3 * kBytes);
+}
+
+TEST(Alias, ImagesThatMeetInOnePassDoNotShare) {
+    Chain chain;
+    chain.graph.markOutput(chain.c);
+    const Plan plan = mustCompile(chain.graph);
+    EXPECT_FALSE(overlapInMemory(placementOf(plan, chain.a), placementOf(plan, chain.b)));
+    EXPECT_FALSE(overlapInMemory(placementOf(plan, chain.b), placementOf(plan, chain.c)));
+}
+
+TEST(Alias, AnOutputIsNotOverwrittenAfterItsLastUse) {
+    Chain chain;
+    chain.graph.markOutput(chain.a);
+    chain.graph.markOutput(chain.c);
+    const Plan plan = mustCompile(chain.graph);
+    EXPECT_EQ(placementOf(plan, chain.a).lastPass, 2u);
+    EXPECT_FALSE(overlapInMemory(placementOf(plan, chain.a), placementOf(plan, chain.c)));
+    EXPECT_EQ(plan.blockBytes, 3 * kBytes);
+}
+
+TEST(Alias, WhatNobodyReadsAfterItsLastPassIsWantedNoMore) {
+    Graph graph;
+    ImageHandle depth;
+    ImageHandle color;
+    addPass(graph, "draw", PassKind::Raster, [&](PassBuilder& builder) {
+        color = builder.colorTarget(makeImage(graph, "color"), std::nullopt);
+        depth = builder.depthTarget(makeImage(graph, "depth", 16, VK_FORMAT_D32_SFLOAT), 0.0f);
+    });
+    addPass(graph, "draw more", PassKind::Raster, [&](PassBuilder& builder) {
+        color = builder.colorTarget(color, std::nullopt);
+        depth = builder.depthTarget(depth, std::nullopt);
+    });
+    graph.markOutput(color);
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.passes.size(), 2u);
+    EXPECT_TRUE(isWantedAfter(graph, plan, depth.resource, 0));
+    EXPECT_FALSE(isWantedAfter(graph, plan, depth.resource, 1));
+    EXPECT_TRUE(isWantedAfter(graph, plan, color.resource, 1)) << "an output";
+}
+
+TEST(Alias, WhatIsImportedStaysWanted) {
+    Graph graph;
+    const gpu::Image target;
+    ImageHandle image =
+        graph.importImage("target", target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+    image = draw(graph, "draw", image, true);
+    EXPECT_TRUE(isWantedAfter(graph, mustCompile(graph), image.resource, 0));
+}
+
+TEST(Alias, ASmallImageFitsIntoTheHoleOfALargeOne) {
+    Graph graph;
+    const ImageHandle large = store(graph, "1", makeImage(graph, "large", 64));
+    const ImageHandle kept = filter(graph, "2", large, makeImage(graph, "kept", 32));
+    const ImageHandle small = filter(graph, "3", kept, makeImage(graph, "small", 16));
+    graph.markOutput(small);
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(placementOf(plan, small).offset, 0u);
+    EXPECT_EQ(plan.blockBytes, (64u * 64 + 32 * 32) * 4);
+}
+
+TEST(Alias, UsageFollowsFromThePassesThatStay) {
+    Graph graph;
+    const ImageHandle a = draw(graph, "draw", makeImage(graph, "a"), true);
+    sample(graph, "sample", a);
+    addPass(graph, "culled copy", PassKind::Transfer, [&](PassBuilder& builder) {
+        builder.read(a, Access::TransferRead);
+    });
+    const Plan plan = mustCompile(graph);
+    EXPECT_EQ(
+        placementOf(plan, a).imageUsage,
+        VkImageUsageFlags{VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}
+    );
+}
+
+TEST(Alias, ASampledDepthTargetHasBothUsages) {
+    Graph graph;
+    ImageHandle depth = makeImage(graph, "depth", 16, kDepth);
+    addPass(graph, "draw", PassKind::Raster, [&](PassBuilder& builder) {
+        depth = builder.depthTarget(depth, 0.0f);
+    });
+    sample(graph, "sample", depth);
+    const VkImageUsageFlags wanted =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    EXPECT_EQ(placementOf(mustCompile(graph), depth).imageUsage, wanted);
+}
+
+TEST(Alias, ABufferHasTheUsageItAsksForAndTheOneItsPassesNeed) {
+    Graph graph;
+    BufferHandle arguments =
+        graph.createBuffer("arguments", {0, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT});
+    addPass(graph, "count", PassKind::Compute, [&](PassBuilder& builder) {
+        arguments = builder.write(arguments, Access::StorageWrite);
+    });
+    addPass(graph, "dispatch", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(arguments, Access::IndirectRead);
+        builder.sideEffect();
+    });
+    const Plan plan = mustCompile(graph);
+    ASSERT_EQ(plan.buffers.size(), 1u);
+    EXPECT_EQ(
+        plan.buffers[0].bufferUsage,
+        VkBufferUsageFlags{
+            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT}
+    );
+}
+
+Placement life(uint32_t first, uint32_t last, VkDeviceSize bytes, VkDeviceSize alignment) {
+    Placement placement;
+    placement.firstPass = first;
+    placement.lastPass = last;
+    placement.bytes = bytes;
+    placement.alignment = alignment;
+    return placement;
+}
+
+TEST(PackImages, AnOffsetKeepsItsAlignment) {
+    std::vector<Placement> two{life(0, 1, 100, 1), life(0, 1, 10, 64)};
+    EXPECT_EQ(packImages(two), 138u);
+    EXPECT_EQ(two[1].offset, 128u);
+}
+
+TEST(PackImages, ARivalInsideAnotherDoesNotDragTheNextOneBack) {
+    // Second and third never live together and may share; the last meets both.
+    std::vector<Placement> images{
+        life(0, 0, 100, 1), life(1, 1, 40, 1), life(0, 1, 30, 1), life(0, 1, 20, 1)};
+    EXPECT_EQ(packImages(images), 150u);
+    for (size_t i = 0; i < images.size(); ++i)
+        for (size_t j = i + 1; j < images.size(); ++j)
+            EXPECT_FALSE(
+                overlapInTime(images[i], images[j]) && overlapInMemory(images[i], images[j])
+            ) << i
+              << " and " << j;
+}
+
+TEST(Dump, AnEmptyGraphSaysSo) {
+    const Graph graph;
+    EXPECT_EQ(
+        dump(graph, mustCompile(graph)),
+        "passes: 0\nculled: 0\nimages: 0\nbuffers: 0\nimage memory: 0 bytes, 0 without sharing\n"
+    );
+}
+
+TEST(Dump, ASmallFrameReadsAsGolden) {
+    Graph graph;
+    ImageHandle color = makeImage(graph, "color", 16, VK_FORMAT_R16G16B16A16_SFLOAT);
+    ImageHandle depth = makeImage(graph, "depth", 16, kDepth);
+    BufferHandle counts = makeBuffer(graph, "counts");
+    BufferHandle result = graph.importBuffer("result", fakeBuffer(1), 1024);
+    addPass(graph, "geometry", PassKind::Raster, [&](PassBuilder& builder) {
+        color = builder.colorTarget(color, ClearColor::floats(0, 0, 0, 1));
+        depth = builder.depthTarget(depth, 0.0f);
+    });
+    ImageHandle blurred = makeImage(graph, "blurred");
+    addPass(graph, "blur", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(color, Access::SampledCompute);
+        builder.read(depth, Access::SampledCompute);
+        blurred = builder.write(blurred, Access::StorageWrite);
+        counts = builder.write(counts, Access::StorageWrite);
+    });
+    (void)filter(graph, "edges", depth, makeImage(graph, "edge map"));
+    addPass(graph, "copy", PassKind::Transfer, [&](PassBuilder& builder) {
+        builder.read(blurred, Access::TransferRead);
+        result = builder.write(result, Access::TransferWrite);
+    });
+    graph.markOutput(result);
+    const char* golden = R"(passes: 3
+  0 'geometry' (raster)
+      barrier 'color' nothing -> colour, undefined -> colour
+      barrier 'depth' nothing -> depth, undefined -> depth
+      clears 'color' to version 1: colour attachment
+      clears 'depth' to version 1: depth attachment
+  1 'blur' (compute)
+      barrier 'color' colour -> compute, colour -> sampled
+      barrier 'depth' depth -> compute, depth -> sampled
+      barrier 'blurred' nothing -> compute, undefined -> general
+      reads 'color' version 1: sampled in compute
+      reads 'depth' version 1: sampled in compute
+      writes 'blurred' version 1: storage write
+      writes 'counts' version 1: storage write
+  2 'copy' (transfer)
+      barrier 'blurred' compute -> transfer, general -> copy source
+      barrier 'result' all -> transfer
+      reads 'blurred' version 1: copied from
+      writes 'result' version 1: copied to
+  end: barrier 'result' transfer -> host
+culled: 1
+  'edges': nobody reads 'edge map'
+images: 3
+  'color' 16 x 16 R16G16B16A16_SFLOAT, passes 0 to 1, 1024 bytes at 0
+  'depth' 16 x 16 D32_SFLOAT, passes 0 to 1, 1024 bytes at 1024
+  'blurred' 16 x 16 R8G8B8A8_UNORM, passes 1 to 2, 1024 bytes at 2048
+buffers: 1
+  'counts', passes 1 to 1, 64 bytes
+image memory: 3072 bytes, 3072 without sharing
+)";
+    EXPECT_EQ(dump(graph, mustCompile(graph)), golden);
+}
+
+TEST(Dump, ABarrierThatOnlyWaitsSaysSo) {
+    Graph graph;
+    const ImageHandle v1 = store(graph, "one", makeImage(graph, "a"));
+    addPass(graph, "look", PassKind::Compute, [&](PassBuilder& builder) {
+        builder.read(v1, Access::StorageRead);
+        builder.sideEffect();
+    });
+    graph.markOutput(store(graph, "two", v1));
+    const std::string text = dump(graph, mustCompile(graph));
+    EXPECT_NE(text.find("barrier 'a' compute -> compute, execution only\n"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("'look' (compute, side effect)"), std::string::npos) << text;
+}
+
+TEST(Dump, AFormatWithoutANameHasItsNumber) {
+    Graph graph;
+    graph.markOutput(store(graph, "a", makeImage(graph, "odd", 16, VK_FORMAT_R64_UINT)));
+    EXPECT_NE(dump(graph, mustCompile(graph)).find("format 110"), std::string::npos);
+}
+
+} // namespace
+} // namespace shutter::graph
