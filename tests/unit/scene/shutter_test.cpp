@@ -215,14 +215,6 @@ TEST(Response, LookUpsBeginAtTheLastKnotThatIsNotTooLate) {
     }
 }
 
-TEST(Response, LookUpsTrustTheKnotTheyBeginAt) {
-    auto table = computeResponseTable(sampled({1.0, 1.0, 2.0, 1.0, 1.0}));
-    const float u = 0.01f;
-    const float found = shader::inverseResponse({*table}, u);
-    table->firstKnots[uint32_t(u * float(shader::kResponseCells))] = 2;
-    EXPECT_NE(shader::inverseResponse({*table}, u), found) << "they search from elsewhere";
-}
-
 TEST(Response, FirstKnotsOfZeroAreRightAsWell) {
     std::vector<double> most(shader::kMaxResponseKnots);
     for (size_t i = 0; i < most.size(); ++i)
