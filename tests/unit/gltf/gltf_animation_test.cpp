@@ -154,13 +154,6 @@ TEST(GltfAnimation, KeysWithoutMeaningAreRefused) {
     }
 }
 
-TEST(GltfAnimation, KeysBeforeTimeZeroAreKept) {
-    const std::vector<float> times = {-1.0f, 1.0f};
-    const LoadedScene scene =
-        expectLoads(loadClips(makeKeys(times, kTwoVectors, "VEC3"), clip("translation")));
-    EXPECT_EQ(scene.world.assets.clips[0].channels[0].times, times);
-}
-
 TEST(GltfAnimation, OfKeysAtOneTimeTheLastIsKept) {
     const std::vector<float> times = {0, 1, 1, 2};
     const std::vector<float> values = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
