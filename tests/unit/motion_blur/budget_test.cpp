@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <set>
 #include <vector>
@@ -169,12 +168,6 @@ TEST(Budget, UnlimitedGivesNothingUpWhateverAFrameTakes) {
             controller.observe(0, time);
             ASSERT_EQ(controller.level(), 0u);
         }
-}
-
-TEST(Budget, WhatFitsIsLeftAlone) {
-    BudgetController controller({50.0}, settingsOf(&getMethod("hybrid")));
-    EXPECT_EQ(drive(controller, {}, 500).changes(0), 0u);
-    EXPECT_EQ(controller.level(), 0u);
 }
 
 TEST(Budget, EveryBudgetIsKeptUnderASteadyLoad) {

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
+// Settings, their rows, and what methods make of them.
+#include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/settings.h"
 #include "shaders/motion_blur/hybrid_shared.h"
+#include "shaders/motion_blur/resolved_shared.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <functional>
-#include <iterator>
-#include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace shutter::motion_blur {
-
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Field = std::function<void(MotionBlurSettings&)>;
 
@@ -28,8 +26,6 @@ core::Status validateWith(const Field& set) {
     set(settings);
     return validate(settings);
 }
-
-} // namespace
 
 TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
     const MotionBlurSettings settings = paperSettings();
@@ -70,17 +66,6 @@ TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGiven) {
         EXPECT_EQ(chooseTileSize(settings, height), tile) << height;
     settings.tileSizePx = 7;
     EXPECT_EQ(chooseTileSize(settings, 1080), 7u);
-}
-
-TEST(MotionBlurSettings, TheDepthLimitMayBeInfiniteButNotNegativeOrNoNumber) {
-    for (const float metres : {0.0f, 0.01f, 1e9f, kInfinity})
-        EXPECT_TRUE(validateWith([&](auto& s) { s.maxMotionDepth = metres; }).ok()) << metres;
-    for (const float metres : {-0.01f, -kInfinity, kNan}) {
-        const core::Status valid = validateWith([&](auto& s) { s.maxMotionDepth = metres; });
-        ASSERT_FALSE(valid.ok()) << metres;
-        EXPECT_NE(valid.error().message.find("maxMotionDepth"), std::string::npos);
-    }
-    EXPECT_EQ(resolve({}, 8, 8, 1.0).maxMotionDepth, kInfinity);
 }
 
 TEST(MotionBlurSettings, OnlyTheGathersHaveAPathForUniformMotion) {
@@ -221,4 +206,146 @@ TEST(MotionBlurSettings, TheRasterInstantLiesInsideTheExposure) {
     EXPECT_EQ(resolve({}, 8, 8, 2.0).rasterTime, 1.0f);
 }
 
+using Row = core::SettingRow<MotionBlurSettings>;
+
+/// Sets the field without a look at the row's range.
+void force(const Row& row, MotionBlurSettings& settings, double value) {
+    if (const auto* whole = std::get_if<uint32_t MotionBlurSettings::*>(&row.field))
+        settings.** whole = static_cast<uint32_t>(value);
+    else
+        settings.**std::get_if<float MotionBlurSettings::*>(&row.field) = static_cast<float>(value);
+}
+
+core::Status validateWith(const Row& row, double value) {
+    MotionBlurSettings settings;
+    force(row, settings, value);
+    return validate(settings);
+}
+
+/// Converts to any field's type.
+struct Anything {
+    template <class T> operator T() const; // NOLINT: never defined, used in requires alone
+};
+
+/// Number of fields of an aggregate: as many initializers as it takes.
+template <class T, class... Initializers> constexpr size_t countFields() {
+    if constexpr (requires { T{Initializers{}..., Anything{}}; })
+        return countFields<T, Initializers..., Anything>();
+    else
+        return sizeof...(Initializers);
+}
+
+TEST(SettingRows, BothEndsOfEveryRangeAreValid) {
+    for (const Row& row : listSettingRows()) {
+        if (!core::isNumber(row))
+            continue;
+        EXPECT_TRUE(validateWith(row, row.range.lowest).ok()) << row.name;
+        EXPECT_TRUE(validateWith(row, row.range.highest).ok()) << row.name;
+        EXPECT_EQ(row.range.step == 0.0 && validateWith(row, INFINITY).ok(), row.range.isUnlimited)
+            << row.name;
+    }
+}
+
+TEST(SettingRows, ANumberOutsideItsRangeIsRefusedByName) {
+    for (const Row& row : listSettingRows()) {
+        if (!core::isNumber(row))
+            continue;
+        const bool isWhole = std::holds_alternative<uint32_t MotionBlurSettings::*>(row.field);
+        std::vector<double> bad = {row.range.highest + (isWhole ? 1.0 : 0.001 * row.range.highest)};
+        if (!isWhole)
+            bad.insert(bad.end(), {row.range.lowest - 1e-4, NAN, -INFINITY, -1e7});
+        else if (row.range.lowest > 0.0)
+            bad.push_back(row.range.lowest - 1.0);
+        for (const double value : bad) {
+            const core::Status valid = validateWith(row, value);
+            ASSERT_FALSE(valid.ok()) << row.name << " " << value;
+            EXPECT_NE(valid.error().message.find(row.name), std::string::npos)
+                << valid.error().message;
+        }
+    }
+}
+
+TEST(SettingRows, EveryNameLabelAndMeaningIsThereOnce) {
+    std::set<std::string_view> names;
+    std::set<std::string_view> labels;
+    for (const Row& row : listSettingRows()) {
+        EXPECT_TRUE(names.insert(row.name).second) << row.name;
+        EXPECT_TRUE(labels.insert(row.label).second) << row.name;
+        EXPECT_FALSE(std::string_view(row.label).empty()) << row.name;
+        EXPECT_TRUE(std::string_view(row.meaning).ends_with('.')) << row.name;
+    }
+    EXPECT_EQ(names.size(), listSettingRows().size());
+}
+
+/// A field without a row would be validated, saved and shown by nobody.
+TEST(SettingRows, EveryFieldHasARow) {
+    EXPECT_EQ(countFields<MotionBlurSettings>(), listSettingRows().size() + 1) << "and `method`";
+}
+
+TEST(SettingRows, EverySettingIsReadByAMethodAndEachNameReadHasARow) {
+    std::set<std::string_view> rows;
+    for (const Row& row : listSettingRows())
+        rows.insert(row.name);
+    std::set<std::string_view> read = {"sampleCount"};
+    for (const Method* method : listMethods())
+        for (const std::string_view name : method->settings)
+            read.insert(name);
+    EXPECT_EQ(rows, read);
+}
+
+constexpr uint32_t kFull = shader::kCandidatesPerTile;
+
+/// \param movers that each have a row; the sky's follows them
+math::LayerTables makeLayer(std::vector<uint32_t> movers, bool isStill) {
+    movers.push_back(shader::kSkyMover);
+    return {.movers = std::move(movers), .isStill = isStill};
+}
+
+math::InstantLayers makeLayers(std::vector<uint32_t> movers, bool isStill) {
+    math::InstantLayers layers;
+    layers.raster = makeLayer(std::move(movers), isStill);
+    return layers;
+}
+
+std::vector<uint32_t> countUp(uint32_t count) {
+    std::vector<uint32_t> movers;
+    for (uint32_t i = 0; i < count; ++i)
+        movers.push_back(shader::kSkyMover + 1 + i);
+    return movers;
+}
+
+TEST(CrowdedTiles, NeedMoreMoversThanAListHolds) {
+    EXPECT_FALSE(mayCrowdTiles(makeLayers(countUp(kFull), true)));
+    EXPECT_TRUE(mayCrowdTiles(makeLayers(countUp(kFull + 1), true)));
+}
+
+TEST(CrowdedTiles, CountWhatStandsStillAndTheSkyOnlyBeforeACameraThatMoves) {
+    const std::vector<uint32_t> still(kFull, shader::kWorldMover);
+    EXPECT_FALSE(mayCrowdTiles(makeLayers(still, true)));
+    EXPECT_TRUE(mayCrowdTiles(makeLayers(still, false))) << "the sky is one more";
+    const std::vector<uint32_t> fewer(kFull - 1, shader::kWorldMover);
+    EXPECT_FALSE(mayCrowdTiles(makeLayers(fewer, false)));
+}
+
+TEST(CrowdedTiles, MayBeThoseThatSeveralPartsOfOneDeformedEntityReach) {
+    math::InstantLayers layers = makeLayers({shader::kDeformedMover}, true);
+    layers.raster.deforms = true;
+    EXPECT_TRUE(mayCrowdTiles(layers));
+}
+
+TEST(CrowdedTiles, CountNothingOfWhichNothingIsKnown) {
+    EXPECT_FALSE(mayCrowdTiles(makeLayers(std::vector<uint32_t>(3 * kFull, shader::kNoMover), true))
+    );
+}
+
+TEST(CrowdedTiles, MayBeThoseOfAnyLayer) {
+    math::InstantLayers layers = makeLayers(countUp(1), true);
+    layers.last = makeLayer(countUp(kFull + 1), true);
+    EXPECT_TRUE(mayCrowdTiles(layers));
+    layers.last.reset();
+    layers.second = makeLayer(countUp(kFull + 1), true);
+    EXPECT_TRUE(mayCrowdTiles(layers));
+}
+
+} // namespace
 } // namespace shutter::motion_blur

@@ -20,10 +20,10 @@ using math::dmat4;
 using math::dvec3;
 using math::dvec4;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
-class Random {
+class RandomMatrices {
   public:
     double operator()() { return mValue(mEngine); }
 
@@ -56,7 +56,7 @@ bool isFiniteVector(const vec3& v) {
 } // namespace
 
 TEST(Deform, SkinningIsTheWeightedSumOfWhatEachJointDoes) {
-    Random random;
+    RandomMatrices random;
     for (int round = 0; round < 200; ++round) {
         const std::array joints{random.matrix(), random.matrix(), random.matrix()};
         const std::array weights{0.5, 0.375, 0.125};
@@ -107,11 +107,11 @@ TEST(Deform, MorphTargetsAddUpBeforeTheSkin) {
 TEST(Deform, WhatHasNoDirectionIsZero) {
     for (const vec3& nothing :
          {vec3(0.0f),
-          vec3(kNaN, 1, 1),
-          vec3(1, kNaN, 1),
-          vec3(1, 1, kNaN),
-          vec3(kInfinity, 0, 0),
-          vec3(0, -kInfinity, 1)})
+          vec3(kNotANumber, 1, 1),
+          vec3(1, kNotANumber, 1),
+          vec3(1, 1, kNotANumber),
+          vec3(kInfinite, 0, 0),
+          vec3(0, -kInfinite, 1)})
         EXPECT_EQ(unitOrZero(nothing), vec3(0.0f));
     for (const float size : {1e-38f, 1e-20f, 1.0f, 1e20f, 3e38f}) {
         const vec3 unit = unitOrZero(vec3(0, size, 0));
@@ -133,7 +133,7 @@ TEST(Deform, ACollapsedJointLeavesFiniteVertices) {
 }
 
 TEST(Deform, APositionThatIsNotFiniteIsAtTheOrigin) {
-    for (const float bad : {kNaN, kInfinity, -kInfinity})
+    for (const float bad : {kNotANumber, kInfinite, -kInfinite})
         for (int axis = 0; axis < 3; ++axis) {
             DeformedVertex vertex = makeVertex({1, 2, 3}, {0, 0, 1}, {1, 0, 0});
             vertex.position[axis] = bad;

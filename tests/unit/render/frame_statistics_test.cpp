@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+// What a frame says of itself: statistics, reasons, idle time.
+#include "engine/render/explainer.h"
 #include "engine/render/frame_statistics.h"
+#include "engine/render/renderer.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 namespace shutter::render {
-
 namespace {
 
 FrameStatistics makeFrame(double milliseconds) {
@@ -26,22 +28,14 @@ FrameStatistics medianOf(const std::vector<double>& milliseconds) {
     return computeMedian(frames);
 }
 
-} // namespace
-
-TEST(FrameStatistics, TheMedianOfOneIsItself) {
-    EXPECT_EQ(medianOf({7.0}).passes.at(0).gpuMilliseconds, 7.0);
-}
-
-TEST(FrameStatistics, TheMedianOfAnOddNumberIsTheMiddleWhateverTheOrder) {
+TEST(FrameStatistics, TheMedianIsTheMiddleWhateverTheOrderAndBetweenTwo) {
     const FrameStatistics median = medianOf({100.0, 1.0, 3.0});
     EXPECT_EQ(median.passes.at(0).gpuMilliseconds, 3.0);
     EXPECT_EQ(median.passes.at(0).cpuMilliseconds, 6.0);
     EXPECT_EQ(median.cpuMilliseconds, 9.0);
     EXPECT_EQ(median.wallMilliseconds, 12.0);
     EXPECT_EQ(median.passes.at(1).gpuMilliseconds, 10.0);
-}
-
-TEST(FrameStatistics, TheMedianOfAnEvenNumberIsBetweenTheTwoInTheMiddle) {
+    EXPECT_EQ(medianOf({7.0}).passes.at(0).gpuMilliseconds, 7.0);
     EXPECT_EQ(medianOf({4.0, 100.0, 2.0, 1.0}).wallMilliseconds, 12.0);
 }
 
@@ -77,4 +71,81 @@ TEST(FrameStatistics, MemoryIsUsedAgainSoItsSumIsItsMaximum) {
     EXPECT_EQ(total.transientBytes, 500u);
 }
 
+/// A pass that writes `target`, so that it stays.
+void addPass(graph::Graph& graph, const std::string& name, graph::BufferHandle& target) {
+    struct Data {};
+
+    graph.addPass<Data>(
+        name,
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data&) {
+            target = builder.write(target, graph::Access::StorageWrite);
+        },
+        [](const Data&, graph::PassContext&) {}
+    );
+}
+
+graph::Plan compile(const graph::Graph& graph) {
+    auto plan = graph::compile(graph, [](const auto&, VkImageUsageFlags) {
+        return graph::MemoryRequirement{};
+    });
+    EXPECT_TRUE(plan.ok());
+    return std::move(plan).value();
+}
+
+TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
+    graph::Graph graph;
+    Explainer explainer;
+    auto kept = graph.createBuffer("kept", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
+    auto unread = graph.createBuffer("unread", {16, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT});
+    explainer.decide(ExplainedKind::Effect, "blur", {true, "something moves"});
+    explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
+    addPass(graph, "draw", kept);
+    explainer.beginPasses(graph, PassOwner::Rays, "nobody declared a pass for this");
+    explainer.beginPasses(graph, PassOwner::Effect, "blur runs");
+    addPass(graph, "blur", kept);
+    addPass(graph, "lost", unread);
+    explainer.decide(ExplainedKind::Pass, "rays", {false, "only sky lies behind"});
+    graph.markOutput(kept);
+    const graph::Plan plan = compile(graph);
+
+    const auto all = explainer.finish(graph, plan, true);
+    ASSERT_EQ(all.size(), 5u);
+    EXPECT_EQ(all[0].subject, "blur");
+    EXPECT_EQ(all[0].kind, ExplainedKind::Effect);
+    EXPECT_EQ(all[1].subject, "draw");
+    EXPECT_EQ(describe(all[1].decision), "ran: the picture is drawn");
+    EXPECT_EQ(all[2].kind, ExplainedKind::Pass);
+    EXPECT_EQ(describe(all[2].decision), "ran: blur runs");
+    EXPECT_EQ(describe(all[3].decision), "skipped: only sky lies behind");
+    EXPECT_EQ(all[4].subject, "lost");
+    EXPECT_FALSE(all[4].decision.run);
+    EXPECT_FALSE(all[4].decision.reason.empty());
+
+    EXPECT_EQ(explainer.finish(graph, plan, false).size(), 1u);
+    EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Effect}))
+        << "of \"draw\" and \"blur\"";
+    // The pass of the same name is not what was decided.
+    ASSERT_NE(findDecision(all, "blur"), nullptr);
+    EXPECT_EQ(findDecision(all, "blur")->reason, "something moves");
+    EXPECT_EQ(findDecision(all, "draw"), nullptr);
+}
+
+TEST(IdleCounter, SaysOnceThatNobodyWantedItForAWhile) {
+    IdleCounter counter;
+    EXPECT_FALSE(counter.advance(true));
+    for (uint32_t frame = 1; frame < kFramesKept; ++frame)
+        EXPECT_FALSE(counter.advance(false)) << frame;
+    EXPECT_TRUE(counter.advance(false));
+    for (uint32_t frame = 0; frame < 3 * kFramesKept; ++frame)
+        EXPECT_FALSE(counter.advance(false)) << frame;
+}
+
+TEST(IdleCounter, AWishStartsItAnew) {
+    IdleCounter counter;
+    for (uint32_t frame = 0; frame < 5 * kFramesKept; ++frame)
+        EXPECT_FALSE(counter.advance(frame % (kFramesKept - 1) == 0)) << frame;
+}
+
+} // namespace
 } // namespace shutter::render

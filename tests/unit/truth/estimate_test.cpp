@@ -34,22 +34,16 @@ TEST(Estimate, TheMeanCountsEachRayOnce) {
     expectColor(meanOfSets(vec3(6.0f), vec3(0.0f), 1), vec3(6.0f));
 }
 
-TEST(Estimate, OneRayHasNone) {
-    EXPECT_EQ(errorOfSets(vec3(5.0f), vec3(0.0f), 1), vec3(0.0f));
-}
-
-TEST(Estimate, SetsThatAgreeHaveNone) {
-    EXPECT_EQ(errorOfSets(vec3(4.0f), vec3(4.0f), 8), vec3(0.0f));
-    expectColor(errorOfSets(vec3(8.0f), vec3(4.0f), 3), vec3(0.0f));
-}
-
-TEST(Estimate, ItIsHalfTheDifferenceOfTheMeans) {
+TEST(Estimate, TheErrorIsHalfTheDifferenceOfTheMeans) {
     EXPECT_EQ(
         errorOfSets(vec3(8.0f, 0.0f, 2.0f), vec3(4.0f, 4.0f, 2.0f), 4), vec3(1.0f, 1.0f, 0.0f)
     );
+    EXPECT_EQ(errorOfSets(vec3(4.0f), vec3(4.0f), 8), vec3(0.0f)) << "sets that agree";
+    expectColor(errorOfSets(vec3(8.0f), vec3(4.0f), 3), vec3(0.0f));
+    EXPECT_EQ(errorOfSets(vec3(5.0f), vec3(0.0f), 1), vec3(0.0f)) << "one ray";
 }
 
-TEST(Estimate, ItsSquareIsTheVarianceOfTheMeanOfStratifiedSets) {
+TEST(Estimate, TheErrorsSquareIsTheVarianceOfTheMeanOfStratifiedSets) {
     // Each set is 8 jittered strata of x^2, the kind of set that the spread of its own samples
     // would give five times the error it has.
     std::mt19937 random(3);

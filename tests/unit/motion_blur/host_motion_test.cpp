@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Where a host's surfaces are seen at the instants, held against projecting them anew; and when its
-// last raster says nothing.
+// What a host says of its motion: where its surfaces are seen at the instants, and what is refused.
+#include "engine/math/transform.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
-#include "tests/unit/motion_blur/host_motion_fixture.h"
+#include "modules/motion_blur/embedding/host_instants.h"
+#include "shaders/common/shutter_response_shared.h"
 
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace shutter::motion_blur {
 namespace {
@@ -15,6 +22,86 @@ using math::dvec4;
 using math::LayerTables;
 using math::vec3;
 using math::vec4;
+
+/// A host whose camera goes and turns, and what it says of it.
+class HostMotionFixture : public ::testing::Test {
+  protected:
+    static constexpr uint32_t kInstants = 5;
+    static constexpr uint32_t kRows = 4;
+
+    HostMotionFixture() {
+        frame.sizePx = {200, 100};
+        frame.rasterTime = 1.0;
+        frame.instantCount = kInstants;
+        setKeys({0.0, 0.5, 1.0});
+    }
+
+    static math::dmat4
+    place(const math::dvec3& at, const math::dvec3& axis, double angle, double scale = 1.0) {
+        math::Transform transform;
+        transform.translation = at;
+        transform.rotation = glm::angleAxis(angle, glm::normalize(axis));
+        transform.scale = math::dvec3(scale);
+        return math::computeMatrix(transform);
+    }
+
+    /// Seconds, frames and shutter times are one: time 1 of a frame is time 0 of the next.
+    static math::dmat4 worldFromViewAt(double seconds) {
+        const math::dvec3 at = math::dvec3(0.3, -0.1, 0.4) * seconds;
+        return place(at, {1.0, 2.0, 3.0}, 0.2 * seconds);
+    }
+
+    /// Turns by less than half a turn from key to key, and is scaled.
+    static math::dmat4 worldFromTumblerAt(double seconds) {
+        return place(
+            math::dvec3(0.5, 0.2, -8.0) + math::dvec3(1.0, 0.5, 1.5) * seconds,
+            {2.0, 3.0, 1.0},
+            3.7 * seconds,
+            2.5
+        );
+    }
+
+    [[nodiscard]] math::dmat4 projection() const {
+        return isPerspective ? math::clipFromViewPerspective(0.9, 2.0, 0.1)
+                             : math::clipFromViewOrthographic(6.0, 3.0, 0.1, 100.0);
+    }
+
+    /// Keys at these shutter times, of the frame that opens at `openSeconds`.
+    void setKeys(const std::vector<double>& times) {
+        keys.clear();
+        for (const double time : times) {
+            const math::dmat4 view = glm::inverse(worldFromViewAt(openSeconds + time));
+            keys.push_back({time, view, projection()});
+        }
+        motion.keys = keys;
+        motion.rowCount = kRows;
+    }
+
+    /// Row 1 is the tumbler, one matrix a key.
+    void addTumbler(uint32_t row = 1) {
+        matrices.clear();
+        for (const HostCameraKey& key : keys)
+            matrices.push_back(worldFromTumblerAt(openSeconds + key.time));
+        movers = {{row, matrices}};
+        motion.movers = movers;
+    }
+
+    [[nodiscard]] core::Status check() const { return checkMotion(motion, frame); }
+
+    [[nodiscard]] HostInstants compute(const HostRaster* last = nullptr) const {
+        const core::Status valid = check();
+        EXPECT_TRUE(valid.ok()) << valid.error().message;
+        return computeHostInstants(motion, frame, last);
+    }
+
+    bool isPerspective = true;
+    double openSeconds = 0.0;
+    HostMotionFrame frame;
+    HostMotion motion;
+    std::vector<HostCameraKey> keys;
+    std::vector<HostMover> movers;
+    std::vector<math::dmat4> matrices;
+};
 
 /// What a pixel shows: its place and its depth.
 struct Seen {
@@ -69,18 +156,21 @@ class HostInstantsTest : public HostMotionFixture {
     }
 };
 
-TEST_F(HostInstantsTest, ThreeKeysAreEnoughForWhatTurnsBeforeATurningCamera) {
-    addTumbler();
-    const HostInstants made = compute();
-    EXPECT_TRUE(made.layers.isPerspective);
-    EXPECT_FALSE(made.layers.raster.isStill);
-    EXPECT_FALSE(made.layers.last.has_value());
-    expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
+TEST_F(HostInstantsTest, ThreeKeysAreEnoughForWhatTurnsBeforeATurningCameraOfEitherKind) {
     const dvec4 still(0.5, 0.5, -9.0, 1.0);
-    const auto stillAt = [&](double) { return still; };
-    EXPECT_EQ(made.layers.raster.movers.at(0), shader::kWorldMover);
-    EXPECT_EQ(made.layers.raster.movers.at(kRows), shader::kSkyMover);
-    expectMaps(made.layers.raster, 0, project(still, 1.0), stillAt);
+    for (const bool perspective : {true, false}) {
+        isPerspective = perspective;
+        setKeys({0.0, 0.5, 1.0});
+        addTumbler();
+        const HostInstants made = compute();
+        EXPECT_EQ(made.layers.isPerspective, perspective);
+        EXPECT_FALSE(made.layers.raster.isStill);
+        EXPECT_FALSE(made.layers.last.has_value());
+        expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
+        EXPECT_EQ(made.layers.raster.movers.at(0), shader::kWorldMover);
+        EXPECT_EQ(made.layers.raster.movers.at(kRows), shader::kSkyMover);
+        expectMaps(made.layers.raster, 0, project(still, 1.0), [&](double) { return still; });
+    }
 }
 
 TEST_F(HostInstantsTest, AKeyBeforeTheShutterOpensCountsForWhatComesAfterIt) {
@@ -107,15 +197,6 @@ TEST_F(HostInstantsTest, TheTimeOfTheFrameBeforeIsFiniteWhateverTheShare) {
         frame.rasterTime = 0.5;
         EXPECT_TRUE(check().ok()) << check().error().message;
     }
-}
-
-TEST_F(HostInstantsTest, SoTheyAreUnderAnOrthographicCamera) {
-    isPerspective = false;
-    setKeys({0.0, 0.5, 1.0});
-    addTumbler();
-    const HostInstants made = compute();
-    EXPECT_FALSE(made.layers.isPerspective);
-    expectMaps(made.layers.raster, 1, project(cornerAt(1.0), 1.0), cornerAt);
 }
 
 TEST_F(HostInstantsTest, AViewAlongPlusZGivesTheSameTables) {
@@ -276,6 +357,154 @@ TEST_F(HostInstantsTest, FewerRowsThanBeforeLeaveTheOthersOut) {
     EXPECT_EQ(found.movers.at(kRows), shader::kSkyMover);
     EXPECT_EQ(found.rasterRows.at(1), 1u);
     EXPECT_EQ(found.rasterRows.at(2), shader::kNoRasterRow);
+}
+
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+class HostMotionCheck : public HostMotionFixture {
+  protected:
+    void SetUp() override { reset(); }
+
+    void reset() {
+        motion = {};
+        frame.hasResponse = false;
+        setKeys({0.0, 0.5, 1.0});
+        addTumbler();
+        response = {};
+        response.knotCount = 2;
+        response.knots[1] = {1.0f, 2.0f, 1.0f, 0.0f};
+    }
+
+    /// Refused after the change, by one sentence with `part`; accepted without it.
+    void refuse(const std::function<void()>& change, const std::string& part) {
+        reset();
+        ASSERT_TRUE(check().ok()) << check().error().message;
+        change();
+        const core::Status status = check();
+        ASSERT_FALSE(status.ok()) << "expected: " << part;
+        const std::string& message = status.error().message;
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+
+    void giveResponse() {
+        motion.response = &response;
+        frame.hasResponse = true;
+    }
+
+    shader::ResponseTable response{};
+};
+
+TEST_F(HostMotionCheck, EachBadKeyIsNamed) {
+    refuse([&] { motion.keys = {}; }, "motion.keys holds 0, it needs 1 to 64");
+    refuse([&] { setKeys(std::vector<double>(65, 0.5)); }, "motion.keys holds 65");
+    refuse(
+        [&] {
+            motion.keys = {static_cast<const HostCameraKey*>(nullptr), 3};
+        },
+        "motion.keys is null, its size is 3"
+    );
+    refuse([&] { keys[1].time = kNoNumber; }, "motion.keys[1].time is nan");
+    refuse([&] { keys[2].time = 2.0e6; }, "motion.keys[2].time is 2000000, it must be -1000000 to");
+    refuse([&] { keys[0].time = -2.0e6; }, "motion.keys[0].time is -2000000");
+    refuse([&] { keys[0].time = -HUGE_VAL; }, "motion.keys[0].time is -inf");
+    refuse([&] { keys[1].time = 0.0; }, "motion.keys[1].time is 0, not after");
+    refuse([&] { keys[2].time = 0.9; }, "motion.keys has no key at rasterTime, which is 1");
+    refuse(
+        [&] { keys[1].viewFromWorld[2][1] = kNoNumber; },
+        "motion.keys[1].viewFromWorld is not finite"
+    );
+    refuse(
+        [&] { keys[0].viewFromWorld[2] = dvec4(0.0); }, "motion.keys[0].viewFromWorld is singular"
+    );
+    refuse([&] { keys[0].viewFromWorld[1].w = 1.0; }, "motion.keys[0].viewFromWorld is not affine");
+    refuse(
+        [&] { keys[0].viewFromWorld = dmat4(0.0); }, "motion.keys[0].viewFromWorld is not affine"
+    );
+}
+
+TEST_F(HostMotionCheck, EachBadProjectionIsNamed) {
+    const std::string name = "motion.keys[1].clipFromView ";
+    refuse([&] { keys[1].clipFromView[0][0] = kNoNumber; }, name + "is not finite");
+    refuse([&] { keys[1].clipFromView[0][0] = 0.0; }, name + "is singular");
+    refuse([&] { keys[1].clipFromView = dmat4(0.0); }, name + "is neither perspective nor ortho");
+    refuse([&] { keys[1].clipFromView[0].w = 0.5; }, name + "is neither perspective nor ortho");
+    refuse([&] { keys[1].clipFromView[3].w = 1.0; }, name + "is neither perspective nor ortho");
+    refuse(
+        [&] { keys[1].clipFromView = math::clipFromViewOrthographic(1.0, 1.0, 0.1, 9.0); },
+        name + "is orthographic, motion.keys[0].clipFromView is not"
+    );
+    refuse([&] { keys[1].clipFromView[2] *= -1.0; }, name + "looks along +Z");
+    refuse([&] { motion.aheadIsPlusZ = true; }, "motion.keys[0].clipFromView looks along -Z");
+}
+
+TEST_F(HostMotionCheck, EachBadMoverIsNamed) {
+    refuse([&] { motion.rowCount = 0; }, "motion.rowCount is 0, it must be 1 to 16777215");
+    refuse([&] { motion.rowCount = 1u << 24u; }, "motion.rowCount is 16777216");
+    refuse([&] { movers[0].row = kRows; }, "motion.movers[0].row is 4, rowCount 4");
+    refuse(
+        [&] {
+            movers.push_back(movers[0]);
+            motion.movers = movers;
+        },
+        "motion.movers[1].row is 1, as another mover's is"
+    );
+    refuse(
+        [&] {
+            motion.movers = {static_cast<const HostMover*>(nullptr), 1};
+        },
+        "motion.movers is null, its size is 1"
+    );
+    refuse(
+        [&] { movers[0].worldFromObject = movers[0].worldFromObject.first(2); },
+        "motion.movers[0].worldFromObject holds 2, motion.keys 3"
+    );
+    refuse(
+        [&] {
+            movers[0].worldFromObject = {static_cast<const dmat4*>(nullptr), 3};
+        },
+        "motion.movers[0].worldFromObject is null"
+    );
+    refuse(
+        [&] { matrices[2][3][0] = kNoNumber; }, "motion.movers[0].worldFromObject[2] is not finite"
+    );
+    refuse([&] { matrices[1][1].w = 0.5; }, "motion.movers[0].worldFromObject[1] is not affine");
+}
+
+TEST_F(HostMotionCheck, BadIdsAreNamed) {
+    const std::vector<uint64_t> ids(3);
+    refuse([&] { motion.rowIds = ids; }, "motion.rowIds holds 3, rowCount is 4");
+    refuse(
+        [&] {
+            motion.rowIds = {static_cast<const uint64_t*>(nullptr), kRows};
+        },
+        "motion.rowIds is null"
+    );
+}
+
+TEST_F(HostMotionCheck, ABadResponseIsNamed) {
+    refuse([&] { frame.hasResponse = true; }, "motion.response is null, response is not 0");
+    refuse([&] { motion.response = &response; }, "motion.response is given, response is 0");
+    reset();
+    giveResponse();
+    EXPECT_TRUE(check().ok());
+    const auto refuseTable = [&](const std::function<void()>& change, const std::string& part) {
+        refuse(
+            [&] {
+                giveResponse();
+                change();
+            },
+            part
+        );
+    };
+    refuseTable([&] { response.knotCount = 1; }, "motion.response->knotCount is 1");
+    refuseTable([&] { response.knotCount = 65; }, "motion.response->knotCount is 65");
+    refuseTable([&] { response.knots[0].s = 0.5f; }, "motion.response->knots[0]");
+    refuseTable([&] { response.knots[1].s = 0.5f; }, "motion.response->knots[1]");
+    refuseTable([&] { response.knots[1].density = float(kNoNumber); }, "motion.response->knots[1]");
+    refuseTable([&] { response.knots[1].cumulative = 2.0f; }, "motion.response->knots[1]");
+    refuseTable([&] { response.firstKnots[0] = 1; }, "motion.response->firstKnots[0] is 1");
+    refuseTable([&] { response.firstKnots[9] = 64; }, "motion.response->firstKnots[9] is 64");
 }
 
 } // namespace

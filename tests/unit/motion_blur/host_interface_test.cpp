@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Sentences that reach a host in C name its own fields, with the meaning that they have there.
+// What a host is compiled against: names in C, structures in their places, features of a device.
 #include "engine/core/setting_row.h"
 #include "modules/motion_blur/c_interface/field_names.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+#include "modules/motion_blur/embedding/host_features.h"
 #include "modules/motion_blur/settings.h"
+#include "tests/support/shader_modules.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +21,8 @@
 
 namespace shutter::motion_blur {
 namespace {
+
+using gpu::RayTier;
 
 namespace fs = std::filesystem;
 
@@ -143,6 +148,63 @@ TEST(CNames, NoSentenceOfTheInterfaceKeepsAnotherName) {
         }
     }
     EXPECT_GT(count, 200u) << "the sources were not read";
+}
+
+TEST(CStructures, InArraysNeverGrow) {
+    static_assert(sizeof(void*) == 8, "the sizes are those of 64-bit hosts");
+    EXPECT_EQ(sizeof(ShutterBlurValue), 16u);
+    EXPECT_EQ(sizeof(ShutterBlurCameraKey), 264u);
+    EXPECT_EQ(sizeof(ShutterBlurMover), 16u);
+    EXPECT_EQ(sizeof(ShutterBlurPassTime), 24u);
+    EXPECT_EQ(sizeof(ShutterBlurCounter), 16u);
+}
+
+TEST(CStructures, WithinOthersNeverGrow) {
+    EXPECT_EQ(sizeof(ShutterBlurUse), 24u);
+    EXPECT_EQ(sizeof(ShutterBlurImage), 96u);
+    EXPECT_EQ(sizeof(ShutterBlurCameras), 552u);
+    EXPECT_EQ(sizeof(ShutterBlurRevealTarget), 16u);
+}
+
+#define EXPECT_IN_PLACE(type, field, offset)                                                       \
+    EXPECT_EQ(offsetof(type, structBytes), 0u);                                                    \
+    EXPECT_EQ(offsetof(type, field), size_t{offset}) << "a field before it has changed"
+
+TEST(CStructures, ThatTellTheirSizeKeepTheirFieldsInPlace) {
+    EXPECT_IN_PLACE(ShutterBlurDevice, messageUser, 80);
+    EXPECT_IN_PLACE(ShutterBlurSettings, preset, 32);
+    EXPECT_IN_PLACE(ShutterBlurRevealTask, entityId, 104);
+    EXPECT_IN_PLACE(ShutterBlurSampleTask, answersBytes, 88);
+    EXPECT_IN_PLACE(ShutterBlurInputs, showsInputs, 1808);
+    EXPECT_IN_PLACE(ShutterBlurReport, gaveUp, 40);
+    EXPECT_IN_PLACE(ShutterBlurPlan, moverCount, 52);
+    EXPECT_IN_PLACE(ShutterBlurMemory, bytes, 8);
+}
+
+constexpr uint32_t kRuntimeDescriptorArray = 5302; // the scene's textures
+
+TEST(HostFeatures, BringWhatTheShadersOfEachTierNeed) {
+    const HostFeatures none(RayTier::None);
+    const HostFeatures query(RayTier::RayQuery);
+    const HostFeatures pipeline(RayTier::Pipeline);
+    size_t counts[3] = {};
+    for (const auto& module : test::readShaderModules(SHUTTER_BUILD_DIR, "motion_blur")) {
+        const auto capabilities = gpu::reflectNeeds(module.words).capabilities;
+        RayTier tier = RayTier::None;
+        if (capabilities.contains(4479))
+            tier = RayTier::Pipeline;
+        else if (capabilities.contains(4472) || capabilities.contains(kRuntimeDescriptorArray))
+            tier = RayTier::RayQuery;
+        const HostFeatures& host = tier == RayTier::None       ? none
+                                   : tier == RayTier::RayQuery ? query
+                                                               : pipeline;
+        ++counts[static_cast<size_t>(tier)];
+        for (const std::string& lacking :
+             test::findLacking(module, {host.features.features, host.v12, host.v13, tier}))
+            ADD_FAILURE() << lacking;
+    }
+    for (const size_t count : counts)
+        EXPECT_GT(count, 2u) << "a tier without shaders proves nothing";
 }
 
 } // namespace
