@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
+// Pictures in memory, channels by name, and the parts of metrics.
+#include "engine/image/channels.h"
 #include "engine/image/image.h"
+#include "engine/image/metric_parts.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -80,6 +84,118 @@ TEST(Magma, ColoursTheFirstChannelOfEachPixel) {
     EXPECT_GT(colors.at(0, 0, 0), 0.9f);
     EXPECT_EQ(colors.at(1, 0, 0), 0.0f);
     EXPECT_TRUE(colorWithMagma(Image()).pixels.empty());
+}
+
+Image makeNamed(const std::vector<std::string>& names) {
+    Image picture(2, 1, uint32_t(names.size()));
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+        picture.pixels[i] = float(i);
+    picture.channelNames = names;
+    return picture;
+}
+
+/// "2,1,0/3": red, green and blue, and alpha; "-" where there is no colour.
+std::string colorOf(const Image& picture) {
+    const auto color = findColor(picture);
+    if (!color)
+        return "-";
+    std::string text;
+    for (const uint32_t c : color->color)
+        text += (text.empty() ? "" : ",") + std::to_string(c);
+    return text + (color->alpha ? "/" + std::to_string(*color->alpha) : "");
+}
+
+TEST(Channels, AColourIsFoundByNamesInAnyOrder) {
+    EXPECT_EQ(colorOf(makeNamed({"R", "G", "B"})), "0,1,2");
+    EXPECT_EQ(colorOf(makeNamed({"A", "B", "G", "R", "Z"})), "3,2,1/0");
+    EXPECT_EQ(colorOf(makeNamed({"Y"})), "0");
+    EXPECT_EQ(colorOf(makeNamed({"Y", "A"})), "0/1");
+    EXPECT_EQ(colorOf(makeNamed({"Z", "beauty.R", "beauty.G", "beauty.B", "beauty.A"})), "1,2,3/4");
+    EXPECT_EQ(colorOf(makeNamed({"spec.R", "spec.G", "spec.B", "R", "G", "B", "spec.A"})), "3,4,5")
+        << "the layer without a name comes first, and another's alpha is not its own";
+}
+
+TEST(Channels, WithoutNamesTheirNumberSaysWhatTheyAre) {
+    EXPECT_EQ(colorOf(Image(1, 1, 1)), "0");
+    EXPECT_EQ(colorOf(Image(1, 1, 2)), "0/1");
+    EXPECT_EQ(colorOf(Image(1, 1, 3)), "0,1,2");
+    EXPECT_EQ(colorOf(Image(1, 1, 4)), "0,1,2/3");
+    EXPECT_EQ(colorOf(Image(1, 1, 5)), "-");
+}
+
+TEST(Channels, MotionDepthAndPartsOfAColourAreNone) {
+    for (const auto& names : std::vector<std::vector<std::string>>{
+             {"motion.x", "motion.y"},
+             {"Z"},
+             {"N.x", "N.y", "N.z"},
+             {"R", "G"},
+             {"R"},
+             {"A"},
+             {"P.X", "P.Y", "P.Z"},
+             {"a.R", "b.G", "c.B"}})
+        EXPECT_EQ(colorOf(makeNamed(names)), "-") << names.front();
+}
+
+TEST(Channels, ArePickedWithTheirNames) {
+    const Image picked = pickChannels(makeNamed({"A", "B", "C"}), std::array<uint32_t, 2>{2, 0});
+    EXPECT_EQ(picked.channelNames, (std::vector<std::string>{"C", "A"}));
+    EXPECT_EQ(picked.pixels, (std::vector<float>{2, 0, 5, 3}));
+    EXPECT_EQ(listChannels(makeNamed({"A", "B"}), std::array<uint32_t, 2>{0, 1}), "A, B");
+    EXPECT_EQ(listChannels(Image(1, 1, 2), std::array<uint32_t, 1>{1}), "1");
+}
+
+Plane makePlane(uint32_t width, uint32_t height) {
+    Plane plane(width, height);
+    for (size_t i = 0; i < plane.values.size(); ++i)
+        plane.values[i] = float((i * 37 + i * i * 11) % 101);
+    return plane;
+}
+
+/// The definition, one pixel.
+float filterDirectly(const Plane& plane, const Kernel& kernel, int x, int y, int dx, int dy) {
+    const int radius = int(kernel.size()) / 2;
+    float sum = 0.0f;
+    for (int o = -radius; o <= radius; ++o) {
+        const int fromX = std::clamp(x + o * dx, 0, int(plane.width) - 1);
+        const int fromY = std::clamp(y + o * dy, 0, int(plane.height) - 1);
+        sum +=
+            kernel[size_t(o + radius)] * plane.values[size_t(fromY) * plane.width + size_t(fromX)];
+    }
+    return sum;
+}
+
+TEST(Convolution, FollowsTheDefinitionOnPicturesSmallerAndLargerThanTheKernel) {
+    const Kernel kernel{0.5f, -1.0f, 3.0f, 2.0f, 0.25f};
+    for (const uint32_t width : {1u, 2u, 5u, 13u})
+        for (const uint32_t height : {1u, 3u, 9u}) {
+            const Plane plane = makePlane(width, height);
+            const Plane alongX = filterAlongX(plane, kernel);
+            const Plane alongY = filterAlongY(plane, kernel);
+            for (size_t i = 0; i < plane.values.size(); ++i) {
+                const int x = int(i % width);
+                const int y = int(i / width);
+                EXPECT_EQ(alongX.values[i], filterDirectly(plane, kernel, x, y, 1, 0));
+                EXPECT_EQ(alongY.values[i], filterDirectly(plane, kernel, x, y, 0, 1));
+            }
+        }
+}
+
+TEST(Convolution, ANanReachesTheKernelsRadius) {
+    Plane plane(9, 1);
+    plane.values[4] = std::numeric_limits<float>::quiet_NaN();
+    const Plane filtered = filterAlongX(plane, {0.0f, 1.0f, 0.0f});
+    for (size_t x = 0; x < 9; ++x)
+        EXPECT_EQ(std::isnan(filtered.values[x]), x >= 3 && x <= 5) << x;
+}
+
+TEST(Convolution, NothingFilteredIsNothing) {
+    EXPECT_TRUE(filterAlongX(Plane(0, 4), {1.0f}).values.empty());
+    EXPECT_TRUE(filterAlongY(Plane(4, 0), {1.0f}).values.empty());
+}
+
+TEST(ConvolutionDeathTest, AKernelNeedsAMiddle) {
+    EXPECT_DEATH((void)filterAlongX(Plane(3, 3), {1.0f, 1.0f}), "2 weights");
+    EXPECT_DEATH((void)filterAlongY(Plane(3, 3), {}), "0 weights");
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// PSNR and SSIM: their laws, and other programs' values.
 #include "engine/image/metrics.h"
 #include "tests/unit/image/test_images.h"
 
@@ -10,8 +11,7 @@
 #include <limits>
 #include <vector>
 
-using namespace shutter::image;
-
+namespace shutter::image {
 namespace {
 
 double luminanceOf(const Image& image, uint32_t x, uint32_t y) {
@@ -68,8 +68,6 @@ double computeSsimDirectly(const Image& a, const Image& b) {
 double ssimOfConstants(double a, double b) {
     return (2.0 * a * b + 1e-4) / (a * a + b * b + 1e-4);
 }
-
-} // namespace
 
 TEST(Psnr, EqualPicturesAreInfinitelyClose) {
     const Image image = makeNoise(7, 5, 3, 1);
@@ -143,13 +141,6 @@ TEST(Ssim, ConstantsLeaveTheLuminanceTermAlone) {
     }
 }
 
-TEST(Ssim, BlackAgainstWhiteIsNearlyZeroAndBlackAgainstBlackOne) {
-    const Image black = makeConstant(16, 16, 1, 0.0f);
-    const Image white = makeConstant(16, 16, 1, 1.0f);
-    EXPECT_NEAR(computeSsim(black, white), 1e-4 / 1.0001, 1e-12);
-    EXPECT_DOUBLE_EQ(computeSsim(black, black), 1.0);
-}
-
 TEST(Ssim, FollowsTheDefinitionOnEverySizeAroundTheWindow) {
     for (const auto& [width, height] :
          {std::array{1u, 1u}, {5u, 5u}, {11u, 11u}, {13u, 5u}, {4u, 25u}, {33u, 27u}}) {
@@ -160,14 +151,6 @@ TEST(Ssim, FollowsTheDefinitionOnEverySizeAroundTheWindow) {
                 << width << "x" << height << "x" << channels;
         }
     }
-}
-
-TEST(Ssim, AnInvertedPictureScoresBelowZero) {
-    const Image a = makeNoise(24, 24, 1, 8);
-    Image b = a;
-    for (float& value : b.pixels)
-        value = 1.0f - value;
-    EXPECT_LT(computeSsim(a, b), -0.5);
 }
 
 TEST(Ssim, ColourIsWeighedAsLuminance) {
@@ -273,14 +256,9 @@ TEST(MaxDifference, IsTheLargestOverAllChannelsOfAllPixels) {
     Image b = a;
     EXPECT_EQ(computeMaxDifference(a, b), 0.0);
     b.at(2, 1, 0) = 0.75f;
-    b.at(8, 3, 2) = -0.5f;
-    EXPECT_EQ(computeMaxDifference(a, b), 1.0);
-}
-
-TEST(MaxDifference, IsNotClamped) {
-    const Image a = makeConstant(1, 1, 1, 8.0f);
-    const Image b = makeConstant(1, 1, 1, 3.0f);
-    EXPECT_EQ(computeMaxDifference(a, b), 5.0);
+    b.at(8, 3, 2) = -4.5f;
+    EXPECT_EQ(computeMaxDifference(a, b), 5.0) << "not clamped";
+    EXPECT_EQ(computeMaxDifference(Image(), Image()), 0.0);
 }
 
 TEST(MaxDifference, NanIsInfinitelyFarEvenFromItself) {
@@ -299,6 +277,32 @@ TEST(MaxDifference, InfinityEqualsItselfOnly) {
     );
 }
 
-TEST(MaxDifference, PicturesWithoutPixelsAreEqual) {
-    EXPECT_EQ(computeMaxDifference(Image(), Image()), 0.0);
+/// Each third value scaled, the rest as it was.
+Image disturb(const Image& image) {
+    Image result = image;
+    for (size_t i = 0; i < result.pixels.size(); i += 3)
+        result.pixels[i] = std::round(result.pixels[i] * 200.0f) / 255.0f;
+    return result;
 }
+
+/// By ffmpeg 5.1.9's filter psnr, formats gray and gbrp, of the pictures in files of eight bits.
+TEST(Psnr, AgreesWithFfmpeg) {
+    const Image grey = makeNoise(64, 48, 1, 2);
+    EXPECT_NEAR(computePsnr(grey, disturb(grey)), 22.657677, 1e-6);
+    EXPECT_NEAR(computePsnr(makeNoise(64, 48, 3, 3), makeNoise(64, 48, 3, 4)), 7.777942, 1e-6);
+}
+
+/// Wang 2004 by scikit-image 0.19.3 over Rec. 709 luminance of the pictures in files of eight bits,
+/// mean over whole windows: structural_similarity(gaussian_weights=True, sigma=1.5,
+/// use_sample_covariance=False, data_range=1.0, full=True)[1][5:-5, 5:-5].mean().
+TEST(Ssim, AgreesWithScikitImage) {
+    const Image grey = makeNoise(64, 48, 1, 5);
+    EXPECT_NEAR(computeSsim(grey, disturb(grey)), 0.971803785370, 1e-8);
+    EXPECT_NEAR(computeSsim(grey, makeNoise(64, 48, 1, 6)), 0.004690495913, 1e-8);
+    const Image color = makeNoise(64, 48, 3, 5);
+    EXPECT_NEAR(computeSsim(color, disturb(color)), 0.996917030688, 1e-8);
+    EXPECT_NEAR(computeSsim(color, makeNoise(64, 48, 3, 6)), 0.003811174416, 1e-8);
+}
+
+} // namespace
+} // namespace shutter::image
