@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
+// Whole files, URIs, films and other programs.
+#include "engine/image/image.h"
 #include "engine/io/file_bytes.h"
+#include "engine/io/image_file.h"
+#include "engine/io/process.h"
+#include "engine/io/uri.h"
+#include "engine/io/video.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -8,14 +14,13 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <set>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <thread>
 
 namespace shutter::io {
-
 namespace {
 
 using test::TempFolder;
@@ -30,8 +35,6 @@ std::string readText(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
-
-} // namespace
 
 TEST(FileBytes, AWrittenFileHoldsTheBytesAndNothingElseIsLeft) {
     const TempFolder folder;
@@ -60,33 +63,6 @@ TEST(FileBytes, AWriteThatFailsNamesTheFileAndLeavesTheOldOne) {
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
     EXPECT_EQ(readText(path), "old");
-    EXPECT_EQ(test::countFiles(folder.path()), 1u);
-}
-
-TEST(FileBytes, AFolderIsNeitherWrittenNorReplaced) {
-    const TempFolder folder;
-    const fs::path inner = folder.path() / "inner";
-    fs::create_directory(inner);
-    for (const fs::path& path : {inner, folder.path() / "missing" / "a.json"}) {
-        const core::Status written = writeFileBytes(path, toBytes("text"));
-        ASSERT_FALSE(written);
-        EXPECT_NE(written.error().message.find(path.string()), std::string::npos);
-    }
-    EXPECT_TRUE(fs::is_directory(inner));
-    EXPECT_EQ(test::countFiles(folder.path()), 1u);
-}
-
-TEST(FileBytes, APipeIsWrittenToAndStaysAPipe) {
-    const TempFolder folder;
-    const fs::path path = folder.path() / "pipe";
-    ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
-    std::string received;
-    std::thread reader([&] { received = readText(path); });
-    const core::Status written = writeFileBytes(path, toBytes("through the pipe"));
-    reader.join();
-    EXPECT_TRUE(written);
-    EXPECT_EQ(received, "through the pipe");
-    EXPECT_TRUE(fs::is_fifo(path));
     EXPECT_EQ(test::countFiles(folder.path()), 1u);
 }
 
@@ -120,4 +96,308 @@ TEST(ContentHash, AMissingFileIsNamed) {
     EXPECT_NE(hash.error().message.find("no/such/file"), std::string::npos);
 }
 
+std::string decodeText(std::string_view uri) {
+    const auto bytes = decodeDataUri(uri);
+    return bytes ? std::string(bytes.value().begin(), bytes.value().end()) : "refused";
+}
+
+TEST(DataUri, Base64OfEveryPaddingDecodes) {
+    EXPECT_EQ(decodeText("data:application/octet-stream;base64,"), "");
+    EXPECT_EQ(decodeText("data:;base64,Zg=="), "f");
+    EXPECT_EQ(decodeText("data:;base64,Zm8="), "fo");
+    EXPECT_EQ(decodeText("data:;base64,Zm9v"), "foo");
+    EXPECT_EQ(decodeText("data:;base64,Zm9vYg"), "foob") << "without padding";
+}
+
+TEST(DataUri, PercentEncodedTextDecodes) {
+    EXPECT_EQ(decodeText("data:,a%20b%2C"), "a b,");
+}
+
+TEST(DataUri, MediaTypesAndParametersAreRead) {
+    EXPECT_EQ(decodeText("data:image/svg+xml;charset=utf-8;BASE64,Zg=="), "f");
+    EXPECT_EQ(decodeText("data:;charset=utf-8,a"), "a");
+    EXPECT_EQ(decodeText("data:;name=a%20b;base64,Zg%3D%3D"), "f");
+}
+
+TEST(DataUri, WhatIsNoMediaTypeOrParameterIsRefused) {
+    for (const char* header :
+         {";",
+          ";;base64",
+          ";base64;",
+          ";base64;charset=utf-8",
+          ";base64;base64",
+          ";base65",
+          ";charset",
+          ";=utf-8",
+          ";charset=",
+          ";charset=a=b",
+          ";charset=utf 8;base64",
+          "base64",
+          "text;base64",
+          "text/;base64",
+          "/plain;base64",
+          "text/plain/more;base64",
+          " ;base64"}) {
+        EXPECT_EQ(decodeText(std::string("data:") + header + ",Zg=="), "refused") << header;
+    }
+}
+
+TEST(DataUri, PaddingThatFillsNoGroupIsRefused) {
+    for (const char* data : {"Zg=", "Zg===", "Zm8==", "Zm9v=", "Zm9v====", "Z===", "=", "Z=g="})
+        EXPECT_EQ(decodeText(std::string("data:;base64,") + data), "refused") << data;
+    EXPECT_EQ(decodeText("data:;base64,Zh=="), "refused") << "bits after the last byte";
+}
+
+TEST(DataUri, MalformedOnesAreRefused) {
+    EXPECT_EQ(decodeText("data:;base64"), "refused") << "no comma";
+    EXPECT_EQ(decodeText("data:;base64,Zm9*"), "refused") << "no base64 digit";
+    EXPECT_EQ(decodeText("data:;base64,Zm9vY"), "refused") << "one digit too many";
+    EXPECT_EQ(decodeText("data:,%4"), "refused");
+    EXPECT_EQ(decodeText("http://x,y"), "refused");
+}
+
+TEST(ResolveUri, PlainNamesSpacesAndUnicodeStayInTheFolder) {
+    const TempFolder folder;
+    EXPECT_EQ(resolveUri(folder.path(), "a.bin").value(), folder.path() / "a.bin");
+    EXPECT_EQ(resolveUri(folder.path(), "sub/a%20b.png").value(), folder.path() / "sub/a b.png");
+    EXPECT_EQ(resolveUri(folder.path(), "a b.png").value(), folder.path() / "a b.png");
+    EXPECT_EQ(resolveUri(folder.path(), "%E2%9D%A4.png").value(), folder.path() / "\u2764.png");
+    EXPECT_EQ(resolveUri(folder.path(), "..a/b..").value(), folder.path() / "..a/b..");
+}
+
+TEST(ResolveUri, StepsThatStayInTheFolderAreResolvedInTheText) {
+    const TempFolder folder;
+    const TempFolder outside;
+    folder.write("sub/deep/a.bin", "x");
+    fs::create_symlink(outside.path(), folder.path() / "out");
+    for (const char* uri :
+         {"a.bin",
+          "./a.bin",
+          ".//./a.bin",
+          "sub/../a.bin",
+          "sub/./../a.bin",
+          "sub/deep/../../a.bin",
+          "sub/../sub/deep/../../a.bin",
+          "sub/%2e%2e/a.bin",
+          "sub%2F..%2Fa.bin",
+          "no/such/../../a.bin",
+          "out/../a.bin"})
+        for (const Reach reach : {Reach::Folder, Reach::Anywhere}) {
+            const auto file = resolveUri(folder.path(), uri, reach);
+            ASSERT_TRUE(file) << uri;
+            EXPECT_EQ(file.value(), folder.path() / "a.bin") << uri;
+        }
+    EXPECT_EQ(resolveUri("", "sub/../a.bin").value(), "./a.bin");
+}
+
+class RefusedUri : public testing::TestWithParam<const char*> {};
+
+TEST_P(RefusedUri, IsAnError) {
+    const TempFolder folder;
+    EXPECT_FALSE(resolveUri(folder.path(), GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Uris,
+    RefusedUri,
+    testing::Values(
+        "",
+        "../a.bin",
+        "..",
+        "./../a.bin",
+        "sub/../../a.bin",
+        "sub/deep/../../../a.bin",
+        "sub/%2e%2e/%2E%2E/a.bin",
+        "sub\\..\\a.bin",
+        "sub/..\\a.bin",
+        "%2e%2e/a.bin",
+        "..%2fa.bin",
+        "..\\a.bin",
+        "/etc/hostname",
+        "%2Fetc/hostname",
+        "file:///etc/hostname",
+        "FILE:a.bin",
+        "http://127.0.0.1/a.bin",
+        "C:/a.bin",
+        "a%zz.bin",
+        "a%2",
+        "a%00.bin"
+    )
+);
+
+TEST(ResolveUri, AnEndlessUriIsRefusedAndShortenedInTheMessage) {
+    const TempFolder folder;
+    const auto file = resolveUri(folder.path(), std::string(100000, 'a'));
+    ASSERT_FALSE(file);
+    EXPECT_LT(file.error().message.size(), 200u);
+}
+
+TEST(ResolveUri, ALinkOutOfTheFolderIsRefusedAndOneInsideIsFollowed) {
+    const TempFolder outside;
+    outside.write("secret.bin", "x");
+    const TempFolder folder;
+    folder.write("real.bin", "x");
+    fs::create_symlink(outside.path() / "secret.bin", folder.path() / "out.bin");
+    fs::create_symlink("real.bin", folder.path() / "in.bin");
+    EXPECT_FALSE(resolveUri(folder.path(), "out.bin"));
+    EXPECT_FALSE(resolveUri(folder.path(), "sub/../out.bin"));
+    EXPECT_TRUE(resolveUri(folder.path(), "in.bin"));
+}
+
+TEST(ResolveUri, PathsThatLeaveTheFolderAreTakenFromThoseWhoMayAndSchemesFromNobody) {
+    const TempFolder folder;
+    const auto resolve = [&](std::string_view uri) {
+        return resolveUri(folder.path(), uri, Reach::Anywhere);
+    };
+    EXPECT_EQ(resolve("../a.bin").value(), folder.path() / "../a.bin");
+    EXPECT_EQ(resolve("/etc/hostname").value(), "/etc/hostname");
+    for (const char* uri : {"file:///etc/hostname", "http://127.0.0.1/a.bin", "a%00.bin", ""})
+        EXPECT_FALSE(resolve(uri)) << uri;
+}
+
+TEST(LiesInside, FollowsLinksAndSteps) {
+    const TempFolder outside;
+    const TempFolder folder;
+    folder.write("sub/a.bin", "x");
+    fs::create_symlink(outside.path(), folder.path() / "out");
+    for (const char* inside : {"a", "sub/a.bin", "sub/../b", "no/such/folder"})
+        EXPECT_TRUE(liesInside(folder.path(), inside)) << inside;
+    EXPECT_TRUE(liesInside(folder.path(), folder.path() / "a"));
+    for (const char* away : {"..", "sub/../../a", "out/a", "/etc/hostname"})
+        EXPECT_FALSE(liesInside(folder.path(), away)) << away;
+    EXPECT_TRUE(liesInside("", "a"));
+    EXPECT_FALSE(liesInside("", "../a"));
+}
+
+constexpr uint32_t kFrames = 24;
+
+/// Frames of noise, which no encoder makes small for nothing.
+VideoFrames writeNoise(const std::filesystem::path& folder) {
+    std::mt19937 random(7);
+    image::Image picture(160, 96, 3);
+    for (uint32_t i = 0; i < kFrames; ++i) {
+        for (float& value : picture.pixels)
+            value = float(random() % 256) / 255.0f;
+        const auto file = folder / fmt::format("frame_{:06}.png", i);
+        EXPECT_TRUE(writeImage(file, picture).ok());
+    }
+    return {folder, "frame_%06d.png", kFrames, double(kFrames)};
+}
+
+TEST(Video, AFilmOfAGivenRateKeepsNearIt) {
+    const TempFolder folder;
+    auto encoder = findVideoEncoder("", {VideoCodec::Vp9, 8, "", 0});
+    if (!encoder)
+        GTEST_SKIP() << encoder.error().message;
+    const VideoFrames frames = writeNoise(folder.path());
+    const auto encode = [&](uint32_t kilobits, const char* name) {
+        encoder.value().format.kilobits = kilobits;
+        const auto file = folder.path() / name;
+        const core::Status done = encodeVideo(encoder.value(), frames, file);
+        EXPECT_TRUE(done.ok()) << done.error().message;
+        return double(std::filesystem::file_size(file)) * 8.0 / 1000.0; // of the film's one second
+    };
+    const double free = encode(0, "free.webm");
+    const double held = encode(500, "held.webm");
+    EXPECT_GT(free, 1500.0) << "the bound has something to hold";
+    EXPECT_LT(held, 1000.0);
+    EXPECT_GT(held, 100.0);
+}
+
+TEST(Video, AFilmForBrowsersIsWebM) {
+    const TempFolder folder;
+    const auto encoder = findVideoEncoder("", {VideoCodec::Vp9, 8, "", 200});
+    if (!encoder)
+        GTEST_SKIP() << encoder.error().message;
+    const auto file = folder.path() / "film.webm";
+    ASSERT_TRUE(encodeVideo(encoder.value(), writeNoise(folder.path()), file).ok());
+    const auto bytes = readFileBytes(file, 64);
+    ASSERT_TRUE(bytes.ok());
+    const std::string head(bytes.value().begin(), bytes.value().end());
+    EXPECT_TRUE(head.starts_with("\x1A\x45\xDF\xA3")) << "EBML";
+    EXPECT_NE(head.find("webm"), std::string::npos);
+}
+
+ProcessResult shell(const std::string& script, const std::filesystem::path& folder = ".") {
+    auto run = runProcess("/bin/sh", {"-c", script}, folder);
+    EXPECT_TRUE(run.ok());
+    return std::move(run).value();
+}
+
+TEST(Process, GivesBackBothStreamsAndTheExitStatus) {
+    const ProcessResult result = shell("echo out; echo err >&2; cat; exit 7");
+    EXPECT_EQ(result.output, "out\n") << "nothing is on its stdin";
+    EXPECT_EQ(result.errors, "err\n");
+    EXPECT_EQ(result.exitStatus, 7);
+    EXPECT_EQ(shell("kill -9 $$").exitStatus, 137);
+}
+
+TEST(Process, RunsWhereItIsTold) {
+    const TempFolder folder;
+    EXPECT_EQ(
+        shell("pwd -P", folder.path()).output,
+        std::filesystem::canonical(folder.path()).string() + "\n"
+    );
+}
+
+TEST(Process, MoreThanAPipeHoldsIsReadAndKeptInBounds) {
+    const ProcessResult result =
+        shell("head -c 3000000 /dev/zero >&2; echo last >&2; head -c 3000000 /dev/zero");
+    EXPECT_EQ(result.output.size(), size_t{1} << 20);
+    EXPECT_EQ(result.errors.size(), size_t{64} << 10);
+    EXPECT_TRUE(result.errors.ends_with("last\n"));
+}
+
+TEST(Process, ArgumentsReachTheProgramAsTheyAre) {
+    const auto run = runProcess("/bin/echo", {"a b", "$HOME", "'\"*"}, ".");
+    ASSERT_TRUE(run.ok());
+    EXPECT_EQ(run.value().output, "a b $HOME '\"*\n");
+}
+
+TEST(Process, AProgramThatIsNotThereIsNamed) {
+    const auto run = runProcess("no/such/program", {}, ".");
+    ASSERT_FALSE(run.ok());
+    EXPECT_NE(run.error().message.find("no/such/program"), std::string::npos);
+    EXPECT_FALSE(findProgram("no such program").has_value());
+    EXPECT_TRUE(findProgram("sh").has_value());
+}
+
+TEST(Video, WhatIsNoFfmpegIsRefused) {
+    for (const char* program : {"/bin/true", "/bin/false", "no/such/ffmpeg"}) {
+        const auto encoder = findVideoEncoder(program);
+        ASSERT_FALSE(encoder.ok()) << program;
+        EXPECT_NE(encoder.error().message.find(program), std::string::npos);
+    }
+}
+
+TEST(Video, TheCodecIsTheBestThatFfmpegHas) {
+    const TempFolder folder;
+    const auto pretend = [&](const std::string& encoders, const VideoFormat& format = {}) {
+        const auto program = folder.path() / "ffmpeg";
+        std::ofstream(program) << "#!/bin/sh\nif [ \"$1\" = -version ]; then echo ffmpeg version 9"
+                                  "; echo more; else echo '"
+                               << encoders << "'; fi\n";
+        std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+        return findVideoEncoder(program, format);
+    };
+    const auto best = pretend(" V mpeg4 x\n V libx264 y");
+    ASSERT_TRUE(best.ok()) << best.error().message;
+    EXPECT_EQ(best.value().codec, "libx264");
+    EXPECT_EQ(best.value().version, "ffmpeg version 9");
+    const auto second = pretend(" V libx264rgb y\n V mpeg4 x");
+    ASSERT_TRUE(second.ok());
+    EXPECT_EQ(second.value().codec, "mpeg4");
+    EXPECT_FALSE(pretend(" V gif x").ok());
+    // What was wanted by name has no substitute.
+    const auto deep = pretend(" V mpeg4 x\n V libx264 y", {VideoCodec::H264, 10, ""});
+    ASSERT_TRUE(deep.ok()) << deep.error().message;
+    EXPECT_EQ(deep.value().codec, "libx264");
+    EXPECT_FALSE(pretend(" V mpeg4 x", {VideoCodec::H264, 10, ""}).ok());
+    const auto other = pretend(" V libx264 y", {VideoCodec::Av1, 8, ""});
+    ASSERT_FALSE(other.ok());
+    EXPECT_NE(other.error().message.find("libaom-av1"), std::string::npos);
+    EXPECT_FALSE(pretend(" V libx264 y", {VideoCodec::ProRes, 10, ""}).ok());
+}
+
+} // namespace
 } // namespace shutter::io

@@ -5,13 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
-#include <sys/resource.h>
 
 namespace shutter::io {
 
@@ -238,12 +236,6 @@ TEST(ImageFile, ARateThatNoFractionHoldsIsLeftOut) {
     EXPECT_EQ(std::string(bytes.begin(), bytes.end()).find("framesPerSecond"), std::string::npos);
 }
 
-TEST(ImageFile, WritingLeavesNothingButThePicture) {
-    const TempFolder folder;
-    ASSERT_TRUE(writeImage(folder.path() / "a.exr", makeRamp(4, 4, 3)));
-    EXPECT_EQ(test::countFiles(folder.path()), 1u);
-}
-
 TEST(ImageFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
     const TempFolder folder;
     const fs::path path = folder.write("a.jpg", "old");
@@ -252,31 +244,6 @@ TEST(ImageFile, AFailedWriteKeepsTheOldFileAndLeavesNoTemporary) {
     EXPECT_NE(written.error().message.find("cannot write '" + path.string()), std::string::npos);
     EXPECT_EQ(readAll(path).size(), 3u);
     EXPECT_EQ(test::countFiles(folder.path()), 1u);
-}
-
-TEST(ImageFile, AWriteThatFailsOnTheDiskLeavesNoTemporary) {
-    const TempFolder folder;
-    const fs::path path = folder.write("a.exr", "old");
-    rlimit before{};
-    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit full{1000, before.rlim_max};
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
-    const core::Status written = writeImage(path, makeNoise(64, 64, 3));
-    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, handler);
-    ASSERT_FALSE(written);
-    EXPECT_EQ(readAll(path).size(), 3u);
-    EXPECT_EQ(test::countFiles(folder.path()), 1u);
-}
-
-TEST(ImageFile, AFolderInThePlaceOfThePictureIsNamed) {
-    const TempFolder folder;
-    const fs::path path = folder.path() / "a.png";
-    fs::create_directory(path);
-    const core::Status written = writeImage(path, makeRamp(2, 2, 3));
-    ASSERT_FALSE(written);
-    EXPECT_NE(written.error().message.find("is a folder"), std::string::npos);
 }
 
 TEST(ImageFile, AnEmptyPictureIsRefused) {

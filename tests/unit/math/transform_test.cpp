@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+// Transforms, poses between them, and bounds.
+#include "engine/math/bounds.h"
 #include "engine/math/transform.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -110,10 +111,6 @@ TEST(RemoveScale, TwoDirectionsThatAreLeftTellTheThird) {
     EXPECT_FALSE(findRigid(dmat4(0.0)));
 }
 
-TEST(Transform, TheDefaultIsExactlyTheIdentity) {
-    EXPECT_EQ(computeMatrix(Transform{}), dmat4(1.0));
-}
-
 TEST(Transform, ScalesThenRotatesThenTranslates) {
     const Transform transform{{10.0, 20.0, 30.0}, quarterTurnZ(), {2.0, 3.0, 4.0}};
     // (1, 1, 1) scaled is (2, 3, 4), turned (-3, 2, 4), moved (7, 22, 34).
@@ -138,11 +135,6 @@ TEST(IntegrateRotation, IsExactlyTheIdentityAtZeroVelocityAndAtZeroSeconds) {
     const dquat identity(1.0, 0.0, 0.0, 0.0);
     EXPECT_EQ(integrateRotation(dvec3(0.0), 123.0), identity);
     EXPECT_EQ(integrateRotation({0.0, 5.0, 0.0}, 0.0), identity);
-}
-
-TEST(IntegrateRotation, HalfATurnReversesThePlane) {
-    const dquat rotation = integrateRotation({0.0, kPi, 0.0}, 1.0);
-    expectNear(rotation * dvec3(1.0, 2.0, 3.0), {-1.0, 2.0, -3.0});
 }
 
 TEST(IntegrateRotation, TurnsCounterClockwiseAboutTheAxisOfTheVelocity) {
@@ -236,6 +228,142 @@ TEST(Orthographic, TheHalfExtentsTouchTheBorderAndYPointsDown) {
     const dmat4 clipFromView = clipFromViewOrthographic(2.0, 3.0, 0.0, 1.0);
     EXPECT_DOUBLE_EQ(project(clipFromView, {2.0, 0.0, -0.5}).x, 1.0);
     EXPECT_DOUBLE_EQ(project(clipFromView, {0.0, 3.0, -0.5}).y, -1.0);
+}
+
+constexpr double kShares[] = {0.0, 0.125, 0.5, 0.875, 1.0};
+
+void expectNear(const dmat4& actual, const dmat4& expected, double tolerance) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            EXPECT_NEAR(actual[column][row], expected[column][row], tolerance)
+                << column << ", " << row;
+}
+
+/// A body that goes and turns, t in [0, 1], by less than half a turn; `own` is its shape's matrix.
+dmat4 poseAt(double t, const dmat4& own) {
+    Transform transform;
+    transform.translation = {3.0 - 2.0 * t, 100.0 * t, -1.0e6};
+    transform.rotation = glm::angleAxis(0.3 + 2.5 * t, glm::normalize(dvec3(1.0, -2.0, 0.5)));
+    return computeMatrix(transform) * own;
+}
+
+void expectRigidBetween(const dmat4& own, double tolerance) {
+    const Pose open = takeApart(poseAt(0.0, own));
+    const Pose close = takeApart(poseAt(1.0, own));
+    EXPECT_TRUE(open.isRegular);
+    for (const double share : kShares)
+        expectNear(interpolate(open, close, share), poseAt(share, own), tolerance);
+}
+
+TEST(Pose, ATurningBodyIsWhereItsWayLeads) {
+    expectRigidBetween(dmat4(1.0), 1e-9);
+}
+
+TEST(Pose, SoItIsWithAnyScaleShearOrMirroring) {
+    dmat4 own(1.0);
+    own[0] = {0.001, 0.0, 0.0, 0.0};
+    own[1] = {0.3, 70.0, 0.0, 0.0};
+    own[2] = {0.0, -0.2, 1.5, 0.0};
+    expectRigidBetween(own, 1e-9);
+    own[2] = -own[2];
+    expectRigidBetween(own, 1e-9);
+    EXPECT_TRUE(takeApart(dmat4(1.0e-100 * dmat3(own))).isRegular);
+}
+
+TEST(Pose, AtItsEndsItHasTheirBits) {
+    const dmat4 from = poseAt(0.1, dmat4(1.0));
+    const dmat4 to = poseAt(0.7, dmat4(1.0));
+    EXPECT_EQ(interpolate(takeApart(from), takeApart(to), 0.0), from);
+    EXPECT_EQ(interpolate(takeApart(from), takeApart(to), 1.0), to);
+}
+
+TEST(Pose, WhatHasNoRotationIsMixed) {
+    const dmat4 from = poseAt(0.0, dmat4(1.0));
+    dmat4 flat = from;
+    flat[2] = dvec4(0.0);
+    EXPECT_FALSE(takeApart(flat).isRegular);
+    expectNear(interpolate(takeApart(from), takeApart(flat), 0.5), 0.5 * (from + flat), 1e-9);
+    dmat4 mirrored = from;
+    mirrored[0] = -mirrored[0];
+    const dmat4 half = interpolate(takeApart(from), takeApart(mirrored), 0.5);
+    expectNear(half, 0.5 * (from + mirrored), 1e-9);
+}
+
+TEST(Pose, WhatIsNotFiniteIsLeftWhole) {
+    dmat4 broken(1.0);
+    broken[1][1] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(takeApart(broken).isRegular);
+    broken[1][1] = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(takeApart(broken).isRegular);
+    EXPECT_FALSE(takeApart(dmat4(0.0)).isRegular);
+}
+
+TEST(Bounds, AreEmptyUntilAPointIsAdded) {
+    Bounds bounds;
+    EXPECT_TRUE(bounds.isEmpty());
+    bounds.add(dvec3(1.0, 2.0, 3.0));
+    EXPECT_FALSE(bounds.isEmpty());
+    EXPECT_EQ(bounds.centre(), dvec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(bounds.size(), dvec3(0.0));
+}
+
+TEST(Bounds, GrowToHoldEveryPoint) {
+    Bounds bounds;
+    bounds.add(dvec3(1.0, -2.0, 3.0));
+    bounds.add(dvec3(-1.0, 4.0, 3.5));
+    bounds.add(dvec3(0.0, 0.0, 3.2));
+    EXPECT_EQ(bounds.min, dvec3(-1.0, -2.0, 3.0));
+    EXPECT_EQ(bounds.max, dvec3(1.0, 4.0, 3.5));
+    EXPECT_EQ(bounds.centre(), dvec3(0.0, 1.0, 3.25));
+    EXPECT_EQ(bounds.size(), dvec3(2.0, 6.0, 0.5));
+}
+
+TEST(Bounds, AddingEmptyBoundsChangesNothing) {
+    Bounds bounds;
+    bounds.add(Bounds{});
+    EXPECT_TRUE(bounds.isEmpty());
+    bounds.add(dvec3(1.0));
+    bounds.add(Bounds{});
+    EXPECT_EQ(bounds.min, dvec3(1.0));
+    EXPECT_EQ(bounds.max, dvec3(1.0));
+}
+
+TEST(Bounds, AddingBoundsHoldsBoth) {
+    Bounds left;
+    left.add(dvec3(0.0));
+    Bounds right;
+    right.add(dvec3(2.0, 3.0, 4.0));
+    right.add(dvec3(-1.0, 5.0, 4.0));
+    left.add(right);
+    EXPECT_EQ(left.min, dvec3(-1.0, 0.0, 0.0));
+    EXPECT_EQ(left.max, dvec3(2.0, 5.0, 4.0));
+}
+
+TEST(TransformBounds, EmptyStaysEmpty) {
+    EXPECT_TRUE(transformBounds(dmat4(2.0), Bounds{}).isEmpty());
+}
+
+TEST(TransformBounds, ATurnedBoxIsBoxedAgain) {
+    Bounds box;
+    box.add(dvec3(-1.0));
+    box.add(dvec3(1.0));
+    const double eighth = std::numbers::pi / 4.0;
+    const dmat4 turn = glm::rotate(dmat4(1.0), eighth, dvec3(0.0, 0.0, 1.0));
+    const Bounds turned =
+        transformBounds(glm::translate(dmat4(1.0), dvec3(5.0, 0.0, 0.0)) * turn, box);
+    EXPECT_NEAR(turned.min.x, 5.0 - std::numbers::sqrt2, 1e-12);
+    EXPECT_NEAR(turned.max.x, 5.0 + std::numbers::sqrt2, 1e-12);
+    EXPECT_NEAR(turned.max.y, std::numbers::sqrt2, 1e-12);
+    EXPECT_NEAR(turned.min.z, -1.0, 1e-12);
+}
+
+TEST(TransformBounds, AMirrorKeepsMinBelowMax) {
+    Bounds box;
+    box.add(dvec3(1.0, 2.0, 3.0));
+    box.add(dvec3(2.0, 3.0, 4.0));
+    const Bounds mirrored = transformBounds(glm::scale(dmat4(1.0), dvec3(-1.0, 1.0, 0.0)), box);
+    EXPECT_EQ(mirrored.min, dvec3(-2.0, 2.0, 0.0));
+    EXPECT_EQ(mirrored.max, dvec3(-1.0, 3.0, 0.0));
 }
 
 } // namespace

@@ -1,15 +1,84 @@
 // SPDX-License-Identifier: MIT
+// Checks, results, logs, progress and jobs.
+#include "engine/core/check.h"
+#include "engine/core/log.h"
+#include "engine/core/parallel_jobs.h"
 #include "engine/core/progress.h"
+#include "engine/core/result.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 namespace shutter::core {
 namespace {
+
+TEST(Check, ATrueConditionPassesAndIsEvaluatedOnce) {
+    int evaluations = 0;
+    SHUTTER_CHECK(++evaluations == 1, "never printed");
+    EXPECT_EQ(evaluations, 1);
+    SHUTTER_CHECK_EQ(++evaluations, 2);
+    EXPECT_EQ(evaluations, 2);
+}
+
+TEST(CheckDeathTest, AFalseConditionNamesItselfItsPlaceAndTheDetail) {
+    const int count = 3;
+    EXPECT_DEATH(
+        SHUTTER_CHECK(count < 3, "count is {}", count),
+        "report_test.cpp:[0-9]+: CHECK failed: count < 3 \\(count is 3\\)"
+    );
+}
+
+TEST(CheckDeathTest, AnInequalityPrintsBothValues) {
+    const int left = 4;
+    EXPECT_DEATH(SHUTTER_CHECK_EQ(left, 5), "left == 5 \\(4 and 5\\)");
+}
+
+TEST(Result, HoldsTheErrorItWasMadeOf) {
+    const Result<int> result = makeError("{}: field '{}' is missing", "a.gltf", "asset");
+    EXPECT_FALSE(result.ok());
+    EXPECT_FALSE(static_cast<bool>(result));
+    EXPECT_EQ(result.error().message, "a.gltf: field 'asset' is missing");
+}
+
+TEST(ResultDeathTest, AskingForWhatIsNotThereIsAProgrammersMistake) {
+    Result<int> failed = makeError("no such file");
+    EXPECT_DEATH((void)failed.value(), "value\\(\\) of an error: no such file");
+    EXPECT_DEATH((void)std::as_const(failed).value(), "no such file");
+    EXPECT_DEATH((void)std::move(failed).value(), "no such file");
+    EXPECT_DEATH((void)Result<int>(3).error(), "error\\(\\) of a result");
+    EXPECT_DEATH((void)Status().error(), "error\\(\\) of a success");
+}
+
+class Log : public testing::Test {
+  protected:
+    void TearDown() override { setLogLevel(LogLevel::Warning); }
+};
+
+TEST_F(Log, WarningsArePrintedByDefaultAndInfoIsNot) {
+    testing::internal::CaptureStderr();
+    logInfo("device {}", 1);
+    logWarning("mip {} is missing", 2);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "shutter: warning: mip 2 is missing\n");
+}
+
+TEST_F(Log, InfoIsPrintedWhenAskedFor) {
+    setLogLevel(LogLevel::Info);
+    testing::internal::CaptureStderr();
+    logInfo("device {}", 1);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "shutter: device 1\n");
+}
+
+TEST_F(Log, TextWithBracesIsPrintedAsItIs) {
+    testing::internal::CaptureStderr();
+    writeLog(LogLevel::Warning, "{\"json\": {}}");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "shutter: warning: {\"json\": {}}\n");
+}
 
 Progress::TimePoint gNow;
 
@@ -122,6 +191,14 @@ TEST(Progress, MoreStepsThanAnnouncedStayAtTheEnd) {
     passSeconds(2.0);
     progress.advance();
     EXPECT_EQ(terminal.takeOutput(), "\r\x1b[K" + formatProgress("x", 1, 1, 4.0));
+}
+
+TEST(ParallelJobs, EachRunsOnce) {
+    std::vector<std::atomic<int>> runs(100);
+    runParallelJobs(runs.size(), [&](size_t i) { ++runs[i]; });
+    for (const auto& count : runs)
+        EXPECT_EQ(count, 1);
+    runParallelJobs(0, [](size_t) { FAIL() << "there is none"; });
 }
 
 } // namespace
