@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: MIT
+// What the benchmark measures: suites, contenders, plans of sequences, crops, judges, truth.
+#include "engine/image/hdr_flip.h"
+#include "engine/image/metrics.h"
+#include "engine/io/image_file.h"
+#include "game/bench/case_stage.h"
+#include "game/bench/contenders.h"
+#include "game/bench/crops.h"
+#include "game/bench/frame_judge.h"
+#include "game/bench/measure.h"
+#include "game/bench/sequence/temporal_error.h"
+#include "game/bench/sequence_plan.h"
 #include "game/bench/suites/suite.h"
+#include "game/bench/truth_cache.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <random>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace shutter::bench {
+namespace {
+
+using image::Image;
 
 TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
     for (const char* name : {"paper", "hard", "scaling"}) {
@@ -25,10 +49,6 @@ TEST(Suites, AreFoundByNameAndTheirShotsAreValidOptions) {
             EXPECT_TRUE(options.ok()) << shot.name << ": " << options.error().message;
         }
     }
-}
-
-TEST(Suites, TheHardOneHasTwelveCases) {
-    EXPECT_EQ(findSuite("hard").value().cases.size(), 12u);
 }
 
 TEST(Suites, SequencesAreThreeFlightsAndThreePlayedDemos) {
@@ -56,4 +76,345 @@ TEST(Suites, AnUnknownNameIsAnsweredWithTheKnownOnes) {
         EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
 }
 
+class CaseSetupTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        mFolder.write("s.gltf", R"({"asset": {"version": "2.0"},
+            "buffers": [{"uri": "a.bin", "byteLength": 1}]})");
+        mFolder.write("a.bin", "1");
+    }
+
+    [[nodiscard]] std::string hash() const {
+        Case shot;
+        shot.shot.scene = (mFolder.path() / "s.gltf").string();
+        const auto setup = setUpCase(shot, {}, mFolder.path());
+        EXPECT_TRUE(setup.ok());
+        return setup ? setup.value().hash : std::string();
+    }
+
+    test::TempFolder mFolder;
+};
+
+TEST_F(CaseSetupTest, WhatTheSceneDoesNotNameIsNotPartOfIt) {
+    const std::string before = hash();
+    mFolder.write("notes.txt", "beside the scene");
+    mFolder.write("below/deep/file.bin", "below the scene");
+    std::filesystem::create_symlink("nowhere", mFolder.path() / "broken");
+    EXPECT_EQ(hash(), before);
+}
+
+TEST_F(CaseSetupTest, ABufferIsPartOfTheScene) {
+    const std::string before = hash();
+    mFolder.write("a.bin", "2");
+    EXPECT_NE(hash(), before);
+}
+
+TEST(Sweep, RisesWithinAMethodAndHoldsItsDefaultOnce) {
+    std::vector<const game::MethodInfo*> methods;
+    for (const game::MethodInfo& method : listContenders())
+        methods.push_back(&method);
+    const std::vector<SamplePoint> sweep = makeSweep(methods, 256);
+    for (size_t i = 1; i < sweep.size(); ++i)
+        if (sweep[i].method == sweep[i - 1].method) {
+            EXPECT_LT(sweep[i - 1].samples, sweep[i].samples) << sweep[i].method->name;
+        }
+    for (const game::MethodInfo* method : methods) {
+        const auto isDefault = [&](const SamplePoint& point) {
+            return point.method == method && point.isDefault;
+        };
+        const auto count = std::count_if(sweep.begin(), sweep.end(), isDefault);
+        // The truth's own default is what the others are compared with.
+        EXPECT_EQ(count, method->family == game::MethodFamily::Accumulate ? 0 : 1) << method->name;
+    }
+}
+
+TEST(Contenders, AreTheMethodsAndThePapersWithItsNumbers) {
+    for (const game::MethodInfo& method : game::listMethods()) {
+        const auto found = findContender(method.name);
+        ASSERT_TRUE(found.ok()) << found.error().message;
+        const game::MethodOptions options =
+            makeMethodOptions({found.value(), method.defaultSamples, true});
+        EXPECT_STREQ(options.method->name, method.name);
+        motion_blur::MotionBlurSettings expected;
+        if (method.blur) {
+            expected.method = method.blur;
+            expected.sampleCount = method.defaultSamples;
+        }
+        EXPECT_EQ(options.motionBlur, expected) << method.name;
+    }
+    const game::MethodInfo* paper = findContender("hybrid_paper").value();
+    EXPECT_EQ(makeMethodOptions({paper, 15, true}).motionBlur, motion_blur::paperSettings());
+    const auto missing = findContender("nosuch");
+    ASSERT_FALSE(missing.ok());
+    EXPECT_NE(missing.error().message.find("gather_paper"), std::string::npos);
+}
+
+std::vector<const game::MethodInfo*> findMethods(std::initializer_list<const char*> names) {
+    std::vector<const game::MethodInfo*> methods;
+    for (const char* name : names)
+        methods.push_back(findContender(name).value());
+    return methods;
+}
+
+TEST(SequencePlan, NoSampleCountIsDrawnTwiceInAFrame) {
+    const SequencePlan plan =
+        planSequence(findMethods({"sharp", "gather", "accumulate", "truth"}), 48, 64);
+    std::set<std::string> keys;
+    for (const auto* points : {&plan.points, &plan.sweep})
+        for (const SamplePoint& point : *points)
+            EXPECT_TRUE(keys.insert(makeKey(point)).second) << makeKey(point);
+    for (const char* key :
+         {"sharp/0",
+          "gather/15",
+          "gather/64",
+          "accumulate/8",
+          "accumulate/32",
+          "truth/4",
+          "truth/8"})
+        EXPECT_TRUE(keys.contains(key)) << key;
+    EXPECT_FALSE(keys.contains("truth/16")) << "seconds a frame";
+    EXPECT_FALSE(keys.contains("accumulate/64")) << "the truth itself";
+    EXPECT_EQ(plan.points.size(), 4u);
+}
+
+TEST(SequencePlan, FramesThatAreDrawnAgainLieInsideTheFilm) {
+    for (const uint32_t frames : {2u, 3u, 7u, 48u}) {
+        const SequencePlan plan = planSequence(findMethods({"sharp"}), frames, 64);
+        EXPECT_GE(plan.standingFrames, 2u);
+        EXPECT_LE(plan.firstStanding + plan.standingFrames, frames);
+        ASSERT_FALSE(plan.sweepFrames.empty());
+        EXPECT_LT(plan.sweepFrames.back(), frames);
+        EXPECT_EQ(
+            std::set(plan.sweepFrames.begin(), plan.sweepFrames.end()).size(),
+            plan.sweepFrames.size()
+        );
+        for (const uint32_t frame : plan.sweepFrames)
+            EXPECT_TRUE(plan.isSwept(frame));
+    }
+    EXPECT_EQ(
+        planSequence(findMethods({"sharp"}), 48, 64).sweepFrames,
+        (std::vector<uint32_t>{6, 18, 30, 42})
+    );
+}
+
+TEST(SequencePlan, TheProgressBarCountsEveryPicture) {
+    const SequencePlan plan = planSequence(findMethods({"sharp", "gather"}), 48, 64);
+    // A truth and two methods in 48 and 12 frames; gather at 4, 8, 16, 32 and 64 in four.
+    EXPECT_EQ(countPictures(plan), 3u * 60u + 5u * 4u);
+}
+
+image::Image makeSpot(uint32_t x, uint32_t y, float value) {
+    image::Image picture(64, 48, 3);
+    picture.at(x, y, 1) = value;
+    return picture;
+}
+
+TEST(Crops, TheSquareHoldsTheDifference) {
+    const image::Image black(64, 48, 3);
+    const auto found = findLargestDifference(makeSpot(40, 30, 1.0f), black, 16, "here", {});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_LE(found[0].x, 40u);
+    EXPECT_GT(found[0].x + found[0].width, 40u);
+    EXPECT_LE(found[0].y, 30u);
+    EXPECT_GT(found[0].y + found[0].height, 30u);
+    EXPECT_EQ(found[0].label, "here");
+}
+
+TEST(Crops, ATakenSquareIsNotMet) {
+    image::Image two = makeSpot(8, 8, 1.0f);
+    two.at(40, 30, 0) = 0.5f;
+    const image::Image black(64, 48, 3);
+    const auto first = findLargestDifference(two, black, 16, "", {});
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_LE(first[0].x, 8u);
+    const auto second = findLargestDifference(two, black, 16, "", first);
+    ASSERT_EQ(second.size(), 1u);
+    EXPECT_GT(second[0].x, 16u);
+}
+
+TEST(Crops, EqualOrSmallPicturesHaveNone) {
+    const image::Image black(64, 48, 3);
+    EXPECT_TRUE(findLargestDifference(black, black, 16, "", {}).empty());
+    EXPECT_TRUE(findLargestDifference(makeSpot(1, 1, 1.0f), black, 65, "", {}).empty());
+}
+
+TEST(Crops, NaNCountsAsADifference) {
+    const image::Image black(64, 48, 3);
+    const auto spot = makeSpot(40, 30, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(findLargestDifference(spot, black, 16, "", {}).size(), 1u);
+}
+
+using Metrics = std::map<std::string, double>;
+
+/// Grey of 1/2 and noise, on the steps of 8 bits.
+Image makePicture(uint32_t seed) {
+    Image picture(24, 16, 3);
+    std::mt19937 random(seed);
+    for (float& value : picture.pixels)
+        value = float(112 + random() % 32) / 255.0f;
+    return picture;
+}
+
+FramePicture makeFrame(const char* key, uint32_t seed, Judgement judgement = Judgement::Whole) {
+    FramePicture picture;
+    picture.key = key;
+    picture.shown = makePicture(seed);
+    picture.judgement = judgement;
+    return picture;
+}
+
+std::set<std::string> listIds(const FramePicture& picture) {
+    std::set<std::string> ids;
+    for (const auto& [id, value] : picture.record.picture.metrics)
+        ids.insert(id);
+    return ids;
+}
+
+std::vector<FramePicture> judge(FrameJudge& judge, std::vector<FramePicture> pictures) {
+    const core::Status judged = judge.judge(pictures);
+    EXPECT_TRUE(judged) << judged.error().message;
+    return pictures;
+}
+
+TEST(FrameJudge, TheFirstFrameHasNothingBeforeIt) {
+    FrameJudge frames;
+    const auto first = judge(
+        frames,
+        {makeFrame("truth", 1),
+         makeFrame("gather/15", 2),
+         makeFrame("gather/4", 3, Judgement::Squares),
+         makeFrame("sharp/0", 4, Judgement::InTime)}
+    );
+    EXPECT_EQ(listIds(first[0]), std::set<std::string>()) << "nothing to compare the truth with";
+    EXPECT_EQ(listIds(first[1]), (std::set<std::string>{"psnr", "ssim", "flip"}));
+    EXPECT_EQ(listIds(first[2]), std::set<std::string>{"psnr"});
+    EXPECT_EQ(listIds(first[3]), std::set<std::string>());
+    const Metrics& metrics = first[1].record.picture.metrics;
+    EXPECT_EQ(metrics.at("psnr"), image::computePsnr(makePicture(2), makePicture(1)));
+    EXPECT_EQ(metrics.at("ssim"), image::computeSsim(makePicture(2), makePicture(1)));
+    EXPECT_EQ(metrics.at("flip"), image::computeFlip(makePicture(2), makePicture(1)).mean);
+}
+
+TEST(FrameJudge, EachPictureIsComparedWithItsOwnOneBefore) {
+    FrameJudge frames;
+    judge(
+        frames,
+        {makeFrame("truth", 1),
+         makeFrame("gather/15", 2),
+         makeFrame("sharp/0", 3, Judgement::InTime),
+         makeFrame("gather/4", 4, Judgement::Squares)}
+    );
+    // In another order, and with one that was not there.
+    const auto second = judge(
+        frames,
+        {makeFrame("truth", 5),
+         makeFrame("sharp/0", 6, Judgement::InTime),
+         makeFrame("gather/15", 7),
+         makeFrame("gather/4", 8, Judgement::Squares),
+         makeFrame("hybrid/15", 9)}
+    );
+    EXPECT_EQ(listIds(second[1]), std::set<std::string>{"flicker"});
+    EXPECT_EQ(
+        listIds(second[2]), (std::set<std::string>{"psnr", "ssim", "flip", "flicker", "fixedPower"})
+    );
+    EXPECT_EQ(listIds(second[3]), std::set<std::string>{"psnr"});
+    EXPECT_EQ(listIds(second[4]), (std::set<std::string>{"psnr", "ssim", "flip"}));
+    const auto flickerOf = [](uint32_t before, uint32_t now) {
+        const Image pictures[] = {
+            makePicture(before), makePicture(1), makePicture(now), makePicture(5)};
+        return computeFlicker({pictures[0], pictures[1]}, {pictures[2], pictures[3]});
+    };
+    EXPECT_EQ(second[1].record.picture.metrics.at("flicker"), flickerOf(3, 6));
+    EXPECT_EQ(second[2].record.picture.metrics.at("flicker"), flickerOf(2, 7));
+    EXPECT_EQ(
+        second[2].record.picture.metrics.at("fixedPower"),
+        computeFixedPower(
+            computeFineError(makePicture(2), makePicture(1)),
+            computeFineError(makePicture(7), makePicture(5))
+        )
+    );
+}
+
+TEST(FrameJudge, GoesOnFromPicturesAsFromAFrameThatItJudged) {
+    FrameJudge whole;
+    judge(whole, {makeFrame("truth", 1), makeFrame("gather/15", 2)});
+    FrameJudge resumed;
+    resumed.goOnFrom("truth", {{"truth", makePicture(1)}, {"gather/15", makePicture(2)}});
+    const auto a = judge(whole, {makeFrame("truth", 3), makeFrame("gather/15", 4)});
+    const auto b = judge(resumed, {makeFrame("truth", 3), makeFrame("gather/15", 4)});
+    EXPECT_TRUE(a[1].record.picture.metrics.contains("fixedPower"));
+    EXPECT_EQ(a[1].record.picture.metrics, b[1].record.picture.metrics);
+}
+
+TEST(FrameJudge, HdrFlipIsOfLinearPicturesWhereBothAreThere) {
+    std::vector<FramePicture> pictures = {makeFrame("truth", 1), makeFrame("gather/15", 2)};
+    pictures[1].linear = makePicture(4);
+    FrameJudge frames;
+    EXPECT_FALSE(listIds(judge(frames, pictures)[1]).contains("hdrFlip"));
+    pictures[0].linear = makePicture(3);
+    const auto judged = judge(frames, pictures);
+    EXPECT_EQ(
+        judged[1].record.picture.metrics.at("hdrFlip"),
+        image::computeHdrFlip(makePicture(4), makePicture(3)).mean
+    );
+    EXPECT_FALSE(listIds(judged[0]).contains("hdrFlip"));
+}
+
+TEST(FrameJudge, WritesItsPicturesOrSaysWhyNot) {
+    const test::TempFolder folder;
+    std::vector<FramePicture> pictures = {makeFrame("truth", 1), makeFrame("gather/15", 2)};
+    pictures[0].file = folder.path() / "truth.png";
+    FrameJudge frames;
+    judge(frames, pictures);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "truth.png"));
+    pictures[1].file = folder.path() / "none" / "gather.png";
+    const core::Status judged = frames.judge(pictures);
+    ASSERT_FALSE(judged);
+    EXPECT_NE(judged.error().message.find("gather.png"), std::string::npos);
+}
+
+TEST(CachedTruth, IsTakenWhereBothPicturesAreOfTheCasesSize) {
+    const test::TempFolder folder;
+    const TruthFiles files = nameTruthFiles(folder.path(), "truth");
+    EXPECT_FALSE(readCachedTruth(nameTruthFiles("", "truth"), 4, 3));
+    EXPECT_FALSE(readCachedTruth(files, 4, 3));
+    TruthPictures drawn{image::Image(4, 3, 3), image::Image(4, 3, 3)};
+    drawn.linear.at(3, 2, 1) = 40.5f;
+    ASSERT_TRUE(writeTruth(files, drawn));
+    const auto truth = readCachedTruth(files, 4, 3);
+    ASSERT_TRUE(truth);
+    EXPECT_EQ(truth->display.pixels.size(), 36u);
+    EXPECT_EQ(truth->linear.at(3, 2, 1), 40.5f);
+    // One without the other is what a run leaves that was killed between them.
+    std::filesystem::remove(files.linear);
+    EXPECT_FALSE(readCachedTruth(files, 4, 3));
+}
+
+TEST(CachedTruth, AnythingElseCountsAsNoneAndIsNamed) {
+    const test::TempFolder folder;
+    const TruthFiles files = nameTruthFiles(folder.path(), "truth");
+    const image::Image good(4, 3, 3);
+    const auto expectNone = [&](const std::filesystem::path& file, const char* mention) {
+        testing::internal::CaptureStderr();
+        EXPECT_FALSE(readCachedTruth(files, 4, 3)) << file;
+        const std::string told = testing::internal::GetCapturedStderr();
+        EXPECT_NE(told.find(file.filename().string()), std::string::npos) << told;
+        EXPECT_NE(told.find(mention), std::string::npos) << told;
+    };
+    for (const std::filesystem::path& file : {files.display, files.linear}) {
+        ASSERT_TRUE(writeTruth(files, {good, good}));
+        std::ignore = folder.write(file.filename().string(), "\x89PNG\r\n\x1A\n...");
+        expectNone(file, "cannot read");
+        ASSERT_TRUE(io::writeImage(file, image::Image(5, 3, 3)));
+        expectNone(file, "is 5x3");
+        ASSERT_TRUE(io::writeImage(file, image::Image(4, 3, 1)));
+        expectNone(file, "with 1 channel,");
+        std::filesystem::remove(file);
+        std::filesystem::create_directory(file);
+        expectNone(file, "it is not a file");
+        std::filesystem::remove(file);
+    }
+}
+
+} // namespace
 } // namespace shutter::bench

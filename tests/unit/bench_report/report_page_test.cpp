@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: MIT
+// The page of a report, its template, its pictures and their encoding.
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
+#include "engine/io/uri.h"
+#include "game/bench/report/page_pictures.h"
+#include "game/bench/report/page_template.h"
 #include "game/bench/report/report_page.h"
+#include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shutter::bench {
-
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
+
+namespace fs = std::filesystem;
 
 /// The least that a page is made of, with one picture.
 json makeResults() {
@@ -32,16 +39,8 @@ class ReportPage : public ::testing::Test {
     void SetUp() override {
         if (const core::Status possible = checkReportPageCanBeMade(); !possible)
             GTEST_SKIP() << possible.error().message;
-        const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-        mFolder = fs::path(::testing::TempDir()) / (std::string("report_page_") + info->name());
-        fs::remove_all(mFolder);
         fs::create_directories(mFolder / "images");
         ASSERT_TRUE(io::writeImage(mFolder / "images/truth.png", image::Image(8, 8, 3)));
-    }
-
-    void TearDown() override {
-        if (!mFolder.empty())
-            fs::remove_all(mFolder);
     }
 
     void write(const char* name, std::string_view text) const {
@@ -60,14 +59,13 @@ class ReportPage : public ::testing::Test {
         return status ? "(accepted)" : status.error().message;
     }
 
-    fs::path mFolder;
+    const test::TempFolder mTemporary;
+    const fs::path mFolder = mTemporary.path();
 };
 
 bool contains(std::string_view text, std::string_view part) {
     return text.find(part) != std::string_view::npos;
 }
-
-} // namespace
 
 TEST_F(ReportPage, HoldsTheResultsThePicturesAndTheLibrary) {
     json results = makeResults();
@@ -156,4 +154,181 @@ TEST_F(ReportPage, RefusesAResultsFileThatIsNestedWithoutEnd) {
     EXPECT_FALSE(fs::exists(mFolder / "index.html"));
 }
 
+TEST(FillPage, PutsEachValueInEachOfItsPlaces) {
+    const auto filled = fillPage("{ } <{{a}}>{{b}}{{a}}", {{"a", "one"}, {"b", ""}});
+    ASSERT_TRUE(filled.ok());
+    EXPECT_EQ(filled.value(), "{ } <one>one");
+}
+
+TEST(FillPage, DoesNotSearchWhatItPutIn) {
+    const auto filled = fillPage("{{a}} {{b}}", {{"a", "{{b}} }} {{"}, {"b", "two"}});
+    ASSERT_TRUE(filled.ok());
+    EXPECT_EQ(filled.value(), "{{b}} }} {{ two");
+}
+
+TEST(FillPage, RefusesAPlaceWithoutAValueAndAValueWithoutAPlace) {
+    const auto unknown = fillPage("{{a}}{{missing}}", {{"a", "x"}});
+    ASSERT_FALSE(unknown.ok());
+    EXPECT_NE(unknown.error().message.find("'missing'"), std::string::npos);
+    const auto unused = fillPage("{{a}}", {{"a", "x"}, {"extra", "y"}});
+    ASSERT_FALSE(unused.ok());
+    EXPECT_NE(unused.error().message.find("'extra'"), std::string::npos);
+    EXPECT_FALSE(fillPage("{{a}} {{a", {{"a", "x"}}).ok()) << "it does not end";
+}
+
+TEST(EscapeForScript, LeavesNothingThatEndsTheElementOrTheLine) {
+    const nlohmann::json value = {
+        {"a", "</script><!-- </SCRIPT \xE2\x80\xA8 and \xE2\x80\xA9 <b>"},
+        {"</key>", "\xE2\x80\x9C quoted \xE2\x80\x9D \xE2\x80"}}; // cut short: not UTF-8
+    const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string escaped = escapeForScript(text);
+    EXPECT_EQ(escaped.find('<'), std::string::npos);
+    EXPECT_EQ(escaped.find("\xE2\x80\xA8"), std::string::npos);
+    EXPECT_EQ(escaped.find("\xE2\x80\xA9"), std::string::npos);
+    EXPECT_NE(escaped.find("\xE2\x80\x9C"), std::string::npos) << "other characters stay";
+    EXPECT_EQ(nlohmann::json::parse(escaped), nlohmann::json::parse(text));
+}
+
+TEST(EscapeForScript, EndsWithItsText) {
+    EXPECT_EQ(escapeForScript(""), "");
+    EXPECT_EQ(escapeForScript("\xE2\x80"), "\xE2\x80");
+    EXPECT_EQ(escapeForScript("\xE2\x80\xA8"), "\\u2028");
+    EXPECT_EQ(escapeForScript("\xE2\x80\xA9"), "\\u2029");
+}
+
+/// Noise: no two parts are alike.
+image::Image makeNoise(uint32_t width, uint32_t height) {
+    image::Image picture(width, height, 3);
+    uint32_t state = width;
+    for (float& value : picture.pixels) {
+        state = state * 1664525u + 1013904223u;
+        value = float(state >> 8) / float(1 << 24);
+    }
+    return picture;
+}
+
+/// A case of a truth and two measurements, with two crops, and a row at equal time that shows the
+/// picture of another sample count.
+class PagePicturesTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        for (const char* name : {"truth", "a", "a.flip", "b", "b.flip", "rival"})
+            ASSERT_TRUE(io::writeImage(path(name), makeNoise(kWidth, kHeight)));
+        const auto measurement = [](const std::string& name) {
+            return json{{"image", name + ".png"}, {"errorMap", name + ".flip.png"}};
+        };
+        mResults = {
+            {"cases",
+             {{{"name", "spin"},
+               {"truth", {{"image", "truth.png"}}},
+               {"crops",
+                {{{"x", 8}, {"y", 4}, {"width", 32}, {"height", 24}, {"label", "first"}},
+                 {{"x", 60}, {"y", 30}, {"width", 32}, {"height", 24}, {"label", "second"}}}},
+               {"measurements", {measurement("a"), measurement("b")}}}}},
+            {"equalTime",
+             {{{"case", "spin"}, {"rows", {{{"image", "rival.png"}}, {{"image", "a.png"}}}}}}}};
+    }
+
+    [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+        return mFolder.path() / (name + ".png");
+    }
+
+    [[nodiscard]] json encode() const {
+        auto encoded = encodePictures(mResults, mFolder.path());
+        EXPECT_TRUE(encoded) << encoded.error().message;
+        return encoded ? encoded.value() : json();
+    }
+
+    [[nodiscard]] std::string refusal() const {
+        const auto encoded = encodePictures(mResults, mFolder.path());
+        return encoded ? "(accepted)" : encoded.error().message;
+    }
+
+    static constexpr uint32_t kWidth = 128;
+    static constexpr uint32_t kHeight = 96;
+    test::TempFolder mFolder;
+    json mResults;
+};
+
+bool contains(const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST_F(PagePicturesTest, WholePicturesAreJpegAndCropsAreThePixelsOfTheFile) {
+    const json files = encode();
+    EXPECT_EQ(files.at("whole").size(), 5u);
+    for (const json& uri : files.at("whole"))
+        EXPECT_TRUE(uri.get<std::string>().starts_with("data:image/jpeg;base64,"));
+    EXPECT_FALSE(files.at("parts").contains("a.flip.png"));
+    const json& parts = files.at("parts").at("a.png");
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_EQ(parts.at(1).at("x"), 60);
+    EXPECT_EQ(parts.at(1).at("y"), 30);
+    const auto stored = io::readImage(path("a"));
+    ASSERT_TRUE(stored);
+    image::Image expected(32, 24, 3);
+    expected.channelNames = stored.value().channelNames;
+    for (uint32_t y = 0; y < 24; ++y)
+        for (uint32_t x = 0; x < 32; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                expected.at(x, y, c) = stored.value().at(60 + x, 30 + y, c);
+    const auto bytes = io::encodeImage("a.png", expected);
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(parts.at(1).at("uri"), "data:image/png;base64," + encodeBase64(bytes.value()));
+}
+
+TEST_F(PagePicturesTest, OfARivalAtEqualTimeOnlyTheFirstCropIsThere) {
+    const json files = encode();
+    EXPECT_FALSE(files.at("whole").contains("rival.png"));
+    const json& parts = files.at("parts").at("rival.png");
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts.at(0).at("x"), 8);
+    EXPECT_EQ(parts.at(0).at("width"), 32);
+    // A case without crops shows none of it.
+    mResults["cases"][0].erase("crops");
+    EXPECT_FALSE(encode().at("parts").contains("rival.png"));
+}
+
+TEST_F(PagePicturesTest, RefusesCropsThatAreNoneOrLeaveThePicture) {
+    json& crop = mResults["cases"][0]["crops"][0];
+    crop["x"] = kWidth - 31;
+    EXPECT_TRUE(contains(refusal(), "leaves")) << refusal();
+    EXPECT_TRUE(contains(refusal(), "which is 128x96")) << refusal();
+    crop["x"] = 4294967295u;
+    EXPECT_TRUE(contains(refusal(), "leaves")) << refusal();
+    for (const json& bad : {json(-1), json("1"), json(1.5), json(4294967296u), json()}) {
+        crop["x"] = bad;
+        EXPECT_TRUE(contains(refusal(), "a crop of the case 'spin' has no 'x'")) << bad;
+    }
+    crop["x"] = 0;
+    crop["height"] = 0;
+    EXPECT_TRUE(contains(refusal(), "has no 'height' of 1 or more")) << refusal();
+    mResults["cases"][0]["crops"][0] = "all";
+    EXPECT_TRUE(contains(refusal(), "a crop of the case 'spin'")) << refusal();
+}
+
+std::string encodeText(std::string_view text) {
+    return encodeBase64({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+// RFC 4648, section 10.
+TEST(EncodeBase64, AgreesWithTheVectorsOfTheStandard) {
+    EXPECT_EQ(encodeText(""), "");
+    EXPECT_EQ(encodeText("f"), "Zg==");
+    EXPECT_EQ(encodeText("fo"), "Zm8=");
+    EXPECT_EQ(encodeText("foo"), "Zm9v");
+    EXPECT_EQ(encodeText("foob"), "Zm9vYg==");
+    EXPECT_EQ(encodeText("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(encodeText("foobar"), "Zm9vYmFy");
+}
+
+TEST(EncodeBase64, ComesBackThroughTheDecoder) {
+    std::vector<uint8_t> bytes(256);
+    std::iota(bytes.begin(), bytes.end(), uint8_t(0));
+    const auto decoded = io::decodeDataUri("data:image/png;base64," + encodeBase64(bytes));
+    ASSERT_TRUE(decoded.ok());
+    EXPECT_EQ(decoded.value(), bytes);
+}
+
+} // namespace
 } // namespace shutter::bench

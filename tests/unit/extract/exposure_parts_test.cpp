@@ -15,7 +15,6 @@
 namespace shutter::extract {
 namespace {
 
-using math::dvec3;
 using math::vec4;
 using scene::AnimationPath;
 using scene::Interpolation;

@@ -14,8 +14,6 @@
 namespace shutter::extract {
 namespace {
 
-using math::dmat4;
-using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 

@@ -17,7 +17,6 @@
 namespace shutter::extract {
 namespace {
 
-using math::dmat3;
 using math::dmat4;
 using math::dvec3;
 using math::dvec4;

@@ -15,7 +15,6 @@
 namespace shutter::scene {
 namespace {
 
-using math::dquat;
 using math::dvec3;
 using math::dvec4;
 using math::vec4;

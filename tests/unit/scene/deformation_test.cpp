@@ -18,7 +18,6 @@ namespace {
 
 using math::Bounds;
 using math::dmat4;
-using math::dquat;
 using math::dvec3;
 using math::dvec4;
 using math::vec3;

@@ -16,7 +16,6 @@ namespace shutter::scene {
 namespace {
 
 using math::dmat4;
-using math::dquat;
 using math::dvec3;
 using math::dvec4;
 using math::vec4;

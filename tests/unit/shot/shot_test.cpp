@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+// What is drawn: clips, instants, methods and which passes count as theirs.
 #include "game/shot/clips.h"
+#include "game/shot/instants.h"
+#include "game/shot/methods.h"
 #include "game/shot/shot.h"
 
 #include <gtest/gtest.h>
 
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +17,7 @@
 namespace shutter::game {
 namespace {
 
+using render::PassOwner;
 using scene::AnimationPath;
 
 class Clips : public testing::Test {
@@ -195,6 +200,79 @@ TEST_F(Clips, AFlightTakesTheClipThatMovesACameraAndRestsTheOthersOfIt) {
     const auto missing = chooseClipCamera(mWorld, mOptions);
     ASSERT_FALSE(missing);
     expectContains(missing.error().message, "(0 without a name, 1 'take', 2 'take')");
+}
+
+TEST(Instants, AStillFrameTakesOne) {
+    const InstantChoice choice = chooseInstants({}, 1.0, 1024);
+    EXPECT_EQ(choice.count, 1u);
+    EXPECT_EQ(choice.reason, "nothing moves");
+}
+
+TEST(Instants, TheyAreNoFartherApartThanTheStep) {
+    EXPECT_EQ(chooseInstants({10.0, false}, 1.0, 1024).count, 10u);
+    EXPECT_EQ(chooseInstants({10.1, false}, 1.0, 1024).count, 11u);
+    EXPECT_EQ(chooseInstants({10.0, false}, 4.0, 1024).count, 3u);
+    EXPECT_EQ(chooseInstants({0.2, false}, 1.0, 1024).count, 1u);
+}
+
+TEST(Instants, MostLimitsThemAndTheStepTells) {
+    const InstantChoice choice = chooseInstants({1000.0, false}, 1.0, 100);
+    EXPECT_EQ(choice.count, 100u);
+    EXPECT_DOUBLE_EQ(choice.stepPx, 10.0);
+    EXPECT_EQ(chooseInstants({1.0e300, false}, 1.0e-3, 100).count, 100u);
+    EXPECT_EQ(chooseInstants({std::numeric_limits<double>::infinity(), false}, 1.0, 7).count, 7u);
+}
+
+TEST(Instants, AMovingLightTakesSomeWhereNoPointMoves) {
+    const InstantChoice choice = chooseInstants({0.0, true}, 1.0, 1024);
+    EXPECT_EQ(choice.count, kLeastInstantsOfLight);
+    EXPECT_EQ(choice.reason, "only light moves");
+    EXPECT_EQ(chooseInstants({0.0, true}, 1.0, 4).count, 4u);
+}
+
+TEST(Methods, EachIsFoundByItsOwnNameAndASampleUnitHasADefault) {
+    for (const MethodInfo& method : listMethods()) {
+        const auto found = findMethod(method.name);
+        ASSERT_TRUE(found.ok());
+        EXPECT_EQ(found.value(), &method);
+        EXPECT_FALSE(std::string(method.description).empty());
+        EXPECT_EQ(method.sampleUnit.has_value(), method.defaultSamples != 0) << method.name;
+    }
+}
+
+TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+    const auto found = findMethod("nosuch");
+    ASSERT_FALSE(found.ok());
+    for (const char* part :
+         {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate", "truth"})
+        EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
+}
+
+TEST(PassGroups, AMethodPaysForItsRaysItsEffectAndASceneThatItDrawsAnew) {
+    for (const MethodInfo& method : listMethods()) {
+        const std::string name = method.name;
+        const bool isSharp = name == "sharp";
+        const bool drawsAnew = name == "accumulate" || name == "truth";
+        const PassGroup blur = isSharp ? PassGroup::Scene : PassGroup::Blur;
+        EXPECT_EQ(groupOf(method, PassOwner::Scene), drawsAnew ? PassGroup::Blur : PassGroup::Scene)
+            << name;
+        EXPECT_EQ(groupOf(method, PassOwner::Rays), blur) << name;
+        EXPECT_EQ(groupOf(method, PassOwner::Effect), blur) << name;
+        EXPECT_EQ(groupOf(method, PassOwner::Display), PassGroup::Display) << name;
+    }
+}
+
+TEST(PassGroups, SumsCountEachPassOnce) {
+    render::FrameStatistics frame;
+    frame.passes = {
+        {{"deform meshes", 1.0}, PassOwner::Scene},
+        {{"build TLAS", 2.0}, PassOwner::Rays},
+        {{"G-buffer", 4.0}, PassOwner::Scene},
+        {{"gather", 8.0}, PassOwner::Effect},
+        {{"tone map", 16.0}, PassOwner::Display}};
+    EXPECT_EQ(sumBlurMilliseconds(*findMethod("hybrid").value(), frame), 10.0);
+    EXPECT_EQ(sumBlurMilliseconds(*findMethod("accumulate").value(), frame), 15.0);
+    EXPECT_EQ(sumFrameMilliseconds(frame), 15.0);
 }
 
 } // namespace
