@@ -45,7 +45,9 @@ struct NumberRange {
 
 /// One field of `Owner`.
 template <class Owner> struct SettingRow {
-    const char* name; ///< the field's, in JSON and --set as in C++
+    /// The field's in JSON and --set, as in C++; with its struct's name where a file holds the
+    /// fields of several structs in one object ("bloomShare").
+    const char* name;
     std::
         variant<bool Owner::*, uint32_t Owner::*, float Owner::*, double Owner::*, WordField<Owner>>
             field;
@@ -177,6 +179,19 @@ template <class Owner>
     const SettingRow<Owner>* row = findRow(rows, name);
     SHUTTER_CHECK(row, "there is no row {}", name);
     return *row;
+}
+
+/// Sets the row's field of `to` to that of `from`.
+template <class Owner> void copyValue(const SettingRow<Owner>& row, const Owner& from, Owner& to) {
+    std::visit(
+        [&](const auto& field) {
+            if constexpr (requires { to.*field; })
+                to.*field = from.*field;
+            else
+                field.set(to, field.get(from));
+        },
+        row.field
+    );
 }
 
 /// True if both have the same values in all rows.

@@ -7,6 +7,7 @@
 #include "engine/environment/prefilter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -19,11 +20,7 @@ using core::makeError;
 constexpr float kMostHalf = 65504.0f;
 
 core::Status validate(const image::Image& picture, const EnvironmentSettings& settings) {
-    // Written so that NaN fails.
-    if (!(settings.intensity >= 0.0 && settings.intensity <= 1000.0))
-        return makeError("an intensity of {} must lie in [0, 1000]", settings.intensity);
-    if (!(std::abs(settings.rotationDegrees) <= 360.0))
-        return makeError("a rotation of {} must lie in [-360, 360]", settings.rotationDegrees);
+    SHUTTER_TRY(core::validateRows(listEnvironmentRows(), settings, ""));
     if (picture.width < kLeastPictureWidth || picture.width > kMostPictureWidth)
         return makeError(
             "it is {} wide; an environment is {} to {}",
@@ -78,6 +75,27 @@ scene::Environment gather(const image::Image& background, const image::Image& li
 }
 
 } // namespace
+
+core::SettingRows<EnvironmentSettings> listEnvironmentRows() {
+    using S = EnvironmentSettings;
+    static const std::array<core::SettingRow<S>, 2> kRows = {{
+        {"environmentIntensity",
+         &S::intensity,
+         "x",
+         {.lowest = 0, .highest = 1000},
+         "Factor of the light of --environment or --sky.",
+         "Light of the surroundings",
+         "--environment-intensity"},
+        {"environmentRotation",
+         &S::rotationDegrees,
+         "degrees",
+         {.lowest = -360, .highest = 360},
+         "Turns the environment to the left.",
+         "Turn of the surroundings",
+         "--environment-rotation"},
+    }};
+    return kRows;
+}
 
 core::Result<scene::Environment>
 makeEnvironment(image::Image picture, const EnvironmentSettings& settings) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 #include "engine/environment/sky_model.h"
 #include "engine/image/image.h"
 #include "engine/scene/environment.h"
@@ -21,8 +22,11 @@ inline constexpr uint32_t kSkyWidth = 2048;
 
 struct EnvironmentSettings {
     double intensity = 1.0;       ///< factor of the picture, [0, 1000]
-    double rotationDegrees = 0.0; ///< about +Y: positive turns the surroundings to the left
+    double rotationDegrees = 0.0; ///< about +Y, [-360, 360]: positive turns the surroundings left
 };
+
+/// Names, ranges and options of EnvironmentSettings.
+[[nodiscard]] core::SettingRows<EnvironmentSettings> listEnvironmentRows();
 
 /// \param picture linear, equirectangular, twice as wide as high; one channel is grey, more than
 /// three are not looked at. Negative values and NaN count as 0, and what half floats cannot hold as

@@ -371,20 +371,6 @@ class Planner {
 
 } // namespace
 
-core::Status validate(const ShadowSettings& settings) {
-    if (settings.mapSize < 64 || settings.mapSize > 8192 || settings.mapSize % 64 != 0)
-        return core::makeError(
-            "shadows: mapSize is {}, it must be 64 to 8192 and a multiple of 64", settings.mapSize
-        );
-    if (!(settings.distance >= 0.0 && std::isfinite(settings.distance))) // NaN too
-        return core::makeError(
-            "shadows: distance is {}, it must be 0 or more and finite", settings.distance
-        );
-    if (settings.instants < 1 || settings.instants > 64)
-        return core::makeError("shadows: instants is {}, it must be 1 to 64", settings.instants);
-    return {};
-}
-
 ShadowPlan planShadows(
     const scene::World& world,
     const SceneLayout& layout,

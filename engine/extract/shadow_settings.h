@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 
 #include <cstdint>
 
@@ -19,14 +19,14 @@ struct ShadowSettings {
     /// directional light and of a spot's map. The six of a point light have half of it, a mover's
     /// layer a quarter.
     uint32_t mapSize = 1024;
-    /// How far from the camera directional lights cast shadows, metres, 0 or more; 0: as far as the
+    /// How far from the camera directional lights cast shadows, metres, [0, 1e6]; 0: as far as the
     /// scene reaches.
     double distance = 0.0;
     /// Instants of the exposure that a moving shadow is the mean of, [1, 64].
     uint32_t instants = 16;
 };
 
-/// One sentence where a setting is out of its range.
-[[nodiscard]] core::Status validate(const ShadowSettings& settings);
+/// Names, ranges and options of ShadowSettings.
+[[nodiscard]] core::SettingRows<ShadowSettings> listShadowRows();
 
 } // namespace shutter::extract

@@ -59,6 +59,14 @@ void readRow(const JsonNode& node, const core::SettingRow<Owner>& row, Owner& ow
         readNumber(node, row, owner);
 }
 
+/// Reads the rows' fields that the object has. \param object of a readObject() with their names
+template <class Owner>
+void readRows(const JsonObject& object, core::SettingRows<Owner> rows, Owner& owner) {
+    for (const core::SettingRow<Owner>& row : rows)
+        if (const auto value = object.find(row.name))
+            readRow(*value, row, owner);
+}
+
 /// Reads the rows' fields that the object has. Returns the object, which may also have the fields
 /// named `more`; these are not read.
 template <class Owner>
@@ -72,9 +80,7 @@ JsonObject readRows(
     for (const core::SettingRow<Owner>& row : rows)
         names.push_back(row.name);
     const JsonObject object = node.readObject(std::span<const std::string_view>(names));
-    for (const core::SettingRow<Owner>& row : rows)
-        if (const auto value = object.find(row.name))
-            readRow(*value, row, owner);
+    readRows(object, rows, owner);
     return object;
 }
 

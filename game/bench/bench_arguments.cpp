@@ -164,7 +164,11 @@ void defineBenchOptions(CLI::App& command, BenchArguments& arguments) {
     kSizeRow.define(command, kSizeRow, arguments.shot);
     game::defineDeviceOptions(command, arguments.device);
     const std::vector<CLI::Option*> before = command.get_options();
+    game::defineSceneOptions(command, arguments.shot);
     game::defineShotOptions(command, arguments.shot);
+    // Its pictures are those of the methods alone.
+    for (const char* name : {"--aa", "--bloom", "--bloom-threshold", "--bloom-knee"})
+        command.remove_option(command.get_option(name));
     for (CLI::Option* option : command.get_options())
         // How a suite's shots are lit is the only thing that is left open.
         if (option->get_name() != "--unlit" &&

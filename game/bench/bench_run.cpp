@@ -102,8 +102,8 @@ class BenchRun {
             {"limitSeconds", mOptions.limitSeconds},
             {"pixel", mShot.pixel == extract::PixelModel::Box ? "box" : "centre"},
             {"tonemap",
-             mShot.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
-                                                            : "sRGB"}};
+             mShot.picture.tonemap.op == tonemap::Operator::Neutral ? "Khronos PBR Neutral, sRGB"
+                                                                    : "sRGB"}};
         if (!mSuite.sequences.empty()) {
             mRoot["sequences"] = json::array();
             mRoot["temporalMetrics"] = describeTemporalMetrics();

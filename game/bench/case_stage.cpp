@@ -98,7 +98,7 @@ Status CaseStage::load() {
         return loaded.error();
     mShot = std::move(loaded.value());
     mRenderer = std::make_unique<render::Renderer>(mDevice, mShot.world.assets);
-    mTonemap.emplace(mDevice, mShotOptions.tonemap);
+    mTonemap.emplace(mDevice, mShotOptions.picture.tonemap);
     return {};
 }
 

@@ -53,7 +53,7 @@ SequencePass::SequencePass(
     fs::path folder
 )
     : mDevice(device), mSource(source), mPlan(plan), mCamera(camera), mFolder(std::move(folder)),
-      mRenderer(device, source.world().assets), mTonemap(device, source.options().tonemap) {
+      mRenderer(device, source.world().assets), mTonemap(device, source.options().picture.tonemap) {
     const SamplePoint most{game::findMethod("accumulate").value(), truth.mostInstants, false};
     mEachFrame.push_back({std::string(kTruthKey), makeMethodOptions(most), Judgement::Whole});
     mEachFrame.front().options.maxStepPx = truth.maxStepPx;

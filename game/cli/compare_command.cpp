@@ -6,8 +6,8 @@
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/compare_pictures.h"
+#include "game/options/option_rows.h"
 #include "game/options/program.h"
-#include "game/options/shot_arguments.h"
 #include "modules/tonemap/tonemap.h"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace shutter::game {
@@ -31,11 +32,16 @@ struct CompareArguments {
     std::string a;
     std::string b;
     std::string out;
-    std::string map;       ///< empty: flip where both are display values, else difference
-    ShotArguments display; ///< --tonemap and --ev
+    std::string map; ///< empty: flip where both are display values, else difference
+    tonemap::TonemapSettings tonemap{};
+    std::set<std::string> typed; ///< options of `tonemap`
     bool linear = false;
     bool json = false;
 };
+
+std::string describeOperator(const tonemap::TonemapSettings& settings) {
+    return core::describeValue(core::getRow(tonemap::listTonemapRows(), "tonemap"), settings);
+}
 
 struct Metrics {
     double psnrDb = 0.0; ///< infinity: equal
@@ -124,7 +130,7 @@ std::string describeValues(const Comparison& pictures, const Metrics& metrics) {
         return "display values as stored";
     std::string text = fmt::format(
         "display values, tone map {}, EV {:g}",
-        kTonemapWords[static_cast<size_t>(pictures.tonemap.op)],
+        describeOperator(pictures.tonemap),
         pictures.tonemap.exposureValue
     );
     if (!both)
@@ -143,7 +149,7 @@ nlohmann::json describeTonemap(const Comparison& pictures) {
     if (applied.empty())
         return {};
     return {
-        {"operator", kTonemapWords[static_cast<size_t>(pictures.tonemap.op)]},
+        {"operator", describeOperator(pictures.tonemap)},
         {"ev", pictures.tonemap.exposureValue},
         {"applied_to", applied}};
 }
@@ -202,12 +208,12 @@ writeMap(const CompareArguments& arguments, const Comparison& pictures, const Me
     );
 }
 
-core::Status
-runCompare(const CompareArguments& arguments, const tonemap::TonemapSettings& tonemap) {
+core::Status runCompare(const CompareArguments& arguments) {
     if (!arguments.out.empty())
         if (core::Status writable = io::checkWritable(arguments.out); !writable)
             return core::makeError("--out: {}", writable.error().message);
-    const auto pictures = readComparison(arguments.a, arguments.b, arguments.linear, tonemap);
+    const auto pictures =
+        readComparison(arguments.a, arguments.b, arguments.linear, arguments.tonemap);
     if (!pictures)
         return pictures.error();
     SHUTTER_TRY(checkMap(arguments, pictures.value()));
@@ -244,8 +250,11 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
         arguments->linear,
         "compare values as stored, whatever their size, without tone mapping"
     );
-    for (CLI::Option* option : defineTonemapOptions(*command, arguments->display))
-        option->excludes(linear);
+    defineSettingOptions(
+        *command, tonemap::listTonemapRows(), arguments->tonemap, arguments->typed
+    );
+    for (const auto& row : tonemap::listTonemapRows())
+        command->get_option(row.option)->excludes(linear);
     command->callback([arguments, &exitStatus] {
         const auto fail = [&](int status, const core::Error& error) {
             printError(error);
@@ -253,10 +262,7 @@ void addCompareCommand(CLI::App& app, int& exitStatus) {
         };
         if (const core::Status sensible = checkArguments(*arguments); !sensible)
             return fail(kExitUsage, sensible.error());
-        const auto tonemap = interpretTonemap(arguments->display);
-        if (!tonemap)
-            return fail(kExitUsage, tonemap.error());
-        if (const core::Status done = runCompare(*arguments, tonemap.value()); !done)
+        if (const core::Status done = runCompare(*arguments); !done)
             return fail(kExitFailed, done.error());
         exitStatus = kExitDone;
     });

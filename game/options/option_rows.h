@@ -210,17 +210,23 @@ makeOptionalWordRow(const char* name, const char* help, Matters matters = Matter
 
 /// Adds the options that setting rows name; a switch is "on" or "off".
 /// \param typed gets the names of the options that were typed
+/// \param defaults in the help, in place of the owner's values
 template <class Owner>
 void defineSettingOptions(
-    CLI::App& command, core::SettingRows<Owner> rows, Owner& owner, std::set<std::string>& typed
+    CLI::App& command,
+    core::SettingRows<Owner> rows,
+    Owner& owner,
+    std::set<std::string>& typed,
+    const std::string& defaults = {}
 ) {
     for (const core::SettingRow<Owner>& row : rows) {
         if (*row.option == '\0')
             continue;
         const auto* isOn = std::get_if<bool Owner::*>(&row.field);
         const std::string values = isOn ? "on or off" : core::describeValues(row);
-        const std::string fallback =
-            isOn ? (owner.**isOn ? "on" : "off") : core::describeValue(row, owner);
+        const std::string fallback = !defaults.empty() ? defaults
+                                     : isOn            ? (owner.**isOn ? "on" : "off")
+                                                       : core::describeValue(row, owner);
         const auto parse = [&row, &owner, &typed, isOn](const std::string& text) -> core::Status {
             typed.insert(row.option);
             if (!isOn)

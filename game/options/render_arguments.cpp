@@ -226,7 +226,7 @@ Status interpretPart(
             "--budget makes a frame depend on how fast those before were drawn, which parts do not "
             "share"
         );
-    if (count > 1 && shot.antiAliasing == AntiAliasing::Taa)
+    if (count > 1 && shot.picture.antiAliasing == AntiAliasing::Taa)
         return makeError(
             "--aa taa makes a frame depend on all before it, which parts do not share: use --aa box"
         );
@@ -281,7 +281,10 @@ void defineRenderOptions(CLI::App& command, RenderArguments& a) {
             "output: .exr (linear), .png or .jpg; %04d for sequences; .mp4 or .mov (needs ffmpeg)"
         )
         ->required();
+    defineSceneOptions(command, a.shot);
     defineShotOptions(command, a.shot);
+    defineSizeOption(command, a.shot);
+    defineFlythroughOption(command, a.shot);
     defineFrameOptions(command, a.shot);
     defineMethodOptions(command, a.method);
     defineRows(command, OptionRows<O>(kOutputRows), a.output);
@@ -303,7 +306,7 @@ core::Status checkPixel(const ShotOptions& shot, const MethodInfo& method) {
 }
 
 core::Status checkAntiAliasing(const ShotOptions& shot, const MethodInfo& method) {
-    if (shot.antiAliasing == AntiAliasing::None || !isSampledAnyway(method))
+    if (shot.picture.antiAliasing == AntiAliasing::None || !isSampledAnyway(method))
         return {};
     if (method.family == MethodFamily::MotionBlur)
         return makeError(

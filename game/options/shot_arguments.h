@@ -10,8 +10,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -25,7 +25,6 @@ struct ShotArguments {
     std::string scene;
     bool allowOutside = false;
     std::string camera;
-    extract::FrameFit frameFit = extract::FrameFit::Whole;
     std::optional<double> framingTime; ///< seconds; else that of the first frame drawn
     double time = 0.0;
     std::string frames;
@@ -36,45 +35,34 @@ struct ShotArguments {
     ShutterArguments shutter;
     extract::PixelModel pixel = extract::PixelModel::Centre;
     uint32_t seed = 0;
-    AntiAliasing antiAliasing = AntiAliasing::None;
     PictureSize size{1280, 720};
     bool unlit = false;
     math::vec3 background{0.18f};
     math::vec3 ambient{0.25f};
     std::string environment; ///< file; empty: none
-    double environmentIntensity = environment::EnvironmentSettings{}.intensity;
-    double environmentRotation = 0.0; ///< degrees
-    double sky = 0.0;                 ///< turbidity; 0: no sky
-    float bloom = 0.0f;               ///< share of the light of highlights
-    float bloomThreshold = bloom::BloomSettings().threshold;
-    float bloomKnee = bloom::BloomSettings().knee;
-    extract::ShadowMode shadows = extract::ShadowMode::None;
-    uint32_t shadowMapSize = extract::ShadowSettings{}.mapSize;
-    double shadowDistance = 0.0;
-    uint32_t shadowInstants = extract::ShadowSettings{}.instants;
-    double exposureValue = 0.0;
-    tonemap::Operator tonemap = tonemap::Operator::Neutral;
+    environment::EnvironmentSettings surroundings{};
+    std::optional<double> sky; ///< turbidity; 0: no sky, not even a demo's own
+    PictureSettings picture{};
+    std::set<std::string> typed; ///< options of `surroundings` and `picture` that were typed
 };
 
-/// Words of --tonemap.
-inline constexpr std::string_view kTonemapWords[] = {"none", "neutral"};
-
-/// The options that every shot has; not those of `shutter render` alone (defineFrameOptions).
+/// What is drawn and what it looks like: the options of every command that draws a scene.
+/// \param defaults of `arguments.picture`, in the help; empty: its values
+void defineSceneOptions(
+    CLI::App& command, ShotArguments& arguments, const std::string& defaults = {}
+);
+/// When a picture is taken, and of which pixels: --time, the shutter's options, --pixel, --unlit.
 void defineShotOptions(CLI::App& command, ShotArguments& arguments);
-/// --allow-outside, which defineShotOptions() includes.
-void defineOutsideOption(CLI::App& command, ShotArguments& arguments);
-/// --tonemap and --ev, which defineShotOptions() includes.
-std::vector<CLI::Option*> defineTonemapOptions(CLI::App& command, ShotArguments& arguments);
-/// --size, --frames, --flythrough, --bloom and --aa. To be called after defineShotOptions().
+/// --size.
+void defineSizeOption(CLI::App& command, ShotArguments& arguments);
+/// --flythrough.
+void defineFlythroughOption(CLI::App& command, ShotArguments& arguments);
+/// --frames, which excludes --time as --flythrough does. To be called after these are defined.
 void defineFrameOptions(CLI::App& command, ShotArguments& arguments);
 
 /// Checks everything that needs no file. The flythrough is named but not read:
 /// loadFlythrough(). Error: names the option that was used wrongly.
 [[nodiscard]] core::Result<ShotOptions> interpret(const ShotArguments& arguments);
-
-/// Error: --ev is out of its range.
-[[nodiscard]] core::Result<tonemap::TonemapSettings> interpretTonemap(const ShotArguments& arguments
-);
 
 /// Reads the file that `arguments.flythrough` names and plans its frames, unless --frames did; the
 /// file's frame rate counts unless --fps was typed, and its shutters unless the exposure was.

@@ -55,9 +55,9 @@ writePicture(const RenderOptions& options, size_t frame, const render::FrameResu
     const image::Image& drawn = isDisplay ? result.display : result.color;
     const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
     if (options.output.isDeep()) // the device's display pictures have 8 bits
-        SHUTTER_TRY(
-            io::writeDeepPng(file, tonemap::computeDisplayImage(picture, options.shot.tonemap))
-        );
+        SHUTTER_TRY(io::writeDeepPng(
+            file, tonemap::computeDisplayImage(picture, options.shot.picture.tonemap)
+        ));
     else if (stamp.value() && !options.output.displayOut)
         SHUTTER_TRY(io::writeStampedImage(file, picture, *stamp.value()));
     else
@@ -137,8 +137,8 @@ class Sequence {
         mDevice = &device;
         mShot = &shot;
         mRenderer.emplace(device, shot.world.assets);
-        mBloom.emplace(device, mOptions.shot.bloom);
-        mTonemap.emplace(device, mOptions.shot.tonemap);
+        mBloom.emplace(device, mOptions.shot.picture.bloom);
+        mTonemap.emplace(device, mOptions.shot.picture.tonemap);
         mDrawer.emplace(device, *mRenderer);
         return {};
     }
@@ -206,7 +206,8 @@ class Sequence {
             return {};
         core::Progress progress(
             "rendering",
-            count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.antiAliasing) * draws
+            count * PictureDrawer::countSteps(mOptions.method, mOptions.shot.picture.antiAliasing) *
+                draws
         );
         for (size_t i = 0; i < mFrames.size(); ++i)
             if (mIsComplete.empty() || !mIsComplete[i]) {

@@ -60,7 +60,7 @@ PictureRequest makePicture(
     picture.method = method;
     picture.pixel = options.pixel;
     picture.seed = options.seed;
-    picture.antiAliasing = options.antiAliasing;
+    picture.antiAliasing = options.picture.antiAliasing;
     return picture;
 }
 

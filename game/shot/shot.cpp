@@ -184,11 +184,11 @@ extract::ViewRequest makeView(const Shot& shot, const ShotOptions& options, doub
     );
     view.width = options.width;
     view.height = options.height;
-    view.frameFit = options.frameFit;
+    view.frameFit = options.picture.frameFit;
     view.background = options.background;
     view.ambient = options.ambient;
     view.unlit = options.unlit;
-    view.shadows = options.shadows;
+    view.shadows = options.picture.shadows;
     return view;
 }
 

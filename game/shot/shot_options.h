@@ -5,17 +5,15 @@
 
 #include "engine/core/frame_rate.h"
 #include "engine/environment/environment.h"
-#include "engine/extract/extracted_frame.h"
 #include "engine/flythrough/flythrough.h"
 #include "engine/io/uri.h"
 #include "engine/math/math.h"
 #include "engine/scene/components.h"
 #include "engine/scene/shutter.h"
 #include "game/shot/methods.h"
-#include "modules/bloom/bloom.h"
+#include "game/shot/picture_settings.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
-#include "modules/tonemap/tonemap.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,20 +26,6 @@ namespace shutter::game {
 
 /// Times and exposures beyond it (32 years) have no meaning, and their sums must stay finite.
 inline constexpr double kMaxSeconds = 1.0e9;
-
-/// How a picture of one raster image gets smooth edges.
-enum class AntiAliasing : uint8_t {
-    None, ///< it does not: one sample a pixel
-    Taa,  ///< by the frames before (modules/taa)
-    Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
-};
-
-/// In the order of AntiAliasing.
-inline constexpr std::string_view kAntiAliasingWords[] = {"none", "taa", "box"};
-/// In the order of extract::ShadowMode.
-inline constexpr std::string_view kShadowWords[] = {"none", "sharp", "blurred"};
-/// In the order of extract::FrameFit.
-inline constexpr std::string_view kFrameFitWords[] = {"whole", "height"};
 
 /// A scene, its camera, frames, light and look.
 struct ShotOptions {
@@ -65,18 +49,14 @@ struct ShotOptions {
     scene::CameraShutter shutter{};
     uint32_t width = 0;  ///< pixels
     uint32_t height = 0; ///< pixels
-    extract::FrameFit frameFit = extract::FrameFit::Whole;
     bool unlit = false;
     math::vec3 background{0.0f};                     ///< linear
     math::vec3 ambient{0.0f};                        ///< linear
     std::filesystem::path environment;               ///< a picture of all directions; empty: none
     environment::EnvironmentSettings surroundings{}; ///< of `environment`
     double turbidity = 0.0;                          ///< of a clear sky; 0: no sky
-    extract::ShadowSettings shadows{};
-    bloom::BloomSettings bloom{};
-    tonemap::TonemapSettings tonemap{};
+    PictureSettings picture{};
     extract::PixelModel pixel = extract::PixelModel::Centre;
-    AntiAliasing antiAliasing = AntiAliasing::None;
     uint32_t seed = 0; ///< of random times and places in the pixel
 };
 

@@ -81,18 +81,6 @@ void dispatch(
 
 } // namespace
 
-core::Status validate(const BloomSettings& settings) {
-    if (!(settings.share >= 0.0f && settings.share <= 1.0f)) // NaN too
-        return core::makeError("bloom: share is {}, it must be 0 to 1", settings.share);
-    if (!(settings.threshold >= 0.0f && settings.threshold <= kMostThreshold))
-        return core::makeError(
-            "bloom: threshold is {}, it must be 0 to {}", settings.threshold, kMostThreshold
-        );
-    if (!(settings.knee >= 0.0f && settings.knee <= 1.0f))
-        return core::makeError("bloom: knee is {}, it must be 0 to 1", settings.knee);
-    return {};
-}
-
 float findKneeStart(const BloomSettings& settings) {
     return settings.threshold * (1.0f - settings.knee);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/setting_row.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "engine/render/post_effect.h"
@@ -26,8 +27,8 @@ struct BloomSettings {
 /// Where the knee begins: a picture with no brighter channel has no highlight.
 [[nodiscard]] float findKneeStart(const BloomSettings& settings);
 
-/// One sentence where a setting is out of its range.
-[[nodiscard]] core::Status validate(const BloomSettings& settings);
+/// Names, ranges and options of BloomSettings.
+[[nodiscard]] core::SettingRows<BloomSettings> listBloomRows();
 
 /// Images of the pyramid below a picture, each half as large as the one before; 0 for pictures that
 /// are too small to have any. The smallest is a few pixels high, so that light spreads over the

@@ -2,6 +2,7 @@
 // From linear HDR to what a display shows: gain, tone mapper, sRGB.
 #pragma once
 
+#include "engine/core/setting_row.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
@@ -24,6 +25,9 @@ struct TonemapSettings {
     double exposureValue = 0.0; ///< stops: the picture is multiplied by 2^EV first, [-32, 32]
 };
 
+/// Names, ranges and options of TonemapSettings.
+[[nodiscard]] core::SettingRows<TonemapSettings> listTonemapRows();
+
 /// 2^EV, the factor before the operator.
 [[nodiscard]] float computeGain(const TonemapSettings& settings);
 
@@ -33,6 +37,9 @@ struct TonemapSettings {
 class Tonemap : public render::PostEffect {
   public:
     Tonemap(gpu::Device& device, const TonemapSettings& settings);
+
+    /// For the frames to come.
+    void configure(const TonemapSettings& settings) { mSettings = settings; }
 
     [[nodiscard]] std::string name() const override { return "tone map"; }
 

@@ -204,17 +204,5 @@ TEST_F(Bloom, ItIsSkippedWithoutLightToScatterAndInTinyPictures) {
     EXPECT_EQ(bloom::countLevels(65536, 65536), 10u);
 }
 
-TEST_F(Bloom, SettingsOutsideTheirRangeAreRefused) {
-    for (const float share : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()})
-        EXPECT_FALSE(bloom::validate({share}).ok()) << share;
-    EXPECT_TRUE(bloom::validate({1.0f}).ok());
-    const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const float threshold : {-0.1f, 65001.0f, nan})
-        EXPECT_FALSE(bloom::validate({.threshold = threshold}).ok()) << threshold;
-    for (const float knee : {-0.1f, 1.1f, nan})
-        EXPECT_FALSE(bloom::validate({.knee = knee}).ok()) << knee;
-    EXPECT_TRUE(bloom::validate({.threshold = 0.0f, .knee = 1.0f}).ok());
-}
-
 } // namespace
 } // namespace shutter

@@ -175,7 +175,7 @@ TEST_F(PanelOnWindow, SettingsStayValidWhateverIsClickedAndTyped) {
     };
     draw(ui, panel, settings, {});
     int changed = 0;
-    for (int frame = 0; frame < 1000; ++frame) {
+    for (int frame = 0; frame < 1500; ++frame) {
         if (frame % 50 == 0)
             unfold({kHeaders[below(9)], kHeaders[below(9)], "Settings of the blur"});
         if (below(5) == 0)

@@ -111,7 +111,7 @@ TEST_F(PictureDrawerTest, AFrameInWhichSomethingJumpsIsTheFrameDrawnAloneAndLeav
              {game::AntiAliasing::None, game::AntiAliasing::Box}) {
             mShot.world.assets.clips[0].channels[0].times[1] =
                 static_cast<float>(steps * mOptions.frameSeconds);
-            mOptions.antiAliasing = antiAliasing;
+            mOptions.picture.antiAliasing = antiAliasing;
             game::PictureDrawer inSequence(device(), *mRenderer);
             for (int frame = 0; frame < 5; ++frame) {
                 const double seconds = frame * mOptions.frameSeconds;

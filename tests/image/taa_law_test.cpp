@@ -60,7 +60,7 @@ class TaaLaw : public test::GpuTest {
             mShot.camera = mScene.camera;
             mRenderer.emplace(device(), mShot.world.assets);
         }
-        mOptions.antiAliasing = antiAliasing;
+        mOptions.picture.antiAliasing = antiAliasing;
         game::PictureDrawer drawer(device(), *mRenderer);
         auto drawn = drawer.draw(
             mShot.world,

@@ -61,7 +61,7 @@ class DemoSource : public SequenceSource {
         view.background = look.background;
         view.ambient = look.ambient;
         view.unlit = mOptions.unlit;
-        view.shadows = mOptions.shadows;
+        view.shadows = mOptions.picture.shadows;
         return view;
     }
 

@@ -27,20 +27,29 @@ void cycleView(std::span<const std::string> views, int step, std::string& view) 
     view = next == 0 ? std::string() : views[static_cast<size_t>(next - 1)];
 }
 
-template <class Word> Word nextWord(Word word, std::span<const std::string_view> words) {
-    return static_cast<Word>((static_cast<size_t>(word) + 1) % words.size());
+extract::ShadowMode nextMode(extract::ShadowMode mode) {
+    switch (mode) {
+    case extract::ShadowMode::None:
+        return extract::ShadowMode::Sharp;
+    case extract::ShadowMode::Sharp:
+        return extract::ShadowMode::Blurred;
+    case extract::ShadowMode::Blurred:
+        break;
+    }
+    return extract::ShadowMode::None;
 }
 
 void applyEffectKeys(const app::InputState& input, PlaySettings& settings) {
+    PictureSettings& picture = settings.picture;
     if (input.wasPressed(Key::Digit6))
-        settings.antiAliasing =
-            settings.antiAliasing == AntiAliasing::None ? AntiAliasing::Taa : AntiAliasing::None;
+        picture.antiAliasing =
+            picture.antiAliasing == AntiAliasing::None ? AntiAliasing::Taa : AntiAliasing::None;
     if (input.wasPressed(Key::Digit7))
-        settings.shadows = nextWord(settings.shadows, kShadowWords);
+        picture.shadows.mode = nextMode(picture.shadows.mode);
     if (input.wasPressed(Key::Digit8))
         settings.environment = !settings.environment;
     if (input.wasPressed(Key::Digit9))
-        settings.bloomShare = settings.bloomShare > 0.0f ? 0.0f : PlaySettings().bloomShare;
+        picture.bloom.share = picture.bloom.share > 0.0f ? 0.0f : makePlayPicture().bloom.share;
 }
 
 } // namespace

@@ -29,8 +29,9 @@ bool PhotoMode::areSame(const Picture& a, const Picture& b) {
     return a.view.camera == b.view.camera && a.view.width == b.view.width &&
            a.view.height == b.view.height && a.view.background == b.view.background &&
            a.view.ambient == b.view.ambient && a.view.environment == b.view.environment &&
-           a.view.shadows.mode == b.view.shadows.mode && first.open == second.open &&
-           first.raster == second.raster && first.close == second.close &&
+           core::areEqual(extract::listShadowRows(), a.view.shadows, b.view.shadows) &&
+           first.open == second.open && first.raster == second.raster &&
+           first.close == second.close &&
            core::areEqual(scene::listShutterRows(), first.shutter, second.shutter) &&
            core::areEqual(
                scene::listResponseRows(), first.shutter.response, second.shutter.response

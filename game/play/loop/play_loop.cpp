@@ -474,11 +474,11 @@ PlayPicture PlayLoop::makePicture(const math::uvec2& sizePx) {
     picture.view.exposure = mExposure;
     picture.view.width = drawn.x;
     picture.view.height = drawn.y;
-    picture.view.frameFit = mSettings.frameFit;
+    picture.view.frameFit = mSettings.picture.frameFit;
     picture.view.background = look.background;
     picture.view.ambient = look.ambient;
     picture.view.environment = mSettings.environment;
-    picture.view.shadows.mode = mSettings.shadows;
+    picture.view.shadows = mSettings.picture.shadows;
     picture.window.size = sizePx;
     picture.window.overlay = mFiles.wantsPhoto() ? nullptr : &mScreen.ui();
     picture.wantReasons = mSettings.showPanel;

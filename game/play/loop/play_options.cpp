@@ -22,46 +22,6 @@ constexpr const char* kFirstDemo = "rally";
 constexpr uint32_t kMaxFrames = 1'000'000;
 constexpr double kDefaultFps = 30.0;
 
-constexpr std::array kShotRows = {
-    makeRow<&ShotArguments::background>("--background", "background of a scene, linear R,G,B"),
-    makeRow<&ShotArguments::ambient>("--ambient", "uniform light of a scene, R,G,B"),
-    makeRow<&ShotArguments::environment>(
-        "--environment", "picture of all directions that a scene is seen before and lit by"
-    ),
-    makeRow<&ShotArguments::environmentIntensity>(
-        "--environment-intensity", "factor of its light, 0 to 1000; default 1"
-    ),
-    makeRow<&ShotArguments::environmentRotation>(
-        "--environment-rotation", "turns it to the left, degrees; default 0"
-    ),
-    makeRow<&ShotArguments::size>("--size", "window size WxH; default 960x540"),
-};
-
-constexpr std::array kEffectRows = {
-    makeOptionalWordRow<&PlayArguments::frameFit, kFrameFitWords>(
-        "--frame-fit",
-        "a camera's frame in the window: whole or height; default: as in the settings"
-    ),
-    makeRow<&PlayArguments::sky>(
-        "--sky", "clear sky: its turbidity, 1.7 to 10; 0: none, not even a demo's own"
-    ),
-    makeOptionalWordRow<&PlayArguments::shadows, kShadowWords>(
-        "--shadows", "none, sharp or blurred; default: as in the settings"
-    ),
-    makeOptionalWordRow<&PlayArguments::antiAliasing, kAntiAliasingWords>(
-        "--aa", "smooth edges: none, taa or box; default: as in the settings"
-    ),
-    makeRow<&PlayArguments::bloom>(
-        "--bloom", "share of the light that the lens scatters, 0 to 1; default: as in the settings"
-    ),
-};
-
-constexpr auto kFpsRow = makeRow<&ShotArguments::fps>(
-    "--fps",
-    "frames per second of --film and --no-window without a script, a number or a fraction such as "
-    "24000/1001; default 30"
-);
-
 constexpr auto kVsyncRow = makeRow<&PlayArguments::vsync>(
     "--vsync", "wait for the display: on or off; default: as in the settings"
 );
@@ -98,44 +58,15 @@ core::Status interpretFilm(const PlayArguments& arguments, PlayOptions& options)
     return {};
 }
 
-core::Status interpretEffects(const PlayArguments& arguments, PlayOptions& options) {
-    options.frameFit = arguments.frameFit;
-    options.antiAliasing = arguments.antiAliasing;
-    options.shadows = arguments.shadows;
-    options.bloom = arguments.bloom;
-    if (options.bloom && !bloom::validate({*options.bloom}).ok())
-        return makeError("--bloom {} must lie in [0, 1]", *options.bloom);
-    if (arguments.sky)
-        options.environment = *arguments.sky != 0.0;
-    else if (!arguments.shot.environment.empty())
-        options.environment = true;
-    return {};
-}
-
 } // namespace
 
 void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option(
         "scene", a.shot.scene, "a demo (" + listDemoNames() + ") or a glTF scene; default: rally"
     );
-    command.add_option("--camera", a.shot.camera, "camera of a scene, by name or index");
-    command.add_option(
-        "--flythrough",
-        a.shot.flythrough,
-        "fly through a scene along a JSON file or clip:NAME|INDEX"
-    );
-    command.add_option(
-        "--clip",
-        a.shot.clips,
-        "clip of a scene to play, by name or index (repeatable), or none; default: all but those "
-        "that move what a later one moves"
-    );
-    command.add_flag(
-        "--loop,!--no-loop", a.shot.loop, "restart the clips of a scene when they end (default)"
-    );
-    defineOutsideOption(command, a.shot);
-    defineRows(command, OptionRows<ShotArguments>(kShotRows), a.shot);
-    defineRows(command, OptionRows<PlayArguments>(kEffectRows), a);
+    defineSceneOptions(command, a.shot, "as in the settings");
+    defineSizeOption(command, a.shot);
+    defineFlythroughOption(command, a.shot);
     command.add_option(
         "--method", a.method, "method, see `shutter info --methods`; default: the settings' method"
     );
@@ -144,7 +75,6 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
     command.add_option("--settings", a.settings, "settings file (JSON); default: the player's own");
     command.add_option("--script", a.script, "play unattended from a JSON file of input");
     command.add_option("--film", a.film, "write every picture: .png or .jpg with %04d, or .mp4");
-    kFpsRow.define(command, kFpsRow, a.shot);
     command.add_option("--ffmpeg", a.ffmpeg, "program that encodes .mp4; default: the one on PATH");
     command.add_option("--frames", a.frames, "end after this many frames")
         ->check(CLI::Range(1u, kMaxFrames));
@@ -160,8 +90,7 @@ void definePlayOptions(CLI::App& command, PlayArguments& a) {
 
 core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
     PlayOptions options;
-    ShotArguments shot = arguments.shot;
-    shot.sky = arguments.sky.value_or(0.0);
+    const ShotArguments& shot = arguments.shot;
     if (shot.scene.empty() || isDemo(shot.scene))
         options.demo = shot.scene.empty() ? kFirstDemo : shot.scene;
     auto interpreted = interpret(shot);
@@ -189,7 +118,9 @@ core::Result<PlayOptions> interpret(const PlayArguments& arguments) {
             return makeError("--ui-scale {}: must be {}", *scale, core::describeRange(range, ""));
     }
     options.uiScale = arguments.uiScale;
-    SHUTTER_TRY(interpretEffects(arguments, options));
+    options.typed = shot.typed;
+    if (shot.sky || !shot.environment.empty())
+        options.environment = options.shot.turbidity != 0.0 || !shot.environment.empty();
     SHUTTER_TRY(interpretFilm(arguments, options));
     options.script = arguments.script;
     options.settings = arguments.settings;

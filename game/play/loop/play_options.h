@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace shutter::game {
@@ -29,11 +30,6 @@ struct PlayArguments {
     std::string stats;
     std::optional<bool> vsync;
     std::optional<double> uiScale;
-    std::optional<extract::FrameFit> frameFit;
-    std::optional<AntiAliasing> antiAliasing;
-    std::optional<extract::ShadowMode> shadows;
-    std::optional<float> bloom;
-    std::optional<double> sky; ///< turbidity; 0: no sky, not even a demo's own
     bool noWindow = false;
     uint32_t frames = 0;
 };
@@ -53,12 +49,8 @@ struct PlayOptions {
     std::filesystem::path stats;       ///< empty: none
     std::optional<bool> vsync;         ///< wins over the settings' own
     std::optional<double> uiScale;     ///< wins over the settings' own
-    /// Win over the settings' own, each.
-    std::optional<extract::FrameFit> frameFit;
-    std::optional<AntiAliasing> antiAliasing;
-    std::optional<extract::ShadowMode> shadows;
-    std::optional<float> bloom;
-    std::optional<bool> environment;
+    std::set<std::string> typed;       ///< options of shot.picture that win over the settings' own
+    std::optional<bool> environment;   ///< wins over the settings' own
     bool hasWindow = true;
     uint32_t frames = 0; ///< ends after as many; 0: never
 };

@@ -66,7 +66,7 @@ core::Result<PictureRequest> PlayRenderer::makeRequest(
     request.untilReady = untilReady;
     request.method.method = method.value();
     request.method.budget = settings.budget;
-    request.antiAliasing = settings.antiAliasing;
+    request.antiAliasing = settings.picture.antiAliasing;
     if (method.value()->family == MethodFamily::MotionBlur)
         request.method.motionBlur = makeBlurSettings(settings, *method.value());
     else
@@ -85,8 +85,9 @@ core::Status PlayRenderer::draw(
     frame.wantReasons = frame.wantCounters = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
-    mBloom.configure({settings.bloomShare, settings.bloomThreshold, settings.bloomKnee});
-    frame.wantBrightest = settings.bloomShare > 0.0f;
+    mBloom.configure(settings.picture.bloom);
+    mTonemap.configure(settings.picture.tonemap);
+    frame.wantBrightest = settings.picture.bloom.share > 0.0f;
     // Both sides of a split share the view, so one measurement serves.
     const auto cap = mDrawer.measureCap(world, frame.view);
     if (!cap)

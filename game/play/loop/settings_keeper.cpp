@@ -21,14 +21,11 @@ void applyOptions(const PlayOptions& options, PlaySettings& settings) {
         settings.vsync = *options.vsync;
     if (options.uiScale)
         settings.uiScale = *options.uiScale;
-    if (options.frameFit)
-        settings.frameFit = *options.frameFit;
-    if (options.antiAliasing)
-        settings.antiAliasing = *options.antiAliasing;
-    if (options.shadows)
-        settings.shadows = *options.shadows;
-    if (options.bloom)
-        settings.bloomShare = *options.bloom;
+    visitPictureRows([&](auto rows, const auto& part) {
+        for (const auto& row : rows)
+            if (options.typed.contains(row.option))
+                core::copyValue(row, part(options.shot.picture), part(settings.picture));
+    });
     if (options.environment)
         settings.environment = *options.environment;
 }

@@ -241,13 +241,17 @@ std::string describeEffects(const PlaySettings& settings) {
     const auto add = [&](std::string_view effect) {
         text += fmt::format("{}{}", text.empty() ? "" : ", ", effect);
     };
-    if (settings.antiAliasing != AntiAliasing::None)
-        add(kAntiAliasingWords[static_cast<size_t>(settings.antiAliasing)]);
-    if (settings.shadows != extract::ShadowMode::None)
-        add(fmt::format("{} shadows", kShadowWords[static_cast<size_t>(settings.shadows)]));
+    const PictureSettings& picture = settings.picture;
+    if (picture.antiAliasing != AntiAliasing::None)
+        add(core::describeValue(core::getRow(listPictureRows(), "antiAliasing"), picture));
+    if (picture.shadows.mode != extract::ShadowMode::None)
+        add(fmt::format(
+            "{} shadows",
+            core::describeValue(core::getRow(extract::listShadowRows(), "shadows"), picture.shadows)
+        ));
     if (settings.environment)
         add("sky");
-    if (settings.bloomShare > 0.0f)
+    if (picture.bloom.share > 0.0f)
         add("bloom");
     return text;
 }

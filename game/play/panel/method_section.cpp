@@ -176,33 +176,31 @@ void drawPictureSection(const PanelFacts& facts, PlaySettings& settings) {
         settings.view
     );
     drawPlayRows(
-        "display",
-        settings,
-        std::vector<std::string_view>{"frameFit", "resolutionScale", "vsync", "uiScale"}
+        "display", settings, std::vector<std::string_view>{"resolutionScale", "vsync", "uiScale"}
     );
 }
 
 void drawEffectSection(PlaySettings& settings) {
-    drawPlayRows(
-        "effects",
-        settings,
-        std::vector<std::string_view>{
-            "antiAliasing", "shadows", "environment", "bloomShare", "bloomThreshold", "bloomKnee"}
-    );
+    static const PlaySettings kFresh;
+    if (beginRows("effects")) {
+        drawRow(core::getRow(listPlayRows(), "environment"), settings, kFresh);
+        visitPictureRows([&](auto rows, const auto& part) {
+            for (const auto& row : rows)
+                drawRow(row, part(settings.picture), part(kFresh.picture));
+        });
+        endRows();
+    }
     ButtonRow buttons;
-    const PlaySettings fresh;
-    if (buttons.add("All", "All effects beside the blur, as a new player has them.")) {
-        settings.antiAliasing = fresh.antiAliasing;
-        settings.shadows = fresh.shadows;
-        settings.environment = fresh.environment;
-        settings.bloomShare = fresh.bloomShare;
-    }
-    if (buttons.add("None", "No effect beside the blur.")) {
-        settings.antiAliasing = AntiAliasing::None;
-        settings.shadows = extract::ShadowMode::None;
-        settings.environment = false;
-        settings.bloomShare = 0.0f;
-    }
+    const auto set = [&](bool environment, const PictureSettings& effects) {
+        settings.environment = environment;
+        settings.picture.antiAliasing = effects.antiAliasing;
+        settings.picture.shadows.mode = effects.shadows.mode;
+        settings.picture.bloom.share = effects.bloom.share;
+    };
+    if (buttons.add("All", "All effects beside the blur, as a new player has them."))
+        set(kFresh.environment, kFresh.picture);
+    if (buttons.add("None", "No effect beside the blur."))
+        set(false, PictureSettings());
 }
 
 void drawMethodSection(const PanelFacts& facts, PlaySettings& settings) {

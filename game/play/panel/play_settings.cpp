@@ -33,6 +33,7 @@ Status validateNames(const PlaySettings& settings) {
 Status validateRowsOfAll(const PlaySettings& settings) {
     const Status checks[] = {
         validateRows(listPlayRows(), settings, ""),
+        validate(settings.picture),
         validateRows(motion_blur::listBudgetRows(), settings.budget, "budget."),
         validateRows(motion_blur::listSettingRows(), settings.blur, "blur."),
         scene::validate(settings.shutter, "shutter."),
@@ -70,9 +71,9 @@ const PresetLook* findLook(const Preset& preset) {
 }
 
 bool isSeen(const PresetLook* look, const PlaySettings& settings) {
-    return !look ||
-           (settings.antiAliasing == look->antiAliasing && settings.shadows == look->shadows &&
-            settings.environment && settings.bloomShare == look->bloomShare);
+    return !look || (settings.picture.antiAliasing == look->antiAliasing &&
+                     settings.picture.shadows.mode == look->shadows && settings.environment &&
+                     settings.picture.bloom.share == look->bloomShare);
 }
 
 } // namespace
@@ -84,16 +85,24 @@ void applyPreset(const Preset& preset, PlaySettings& settings) {
     const PresetLook* look = findLook(preset);
     if (!look)
         return;
-    settings.antiAliasing = look->antiAliasing;
-    settings.shadows = look->shadows;
+    settings.picture.antiAliasing = look->antiAliasing;
+    settings.picture.shadows.mode = look->shadows;
     settings.environment = true;
-    settings.bloomShare = look->bloomShare;
+    settings.picture.bloom.share = look->bloomShare;
 }
 
 bool isApplied(const Preset& preset, const PlaySettings& settings) {
     return settings.method == preset.method && isSeen(findLook(preset), settings) &&
            (isSharp(preset) ||
             core::areEqual(motion_blur::listSettingRows(), settings.blur, preset.blur));
+}
+
+PictureSettings makePlayPicture() {
+    PictureSettings picture;
+    picture.antiAliasing = AntiAliasing::Taa;
+    picture.shadows.mode = extract::ShadowMode::Blurred;
+    picture.bloom.share = 0.04f;
+    return picture;
 }
 
 scene::CameraShutter makePlayShutter() {
@@ -164,19 +173,6 @@ core::SettingRows<PlaySettings> listPlayRows() {
          {.lowest = 1, .highest = 256, .step = 1, .isLogarithmic = true},
          "Rays per pixel and picture of denoised. Time is proportional to it.",
          "Rays, denoised"},
-        {"antiAliasing",
-         core::makeWordField<&S::antiAliasing>(kAntiAliasingWords),
-         "",
-         {},
-         "Smooth edges: taa by the frames before, box by the mean of 16 frames, which takes 16 "
-         "times as long.",
-         "Smooth edges"},
-        {"shadows",
-         core::makeWordField<&S::shadows>(kShadowWords),
-         "",
-         {},
-         "Shadows of lights: sharp, or blurred like what casts them.",
-         "Shadows"},
         {"environment",
          &S::environment,
          "",
@@ -184,31 +180,6 @@ core::SettingRows<PlaySettings> listPlayRows() {
          "The sky or picture around the scene, where it has one: it is seen, and it lights. Off: "
          "one colour.",
          "Sky"},
-        {"bloomShare",
-         &S::bloomShare,
-         "",
-         {.lowest = 0, .highest = 1},
-         "Share of the light of highlights that the lens scatters, so that they glow. 0: no bloom.",
-         "Bloom"},
-        {"bloomThreshold",
-         &S::bloomThreshold,
-         "",
-         {.lowest = 0, .highest = bloom::kMostThreshold, .sliderLowest = 0, .sliderHighest = 4},
-         "Light above which a pixel is a highlight. 0: all light is scattered.",
-         "Bloom from"},
-        {"bloomKnee",
-         &S::bloomKnee,
-         "",
-         {.lowest = 0, .highest = 1},
-         "How far around that light highlights set in, as a share of it.",
-         "Bloom's knee"},
-        {"frameFit",
-         core::makeWordField<&S::frameFit>(kFrameFitWords),
-         "",
-         {},
-         "The camera's frame in a window of another shape: whole, or as high as the window, whose "
-         "sides then crop it where it is narrower.",
-         "Camera's frame"},
         {"resolutionScale",
          &S::resolutionScale,
          "",

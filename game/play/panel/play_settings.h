@@ -22,6 +22,9 @@ namespace shutter::game {
 /// frames per second, so that a slow machine does not smear.
 [[nodiscard]] scene::CameraShutter makePlayShutter();
 
+/// What a new player sees: smooth edges, blurred shadows, a little bloom.
+[[nodiscard]] PictureSettings makePlayPicture();
+
 struct PlaySettings {
     std::string method = "resolved";  ///< of the picture, right of a split; a name of listMethods()
     std::string leftMethod = "sharp"; ///< left of a split
@@ -39,13 +42,8 @@ struct PlaySettings {
     uint32_t rays = 4;         ///< rays per pixel and frame of `truth`, [1, 256]
     uint32_t denoisedRays = 1; ///< rays per pixel and frame of `denoised`, in place of
                                ///< blur.sampleCount, [1, 256]
-    AntiAliasing antiAliasing = AntiAliasing::Taa;
-    extract::ShadowMode shadows = extract::ShadowMode::Blurred;
-    bool environment = true;     ///< extract::ViewRequest::environment
-    float bloomShare = 0.04f;    ///< bloom::BloomSettings::share, [0, 1]
-    float bloomThreshold = 1.0f; ///< bloom::BloomSettings::threshold, [0, 65000]
-    float bloomKnee = 0.5f;      ///< bloom::BloomSettings::knee, [0, 1]
-    extract::FrameFit frameFit = extract::FrameFit::Whole;
+    PictureSettings picture = makePlayPicture();
+    bool environment = true;      ///< extract::ViewRequest::environment
     double resolutionScale = 1.0; ///< of the window's sides, [0.25, 1]
     bool vsync = true;
     double uiScale = 1.0; ///< of text and panel, on top of the display's own scale, [0.5, 4]
@@ -86,7 +84,7 @@ savePlaySettings(const std::filesystem::path& path, const PlaySettings& settings
 inline constexpr size_t kMaxViewBytes = 64;
 
 /// One row per field of PlaySettings, except for names (method, leftMethod, view) and for structs
-/// that have rows of their own.
+/// that have rows of their own. In files they stand beside the rows of visitPictureRows().
 [[nodiscard]] core::SettingRows<PlaySettings> listPlayRows();
 
 } // namespace shutter::game

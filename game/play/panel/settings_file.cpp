@@ -11,6 +11,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace shutter::game {
@@ -56,12 +57,17 @@ void readMethod(const json::JsonObject& object, std::string_view field, std::str
 
 PlaySettings readSettings(const json::JsonNode& root) {
     PlaySettings settings;
-    const json::JsonObject object = json::readRows(
-        root,
-        listPlayRows(),
-        settings,
-        {"version", "method", "leftMethod", "view", "budget", "blur", "shutter"}
-    );
+    std::vector<std::string_view> fields = {
+        "version", "method", "leftMethod", "view", "budget", "blur", "shutter"};
+    visitPictureRows([&](auto rows, const auto&) {
+        for (const auto& row : rows)
+            fields.push_back(row.name);
+    });
+    const json::JsonObject object =
+        json::readRows(root, listPlayRows(), settings, std::move(fields));
+    visitPictureRows([&](auto rows, const auto& part) {
+        json::readRows(object, rows, part(settings.picture));
+    });
     (void)object.require("version").readInteger(kVersion, kVersion);
     readMethod(object, "method", settings.method);
     readMethod(object, "leftMethod", settings.leftMethod);
@@ -102,6 +108,9 @@ ordered_json describe(const PlaySettings& settings) {
     described["leftMethod"] = settings.leftMethod;
     described["view"] = settings.view;
     addRows(described, listPlayRows(), settings);
+    visitPictureRows([&](auto rows, const auto& part) {
+        addRows(described, rows, part(settings.picture));
+    });
     addRows(described["budget"], motion_blur::listBudgetRows(), settings.budget);
     addRows(described["blur"], motion_blur::listSettingRows(), settings.blur);
     ordered_json& shutterObject = described["shutter"];

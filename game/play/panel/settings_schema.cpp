@@ -94,6 +94,7 @@ std::string makeSettingsSchema() {
         properties[field]["enum"] = methods;
     properties["view"] = {{"type", "string"}, {"maxLength", kMaxViewBytes}};
     addRows(schema, listPlayRows());
+    visitPictureRows([&](auto rows, const auto&) { addRows(schema, rows); });
     properties["budget"] = describeObject(motion_blur::listBudgetRows());
     properties["blur"] = describeObject(motion_blur::listSettingRows());
     properties["shutter"] = describeShutter();

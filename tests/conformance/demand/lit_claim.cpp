@@ -43,15 +43,15 @@ struct Case {
 void askNothing(game::ShotArguments&) {}
 
 void askSharp(game::ShotArguments& arguments) {
-    arguments.shadows = extract::ShadowMode::Sharp;
+    arguments.picture.shadows.mode = extract::ShadowMode::Sharp;
 }
 
 void askBlurred(game::ShotArguments& arguments) {
-    arguments.shadows = extract::ShadowMode::Blurred;
+    arguments.picture.shadows.mode = extract::ShadowMode::Blurred;
 }
 
 void askUnlitShadows(game::ShotArguments& arguments) {
-    arguments.shadows = extract::ShadowMode::Blurred;
+    arguments.picture.shadows.mode = extract::ShadowMode::Blurred;
     arguments.unlit = true;
 }
 
@@ -60,7 +60,7 @@ void askUnlit(game::ShotArguments& arguments) {
 }
 
 void askTaa(game::ShotArguments& arguments) {
-    arguments.antiAliasing = game::AntiAliasing::Taa;
+    arguments.picture.antiAliasing = game::AntiAliasing::Taa;
 }
 
 const Case kCases[] = {

@@ -87,7 +87,7 @@ Subject::Subject(
     gpu::Device& device, const Stage& stage, game::ShotOptions shot, game::MethodOptions method
 )
     : mStage(stage), mShot(std::move(shot)), mMethod(method),
-      mRenderer(device, stage.shot.world.assets), mTonemap(device, mShot.tonemap),
+      mRenderer(device, stage.shot.world.assets), mTonemap(device, mShot.picture.tonemap),
       mDrawer(device, mRenderer), mSeconds(mShot.frameTimes.front()) {}
 
 core::Result<std::unique_ptr<Subject>> Subject::createWithEffect(

@@ -62,7 +62,7 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     const RenderOptions options = accept(Words{});
     EXPECT_EQ(options.shot.width, 1280u);
     EXPECT_EQ(options.shot.height, 720u);
-    EXPECT_EQ(options.shot.frameFit, extract::FrameFit::Whole);
+    EXPECT_EQ(options.shot.picture.frameFit, extract::FrameFit::Whole);
     EXPECT_EQ(options.shot.frameTimes, std::vector<double>{0.0});
     EXPECT_FALSE(options.shot.isSequence);
     EXPECT_DOUBLE_EQ(options.shot.shutter.exposureSeconds, 1.0 / 60.0);
@@ -72,13 +72,13 @@ TEST_F(RenderOptionsTest, TheDefaultsAreAsTheHelpSays) {
     EXPECT_EQ(options.shot.pixel, extract::PixelModel::Centre);
     EXPECT_EQ(options.shot.background, math::vec3(0.18f));
     EXPECT_EQ(options.shot.ambient, math::vec3(0.25f));
-    EXPECT_EQ(options.shot.tonemap.op, tonemap::Operator::Neutral);
+    EXPECT_EQ(options.shot.picture.tonemap.op, tonemap::Operator::Neutral);
     EXPECT_TRUE(options.output.aovs.empty());
 }
 
 TEST_F(RenderOptionsTest, TheFitOfACamerasFrameIsOneOfTwoWords) {
-    EXPECT_EQ(accept({"--frame-fit=height"}).shot.frameFit, extract::FrameFit::Height);
-    EXPECT_EQ(accept({"--frame-fit=whole"}).shot.frameFit, extract::FrameFit::Whole);
+    EXPECT_EQ(accept({"--frame-fit=height"}).shot.picture.frameFit, extract::FrameFit::Height);
+    EXPECT_EQ(accept({"--frame-fit=whole"}).shot.picture.frameFit, extract::FrameFit::Whole);
     refuse("--frame-fit", {"--frame-fit=width"});
 }
 
@@ -453,9 +453,11 @@ TEST_F(RenderOptionsTest, InterpretingWritesNothing) {
 }
 
 TEST_F(RenderOptionsTest, AntiAliasingIsAboutTheRasterImage) {
-    EXPECT_EQ(accept(Words{}).shot.antiAliasing, AntiAliasing::None);
-    EXPECT_EQ(accept(Words{"--aa=taa"}).shot.antiAliasing, AntiAliasing::Taa);
-    EXPECT_EQ(accept(Words{"--aa=box", "--method=resolved"}).shot.antiAliasing, AntiAliasing::Box);
+    EXPECT_EQ(accept(Words{}).shot.picture.antiAliasing, AntiAliasing::None);
+    EXPECT_EQ(accept(Words{"--aa=taa"}).shot.picture.antiAliasing, AntiAliasing::Taa);
+    EXPECT_EQ(
+        accept(Words{"--aa=box", "--method=resolved"}).shot.picture.antiAliasing, AntiAliasing::Box
+    );
     refuse("--aa", Words{"--aa=msaa"});
     for (const char* method : {"accumulate", "truth", "denoised"}) {
         refuse(
@@ -468,10 +470,10 @@ TEST_F(RenderOptionsTest, AntiAliasingIsAboutTheRasterImage) {
 }
 
 TEST_F(RenderOptionsTest, BloomHasAThresholdAndAKnee) {
-    EXPECT_EQ(accept(Words{}).shot.bloom.threshold, 1.0f);
-    EXPECT_EQ(accept(Words{}).shot.bloom.knee, 0.5f);
-    EXPECT_EQ(accept(Words{"--bloom-threshold=0"}).shot.bloom.threshold, 0.0f);
-    EXPECT_EQ(accept(Words{"--bloom-knee=1"}).shot.bloom.knee, 1.0f);
+    EXPECT_EQ(accept(Words{}).shot.picture.bloom.threshold, 1.0f);
+    EXPECT_EQ(accept(Words{}).shot.picture.bloom.knee, 0.5f);
+    EXPECT_EQ(accept(Words{"--bloom-threshold=0"}).shot.picture.bloom.threshold, 0.0f);
+    EXPECT_EQ(accept(Words{"--bloom-knee=1"}).shot.picture.bloom.knee, 1.0f);
     for (const double value : {-0.1, 65001.0})
         refuse("--bloom-threshold", Words{"--bloom-threshold=" + wordOf(value)});
     for (const double value : {-0.1, 1.1})
@@ -479,27 +481,31 @@ TEST_F(RenderOptionsTest, BloomHasAThresholdAndAKnee) {
 }
 
 TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
-    EXPECT_EQ(accept(Words{}).shot.bloom.share, 0.0f);
-    EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.bloom.share, 0.05f);
+    EXPECT_EQ(accept(Words{}).shot.picture.bloom.share, 0.0f);
+    EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.picture.bloom.share, 0.05f);
     for (const double value : {-0.01, 1.5, kNan, kInfinity})
         refuse("--bloom", Words{"--bloom=" + wordOf(value)});
 }
 
 TEST_F(RenderOptionsTest, ShadowsAreOffUnlessAskedFor) {
-    EXPECT_EQ(accept(Words{}).shot.shadows.mode, extract::ShadowMode::None);
-    EXPECT_EQ(accept(Words{"--shadows=sharp"}).shot.shadows.mode, extract::ShadowMode::Sharp);
-    EXPECT_EQ(accept(Words{"--shadows=blurred"}).shot.shadows.mode, extract::ShadowMode::Blurred);
+    EXPECT_EQ(accept(Words{}).shot.picture.shadows.mode, extract::ShadowMode::None);
+    EXPECT_EQ(
+        accept(Words{"--shadows=sharp"}).shot.picture.shadows.mode, extract::ShadowMode::Sharp
+    );
+    EXPECT_EQ(
+        accept(Words{"--shadows=blurred"}).shot.picture.shadows.mode, extract::ShadowMode::Blurred
+    );
     refuse("--shadows", Words{"--shadows=soft"});
 }
 
 TEST_F(RenderOptionsTest, SizesDistancesAndInstantsOfShadowsHaveRanges) {
-    EXPECT_EQ(accept(Words{"--shadow-map-size=2048"}).shot.shadows.mapSize, 2048u);
+    EXPECT_EQ(accept(Words{"--shadow-map-size=2048"}).shot.picture.shadows.mapSize, 2048u);
     for (const char* value : {"0", "32", "100", "8256"})
         refuse("--shadow-map-size", Words{std::string("--shadow-map-size=") + value});
-    EXPECT_EQ(accept(Words{"--shadow-distance=30"}).shot.shadows.distance, 30.0);
+    EXPECT_EQ(accept(Words{"--shadow-distance=30"}).shot.picture.shadows.distance, 30.0);
     for (const double value : {-1.0, kNan, kInfinity})
         refuse("--shadow-distance", Words{"--shadow-distance=" + wordOf(value)});
-    EXPECT_EQ(accept(Words{"--shadow-instants=8"}).shot.shadows.instants, 8u);
+    EXPECT_EQ(accept(Words{"--shadow-instants=8"}).shot.picture.shadows.instants, 8u);
     for (const char* value : {"0", "65"})
         refuse("--shadow-instants", Words{std::string("--shadow-instants=") + value});
 }
@@ -521,9 +527,9 @@ TEST_F(RenderOptionsTest, SurroundingsAreAFileOrASkyWithinTheirRanges) {
 }
 
 TEST_F(RenderOptionsTest, ToneMappingHasTwoOperatorsAndABoundedGain) {
-    EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.tonemap.op, tonemap::Operator::None);
-    EXPECT_EQ(accept(Words{"--unlit"}).shot.tonemap.op, tonemap::Operator::None);
-    EXPECT_EQ(accept(Words{"--ev=-32.0"}).shot.tonemap.exposureValue, -32.0);
+    EXPECT_EQ(accept(Words{"--tonemap=none"}).shot.picture.tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept(Words{"--unlit"}).shot.picture.tonemap.op, tonemap::Operator::None);
+    EXPECT_EQ(accept(Words{"--ev=-32.0"}).shot.picture.tonemap.exposureValue, -32.0);
     refuse("--tonemap", Words{"--tonemap=aces"});
     for (const double value : {32.5, -33.0, kNan, kInfinity})
         refuse("--ev", Words{"--ev=" + wordOf(value)});

@@ -54,6 +54,9 @@ template <class Visit> void visitRows(PlaySettings& settings, Visit visit) {
             visit(row, owner, prefix);
     };
     each(game::listPlayRows(), settings, "");
+    game::visitPictureRows([&](auto rows, const auto& part) {
+        each(rows, part(settings.picture), "");
+    });
     each(motion_blur::listBudgetRows(), settings.budget, "budget.");
     each(motion_blur::listSettingRows(), settings.blur, "blur.");
     each(scene::listShutterRows(), settings.shutter, "shutter.");
@@ -250,14 +253,14 @@ TEST(Presets, SetTheEffectsBesideTheBlurExceptWhereTheyCompareIt) {
         game::applyPreset(*game::findPreset(name).value(), settings);
     };
     apply("performance");
-    EXPECT_EQ(settings.antiAliasing, game::AntiAliasing::None);
-    EXPECT_EQ(settings.shadows, extract::ShadowMode::Blurred);
-    EXPECT_EQ(settings.bloomShare, 0.0f);
+    EXPECT_EQ(settings.picture.antiAliasing, game::AntiAliasing::None);
+    EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Blurred);
+    EXPECT_EQ(settings.picture.bloom.share, 0.0f);
     settings.environment = false;
-    settings.shadows = extract::ShadowMode::Sharp;
+    settings.picture.shadows.mode = extract::ShadowMode::Sharp;
     for (const char* name : {"off", "paper"}) {
         apply(name);
-        EXPECT_EQ(settings.shadows, extract::ShadowMode::Sharp) << name;
+        EXPECT_EQ(settings.picture.shadows.mode, extract::ShadowMode::Sharp) << name;
         EXPECT_FALSE(settings.environment) << name;
     }
     apply("balanced");

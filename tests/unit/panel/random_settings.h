@@ -23,6 +23,9 @@ class RandomSettings {
         settings.leftMethod = pickMethod();
         settings.view = index(2) == 0 ? "" : "tiles \"\\ \xc3\xa9";
         fill(game::listPlayRows(), settings);
+        game::visitPictureRows([&](auto rows, const auto& part) {
+            fill(rows, part(settings.picture));
+        });
         fill(motion_blur::listBudgetRows(), settings.budget);
         fill(motion_blur::listSettingRows(), settings.blur);
         fill(scene::listShutterRows(), settings.shutter);

@@ -50,12 +50,12 @@ TEST_F(Hotkeys, TheLeftSideHasAMethodOfItsOwn) {
 }
 
 TEST_F(Hotkeys, EachEffectHasAKeyThatSwitchesItAlone) {
-    settings.antiAliasing = AntiAliasing::None;
-    settings.shadows = extract::ShadowMode::None;
+    settings.picture.antiAliasing = AntiAliasing::None;
+    settings.picture.shadows.mode = extract::ShadowMode::None;
     settings.environment = false;
-    settings.bloomShare = 0.0f;
+    settings.picture.bloom.share = 0.0f;
     press({Key::Digit6});
-    EXPECT_EQ(settings.antiAliasing, AntiAliasing::Taa);
+    EXPECT_EQ(settings.picture.antiAliasing, AntiAliasing::Taa);
     EXPECT_EQ(describeEffects(settings), "taa");
     press({Key::Digit6});
     EXPECT_EQ(describeEffects(settings), "");

@@ -36,27 +36,27 @@ TEST(PlayOptions, ANameOfADemoWinsOverAFile) {
 TEST(PlayOptions, EffectsAreTheSettingsUnlessTheyAreTyped) {
     PlayArguments arguments;
     PlayOptions options = interpret(arguments).value();
-    EXPECT_FALSE(options.antiAliasing || options.shadows || options.bloom || options.environment);
-    EXPECT_FALSE(options.frameFit);
+    EXPECT_TRUE(options.typed.empty());
+    EXPECT_FALSE(options.environment);
     CLI::App app;
     definePlayOptions(app, arguments);
     app.parse(std::vector<std::string>{
         "height", "--frame-fit", "0", "--sky", "0.1", "--bloom", "sharp", "--shadows"});
     options = interpret(arguments).value();
-    EXPECT_EQ(options.shadows, extract::ShadowMode::Sharp);
-    EXPECT_EQ(options.frameFit, extract::FrameFit::Height);
-    EXPECT_EQ(options.bloom, 0.1f);
+    EXPECT_EQ(options.shot.picture.shadows.mode, extract::ShadowMode::Sharp);
+    EXPECT_EQ(options.shot.picture.frameFit, extract::FrameFit::Height);
+    EXPECT_EQ(options.shot.picture.bloom.share, 0.1f);
     EXPECT_EQ(options.environment, false);
-    EXPECT_FALSE(options.antiAliasing);
-    arguments.sky = 3.0;
+    EXPECT_EQ(options.typed, (std::set<std::string>{"--frame-fit", "--bloom", "--shadows"}));
+    arguments.shot.sky = 3.0;
     options = interpret(arguments).value();
     EXPECT_EQ(options.environment, true);
     EXPECT_EQ(options.shot.turbidity, 3.0);
-    arguments.sky = 11.0;
+    arguments.shot.sky = 11.0;
     expectRefused(arguments, "--sky");
     arguments = {};
-    arguments.bloom = 1.5f;
-    expectRefused(arguments, "--bloom");
+    arguments.shot.picture.bloom.share = 1.5f;
+    expectRefused(arguments, "bloomShare");
 }
 
 TEST(PlayOptions, WrongUseIsToldByOption) {

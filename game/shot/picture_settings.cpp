@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "game/shot/picture_settings.h"
+
+#include <array>
+
+namespace shutter::game {
+
+core::SettingRows<PictureSettings> listPictureRows() {
+    using S = PictureSettings;
+    static constexpr std::string_view kAntiAliasings[] = {"none", "taa", "box"};
+    static constexpr std::string_view kFits[] = {"whole", "height"};
+    static const std::array<core::SettingRow<S>, 2> kRows = {{
+        {"frameFit",
+         core::makeWordField<&S::frameFit>(kFits),
+         "",
+         {},
+         "A camera's frame in a picture of another shape: whole, or as high as the picture, whose "
+         "sides then crop it where it is narrower.",
+         "Camera's frame",
+         "--frame-fit"},
+        {"antiAliasing",
+         core::makeWordField<&S::antiAliasing>(kAntiAliasings),
+         "",
+         {},
+         "Smooth edges: taa by the frames before, box by the mean of 16 frames, which takes 16 "
+         "times as long.",
+         "Smooth edges",
+         "--aa"},
+    }};
+    return kRows;
+}
+
+core::Status validate(const PictureSettings& settings) {
+    core::Status status;
+    visitPictureRows([&](auto rows, const auto& part) {
+        if (status)
+            status = core::validateRows(rows, part(settings), "");
+    });
+    return status;
+}
+
+std::string describe(const PictureSettings& settings) {
+    std::string text;
+    visitPictureRows([&](auto rows, const auto& part) {
+        text += core::describeValues(rows, part(settings)) + " ";
+    });
+    return text;
+}
+
+} // namespace shutter::game

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What a picture is made with beside the motion blur, alike in `render`, `bench` and `play`: the
+// command line, the panel, the settings file, its schema and the fingerprint are loops over
+// visitPictureRows().
+#pragma once
+
+#include "engine/core/setting_row.h"
+#include "engine/extract/extracted_frame.h"
+#include "engine/extract/shadow_settings.h"
+#include "modules/bloom/bloom.h"
+#include "modules/tonemap/tonemap.h"
+
+#include <cstdint>
+
+namespace shutter::game {
+
+/// How a picture of one raster image gets smooth edges.
+enum class AntiAliasing : uint8_t {
+    None, ///< it does not: one sample a pixel
+    Taa,  ///< by the frames before (modules/taa)
+    Box,  ///< by kBoxFrames frames of it, each of another place in the pixel, averaged
+};
+
+struct PictureSettings {
+    AntiAliasing antiAliasing = AntiAliasing::None;
+    extract::FrameFit frameFit = extract::FrameFit::Whole;
+    extract::ShadowSettings shadows{};
+    bloom::BloomSettings bloom{};
+    tonemap::TonemapSettings tonemap{};
+};
+
+/// Rows of what belongs to no module.
+[[nodiscard]] core::SettingRows<PictureSettings> listPictureRows();
+
+/// Calls `visit(rows, part)` for each group of rows; `part(settings)` is the struct that the rows
+/// describe. An effect that a picture can have is a member above and a line here.
+template <class Visit> void visitPictureRows(const Visit& visit) {
+    using S = PictureSettings;
+    const auto partOf = [](auto member) {
+        return [member](auto& settings) -> auto& {
+            return settings.*member;
+        };
+    };
+    visit(
+        listPictureRows(), [](auto& settings) -> auto& { return settings; }
+    );
+    visit(extract::listShadowRows(), partOf(&S::shadows));
+    visit(bloom::listBloomRows(), partOf(&S::bloom));
+    visit(tonemap::listTonemapRows(), partOf(&S::tonemap));
+}
+
+/// One sentence naming the field that is out of its range.
+[[nodiscard]] core::Status validate(const PictureSettings& settings);
+
+/// "antiAliasing=none frameFit=whole ...": differs wherever a value does.
+[[nodiscard]] std::string describe(const PictureSettings& settings);
+
+} // namespace shutter::game
