@@ -88,7 +88,7 @@ struct Camera {
     double far = 1000.0; ///< metres; orthographic only, perspective reaches to infinity
 };
 
-/// Where in the exposure the raster image lies (`motion-blur` README, "Shutter").
+/// Where in the exposure the raster image lies (docs/shutter.md).
 enum class ShutterPhase : uint8_t {
     Start,  ///< exposure runs [t, t + E]
     Centre, ///< [t - E/2, t + E/2]

@@ -3,7 +3,7 @@
 // bit for bit: the whole picture is copied and the filters write over the copy; or the filters
 // write to a picture of their own and their blocks are copied back, so that still pixels are not
 // touched. The first costs the same whatever moves (1.1 ms at 1280x720 on lavapipe), the second in
-// proportion to what moves (4 ms where all does): README.md, "Still pixels".
+// proportion to what moves (4 ms where all does): passes.md, "Still pixels".
 #pragma once
 
 #include "engine/gpu/pipeline.h"
