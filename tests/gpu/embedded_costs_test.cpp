@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What each convention of inputs costs, and whether its picture is as close to the truth as that of
-// the module's own images. SHUTTER_EMBEDDED_COSTS=ROUNDS measures times as well, and prints the
-// table of docs/embedding_inputs.md.
+// the module's own images. SHUTTER_EMBEDDED_COSTS=ROUNDS measures times as well, and prints
+// both as a table (docs/embedding.md).
 #include "assets/generator/scenes.h"
 #include "engine/gpu/frame.h"
 #include "engine/image/metrics.h"
