@@ -9,7 +9,7 @@ import re
 import cluster as slurm
 from slurm_case import SHUTTER, SlurmCase, main
 
-# A longer film than a test should wait for: see README.md.
+# A longer film than a test should wait for: see tests/README.md.
 SCENE = os.environ.get("SHUTTER_FILM_SCENE", os.environ["SHUTTER_ASSETS"] + "/vase.glb")
 METHOD = os.environ.get("SHUTTER_FILM_METHOD", "accumulate")
 FRAMES = int(os.environ.get("SHUTTER_FILM_FRAMES", "16"))
