@@ -48,7 +48,7 @@ struct PictureStatistics {
     render::FrameStatistics frame;
 };
 
-/// --stats: schema in README.md, "Statistics".
+/// --stats: schema in docs/statistics.md.
 [[nodiscard]] core::Status writeStatistics(
     const std::filesystem::path& path,
     const RenderOptions& options,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of alpha modes in the motion blur's README, cell by cell.
+// The table of alpha modes in docs/limits.md, cell by cell.
 #include "modules/motion_blur/methods.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every hard case keeps within its bounds, under validation. What each draws and measures is in
-// tests/conformance/stability; README.md beside this file says which row of the design each is.
+// tests/conformance/stability; README.md beside this file says what is required.
 #include "tests/conformance/stability/measured.h"
 #include "tests/support/gpu_fixture.h"
 
