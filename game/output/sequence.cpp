@@ -11,6 +11,7 @@
 #include "game/output/sequence_journal.h"
 #include "game/output/timecode.h"
 #include "game/shot/picture_drawer.h"
+#include "game/shot/picture_effects.h"
 #include "game/shot/shot.h"
 
 #include <fmt/format.h>
@@ -137,8 +138,7 @@ class Sequence {
         mDevice = &device;
         mShot = &shot;
         mRenderer.emplace(device, shot.world.assets);
-        mBloom.emplace(device, mOptions.shot.picture.bloom);
-        mTonemap.emplace(device, mOptions.shot.picture.tonemap);
+        mEffects.emplace(device).configure(mOptions.shot.picture);
         mDrawer.emplace(device, *mRenderer);
         return {};
     }
@@ -231,7 +231,7 @@ class Sequence {
         request.frame.wantDump = mOptions.output.dumpGraph;
         request.frame.wantTrace = !mOptions.output.hashPasses.empty();
         request.frame.wantReasons = mOptions.output.explain;
-        request.ending = {&*mBloom, &*mTonemap};
+        request.ending = mEffects->listWith({});
         return mDrawer->draw(mShot->world, request, [&] { progress.advance(); });
     }
 
@@ -314,8 +314,7 @@ class Sequence {
     gpu::Device* mDevice = nullptr;
     const Shot* mShot = nullptr;
     std::optional<render::Renderer> mRenderer;
-    std::optional<bloom::Bloom> mBloom;
-    std::optional<tonemap::Tonemap> mTonemap;
+    std::optional<PictureEffects> mEffects;
     std::optional<PictureDrawer> mDrawer;
     std::optional<SequenceJournal> mJournal;
     std::vector<std::filesystem::path> mPartJournals;

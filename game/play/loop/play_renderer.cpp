@@ -13,9 +13,8 @@ constexpr uint32_t kFramesInFlight = 2;
 } // namespace
 
 PlayRenderer::PlayRenderer(gpu::Device& device, const scene::Assets& assets)
-    : mRenderer(device, assets, kFramesInFlight), mBloom(device, {}), mTonemap(device, {}),
-      mLeftView(device), mRightView(device), mKept(device), mWindow(device),
-      mDrawer(device, mRenderer) {}
+    : mRenderer(device, assets, kFramesInFlight), mEffects(device), mLeftView(device),
+      mRightView(device), mKept(device), mWindow(device), mDrawer(device, mRenderer) {}
 
 void PlayRenderer::takeFinished() {
     while (std::optional<FinishedPicture> finished = mDrawer.takeFinished()) {
@@ -85,9 +84,8 @@ core::Status PlayRenderer::draw(
     frame.wantReasons = frame.wantCounters = picture.wantReasons;
     if (!settings.view.empty())
         frame.shownIntermediates = debug_view::listSources(settings.view);
-    mBloom.configure(settings.picture.bloom);
-    mTonemap.configure(settings.picture.tonemap);
-    frame.wantBrightest = settings.picture.bloom.share > 0.0f;
+    mEffects.configure(settings.picture);
+    frame.wantBrightest = mEffects.needsBrightest();
     // Both sides of a split share the view, so one measurement serves.
     const auto cap = mDrawer.measureCap(world, frame.view);
     if (!cap)
@@ -99,7 +97,7 @@ core::Status PlayRenderer::draw(
             return left.error();
         mLeftView.setView(settings.view);
         left.value().cap = cap.value();
-        left.value().ending = {&mBloom, &mTonemap, &mLeftView, &mKept};
+        left.value().ending = mEffects.listWith({&mLeftView, &mKept});
         SHUTTER_TRY(mDrawer.submit(world, left.value()));
         window.left = mKept.image();
         window.dividerShare = settings.dividerShare;
@@ -115,7 +113,7 @@ core::Status PlayRenderer::draw(
     mRightView.setView(settings.view);
     mWindow.setTarget(window);
     right.value().cap = cap.value();
-    right.value().ending = {&mBloom, &mTonemap, &mRightView, &mWindow};
+    right.value().ending = mEffects.listWith({&mRightView, &mWindow});
     core::Status drawn = mDrawer.submit(world, right.value());
     takeFinished();
     return drawn;

@@ -8,9 +8,8 @@
 #include "engine/render/renderer.h"
 #include "game/play/panel/play_settings.h"
 #include "game/shot/picture_drawer.h"
-#include "modules/bloom/bloom.h"
+#include "game/shot/picture_effects.h"
 #include "modules/debug_view/debug_view.h"
-#include "modules/tonemap/tonemap.h"
 
 #include <deque>
 #include <optional>
@@ -75,8 +74,7 @@ class PlayRenderer {
     void takeFinished();
 
     render::Renderer mRenderer;
-    bloom::Bloom mBloom;
-    tonemap::Tonemap mTonemap;
+    PictureEffects mEffects;
     debug_view::DebugView mLeftView;
     debug_view::DebugView mRightView;
     app::KeptPicture mKept;
