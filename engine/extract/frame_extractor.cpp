@@ -44,7 +44,8 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     mFrame.entityHandles.resize(mRows.size());
 
     const WorldChanges changes = mWatch.look(world.registry);
-    const FrameView view(world, request);
+    mFrameView = std::make_unique<const FrameView>(world, request);
+    const FrameView& view = *mFrameView;
     const Frame frame{world, layout, request, view};
     mFrame.changes.since = mFrame.changes.revision;
     mFrame.changes.revision = takeRevision();
@@ -64,6 +65,11 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     addLights(frame);
     mFrame.moves = view.moves() || mMovesInView > 0;
     return &mFrame;
+}
+
+const FrameView& FrameExtractor::view() const {
+    SHUTTER_CHECK(mFrameView, "no frame was extracted");
+    return *mFrameView;
 }
 
 core::Status FrameExtractor::rebuild(const Frame& frame) {

@@ -9,6 +9,7 @@
 #include "engine/extract/world_watch.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,10 @@ class FrameExtractor {
     /// Error: as extractFrame's.
     [[nodiscard]] core::Result<ExtractedFrame*>
     update(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+    /// The camera and the motion that the frame was made with. Needs a frame (CHECKed); reads the
+    /// world, which must be as it was then.
+    [[nodiscard]] const FrameView& view() const;
 
   private:
     /// Beside a row of the entity table.
@@ -105,7 +110,8 @@ class FrameExtractor {
     WorldWatch mWatch;
     KeyedMotionCheck mKeyedMotion;
     Descendants mDescendants;
-    ViewMatrices mView;
+    std::unique_ptr<const FrameView> mFrameView; ///< of the frame
+    ViewMatrices mView;                          ///< that the rows were placed for
     const SceneLayout* mLayout = nullptr;
     uint32_t mFirstMovingMotion = 0; ///< in the table of motions
     uint32_t mMovesInView = 0;       ///< rows

@@ -49,7 +49,7 @@ struct ViewMatrices {
 
 class FrameView {
   public:
-    /// `world` and `request` must outlive this.
+    /// `world` must outlive this.
     FrameView(const scene::World& world, const ViewRequest& request);
 
     [[nodiscard]] const scene::ExposureMotion& motion() const { return mMotion; }

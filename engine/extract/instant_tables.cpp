@@ -34,12 +34,12 @@ class Builder {
     Builder(
         const scene::World& world,
         const ViewRequest& view,
+        const scene::ExposureMotion& motion,
         const ExtractedFrame& frame,
         uint32_t instantCount
     )
         : mWorld(world), mView(view), mFrame(frame),
-          mCamera(world.registry.get<scene::Camera>(view.camera)),
-          mMotion(world, view.camera, view.exposure) {
+          mCamera(world.registry.get<scene::Camera>(view.camera)), mMotion(motion) {
         for (uint32_t i = 0; i < instantCount; ++i)
             mTimes.push_back(scene::invertLight(view.exposure, (i + 0.5) / instantCount));
         for (const double s : mTimes)
@@ -289,7 +289,7 @@ class Builder {
     const ViewRequest& mView;
     const ExtractedFrame& mFrame;
     const scene::Camera& mCamera;
-    scene::ExposureMotion mMotion;
+    const scene::ExposureMotion& mMotion;
     std::vector<double> mTimes;
     std::vector<dmat4> mPictures; ///< one per instant
     dmat4 mRasterPicture{1.0};
@@ -302,13 +302,14 @@ class Builder {
 InstantTables computeInstantTables(
     const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
     uint32_t instantCount,
     const RasterRecord* last,
     const InstantFrame* second
 ) {
     SHUTTER_CHECK(instantCount > 0, "no instants");
-    return Builder(world, view, frame, instantCount).run(last, second);
+    return Builder(world, view, motion, frame, instantCount).run(last, second);
 }
 
 } // namespace shutter::extract

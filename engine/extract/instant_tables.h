@@ -37,6 +37,7 @@ struct InstantFrame {
 /// Instants are the middles of equal shares of the light, by the shutter's response.
 /// \param view its jitter is that of the colours that the layers hold: none, where an effect has
 /// taken the raster's out of them
+/// \param motion of the view's exposure
 /// \param instantCount above 0
 /// \param last of the frame drawn before, or null. It counts only if that was one frame ago, by the
 /// same camera, in the same size and without a cut in between; of what has appeared, was teleported
@@ -45,6 +46,7 @@ struct InstantFrame {
 [[nodiscard]] InstantTables computeInstantTables(
     const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
     uint32_t instantCount,
     const RasterRecord* last,

@@ -104,7 +104,9 @@ bool isOfSameFrame(
            pictureFromWorldAt(world, unjittered, motion, view.exposure.rasterTime);
 }
 
-std::optional<ViewRequest> makeViewBefore(const scene::World& world, const ViewRequest& view) {
+std::optional<ViewRequest> makeViewBefore(
+    const scene::World& world, const ViewRequest& view, const scene::ExposureMotion& motion
+) {
     ViewRequest before = view;
     before.exposure = scene::computeExposureBefore(view.exposure, 1);
     RasterRecord record;
@@ -112,7 +114,6 @@ std::optional<ViewRequest> makeViewBefore(const scene::World& world, const ViewR
     record.camera = view.camera;
     record.width = view.width;
     record.height = view.height;
-    const scene::ExposureMotion motion(world, view.camera, view.exposure);
     if (!isOfFrameBefore(world, view, motion, record))
         return std::nullopt;
     return before;

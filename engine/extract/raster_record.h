@@ -93,9 +93,10 @@ struct RasterRecord {
 );
 
 /// The view of the frame before, for a raster that isOfFrameBefore(); nothing where that frame
-/// shows something else, or no time has passed since.
-[[nodiscard]] std::optional<ViewRequest>
-makeViewBefore(const scene::World& world, const ViewRequest& view);
+/// shows something else, or no time has passed since. \param motion of the view's exposure
+[[nodiscard]] std::optional<ViewRequest> makeViewBefore(
+    const scene::World& world, const ViewRequest& view, const scene::ExposureMotion& motion
+);
 
 /// The time since `last` in which events end a thing's past.
 [[nodiscard]] scene::TimeSpan

@@ -39,10 +39,10 @@ std::vector<uint32_t> findLastRows(const RasterRecord& last, const RasterRecord&
 Reprojection computeReprojection(
     const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
     const RasterRecord* last
 ) {
-    const scene::ExposureMotion motion(world, view.camera, view.exposure);
     ViewRequest unjittered = view;
     unjittered.jitterPx = math::dvec2(0.0);
     Reprojection result;

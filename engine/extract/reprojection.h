@@ -27,11 +27,13 @@ struct Reprojection {
     bool isPerspective = true;
 };
 
+/// \param motion of the view's exposure
 /// \param last drawn before this frame, or null. It counts if the same camera drew it at most
 /// kMostFramesAgo before, or at the same time, in the same size and without a cut in between
 [[nodiscard]] Reprojection computeReprojection(
     const scene::World& world,
     const ViewRequest& view,
+    const scene::ExposureMotion& motion,
     const ExtractedFrame& frame,
     const RasterRecord* last
 );

@@ -47,10 +47,11 @@ class Planner {
         const scene::World& world,
         const SceneLayout& layout,
         const ViewRequest& view,
+        const FrameView& frameView,
         const ExtractedFrame& frame,
         bool keepsExposure
     )
-        : mWorld(world), mLayout(layout), mView(view), mFrame(frame), mFrameView(world, view),
+        : mWorld(world), mLayout(layout), mView(view), mFrame(frame), mFrameView(frameView),
           mBlurs(
               view.shadows.mode == ShadowMode::Blurred && (keepsExposure || !view.instant) &&
               view.exposure.close > view.exposure.open
@@ -357,7 +358,7 @@ class Planner {
     const SceneLayout& mLayout;
     const ViewRequest& mView;
     const ExtractedFrame& mFrame;
-    FrameView mFrameView;
+    const FrameView& mFrameView;
     bool mBlurs = false;
     std::vector<PlacedLight> mLights;
     math::Bounds mScene; ///< all rows, world space
@@ -375,10 +376,11 @@ ShadowPlan planShadows(
     const scene::World& world,
     const SceneLayout& layout,
     const ViewRequest& view,
+    const FrameView& frameView,
     const ExtractedFrame& frame,
     bool keepsExposure
 ) {
-    return Planner(world, layout, view, frame, keepsExposure).run();
+    return Planner(world, layout, view, frameView, frame, keepsExposure).run();
 }
 
 } // namespace shutter::extract

@@ -5,6 +5,7 @@
 
 #include "engine/core/result.h"
 #include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_view.h"
 #include "engine/extract/shadow_settings.h"
 #include "engine/extract/shadow_views.h"
 #include "shaders/render/shadow_shared.h"
@@ -53,11 +54,13 @@ struct ShadowPlan {
 };
 
 /// \param view the frame's; with an instant, shadows are those of that instant alone
+/// \param frameView of `view`
 /// \param keepsExposure although the view has an instant, shadows are means over the exposure
 [[nodiscard]] ShadowPlan planShadows(
     const scene::World& world,
     const SceneLayout& layout,
     const ViewRequest& view,
+    const FrameView& frameView,
     const ExtractedFrame& frame,
     bool keepsExposure
 );

@@ -27,7 +27,10 @@ core::Status OtherRaster::extract(
     mFrame = extracted.value();
     mView = view;
     mShadows->prepare(
-        extract::planShadows(world, layout, view, *mFrame, /*keepsExposure=*/true), *mFrame
+        extract::planShadows(
+            world, layout, view, mExtractor.view(), *mFrame, /*keepsExposure=*/true
+        ),
+        *mFrame
     );
     return {};
 }

@@ -37,6 +37,9 @@ class OtherRaster {
         const extract::ViewRequest& view
     );
 
+    /// What was extracted.
+    [[nodiscard]] ExtractedRaster extracted() const { return {mFrame, &mView}; }
+
     /// Declares the passes of what was extracted, which must live until they have been recorded.
     /// \param name of the pass that draws it
     /// \param shadows null: lights cast none

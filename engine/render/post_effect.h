@@ -11,6 +11,7 @@
 #include "engine/graph/ray_scene.h"
 #include "engine/render/frame_statistics.h"
 #include "engine/render/gbuffer.h"
+#include "engine/scene/exposure_motion.h"
 #include "engine/scene/world.h"
 
 #include <cstdint>
@@ -74,6 +75,29 @@ class Intermediates {
     std::map<std::string, graph::ImageHandle> mImages;
 };
 
+/// A raster of the world at another time, before it is drawn.
+struct ExtractedRaster {
+    const extract::ExtractedFrame* frame = nullptr;
+    const extract::ViewRequest* view = nullptr; ///< what `frame` was extracted for
+};
+
+/// What an effect may read of the world. Nothing that is declared afterwards sees it.
+struct ExtractContext {
+    const scene::World& world;
+    const extract::ViewRequest& view;
+    const scene::ExposureMotion& motion; ///< of the view's exposure
+    const extract::ExtractedFrame& frame;
+    const ViewFacts& facts;
+    uint32_t slot = 0; ///< PostContext::slot
+    /// Of the exposure's other end (ViewRequest::instant); nothing where the effect does not ask
+    /// for it.
+    std::optional<ExtractedRaster> secondRaster{};
+    std::optional<ExtractedRaster> lastRaster{}; ///< of the frame before; likewise
+    /// Jitter of the colour that the effect gets: the raster's (ViewRequest::jitterPx), until an
+    /// effect takes it out.
+    math::dvec2 colorJitterPx{0.0};
+};
+
 /// A raster of the world at another time. What it points to lives as long as the graph.
 struct OtherRasterView {
     GBuffer gbuffer;
@@ -84,7 +108,6 @@ struct OtherRasterView {
 
 struct PostContext {
     graph::Graph& graph;
-    const scene::World& world;
     const extract::ViewRequest& view;
     const extract::ExtractedFrame& frame;
     const gpu_scene::DeformedMeshes& shapes; ///< of `frame`
@@ -97,9 +120,7 @@ struct PostContext {
     const OtherRasterView* secondRaster;
     const OtherRasterView* lastRaster; ///< of the frame before; likewise
     graph::ImageHandle color;          ///< linear HDR so far; an effect replaces it
-    /// Jitter of `color`: the raster's (ViewRequest::jitterPx), until an effect takes it out.
-    math::dvec2 colorJitterPx;
-    graph::ImageHandle display; ///< display-encoded, once somebody made it
+    graph::ImageHandle display;        ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
@@ -145,14 +166,14 @@ class PostEffect {
 
     /// The same for the raster of the frame before, drawn once more (PostContext::lastRaster): for
     /// what did not keep it. It runs only where extract::makeViewBefore() finds that frame.
-    /// \param view of this frame
-    [[nodiscard]] virtual core::Decision askLastRaster(
-        const ViewFacts&, const scene::World&, const extract::ViewRequest& /*view*/
-    ) const {
-        return {};
-    }
+    /// The rasters of the context are not there yet.
+    [[nodiscard]] virtual core::Decision askLastRaster(const ExtractContext&) const { return {}; }
 
-    /// Declares passes; called only when ask() said run.
+    /// Computes what the effect's passes need of the world; called only when ask() said run, for
+    /// all effects of the frame in their order, before any declares passes.
+    virtual void extract(ExtractContext&) {}
+
+    /// Declares passes; called after extract().
     virtual void declare(PostContext& context) = 0;
 
     /// Called for each frame that the effect was asked about, in their order, once the GPU is done

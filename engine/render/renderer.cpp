@@ -128,7 +128,15 @@ core::Status Renderer::submitFrame(
     FrameStatistics& statistics = pending.result.statistics;
     statistics.measures["extraction ms"] = nowMilliseconds() - pending.startMilliseconds;
     Explainer explainer;
-    RunningEffects running = askEffects(world, request.view, effects, facts, explainer);
+    ExtractContext context{
+        .world = world,
+        .view = request.view,
+        .motion = mExtractor.view().motion(),
+        .frame = frame,
+        .facts = facts,
+        .slot = pending.slot,
+        .colorJitterPx = request.view.jitterPx};
+    RunningEffects running = askEffects(context, effects, explainer);
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
@@ -145,12 +153,23 @@ core::Status Renderer::submitFrame(
         moving = std::move(computed).value();
     }
 
-    SHUTTER_TRY(extractOtherRasters(slot, world, request.view, running));
+    slot.shadows->prepare(
+        extract::planShadows(
+            world,
+            mScene.layout(),
+            request.view,
+            mExtractor.view(),
+            frame,
+            /*keepsExposure=*/false
+        ),
+        frame
+    );
+    SHUTTER_TRY(extractForEffects(slot, context, running));
     slot.frame.begin();
     slot.readback.reset();
     graph::Graph graph;
     pending.tickets = declareFrame(
-        slot, graph, world, request, facts, frame, moving ? &*moving : nullptr, running, explainer
+        slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer
     );
     if (request.wantTrace)
         SHUTTER_TRY(pending.trace.declare(graph, slot.readback, mPool.requirementFunction()));
@@ -218,7 +237,6 @@ FrameResult Renderer::finishFrame() {
 Renderer::Tickets Renderer::declareFrame(
     Slot& slot,
     graph::Graph& graph,
-    const scene::World& world,
     const FrameRequest& request,
     const ViewFacts& facts,
     extract::ExtractedFrame& frame,
@@ -245,10 +263,6 @@ Renderer::Tickets Renderer::declareFrame(
         declareTlas(slot, graph, frame, shapes, rays);
         mTlasMilliseconds = nowMilliseconds() - start;
     }
-    slot.shadows->prepare(
-        extract::planShadows(world, mScene.layout(), request.view, frame, /*keepsExposure=*/false),
-        frame
-    );
     const extract::ShadowPlan& shadows = slot.shadows->plan();
     if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
         mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
@@ -298,7 +312,6 @@ Renderer::Tickets Renderer::declareFrame(
     publishGBuffer(gbuffer, intermediates);
     PostContext context{
         graph,
-        world,
         request.view,
         frame,
         shapes,
@@ -309,7 +322,6 @@ Renderer::Tickets Renderer::declareFrame(
         nullptr,
         nullptr,
         gbuffer.color,
-        request.view.jitterPx,
         {},
         intermediates,
         tables.response,

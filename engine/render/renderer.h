@@ -211,23 +211,15 @@ class Renderer {
     core::Result<std::vector<float>>
     lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
     static RunningEffects askEffects(
-        const scene::World& world,
-        const extract::ViewRequest& view,
-        std::span<PostEffect* const> effects,
-        const ViewFacts& facts,
-        Explainer& explainer
+        const ExtractContext& context, std::span<PostEffect* const> effects, Explainer& explainer
     );
-    /// Extracts what the running effects look up beside the frame's own raster.
-    [[nodiscard]] core::Status extractOtherRasters(
-        Slot& slot,
-        const scene::World& world,
-        const extract::ViewRequest& view,
-        const RunningEffects& running
-    );
+    /// Extracts what the running effects look up beside the frame's own raster, and what they need
+    /// of the world themselves.
+    [[nodiscard]] core::Status
+    extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running);
     Tickets declareFrame(
         Slot& slot,
         graph::Graph& graph,
-        const scene::World& world,
         const FrameRequest& request,
         const ViewFacts& facts,
         extract::ExtractedFrame& frame,

@@ -19,12 +19,9 @@ void join(core::Decision& all, const std::string& effect, const core::Decision& 
 } // namespace
 
 Renderer::RunningEffects Renderer::askEffects(
-    const scene::World& world,
-    const extract::ViewRequest& view,
-    std::span<PostEffect* const> effects,
-    const ViewFacts& facts,
-    Explainer& explainer
+    const ExtractContext& context, std::span<PostEffect* const> effects, Explainer& explainer
 ) {
+    const ViewFacts& facts = context.facts;
     RunningEffects running;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
     running.secondRaster =
@@ -41,7 +38,7 @@ Renderer::RunningEffects Renderer::askEffects(
         if (!decision.run)
             continue;
         const core::Decision secondRaster = effect->askSecondRaster(facts);
-        const core::Decision lastRaster = effect->askLastRaster(facts, world, view);
+        const core::Decision lastRaster = effect->askLastRaster(context);
         running.effects.push_back({effect, secondRaster.run, lastRaster.run});
         running.mayTrace = running.mayTrace || !rays.reason.empty();
         join(running.rays, effect->name(), rays);
@@ -52,20 +49,28 @@ Renderer::RunningEffects Renderer::askEffects(
     return running;
 }
 
-core::Status Renderer::extractOtherRasters(
-    Slot& slot,
-    const scene::World& world,
-    const extract::ViewRequest& view,
-    const RunningEffects& running
-) {
+core::Status
+Renderer::extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running) {
     const extract::SceneLayout& layout = mScene.layout();
     if (running.secondRaster.run)
-        SHUTTER_TRY(slot.secondRaster->extract(world, layout, makeViewOfOtherEnd(view)));
-    if (!running.lastRaster.run)
-        return {};
-    const auto before = extract::makeViewBefore(world, view);
-    SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
-    return slot.lastRaster->extract(world, layout, *before);
+        SHUTTER_TRY(
+            slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(context.view))
+        );
+    if (running.lastRaster.run) {
+        const auto before = extract::makeViewBefore(context.world, context.view, context.motion);
+        SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
+        SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before));
+    }
+    for (const RunningEffect& one : running.effects) {
+        context.secondRaster.reset();
+        context.lastRaster.reset();
+        if (one.readsSecondRaster)
+            context.secondRaster = slot.secondRaster->extracted();
+        if (one.readsLastRaster)
+            context.lastRaster = slot.lastRaster->extracted();
+        one.effect->extract(context);
+    }
+    return {};
 }
 
 std::vector<Renderer::PendingEffect> Renderer::listPending(

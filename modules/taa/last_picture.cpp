@@ -22,18 +22,21 @@ gpu::ImageDesc describeImage(const render::ViewFacts& facts, VkFormat format) {
 
 } // namespace
 
-LastPicture::Frame LastPicture::turn(const render::PostContext& context) {
-    extract::Reprojection reprojection = extract::computeReprojection(
-        context.world, context.view, context.frame, mRecord ? &*mRecord : nullptr
+void LastPicture::extract(const render::ExtractContext& context) {
+    mReprojection = extract::computeReprojection(
+        context.world, context.view, context.motion, context.frame, mRecord ? &*mRecord : nullptr
     );
-    mRecord = std::move(reprojection.record);
+}
+
+LastPicture::Frame LastPicture::turn(const render::PostContext& context) {
+    mRecord = std::move(mReprojection.record);
     Frame frame;
-    frame.isPerspective = reprojection.isPerspective;
-    if (reprojection.last) {
+    frame.isPerspective = mReprojection.isPerspective;
+    if (mReprojection.last) {
         frame.last = &mImages.at(mNewest);
-        frame.places = writePlaces(*reprojection.last, mBuffers.at(context.slot));
+        frame.places = writePlaces(*mReprojection.last, mBuffers.at(context.slot));
         if (context.facts.exposureSeconds > 0.0)
-            frame.motionScale = float(reprojection.ageSeconds / context.facts.exposureSeconds);
+            frame.motionScale = float(mReprojection.ageSeconds / context.facts.exposureSeconds);
     }
     mNewest = 1 - mNewest;
     Images& kept = mImages.at(mNewest);

@@ -33,7 +33,12 @@ class LastPicture {
 
     explicit LastPicture(gpu::Device& device) : mDevice(device) {}
 
-    /// \param context the slot's last frame must be finished. Its view's frames come in their order
+    /// Finds where this frame's surfaces are in the last picture. Its view's frames come in their
+    /// order.
+    void extract(const render::ExtractContext& context);
+
+    /// \param context of the frame that extract() was called for; the slot's last frame must be
+    /// finished
     [[nodiscard]] Frame turn(const render::PostContext& context);
 
     /// The next frame has none before it; the memory goes once the GPU is done with it.
@@ -47,6 +52,7 @@ class LastPicture {
     std::array<Images, 2> mImages; ///< in turns: one is read while the other is written
     uint32_t mNewest = 0;          ///< of mImages
     std::optional<extract::RasterRecord> mRecord; ///< of the newest
+    extract::Reprojection mReprojection;          ///< of the frame that was extracted
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;
 };
 

@@ -101,6 +101,11 @@ core::Decision Taa::ask(const render::ViewFacts&) const {
     return {true, "each frame samples another place in the pixel"};
 }
 
+void Taa::extract(render::ExtractContext& context) {
+    mLast.extract(context);
+    context.colorJitterPx = math::dvec2(0.0);
+}
+
 void Taa::declare(render::PostContext& context) {
     graph::Graph& graph = context.graph;
     const LastPicture::Frame frame = mLast.turn(context);
@@ -146,7 +151,6 @@ void Taa::declare(render::PostContext& context) {
     graph.markOutput(pass.kept);
     graph.markOutput(pass.keptDepth);
     context.color = pass.picture;
-    context.colorJitterPx = math::dvec2(0.0);
 }
 
 void Taa::finish(render::FinishedFrame& frame) {

@@ -40,7 +40,7 @@ makeJittered(const extract::ViewRequest& view, int64_t frameNumber);
 /// the pixel is filtered from the samples around it. A pixel is the plain mean of the frames behind
 /// it up to kMostFrames, then each new one has an equal share. Runs on the linear picture before
 /// the motion blur. The view must be one of makeJittered(); its colour has no jitter afterwards
-/// (PostContext::colorJitterPx), the other images of the raster keep theirs. Keeps 24 bytes a
+/// (ExtractContext::colorJitterPx), the other images of the raster keep theirs. Keeps 24 bytes a
 /// pixel: colour and depth, of this frame and the last one.
 class Taa : public render::PostEffect {
   public:
@@ -55,6 +55,7 @@ class Taa : public render::PostEffect {
     [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Scene; }
 
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
+    void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;
     void finish(render::FinishedFrame& frame) override;
 

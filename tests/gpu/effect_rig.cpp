@@ -23,24 +23,17 @@ graph::Plan run(GraphRig& rig) {
 
 EffectRig::EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height)
     : context{
-          rig.graph,
-          world,
-          view,
-          frame,
-          shapes,
-          facts,
-          gbuffer,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr,
-          color,
-          {},
-          {},
-          intermediates,
-          0,
-          0,
-          explainer} {
+          .graph = rig.graph,
+          .view = view,
+          .frame = frame,
+          .shapes = shapes,
+          .facts = facts,
+          .gbuffer = gbuffer,
+          .rays = nullptr,
+          .timedRays = nullptr,
+          .color = color,
+          .intermediates = intermediates,
+          .explainer = explainer} {
     facts.width = width;
     facts.height = height;
     facts.displayWanted = true;

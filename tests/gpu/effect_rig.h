@@ -17,7 +17,6 @@ graph::Plan run(GraphRig& rig);
 struct EffectRig {
     EffectRig(GraphRig& rig, graph::ImageHandle color, uint32_t width, uint32_t height);
 
-    scene::World world;
     extract::ViewRequest view;
     extract::ExtractedFrame frame;
     gpu_scene::DeformedMeshes shapes;

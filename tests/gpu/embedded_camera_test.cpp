@@ -49,9 +49,9 @@ class EmbeddedCamera : public test::EmbeddedTest {
         settings.method = &getMethod("rosado2007");
         test::HostOfTheGBuffer host(device(), *blur, settings, {kWidth, kHeight});
         host.blurOfC = c.blur;
-        host.changeInputs = [](const render::PostContext& context, HostInputs& inputs) {
+        host.changeInputs = [&scene](const render::PostContext& context, HostInputs& inputs) {
             inputs.rays = {};
-            inputs.convention.cameras = test::tellCameras(context.world, context.view);
+            inputs.convention.cameras = test::tellCameras(scene.world, context.view);
             inputs.convention.scales.exposureShare = 1.0f;
         };
         motion_blur::MotionBlurPlugin plugin(device(), renderer.scene(), settings);

@@ -83,8 +83,9 @@ class Sequence {
         mHost.blurOfC = mC.blur;
         mShutter.exposureSeconds = kFrameSeconds;
         mShutter.phase = phase;
-        mHost.describeMotion = [&teller](const render::PostContext& context, HostMotion& motion) {
-            teller.tell(context, motion);
+        mHost.describeMotion = [this,
+                                &teller](const render::PostContext& context, HostMotion& motion) {
+            teller.tell(mScene.world, context, motion);
         };
     }
 

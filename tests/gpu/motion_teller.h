@@ -24,11 +24,15 @@ class Teller {
     explicit Teller(uint32_t instantCount, std::vector<double> times = {})
         : mInstantCount(instantCount), mTimes(std::move(times)) {}
 
-    void tell(const render::PostContext& context, motion_blur::HostMotion& motion) {
+    void tell(
+        const scene::World& world,
+        const render::PostContext& context,
+        motion_blur::HostMotion& motion
+    ) {
         const scene::ExposureInterval& exposure = context.view.exposure;
-        const scene::ExposureMotion moves(context.world, context.view.camera, exposure);
+        const scene::ExposureMotion moves(world, context.view.camera, exposure);
         const std::vector<double> times = listTimes(exposure);
-        const auto& camera = context.world.registry.get<scene::Camera>(context.view.camera);
+        const auto& camera = world.registry.get<scene::Camera>(context.view.camera);
         mKeys.clear();
         for (const double s : times)
             mKeys.push_back(

@@ -117,7 +117,7 @@ class OwnSamples : public test::EmbeddedTest {
         const test::BlurOfC c(device());
         host.blurOfC = c.blur;
         host.describeMotion = [&](const render::PostContext& context, auto& motion) {
-            teller.tell(context, motion);
+            teller.tell(scene.world, context, motion);
         };
         host.changeInputs = [&](const render::PostContext& context, HostInputs& inputs) {
             std::optional<graph::TimedRays> timed;

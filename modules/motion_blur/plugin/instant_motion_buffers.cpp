@@ -10,56 +10,45 @@ namespace shutter::motion_blur {
 namespace {
 
 extract::RasterRecord
-describeRaster(const scene::World& world, const render::OtherRasterView& drawn) {
+describeRaster(const scene::World& world, const render::ExtractedRaster& drawn) {
     const extract::ViewRequest& view = *drawn.view;
     const scene::ExposureMotion motion(world, view.camera, view.exposure);
     return extract::makeRasterRecord(world, view, motion, *drawn.frame, view.exposure.rasterTime);
 }
 
+bool isOfFrameBefore(
+    const render::ExtractContext& context, const std::optional<extract::RasterRecord>& record
+) {
+    return record && extract::isOfFrameBefore(context.world, context.view, context.motion, *record);
+}
+
 } // namespace
 
-bool InstantMotionBuffers::isOfFrameBefore(
-    const scene::World& world,
-    const extract::ViewRequest& view,
-    const std::optional<extract::RasterRecord>& record
-) const {
-    if (!record)
-        return false;
-    const scene::ExposureMotion motion(world, view.camera, view.exposure);
-    return extract::isOfFrameBefore(world, view, motion, *record);
+bool InstantMotionBuffers::isAgain(const render::ExtractContext& context) const {
+    return mLast && extract::isOfSameFrame(context.world, context.view, context.motion, *mLast) &&
+           isOfFrameBefore(context, mBefore);
 }
 
-bool InstantMotionBuffers::isAgain(const scene::World& world, const extract::ViewRequest& view)
-    const {
-    if (!mLast)
-        return false;
-    const scene::ExposureMotion motion(world, view.camera, view.exposure);
-    return extract::isOfSameFrame(world, view, motion, *mLast) &&
-           isOfFrameBefore(world, view, mBefore);
-}
-
-bool InstantMotionBuffers::holdsFrameBefore(
-    const scene::World& world, const extract::ViewRequest& view
-) const {
-    return isOfFrameBefore(world, view, mLast) || isAgain(world, view);
+bool InstantMotionBuffers::holdsFrameBefore(const render::ExtractContext& context) const {
+    return isOfFrameBefore(context, mLast) || isAgain(context);
 }
 
 extract::InstantTables InstantMotionBuffers::computeTables(
-    const render::PostContext& context, uint32_t instantCount
+    const render::ExtractContext& context, uint32_t instantCount
 ) const {
-    const render::OtherRasterView* const second = context.secondRaster;
     std::optional<extract::InstantFrame> secondFrame;
-    if (second)
+    if (const auto& second = context.secondRaster)
         secondFrame.emplace(*second->view->instant, *second->frame, second->view->jitterPx);
     const extract::RasterRecord* last = mLast ? &*mLast : nullptr;
     std::optional<extract::RasterRecord> drawnAnew;
-    if (const render::OtherRasterView* const drawn = context.lastRaster)
+    if (const auto& drawn = context.lastRaster)
         last = &drawnAnew.emplace(describeRaster(context.world, *drawn));
     extract::ViewRequest view = context.view;
     view.jitterPx = context.colorJitterPx;
     return extract::computeInstantTables(
         context.world,
         view,
+        context.motion,
         context.frame,
         instantCount,
         last,
@@ -67,59 +56,62 @@ extract::InstantTables InstantMotionBuffers::computeTables(
     );
 }
 
-InstantMotions InstantMotionBuffers::update(
-    const render::PostContext& context, uint32_t instantCount, bool hasHistory
+void InstantMotionBuffers::extract(
+    const render::ExtractContext& context, uint32_t instantCount, bool hasHistory
 ) {
     if (!hasHistory)
         forget();
-    else if (!context.lastRaster && isAgain(context.world, context.view))
+    else if (!context.lastRaster && isAgain(context))
         stepBack();
-    extract::InstantTables tables = computeTables(context, instantCount);
+    mTables = computeTables(context, instantCount);
+    mInstantCount = instantCount;
+    mHasHistory = hasHistory;
+}
+
+InstantMotions InstantMotionBuffers::declare(const render::PostContext& context) {
     InstantMotions motions;
-    motions.table = writeInstantLayers(mDevice, tables, mBuffers.at(context.slot));
-    motions.instantCount = instantCount;
-    motions.hasLast = tables.last.has_value();
+    motions.table = writeInstantLayers(mDevice, mTables, mBuffers.at(context.slot));
+    motions.instantCount = mInstantCount;
+    motions.hasLast = mTables.last.has_value();
     motions.deforms = {
-        tables.raster.deforms,
-        tables.last && tables.last->deforms,
-        tables.second && tables.second->deforms};
-    motions.mayCrowd = mayCrowdTiles(tables);
-    motions.drawWays = declareWays(context, tables);
+        mTables.raster.deforms,
+        mTables.last && mTables.last->deforms,
+        mTables.second && mTables.second->deforms};
+    motions.mayCrowd = mayCrowdTiles(mTables);
+    motions.drawWays = declareWays(context);
     if (const render::OtherRasterView* const second = context.secondRaster)
         motions.second = SecondRaster{
             second->gbuffer.color, second->gbuffer.motionDepth, second->gbuffer.entityId};
     if (const render::OtherRasterView* const last = context.lastRaster)
         motions.lent =
             LentRaster{last->gbuffer.color, last->gbuffer.motionDepth, last->gbuffer.entityId};
-    if (!hasHistory)
+    if (!mHasHistory)
         return motions;
     motions.history = &mHistory;
     motions.keepsRaster = context.facts.isFollowed;
     if (!motions.keepsRaster)
         return motions;
     mBefore = std::move(mLast);
-    mLast = std::move(tables.record);
+    mLast = std::move(mTables.record);
     return motions;
 }
 
-DrawWays InstantMotionBuffers::declareWays(
-    const render::PostContext& context, const extract::InstantTables& tables
-) {
-    if (tables.rasterWays.empty() && tables.lastWays.empty() && tables.secondWays.empty())
+DrawWays InstantMotionBuffers::declareWays(const render::PostContext& context) {
+    if (mTables.rasterWays.empty() && mTables.lastWays.empty() && mTables.secondWays.empty())
         return {};
     auto& ways = mWays.at(context.slot);
     if (!ways)
         ways.emplace(mDevice);
     const render::ShapedFrame now{&context.frame, &context.shapes};
     std::array<render::ShapeWayLayer, 3> layers;
-    layers[size_t(LayerIndex::Raster)] = {tables.rasterWays, now};
+    layers[size_t(LayerIndex::Raster)] = {mTables.rasterWays, now};
     if (const render::OtherRasterView* const last = context.lastRaster)
-        layers[size_t(LayerIndex::Last)] = {tables.lastWays, {last->frame, &last->shapes}};
+        layers[size_t(LayerIndex::Last)] = {mTables.lastWays, {last->frame, &last->shapes}};
     else
-        layers[size_t(LayerIndex::Last)] = {tables.lastWays, {}, mLast ? &*mLast : nullptr};
+        layers[size_t(LayerIndex::Last)] = {mTables.lastWays, {}, mLast ? &*mLast : nullptr};
     if (const render::OtherRasterView* const second = context.secondRaster)
-        layers[size_t(LayerIndex::Second)] = {tables.secondWays, {second->frame, &second->shapes}};
-    ways->declareShapes(context.graph, now, tables.middles, layers, mScene);
+        layers[size_t(LayerIndex::Second)] = {mTables.secondWays, {second->frame, &second->shapes}};
+    ways->declareShapes(context.graph, now, mTables.middles, layers, mScene);
     return
         [&ways = *ways, &scene = mScene](
             graph::Graph& graph, LayerIndex layer, graph::ImageHandle surface, uint32_t keyMask

@@ -24,40 +24,38 @@ class InstantMotionBuffers {
         : mDevice(device), mScene(scene), mHistory(device) {}
 
     /// Whether the raster of the frame before the view's is kept, for a frame that keeps its own.
-    [[nodiscard]] bool
-    holdsFrameBefore(const scene::World& world, const extract::ViewRequest& view) const;
+    [[nodiscard]] bool holdsFrameBefore(const render::ExtractContext& context) const;
 
-    /// \param context the slot's last frame must be finished
+    /// Computes a frame's tables.
     /// \param hasHistory things are looked up in the raster of the frame before, which
-    /// PostContext::lastRaster shows where it is not kept, and the next frame may look up things in
-    /// this one's (ViewFacts::isFollowed)
-    [[nodiscard]] InstantMotions
-    update(const render::PostContext& context, uint32_t instantCount, bool hasHistory);
+    /// ExtractContext::lastRaster shows where it is not kept, and the next frame may look up things
+    /// in this one's (ViewFacts::isFollowed)
+    void extract(const render::ExtractContext& context, uint32_t instantCount, bool hasHistory);
+
+    /// \param context of the frame that extract() was called for; the slot's last frame must be
+    /// finished
+    [[nodiscard]] InstantMotions declare(const render::PostContext& context);
 
     /// Keeps no raster any more, nor memory for one.
     void forget();
 
   private:
     /// \return empty where nothing deforms
-    [[nodiscard]] DrawWays
-    declareWays(const render::PostContext& context, const extract::InstantTables& tables);
+    [[nodiscard]] DrawWays declareWays(const render::PostContext& context);
     [[nodiscard]] extract::InstantTables
-    computeTables(const render::PostContext& context, uint32_t instantCount) const;
+    computeTables(const render::ExtractContext& context, uint32_t instantCount) const;
 
-    /// Whether the view's frame was the last one and is drawn again: the one before it counts.
-    [[nodiscard]] bool isAgain(const scene::World& world, const extract::ViewRequest& view) const;
+    /// Whether the context's frame was the last one and is drawn again: the one before it counts.
+    [[nodiscard]] bool isAgain(const render::ExtractContext& context) const;
     /// What was kept before the newest raster is the newest again.
     void stepBack();
-    [[nodiscard]] bool isOfFrameBefore(
-        const scene::World& world,
-        const extract::ViewRequest& view,
-        const std::optional<extract::RasterRecord>& record
-    ) const;
-
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;
     std::optional<extract::RasterRecord> mLast;   ///< of the newest raster of mHistory
     std::optional<extract::RasterRecord> mBefore; ///< of the one kept before
+    extract::InstantTables mTables;               ///< of the frame that was extracted
+    uint32_t mInstantCount = 0;
+    bool mHasHistory = false;
     std::array<std::optional<render::ShapeWays>, gpu::kMaxFramesInFlight> mWays; ///< by slot
     RasterHistory mHistory;
     std::array<gpu::Buffer, gpu::kMaxFramesInFlight> mBuffers;

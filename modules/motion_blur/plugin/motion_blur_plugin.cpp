@@ -123,18 +123,21 @@ core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts& facts)
     return {true, "secondRaster is set"};
 }
 
-core::Decision MotionBlurPlugin::askLastRaster(
-    const render::ViewFacts& facts, const scene::World& world, const extract::ViewRequest& view
-) const {
+core::Decision MotionBlurPlugin::askLastRaster(const render::ExtractContext& context) const {
     if (!readsHistory())
         return {};
-    if (onlyKeeps(facts))
+    if (onlyKeeps(context.facts))
         return {false, kNoPicture};
-    if (mInstantMotions.holdsFrameBefore(world, view))
+    if (mInstantMotions.holdsFrameBefore(context))
         return {false, "the frame before left its own"};
-    if (!extract::makeViewBefore(world, view))
+    if (!extract::makeViewBefore(context.world, context.view, context.motion))
         return {false, "the frame before shows something else"};
     return {true, "the frame before left none"};
+}
+
+void MotionBlurPlugin::extract(render::ExtractContext& context) {
+    if (settings().method->readsInstantMotions)
+        mInstantMotions.extract(context, countInstants(settings()), settings().history);
 }
 
 void MotionBlurPlugin::declare(render::PostContext& context) {
@@ -155,8 +158,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     if (context.timedRays)
         inputs.timedRays = *context.timedRays;
     if (settings().method->readsInstantMotions)
-        inputs.instantMotions =
-            mInstantMotions.update(context, countInstants(settings()), settings().history);
+        inputs.instantMotions = mInstantMotions.declare(context);
     const bool keepsOnly = onlyKeeps(context.facts);
     const bool standsIn = mStandIn.has_value();
     // Counts of blocks choose how the next frames' still pixels are copied, whoever else reads

@@ -57,9 +57,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// With MotionBlurSettings::history, for methods that read it, in frames that are shown and
     /// follow one that left no raster: nothing moved in it, another method drew it, or it had
     /// another size.
-    [[nodiscard]] core::Decision askLastRaster(
-        const render::ViewFacts& facts, const scene::World& world, const extract::ViewRequest& view
+    [[nodiscard]] core::Decision askLastRaster(const render::ExtractContext& context
     ) const override;
+    void extract(render::ExtractContext& context) override;
 
     void declare(render::PostContext& context) override;
     /// Measures what the effect took and, under a budget, its level.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/extract/extracted_frame.h"
+#include "engine/extract/frame_view.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,10 @@ class Extraction : public testing::Test {
         auto frame = extractFrame(world, layout, request);
         EXPECT_TRUE(frame.ok());
         return std::move(frame).value();
+    }
+
+    [[nodiscard]] scene::ExposureMotion motion() const {
+        return {world, request.camera, request.exposure};
     }
 
     /// Motion of a row of the table; one without motion is at the ends where it is at the raster

@@ -56,7 +56,7 @@ class InstantTablesTest : public Extraction {
     }
 
     InstantTables compute(const RasterRecord* last = nullptr) {
-        return computeInstantTables(world, request, extract(), kInstants, last);
+        return computeInstantTables(world, request, motion(), extract(), kInstants, last);
     }
 
     /// With a raster of shutter open.
@@ -65,7 +65,9 @@ class InstantTablesTest : public Extraction {
         atOpen.instant = 0.0;
         const auto second = extractFrame(world, layout, atOpen);
         const InstantFrame frame{0.0, second.value()};
-        return computeInstantTables(world, request, extract(), kInstants, nullptr, &frame);
+        return computeInstantTables(
+            world, request, motion(), extract(), kInstants, nullptr, &frame
+        );
     }
 
     /// The tables of the frame at 1 s, after one at 1 s - kFrameSeconds.
@@ -271,7 +273,7 @@ TEST_F(InstantTablesTest, TheViewBeforeDrawsTheLastRaster) {
     setTime(1.0 - kFrameSeconds);
     const RasterRecord last = compute().record;
     setTime(1.0);
-    const auto before = makeViewBefore(world, request);
+    const auto before = makeViewBefore(world, request, motion());
     ASSERT_TRUE(before.has_value());
     const auto frame = extractFrame(world, layout, *before);
     const scene::ExposureMotion motionBefore(world, camera, before->exposure);
@@ -305,16 +307,16 @@ TEST_F(InstantTablesTest, AFrameThatIsDrawnAgainIsKnownByItsTimeAndItsCamera) {
 
 TEST_F(InstantTablesTest, NothingIsBeforeACutAPauseOrTheBeginning) {
     moveCamera();
-    ASSERT_TRUE(makeViewBefore(world, request).has_value());
+    ASSERT_TRUE(makeViewBefore(world, request, motion()).has_value());
     request.exposure.frameSeconds = 0.0;
-    EXPECT_FALSE(makeViewBefore(world, request).has_value());
+    EXPECT_FALSE(makeViewBefore(world, request, motion()).has_value());
     setTime(1.0);
     scene::cut(world, camera, 0.8);
-    EXPECT_FALSE(makeViewBefore(world, request).has_value());
+    EXPECT_FALSE(makeViewBefore(world, request, motion()).has_value());
     scene::cut(world, camera, 0.7);
-    EXPECT_TRUE(makeViewBefore(world, request).has_value()) << "before the frame before";
+    EXPECT_TRUE(makeViewBefore(world, request, motion()).has_value()) << "before the frame before";
     world.startSeconds = 0.9;
-    EXPECT_FALSE(makeViewBefore(world, request).has_value());
+    EXPECT_FALSE(makeViewBefore(world, request, motion()).has_value());
 }
 
 TEST_F(InstantTablesTest, InstantsFollowTheResponse) {
@@ -438,7 +440,7 @@ TEST_F(ShapeWaysTest, ASkinThatTurnsAsOneIsARigidMoverInAllLayers) {
     const auto second = extractFrame(world, layout, atOpen);
     const InstantFrame frame{0.0, second.value()};
     const InstantTables tables =
-        computeInstantTables(world, request, extract(), kInstants, &last, &frame);
+        computeInstantTables(world, request, motion(), extract(), kInstants, &last, &frame);
     for (const LayerTables* layer : {&tables.raster, &*tables.last, &*tables.second})
         EXPECT_LT(layer->movers.at(0), shader::kDeformedMover);
     EXPECT_TRUE(tables.rasterWays.empty() && tables.lastWays.empty() && tables.secondWays.empty());
@@ -490,7 +492,7 @@ class ReprojectionTest : public Extraction {
     }
 
     Reprojection compute(const RasterRecord* last = nullptr) {
-        return computeReprojection(world, request, extract(), last);
+        return computeReprojection(world, request, motion(), extract(), last);
     }
 
     /// Reprojection of the frame at 1 s, after one at `seconds`.

@@ -32,7 +32,8 @@ class ShadowPlanOfScenes : public Extraction {
 
     /// Whether the finest cascade reaches the back of the nearest box.
     bool isNearestInFinest() {
-        const ShadowPlan plan = planShadows(world, layout, request, extract(), false);
+        const ShadowPlan plan =
+            planShadows(world, layout, request, FrameView(world, request), extract(), false);
         EXPECT_TRUE(plan.shadows.run) << plan.shadows.reason;
         EXPECT_GT(plan.maps.size(), 1u);
         if (plan.maps.empty())
@@ -59,7 +60,8 @@ TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
             addBox(math::Transform{.translation = dvec3(0, 0, -distance), .scale = dvec3(0.5)});
         world.registry.add(mover, scene::LinearVelocity{dvec3(0.2, 0, 0)});
     }
-    const ShadowPlan plan = planShadows(world, layout, request, extract(), false);
+    const ShadowPlan plan =
+        planShadows(world, layout, request, FrameView(world, request), extract(), false);
     ASSERT_EQ(plan.movers.size(), 2u);
     const uint32_t first = plan.lights.at(0).firstLayer;
     const uint32_t near = plan.maps.at(first + plan.movers[0].firstLayer).sizePx;
@@ -68,7 +70,8 @@ TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
     EXPECT_EQ(near, 128u);
     EXPECT_EQ(far, 16u);
     request.shadows.mapSize = 256;
-    const ShadowPlan small = planShadows(world, layout, request, extract(), false);
+    const ShadowPlan small =
+        planShadows(world, layout, request, FrameView(world, request), extract(), false);
     EXPECT_EQ(small.maps.at(small.lights.at(0).firstLayer + small.movers[0].firstLayer).sizePx, 64u)
         << "a quarter at most";
 }
@@ -76,7 +79,8 @@ TEST_F(ShadowPlanOfScenes, LayersAreAsLargeAsTheirMoversAreSeen) {
 TEST_F(ShadowPlanOfScenes, AMoverAroundTheCameraHasTheLargestLayer) {
     const ecs::Entity mover = addBox(dvec3(0, 0, 0));
     world.registry.add(mover, scene::LinearVelocity{dvec3(0.2, 0, 0)});
-    const ShadowPlan plan = planShadows(world, layout, request, extract(), false);
+    const ShadowPlan plan =
+        planShadows(world, layout, request, FrameView(world, request), extract(), false);
     ASSERT_EQ(plan.movers.size(), 1u);
     EXPECT_EQ(plan.maps.back().sizePx, request.shadows.mapSize / 4);
 }
@@ -88,7 +92,8 @@ TEST_F(ShadowPlanOfScenes, WhatIsFlatHasFewerLayersThanACube) {
             addBox(math::Transform{.translation = dvec3(0, 0, -9), .scale = scale});
         world.registry.add(mover, scene::AngularVelocity{dvec3(0, 0, 0.9)});
     }
-    const ShadowPlan plan = planShadows(world, layout, request, extract(), false);
+    const ShadowPlan plan =
+        planShadows(world, layout, request, FrameView(world, request), extract(), false);
     ASSERT_EQ(plan.movers.size(), 2u);
     EXPECT_LT(plan.movers[1].partCount, plan.movers[0].partCount);
 }
@@ -106,7 +111,9 @@ TEST_F(ShadowPlanOfScenes, RunsAreAsShortAsAnyLightAsks) {
         world.registry.add(light, scene::Light{.kind = scene::LightKind::Directional});
     };
     const auto runInstants = [&] {
-        return planShadows(world, layout, request, extract(), false).movers.at(0).runInstants;
+        return planShadows(world, layout, request, FrameView(world, request), extract(), false)
+            .movers.at(0)
+            .runInstants;
     };
     addBox(dvec3(0, -3, 0)); // the scene reaches to the camera
     const uint32_t alone = runInstants();
@@ -132,7 +139,8 @@ TEST_F(ShadowPlanOfScenes, MoversHaveRunsBeforeEachLightThatIsFarAway) {
     world.registry.add(turning, scene::AngularVelocity{dvec3(0, 1.0, 0)});
     const ecs::Entity straight = addBox(dvec3(-2, 0, -12));
     world.registry.add(straight, scene::LinearVelocity{dvec3(1, 0, 0)});
-    const ShadowPlan plan = planShadows(world, layout, request, extract(), false);
+    const ShadowPlan plan =
+        planShadows(world, layout, request, FrameView(world, request), extract(), false);
     ASSERT_EQ(plan.movers.size(), 2u);
     EXPECT_LT(plan.movers[0].runInstants, plan.movers[1].runInstants);
     EXPECT_EQ(plan.movers[1].runInstants, shader::kMaxRunInstants);
