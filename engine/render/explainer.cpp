@@ -27,8 +27,10 @@ const char* describe(PassOwner owner) {
         return "scene";
     case PassOwner::Rays:
         return "rays";
-    case PassOwner::Effect:
-        return "effect";
+    case PassOwner::Blur:
+        return "blur";
+    case PassOwner::Other:
+        return "other";
     case PassOwner::Display:
         return "display";
     }

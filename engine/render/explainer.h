@@ -26,11 +26,12 @@ enum class ExplainedKind : uint8_t {
 enum class PassOwner : uint8_t {
     Scene,   ///< any picture needs it: deformed meshes, G-buffer
     Rays,    ///< acceleration structures that effects trace rays through
-    Effect,  ///< a post effect that changes the linear picture
+    Blur,    ///< the motion blur, by whatever method
+    Other,   ///< any other post effect
     Display, ///< brings the linear picture to a screen, a file or memory
 };
 
-/// "scene", "rays", "effect" or "display".
+/// "scene", "rays", "blur", "other" or "display".
 [[nodiscard]] const char* describe(PassOwner owner);
 
 /// Why one thing ran or was skipped.

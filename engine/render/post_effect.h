@@ -147,8 +147,9 @@ class PostEffect {
 
     [[nodiscard]] virtual std::string name() const = 0;
 
-    /// What its passes count as: PassOwner::Display for one that shows or keeps the picture.
-    [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Effect; }
+    /// What its passes count as: PassOwner::Display for one that shows or keeps the picture,
+    /// PassOwner::Blur for none but the methods of motion blur.
+    [[nodiscard]] virtual PassOwner owner() const { return PassOwner::Other; }
 
     /// Pure: depends on the facts and the effect's settings only.
     [[nodiscard]] virtual core::Decision ask(const ViewFacts& facts) const = 0;

@@ -55,7 +55,8 @@ double readMetric(const json::JsonNode& node) {
 
 render::PassOwner readOwner(const json::JsonNode& node) {
     using Owner = render::PassOwner;
-    constexpr std::array kOwners = {Owner::Scene, Owner::Rays, Owner::Effect, Owner::Display};
+    constexpr std::array kOwners = {
+        Owner::Scene, Owner::Rays, Owner::Blur, Owner::Other, Owner::Display};
     std::array<std::string_view, kOwners.size()> words;
     for (size_t i = 0; i < kOwners.size(); ++i)
         words[i] = render::describe(kOwners[i]);

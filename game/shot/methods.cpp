@@ -117,18 +117,21 @@ core::Result<const Preset*> findPreset(std::string_view name) {
 }
 
 PassGroup groupOf(const MethodInfo& method, render::PassOwner owner) {
-    if (owner == render::PassOwner::Display)
-        return PassGroup::Display;
-    switch (method.family) {
-    case MethodFamily::Sharp:
-        return PassGroup::Scene;
-    case MethodFamily::MotionBlur:
-        return owner == render::PassOwner::Scene ? PassGroup::Scene : PassGroup::Blur;
-    case MethodFamily::Accumulate:
-    case MethodFamily::Truth:
+    const bool drawsScene =
+        method.family == MethodFamily::Accumulate || method.family == MethodFamily::Truth;
+    switch (owner) {
+    case render::PassOwner::Scene:
+        return drawsScene ? PassGroup::Blur : PassGroup::Scene;
+    case render::PassOwner::Rays:
+        return method.rays != RayNeed::None ? PassGroup::Blur : PassGroup::Other;
+    case render::PassOwner::Blur:
+        return PassGroup::Blur;
+    case render::PassOwner::Other:
+        return PassGroup::Other;
+    case render::PassOwner::Display:
         break;
     }
-    return PassGroup::Blur;
+    return PassGroup::Display;
 }
 
 double sumBlurMilliseconds(const MethodInfo& method, const render::FrameStatistics& statistics) {

@@ -65,11 +65,12 @@ struct Preset {
 enum class PassGroup : uint8_t {
     Scene,   ///< what a picture without blur draws as well
     Blur,    ///< what the method adds to it, acceleration structures for its rays included
+    Other,   ///< effects beside it: bloom, anti-aliasing, and what they trace rays through
     Display, ///< what brings the linear picture to the window or to memory
 };
 
-/// `sharp` adds nothing to a picture. Everything that a method draws counts as its own if it draws
-/// the scene in its own way (many frames, rays alone).
+/// `sharp` adds nothing to a picture. The scene counts as the method's own if it draws that in its
+/// own way (many frames, rays alone); rays do if it traces any.
 [[nodiscard]] PassGroup groupOf(const MethodInfo& method, render::PassOwner owner);
 
 /// GPU milliseconds of the passes of PassGroup::Blur.

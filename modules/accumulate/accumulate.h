@@ -53,6 +53,8 @@ class Accumulate : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "accumulate"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
+
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void declare(render::PostContext& context) override;
 

@@ -51,9 +51,6 @@ class Taa : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "taa"; }
 
-    /// The picture is what it works on, with or without blur.
-    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Scene; }
-
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
     void extract(render::ExtractContext& context) override;
     void declare(render::PostContext& context) override;

@@ -51,6 +51,8 @@ class Truth : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "truth"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
+
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts&) const override {

@@ -82,7 +82,7 @@ def print_method(folder, method, sizes):
     for name, owner in list_passes(measured).items():
         print_row(name, owner, *(time_of(one, name) for one in measured.values()))
     print_row("**effect**", "",
-              *(f"**{time_of_owner(one, 'effect'):.3f}**" for one in measured.values()))
+              *(f"**{time_of_owner(one, 'blur'):.3f}**" for one in measured.values()))
     print_row("transient images, MiB", "",
               *(f"{one['pictures'][0]['transient_bytes'] / MEBIBYTE:.1f}"
                 for one in measured.values()))

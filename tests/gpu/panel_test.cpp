@@ -6,6 +6,7 @@
 #include "game/play/panel/panel_sections.h"
 #include "game/play/panel/setting_widgets.h"
 #include "game/shot/methods.h"
+#include "modules/bloom/bloom.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 
@@ -229,6 +230,18 @@ TEST_F(PanelOnWindow, TheBlursTimeIsWhatASharpFrameDoesNotTake) {
         }
         EXPECT_GE(blurs, method == "own_velocity" ? 1u : 3u) << info.name;
     }
+}
+
+TEST_F(PanelOnWindow, BloomTakesNoneOfTheBlursTime) {
+    test::SceneBuilder scene;
+    scene.add(test::makeQuad(8, 8, scene.addColor({1, 1, 1})), {.position = {0, 0, -3}});
+    bloom::Bloom bloom(device(), {.share = 0.5f, .threshold = 0.0f});
+    const auto frame =
+        test::renderOnce(device(), scene, {.method = "gather", .last = &bloom}).statistics;
+    EXPECT_TRUE(std::any_of(frame.passes.begin(), frame.passes.end(), [](const auto& pass) {
+        return pass.name.starts_with("bloom");
+    }));
+    EXPECT_EQ(game::sumBlurMilliseconds(*game::findMethod("gather").value(), frame), 0.0);
 }
 
 /// Look at it: with SHUTTER_PICTURES set to a folder, what is drawn is written there.

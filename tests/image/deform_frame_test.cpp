@@ -115,8 +115,8 @@ TEST_F(DeformFrame, TimeSpentOnDeformedMeshesIsTheScenesAndNotTheBlurs) {
         {"build deformed meshes", Owner::Rays},
         {"build TLAS", Owner::Rays},
         {"G-buffer", Owner::Scene},
-        {"ray reveal", Owner::Effect},
-        {"gather and composite", Owner::Effect},
+        {"ray reveal", Owner::Blur},
+        {"gather and composite", Owner::Blur},
         {"readback color", Owner::Display}};
     for (const auto& [name, owner] : expected) {
         ASSERT_TRUE(owners.contains(name)) << name;

@@ -34,7 +34,7 @@ bool hasBlurPass(const render::FrameResult& result) {
     return std::any_of(
         result.statistics.passes.begin(),
         result.statistics.passes.end(),
-        [](const auto& pass) { return pass.owner == render::PassOwner::Effect; }
+        [](const auto& pass) { return pass.owner == render::PassOwner::Blur; }
     );
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr ImU32 kBudgetLine = IM_COL32(255, 255, 255, 140);
 constexpr std::array kBudgets = {1000.0f / 60.0f, 1000.0f / 30.0f}; ///< milliseconds
 
-constexpr PassGroup kGroups[] = {PassGroup::Scene, PassGroup::Display, PassGroup::Blur};
+constexpr PassGroup kGroups[] = {
+    PassGroup::Scene, PassGroup::Display, PassGroup::Other, PassGroup::Blur};
 
 const char* describe(PassGroup group) {
     switch (group) {
@@ -22,13 +23,16 @@ const char* describe(PassGroup group) {
         return "scene";
     case PassGroup::Blur:
         return "motion blur";
+    case PassGroup::Other:
+        return "other effects";
     case PassGroup::Display:
         break;
     }
     return "display";
 }
 
-/// Stable by name: warm colours are the blur's, blues and greens the scene's, greys the display's.
+/// Stable by name: warm colours are the blur's, blues and greens the scene's,
+/// violets those of other effects, greys the display's.
 ImU32 colorOf(PassGroup group, std::string_view name) {
     uint32_t hash = 2166136261u; // FNV-1a
     for (const char c : name)
@@ -40,6 +44,8 @@ ImU32 colorOf(PassGroup group, std::string_view name) {
     float darkest = 0.55f;
     if (group == PassGroup::Scene)
         hue = 0.38f + 0.24f * first;
+    if (group == PassGroup::Other)
+        hue = 0.7f + 0.15f * first;
     if (group == PassGroup::Display) {
         saturation = 0.15f * first;
         darkest = 0.3f;
@@ -183,7 +189,8 @@ void drawLegend(const PassHistory& history, std::span<const Band> bands) {
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("median", ImGuiTableColumnFlags_WidthFixed);
     // The blur first: it is what one looks for.
-    for (const PassGroup group : {PassGroup::Blur, PassGroup::Scene, PassGroup::Display}) {
+    for (const PassGroup group :
+         {PassGroup::Blur, PassGroup::Other, PassGroup::Scene, PassGroup::Display}) {
         if (std::none_of(bands.begin(), bands.end(), [&](auto& b) { return b.group == group; }))
             continue;
         drawLegendRow(0, describe(group), findMedianOf(history, bands, group), true);

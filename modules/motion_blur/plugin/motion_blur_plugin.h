@@ -42,6 +42,8 @@ class MotionBlurPlugin : public render::PostEffect {
 
     [[nodiscard]] std::string name() const override { return "motion blur"; }
 
+    [[nodiscard]] render::PassOwner owner() const override { return render::PassOwner::Blur; }
+
     /// Skipped when nothing moves or the exposure is 0; no budget skips it.
     [[nodiscard]] core::Decision ask(const render::ViewFacts& facts) const override;
 

@@ -32,7 +32,7 @@ Record makeRecord(double gatherMs, double psnr) {
     for (double factor : {1.0, 2.0, 3.0})
         record.samples.push_back(
             {{{"G-buffer", 10.0},
-              {"gather and composite", gatherMs * factor, render::PassOwner::Effect},
+              {"gather and composite", gatherMs * factor, render::PassOwner::Blur},
               {"tone map", 5.0, render::PassOwner::Display}},
              40.0}
         );
@@ -64,7 +64,7 @@ TEST(Cost, TheDisplayDoesNotCountAndTheSceneIsNoEffect) {
     const Sample sample{
         {{"deform meshes", 4.0, PassOwner::Scene},
          {"G-buffer", 6.0, PassOwner::Scene},
-         {"ray reveal", 3.0, PassOwner::Effect},
+         {"ray reveal", 3.0, PassOwner::Blur},
          {"tone map", 5.0, PassOwner::Display},
          {"readback display", 1.0, PassOwner::Display}},
         0.0};
@@ -147,7 +147,7 @@ constexpr uint32_t kFrames = 8;
 Record makeRecord(double milliseconds, std::map<std::string, double> metrics) {
     Record record;
     record.samples = {
-        {{{"gather and composite", milliseconds, render::PassOwner::Effect}}, 2.0 * milliseconds}};
+        {{{"gather and composite", milliseconds, render::PassOwner::Blur}}, 2.0 * milliseconds}};
     record.hasPicture = true;
     record.picture.metrics = std::move(metrics);
     return record;

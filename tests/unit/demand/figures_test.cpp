@@ -20,14 +20,14 @@ render::FrameStatistics makeFrame(std::vector<render::PassTime> passes) {
 const render::FrameStatistics kHybrid = makeFrame(
     {{{"G-buffer", 100.0}, PassOwner::Scene},
      {{"build TLAS", 1.0}, PassOwner::Rays},
-     {{"tile max", 2.0}, PassOwner::Effect},
-     {{"neighbour max", 3.0}, PassOwner::Effect},
-     {{"edge", 4.0}, PassOwner::Effect},
-     {{"ray mask", 5.0}, PassOwner::Effect},
-     {{"gather without mask", 6.0}, PassOwner::Effect},
-     {{"ray reveal", 7.0}, PassOwner::Effect},
-     {{"tiles of reveal", 8.0}, PassOwner::Effect},
-     {{"gather and composite", 9.0}, PassOwner::Effect},
+     {{"tile max", 2.0}, PassOwner::Blur},
+     {{"neighbour max", 3.0}, PassOwner::Blur},
+     {{"edge", 4.0}, PassOwner::Blur},
+     {{"ray mask", 5.0}, PassOwner::Blur},
+     {{"gather without mask", 6.0}, PassOwner::Blur},
+     {{"ray reveal", 7.0}, PassOwner::Blur},
+     {{"tiles of reveal", 8.0}, PassOwner::Blur},
+     {{"gather and composite", 9.0}, PassOwner::Blur},
      {{"tone map", 50.0}, PassOwner::Display},
      {{"readback display", 60.0}, PassOwner::Display}}
 );

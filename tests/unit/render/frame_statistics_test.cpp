@@ -102,7 +102,7 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     addPass(graph, "draw", kept);
     explainer.beginPasses(graph, PassOwner::Rays, "nobody declared a pass for this");
-    explainer.beginPasses(graph, PassOwner::Effect, "blur runs");
+    explainer.beginPasses(graph, PassOwner::Blur, "blur runs");
     addPass(graph, "blur", kept);
     addPass(graph, "lost", unread);
     explainer.decide(ExplainedKind::Pass, "rays", {false, "only sky lies behind"});
@@ -123,7 +123,7 @@ TEST(Explainer, PassesHaveTheReasonOfThoseWhoDeclaredThem) {
     EXPECT_FALSE(all[4].decision.reason.empty());
 
     EXPECT_EQ(explainer.finish(graph, plan, false).size(), 1u);
-    EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Effect}))
+    EXPECT_EQ(explainer.listOwners(plan), (std::vector{PassOwner::Scene, PassOwner::Blur}))
         << "of \"draw\" and \"blur\"";
     // The pass of the same name is not what was decided.
     ASSERT_NE(findDecision(all, "blur"), nullptr);

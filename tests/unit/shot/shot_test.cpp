@@ -17,7 +17,6 @@
 namespace shutter::game {
 namespace {
 
-using render::PassOwner;
 using scene::AnimationPath;
 
 class Clips : public testing::Test {
@@ -246,33 +245,6 @@ TEST(Methods, AnUnknownNameIsAnsweredWithTheKnownOnes) {
     for (const char* part :
          {"--method", "nosuch", "sharp", "gather", "hybrid", "accumulate", "truth"})
         EXPECT_NE(found.error().message.find(part), std::string::npos) << part;
-}
-
-TEST(PassGroups, AMethodPaysForItsRaysItsEffectAndASceneThatItDrawsAnew) {
-    for (const MethodInfo& method : listMethods()) {
-        const std::string name = method.name;
-        const bool isSharp = name == "sharp";
-        const bool drawsAnew = name == "accumulate" || name == "truth";
-        const PassGroup blur = isSharp ? PassGroup::Scene : PassGroup::Blur;
-        EXPECT_EQ(groupOf(method, PassOwner::Scene), drawsAnew ? PassGroup::Blur : PassGroup::Scene)
-            << name;
-        EXPECT_EQ(groupOf(method, PassOwner::Rays), blur) << name;
-        EXPECT_EQ(groupOf(method, PassOwner::Effect), blur) << name;
-        EXPECT_EQ(groupOf(method, PassOwner::Display), PassGroup::Display) << name;
-    }
-}
-
-TEST(PassGroups, SumsCountEachPassOnce) {
-    render::FrameStatistics frame;
-    frame.passes = {
-        {{"deform meshes", 1.0}, PassOwner::Scene},
-        {{"build TLAS", 2.0}, PassOwner::Rays},
-        {{"G-buffer", 4.0}, PassOwner::Scene},
-        {{"gather", 8.0}, PassOwner::Effect},
-        {{"tone map", 16.0}, PassOwner::Display}};
-    EXPECT_EQ(sumBlurMilliseconds(*findMethod("hybrid").value(), frame), 10.0);
-    EXPECT_EQ(sumBlurMilliseconds(*findMethod("accumulate").value(), frame), 15.0);
-    EXPECT_EQ(sumFrameMilliseconds(frame), 15.0);
 }
 
 } // namespace
