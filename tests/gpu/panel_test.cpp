@@ -244,6 +244,41 @@ TEST_F(PanelOnWindow, BloomTakesNoneOfTheBlursTime) {
     EXPECT_EQ(game::sumBlurMilliseconds(*game::findMethod("gather").value(), frame), 0.0);
 }
 
+TEST_F(PanelOnWindow, LinesOverThePictureDoNotMeetInSmallWindows) {
+    app::Ui ui(device());
+    for (const math::uvec2 size : {math::uvec2(320, 180), {480, 270}, {500, 300}, {1280, 720}})
+        for (const bool split : {false, true})
+            for (const bool hint : {false, true}) {
+                SCOPED_TRACE(testing::Message() << size.x << " x " << size.y << split << hint);
+                game::PlaySettings settings;
+                settings.split = split;
+                mFacts.left = split ? &mStatistics : nullptr;
+                mFacts.showsHint = hint;
+                mFacts.paused = true;
+                mFacts.message = "settings.json:12: blur.jitter: must lie in [0, 1], not 2";
+                ui.begin({}, size, 1.0, 1.0 / 30.0);
+                const auto lines = game::drawHud(mFacts, settings).lines;
+                ui.end();
+                // Two readings on one ground, the line, the state and the message at least.
+                EXPECT_GE(lines.size(), size.x < 1280 ? 4u : split ? 9u : 7u);
+                for (size_t i = 0; i < lines.size(); ++i) {
+                    const game::HudRect& a = lines[i];
+                    EXPECT_TRUE(
+                        a.left >= 0.0f && a.top >= 0.0f && a.right <= float(size.x) &&
+                        a.bottom <= float(size.y)
+                    );
+                    for (size_t j = 0; j < i; ++j) {
+                        const game::HudRect& b = lines[j];
+                        EXPECT_TRUE(
+                            a.right <= b.left || b.right <= a.left || a.bottom <= b.top ||
+                            b.bottom <= a.top
+                        ) << i
+                          << " and " << j;
+                    }
+                }
+            }
+}
+
 /// Look at it: with SHUTTER_PICTURES set to a folder, what is drawn is written there.
 TEST_F(PanelOnWindow, CoversThePictureAtItsPlaceOnly) {
     struct Look {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <imgui.h>
+#include <optional>
 
 namespace shutter::game {
 
@@ -23,8 +24,10 @@ ImFont& largeFont() {
     return *ImGui::GetIO().Fonts->Fonts[1];
 }
 
-ImVec2 measure(const ImFont& font, const std::string& text) {
-    return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0.0f, text.c_str());
+/// Whole pixels. \param wrap width at which lines break; 0: nowhere
+ImVec2 measure(const ImFont& font, const std::string& text, float wrap = 0.0f) {
+    const ImVec2 size = font.CalcTextSizeA(font.FontSize, FLT_MAX, wrap, text.c_str());
+    return {std::ceil(size.x), std::ceil(size.y)};
 }
 
 float padding() {
@@ -35,64 +38,120 @@ float margin() {
     return std::floor(0.6f * ImGui::GetFontSize());
 }
 
-/// Lines of text, one below the other, each on a dark ground that any picture can lie behind.
+/// Width of a line at most, pixels.
+float widest() {
+    return std::max(ImGui::GetIO().DisplaySize.x - 2.0f * margin(), 1.0f);
+}
+
+enum class Way : uint8_t { Down, Up };
+
+/// The dark grounds that lines stand on, which any picture can lie behind.
+class Grounds {
+  public:
+    /// Draws the ground of a text of `size` where there is room for it: at `place` or beyond what
+    /// is there. \return the text's upper left corner; nothing: there is no room in the window
+    std::optional<ImVec2> take(const ImVec2& place, const ImVec2& size, Way way) {
+        const float pad = padding();
+        const float leftmost = std::max(ImGui::GetIO().DisplaySize.x - margin() - size.x, margin());
+        const float x = std::clamp(std::floor(place.x), margin(), leftmost);
+        const float y = std::floor(place.y);
+        HudRect own{x - pad, y - pad, x + size.x + pad, y + size.y + pad};
+        const auto meets = [&](const HudRect& other) {
+            return own.left < other.right && other.left < own.right && own.top < other.bottom &&
+                   other.top < own.bottom;
+        };
+        for (auto met = mTaken.begin(); met != mTaken.end();) {
+            met = std::find_if(mTaken.begin(), mTaken.end(), meets);
+            if (met == mTaken.end())
+                break;
+            const float shift = way == Way::Down ? met->bottom - own.top : met->top - own.bottom;
+            own.top += shift;
+            own.bottom += shift;
+        }
+        if (own.top < 0.0f || own.bottom > ImGui::GetIO().DisplaySize.y)
+            return std::nullopt;
+        mTaken.push_back(own);
+        ImGui::GetBackgroundDrawList()->AddRectFilled(
+            {own.left, own.top}, {own.right, own.bottom}, kBack
+        );
+        return ImVec2{own.left + pad, own.top + pad};
+    }
+
+    [[nodiscard]] const std::vector<HudRect>& taken() const { return mTaken; }
+
+  private:
+    std::vector<HudRect> mTaken;
+};
+
+/// Lines of text, one below or above the other.
 class TextColumn {
   public:
-    /// \param place upper corner \param share of a line's width that lies left of the place
-    TextColumn(const ImVec2& place, float share) : mPlace(place), mShare(share) {}
+    /// \param place upper corner, or with Way::Up the lower one
+    /// \param share of a line's width that lies left of the place
+    TextColumn(Grounds& grounds, const ImVec2& place, float share, Way way = Way::Down)
+        : mGrounds(grounds), mPlace(place), mShare(share), mWay(way) {}
 
     void add(const std::string& text, ImU32 color = kText, bool large = false) {
         ImFont* font = ImGui::GetIO().Fonts->Fonts[large ? 1 : 0];
-        ImVec2 size = font->CalcTextSizeA(font->FontSize, FLT_MAX, mWrap, text.c_str());
-        const float pad = padding();
-        const ImVec2 from{std::floor(mPlace.x - mShare * size.x), std::floor(mPlace.y)};
-        ImDrawList& list = *ImGui::GetBackgroundDrawList();
-        list.AddRectFilled(
-            {from.x - pad, from.y - pad}, {from.x + size.x + pad, from.y + size.y + pad}, kBack
+        const ImVec2 size = measure(*font, text, widest());
+        const float above = mWay == Way::Up ? size.y : 0.0f;
+        const auto from = mGrounds.take({mPlace.x - mShare * size.x, mPlace.y - above}, size, mWay);
+        if (!from)
+            return;
+        ImGui::GetBackgroundDrawList()->AddText(
+            font, font->FontSize, *from, color, text.c_str(), nullptr, widest()
         );
-        list.AddText(font, font->FontSize, from, color, text.c_str(), nullptr, mWrap);
-        mPlace.y += size.y + 2.0f * pad;
+        mPlace.y =
+            mWay == Way::Up ? from->y - 2.0f * padding() : from->y + size.y + 2.0f * padding();
     }
 
-    void setWrap(float width) { mWrap = width; }
-
+    /// Where the next line begins or, with Way::Up, ends.
     [[nodiscard]] float y() const { return mPlace.y; }
 
   private:
+    Grounds& mGrounds;
     ImVec2 mPlace;
     float mShare;
-    float mWrap = 0.0f; ///< pixels; 0: lines are as long as they are
+    Way mWay;
 };
 
-/// Values side by side on one ground, each large below its small label.
-/// \return where the row ends, y
-float drawReadings(std::span<const HudLine> readings, const ImVec2& place) {
+/// Values side by side on one ground, each large below its small label; as many as there is room
+/// for, and the others below.
+/// \return where they end, y
+float drawReadings(Grounds& grounds, std::span<const HudLine> readings, const ImVec2& place) {
     const ImFont& small = *ImGui::GetFont();
     ImFont& large = largeFont();
-    const float pad = padding();
     const float gap = ImGui::GetFontSize();
-    const float bottom = place.y + small.FontSize + large.FontSize;
-    float x = place.x;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const auto widthOf = [&](const HudLine& reading) {
         return std::max(measure(small, reading.label).x, measure(large, reading.text).x);
     };
-    float width = gap * static_cast<float>(readings.size() - 1);
-    for (const HudLine& reading : readings)
-        width += widthOf(reading);
-    list.AddRectFilled({x - pad, place.y - pad}, {x + width + pad, bottom + pad}, kBack);
-    for (const HudLine& reading : readings) {
-        list.AddText({x, place.y}, kLabel, reading.label.c_str());
+    size_t count = 1;
+    ImVec2 size{widthOf(readings[0]), std::ceil(small.FontSize + large.FontSize)};
+    for (; count < readings.size(); ++count) {
+        const float more = gap + widthOf(readings[count]);
+        if (size.x + more > widest())
+            break;
+        size.x += more;
+    }
+    const auto from = grounds.take(place, size, Way::Down);
+    if (!from)
+        return place.y;
+    float x = from->x;
+    for (const HudLine& reading : readings.first(count)) {
+        list.AddText({x, from->y}, kLabel, reading.label.c_str());
         list.AddText(
             &large,
             large.FontSize,
-            {x, place.y + small.FontSize},
+            {x, from->y + small.FontSize},
             reading.emphasis ? kEmphasis : kText,
             reading.text.c_str()
         );
-        x += std::ceil(widthOf(reading)) + gap;
+        x += widthOf(reading) + gap;
     }
-    return bottom + 2.0f * pad;
+    const float end = from->y + size.y + 2.0f * padding();
+    return count < readings.size() ? drawReadings(grounds, readings.subspan(count), {place.x, end})
+                                   : end;
 }
 
 std::string describeState(const PanelFacts& facts) {
@@ -112,28 +171,28 @@ std::string describeState(const PanelFacts& facts) {
     return state;
 }
 
-void drawGame(const PanelFacts& facts) {
+void drawGame(Grounds& grounds, const PanelFacts& facts) {
     float y = margin();
     const auto isReading = [](const HudLine& line) { return !line.label.empty(); };
     for (auto line = facts.hud.begin(); line != facts.hud.end();) {
         const auto end = std::find_if_not(line, facts.hud.end(), isReading);
         if (line != end) {
-            y = drawReadings({line, end}, {margin(), y});
+            y = drawReadings(grounds, {line, end}, {margin(), y});
             line = end;
             continue;
         }
-        TextColumn column({margin(), y}, 0.0f);
+        TextColumn column(grounds, {margin(), y}, 0.0f);
         column.add(line->text, line->emphasis ? kEmphasis : kText, line->emphasis);
         y = column.y();
         ++line;
     }
     if (const std::string state = describeState(facts); !state.empty())
-        TextColumn({margin(), y}, 0.0f).add(state, kEmphasis);
+        TextColumn(grounds, {margin(), y}, 0.0f).add(state, kEmphasis);
 }
 
 /// \return where it ends, y
-float drawRates(const PanelFacts& facts, const PlaySettings& settings) {
-    TextColumn column({ImGui::GetIO().DisplaySize.x - margin(), margin()}, 1.0f);
+float drawRates(Grounds& grounds, const PanelFacts& facts, const PlaySettings& settings) {
+    TextColumn column(grounds, {ImGui::GetIO().DisplaySize.x - margin(), margin()}, 1.0f);
     const double milliseconds = facts.frameMilliseconds;
     if (milliseconds > 0.0 && std::isfinite(milliseconds))
         column.add(fmt::format("{:.1f} fps   {:.1f} ms", 1000.0 / milliseconds, milliseconds));
@@ -149,7 +208,8 @@ float drawRates(const PanelFacts& facts, const PlaySettings& settings) {
     return column.y();
 }
 
-void drawSides(const PanelFacts& facts, const PlaySettings& settings, float y) {
+/// \param y where they end \return where they begin, y
+float drawSides(Grounds& grounds, const PanelFacts& facts, const PlaySettings& settings, float y) {
     const float gap = ImGui::GetFontSize();
     const float width = ImGui::GetIO().DisplaySize.x;
     const float divider = std::floor(width * static_cast<float>(settings.dividerShare));
@@ -157,12 +217,15 @@ void drawSides(const PanelFacts& facts, const PlaySettings& settings, float y) {
         return describeMethod(method, statistics, settings.budget);
     };
     if (facts.photoRays || !settings.split) {
-        TextColumn({margin(), y}, 0.0f)
-            .add(facts.photoRays ? "truth" : describe(settings.method, facts.right));
-        return;
+        TextColumn side(grounds, {margin(), y}, 0.0f, Way::Up);
+        side.add(facts.photoRays ? "truth" : describe(settings.method, facts.right));
+        return side.y();
     }
-    TextColumn({divider - gap, y}, 1.0f).add(describe(settings.leftMethod, facts.left));
-    TextColumn({divider + gap, y}, 0.0f).add(describe(settings.method, facts.right));
+    TextColumn left(grounds, {divider - gap, y}, 1.0f, Way::Up);
+    left.add(describe(settings.leftMethod, facts.left));
+    TextColumn right(grounds, {divider + gap, y}, 0.0f, Way::Up);
+    right.add(describe(settings.method, facts.right));
+    return std::min(left.y(), right.y());
 }
 
 std::string holdTogether(const std::string& text) {
@@ -186,14 +249,24 @@ std::string describeKeys(std::span<const KeyHelp> keys) {
     return text;
 }
 
-/// Text above `y`, as wide as the window at most. \return where it begins, y
-float drawAbove(float y, const std::string& text, ImU32 color) {
-    const float wrap = std::max(ImGui::GetIO().DisplaySize.x - 2.0f * margin(), 1.0f);
-    y -= ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap).y;
-    TextColumn column({margin(), y}, 0.0f);
-    column.setWrap(wrap);
+/// Text above `y`. \return where the one above it ends, y
+float drawAbove(Grounds& grounds, float y, const std::string& text, ImU32 color) {
+    TextColumn column(grounds, {margin(), y}, 0.0f, Way::Up);
     column.add(text, color);
-    return y - margin();
+    return column.y() + 2.0f * padding() - margin();
+}
+
+/// The most important keys, unless they take more than a third of the window.
+/// \return where what stands above them ends, y
+float drawHint(Grounds& grounds, std::span<const KeyHelp> own, float y) {
+    const std::string common = describeKeys(listCommonKeys());
+    const std::string more = describeKeys(own);
+    const ImFont& font = *ImGui::GetFont();
+    if (3.0f * (measure(font, common, widest()).y + measure(font, more, widest()).y) >
+        ImGui::GetIO().DisplaySize.y)
+        return y;
+    y = drawAbove(grounds, y, common, kText);
+    return own.empty() ? y : drawAbove(grounds, y, more, kText);
 }
 
 } // namespace
@@ -257,24 +330,21 @@ std::string describeEffects(const PlaySettings& settings) {
 }
 
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings) {
-    const float line = ImGui::GetFontSize() + 2.0f * padding();
     const ImVec2 window = ImGui::GetIO().DisplaySize;
+    Grounds grounds;
     HudSpace space;
-    drawGame(facts);
-    space.top = drawRates(facts, settings) + margin();
+    drawGame(grounds, facts);
     float y = window.y - margin();
-    if (facts.showsHint) {
-        y = drawAbove(y, describeKeys(listCommonKeys()), kText);
-        if (!facts.keys.empty())
-            y = drawAbove(y, describeKeys(facts.keys), kText);
-    }
+    if (facts.showsHint)
+        y = drawHint(grounds, facts.keys, y);
     if (!facts.message.empty())
-        y = drawAbove(y, facts.message, kEmphasis);
+        y = drawAbove(grounds, y, facts.message, kEmphasis);
     if (const std::string effects = describeEffects(settings); !effects.empty())
-        y = drawAbove(y, effects, kLabel) + margin() - 2.0f * padding();
-    y -= line;
-    drawSides(facts, settings, y);
-    space.bottom = window.y - y + margin();
+        y = drawAbove(grounds, y, effects, kLabel) + margin() - 2.0f * padding();
+    y = drawSides(grounds, facts, settings, y - 2.0f * padding());
+    space.bottom = window.y - (y + 2.0f * padding()) + margin();
+    space.top = drawRates(grounds, facts, settings) + margin(); // the first to find no room
+    space.lines = grounds.taken();
     return space;
 }
 

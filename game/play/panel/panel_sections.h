@@ -33,13 +33,23 @@ void drawKeySection(const PanelFacts& facts);
 /// The keys that a new player needs, besides those of the demo or scene.
 [[nodiscard]] std::span<const KeyHelp> listCommonKeys();
 
-/// Pixels that the lines at the right edge and at the bottom take, where no panel should lie.
-struct HudSpace {
+/// A part of the window, pixels.
+struct HudRect {
+    float left = 0.0f;
     float top = 0.0f;
+    float right = 0.0f;
     float bottom = 0.0f;
 };
 
-/// Declared behind all windows of the current ImGui context.
+struct HudSpace {
+    /// Pixels that the lines at the right edge and at the bottom take, where no panel should lie.
+    float top = 0.0f;
+    float bottom = 0.0f;
+    std::vector<HudRect> lines; ///< the grounds of all lines: in the window, and none meets another
+};
+
+/// Declared behind all windows of the current ImGui context. Where the window is too small for all
+/// lines, they wrap and give way to one another, and those that find no room are left out.
 HudSpace drawHud(const PanelFacts& facts, const PlaySettings& settings);
 
 /// Whether the budget made the blur of that frame give something up.
