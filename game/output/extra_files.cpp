@@ -18,25 +18,6 @@ namespace shutter::game {
 
 namespace {
 
-const std::map<std::string, std::vector<Channel>>& channelTable() {
-    static const std::map<std::string, std::vector<Channel>> kTable = {
-        {"motion", {{0, "motion.x"}, {1, "motion.y"}}},
-        {"depth", {{2, "Z"}}},
-        {"normal", {{0, "N.x"}, {1, "N.y"}, {2, "N.z"}}},
-        {"mesh_id", {{0, "mesh_id"}}}, // -1: nothing
-        {"tiles", {{0, "motion.x"}, {1, "motion.y"}}},
-        {"variance", {{0, "variance"}}},
-        {"edge", {{0, "candidate"}, {1, "measure"}, {2, "edge"}}},
-        {"mask", {{0, "mask"}}},
-        {"reveal", {{0, "R"}, {1, "G"}, {2, "B"}}},
-        {"error", {{0, "R"}, {1, "G"}, {2, "B"}}},
-        {"second", {{0, "R"}, {1, "G"}, {2, "B"}}},
-        {"last", {{0, "R"}, {1, "G"}, {2, "B"}}},
-        {"noisy", {{0, "R"}, {1, "G"}, {2, "B"}}},
-    };
-    return kTable;
-}
-
 using nlohmann::ordered_json;
 
 /// Null for a figure that is not finite, which JSON cannot hold.
@@ -84,7 +65,7 @@ ordered_json describePicture(const PictureStatistics& picture) {
 
 } // namespace
 
-image::Image selectChannels(const image::Image& image, const std::vector<Channel>& channels) {
+image::Image selectChannels(const image::Image& image, std::span<const Channel> channels) {
     image::Image chosen(image.width, image.height, static_cast<uint32_t>(channels.size()));
     for (const Channel& channel : channels)
         chosen.channelNames.push_back(channel.name);
@@ -100,17 +81,13 @@ std::filesystem::path intermediateFile(const std::filesystem::path& out, const s
     return file.replace_extension(aov + ".exr");
 }
 
-bool canWriteIntermediate(const std::string& aov) {
-    return channelTable().contains(aov);
-}
-
 core::Status writeIntermediate(
     const std::filesystem::path& path,
     const std::string& aov,
     const image::Image& image,
     const std::optional<io::FrameStamp>& stamp
 ) {
-    const image::Image chosen = selectChannels(image, channelTable().at(aov));
+    const image::Image chosen = selectChannels(image, debug_view::findView(aov)->channels);
     return stamp ? io::writeStampedImage(path, chosen, *stamp) : io::writeImage(path, chosen);
 }
 

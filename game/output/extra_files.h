@@ -9,9 +9,11 @@
 #include "engine/io/image_file.h"
 #include "engine/render/renderer.h"
 #include "game/output/render_options.h"
+#include "modules/debug_view/debug_view.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,20 +23,14 @@ namespace shutter::game {
 [[nodiscard]] std::filesystem::path
 intermediateFile(const std::filesystem::path& out, const std::string& aov);
 
-struct Channel {
-    uint32_t source;  ///< of the image
-    const char* name; ///< in the result
-};
+using debug_view::Channel;
 
 /// The image's channels in the order of `channels`, named.
 [[nodiscard]] image::Image
-selectChannels(const image::Image& image, const std::vector<Channel>& channels);
-
-/// Whether writeIntermediate() knows the intermediate's channels.
-[[nodiscard]] bool canWriteIntermediate(const std::string& aov);
+selectChannels(const image::Image& image, std::span<const Channel> channels);
 
 /// Writes an intermediate with the channels that mean something, named.
-/// \param aov one that canWriteIntermediate()
+/// \param aov one of debug_view::listViews() that has channels
 /// \param stamp of its frame, if that is one of a sequence
 [[nodiscard]] core::Status writeIntermediate(
     const std::filesystem::path& path,

@@ -54,7 +54,8 @@ writePicture(const RenderOptions& options, size_t frame, const render::FrameResu
     std::vector<std::filesystem::path> files = {file};
     const bool isDisplay = options.output.displayOut && !options.output.isDeep();
     const image::Image& drawn = isDisplay ? result.display : result.color;
-    const image::Image picture = selectChannels(drawn, {{0, "R"}, {1, "G"}, {2, "B"}});
+    constexpr Channel kColor[] = {{0, "R"}, {1, "G"}, {2, "B"}};
+    const image::Image picture = selectChannels(drawn, kColor);
     if (options.output.isDeep()) // the device's display pictures have 8 bits
         SHUTTER_TRY(io::writeDeepPng(
             file, tonemap::computeDisplayImage(picture, options.shot.picture.tonemap)

@@ -292,7 +292,8 @@ class Player {
         for (const motion_blur::View& view : made.views)
             known[std::string(view.name)] = view.image;
         std::erase_if(known, [](const auto& one) {
-            return !one.second.isValid() || !game::canWriteIntermediate(one.first);
+            const auto* view = debug_view::findView(one.first);
+            return !one.second.isValid() || !view || view->channels.empty();
         });
         mKnown.clear();
         for (const auto& [name, handle] : known)

@@ -18,78 +18,76 @@ namespace {
 struct View {
     ViewInfo info;
     uint32_t kind;
-    const char* values;   ///< intermediate of floats; null: none
-    const char* ids;      ///< of mesh ids; null: none
-    const char* otherIds; ///< of mesh ids; null: none
+    const char* values;             ///< intermediate of floats; null: none
+    const char* ids = nullptr;      ///< of mesh ids; null: none
+    const char* otherIds = nullptr; ///< of mesh ids; null: none
 };
 
 constexpr float kLongestPx = 40.0f;
 constexpr float kHeatMax = 400.0f;
 
+constexpr Channel kMotion[] = {{0, "motion.x"}, {1, "motion.y"}};
+constexpr Channel kDepth[] = {{2, "Z"}};
+constexpr Channel kNormal[] = {{0, "N.x"}, {1, "N.y"}, {2, "N.z"}};
+constexpr Channel kMeshId[] = {{0, "mesh_id"}}; // -1: nothing
+constexpr Channel kVariance[] = {{0, "variance"}};
+constexpr Channel kEdge[] = {{0, "candidate"}, {1, "measure"}, {2, "edge"}};
+constexpr Channel kMask[] = {{0, "mask"}};
+constexpr Channel kColor[] = {{0, "R"}, {1, "G"}, {2, "B"}};
+constexpr Channel kCost[] = {{0, "cost"}};
+
+View showMotion(const char* name, const char* description) {
+    return {{name, description, kMotion}, shader::kShowMotion, name};
+}
+
+View showColor(const char* name, const char* description) {
+    return {{name, description, kColor}, shader::kShowColor, name};
+}
+
 const std::vector<View>& views() {
     using namespace shader;
     static const std::vector<View> kViews = {
-        {{"motion", "motion over the exposure: hue is the direction, full brightness 40 px"},
-         kShowMotion,
-         "motion",
-         nullptr,
-         nullptr},
-        {{"depth", "distance: white 10 cm, black 10 km, logarithmic"},
-         kShowDepth,
-         "depth",
-         nullptr,
-         nullptr},
-        {{"normal", "surface normals as the ray mask reads them"},
-         kShowNormal,
-         "normal",
-         nullptr,
-         nullptr},
-        {{"mesh_id", "rows of the entity table, a colour each"},
+        showMotion(
+            "motion", "motion over the exposure: hue is the direction, full brightness 40 px"
+        ),
+        {{"depth", "distance: white 10 cm, black 10 km, logarithmic", kDepth}, kShowDepth, "depth"},
+        {{"normal", "surface normals as the ray mask reads them", kNormal}, kShowNormal, "normal"},
+        {{"mesh_id", "rows of the entity table, a colour each", kMeshId},
          kShowIds,
          nullptr,
-         "mesh_id",
-         nullptr},
-        {{"tiles", "dominant motion of each tile's neighbourhood, coloured as motion"},
-         kShowMotion,
-         "tiles",
-         nullptr,
-         nullptr},
-        {{"variance", "Guertin's variance of directions in the neighbourhood, white 1"},
+         "mesh_id"},
+        showColor("last", "the last frame's raster, which this one is looked up in"),
+        showColor("second", "the raster at the other end of the exposure"),
+        showMotion("tile_max", "longest motion of each tile, coloured as motion"),
+        showMotion("tiles", "dominant motion of each tile's neighbourhood, coloured as motion"),
+        {{"variance", "Guertin's variance of directions in the neighbourhood, white 1", kVariance},
          kShowGrey,
-         "variance",
-         nullptr,
-         nullptr},
-        {{"edge", "red: candidates of the ray mask; green: edge measure; blue: edges"},
+         "variance"},
+        {{"edge", "red: candidates of the ray mask; green: edge measure; blue: edges", kEdge},
          kShowMasks,
-         "edge",
-         nullptr,
-         nullptr},
-        {{"mask", "pixels whose background rays fetch"}, kShowGrey, "mask", nullptr, nullptr},
-        {{"reveal", "what rays found behind; outside the mask the raster"},
-         kShowColor,
-         "reveal",
-         nullptr,
-         nullptr},
-        {{"unresolved", "grey: masked; white: of these, where no other object was found behind"},
+         "edge"},
+        {{"mask", "pixels whose background rays fetch", kMask}, kShowGrey, "mask"},
+        showColor("reveal", "what rays found behind; outside the mask the raster"),
+        showMotion("reveal_motion", "its motion, coloured as motion"),
+        {{"unresolved",
+          "grey: masked; white: of these, where no other object was found behind",
+          {}},
          kShowUnresolved,
          "mask",
          "mesh_id",
          "reveal_id"},
-        {{"noisy", "rays of the denoised method, unfiltered"},
-         kShowColor,
-         "noisy",
-         nullptr,
-         nullptr},
-        {{"cost", "fetches a pixel: black 0, blue, red, yellow, white 400; a ray counts 300"},
+        showColor("noisy", "rays of the denoised method, unfiltered"),
+        {{"cost",
+          "fetches a pixel: black 0, blue, red, yellow, white 400; a ray counts 300",
+          kCost},
          kShowHeat,
-         "cost",
-         nullptr,
-         nullptr},
+         "cost"},
+        showColor("error", "standard error of the truth's mean"),
     };
     return kViews;
 }
 
-const View* findView(std::string_view name) {
+const View* findOwn(std::string_view name) {
     const auto found = std::find_if(views().begin(), views().end(), [&](const View& view) {
         return name == view.info.name;
     });
@@ -121,9 +119,14 @@ std::span<const ViewInfo> listViews() {
     return kInfos;
 }
 
+const ViewInfo* findView(std::string_view name) {
+    const View* view = findOwn(name);
+    return view ? &view->info : nullptr;
+}
+
 std::set<std::string> listSources(std::string_view name) {
     std::set<std::string> sources;
-    if (const View* view = findView(name))
+    if (const View* view = findOwn(name))
         for (const char* source : {view->values, view->ids, view->otherIds})
             if (source)
                 sources.insert(source);
@@ -140,7 +143,7 @@ core::Decision DebugView::ask(const render::ViewFacts&) const {
 }
 
 void DebugView::declare(render::PostContext& context) {
-    const View* view = findView(mView);
+    const View* view = findOwn(mView);
     const auto& made = context.intermediates.images();
     const std::set<std::string> sources = listSources(mView);
     const bool hasAll = std::all_of(sources.begin(), sources.end(), [&](const std::string& name) {

@@ -6,6 +6,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/render/post_effect.h"
 
+#include <cstdint>
 #include <set>
 #include <span>
 #include <string>
@@ -13,13 +14,23 @@
 
 namespace shutter::debug_view {
 
-struct ViewInfo {
+/// A channel of an intermediate that means something.
+struct Channel {
+    uint32_t source; ///< of the image
     const char* name;
-    const char* description; ///< one line: what it shows and how it is to be read
 };
 
-/// In the order of the frame.
+struct ViewInfo {
+    const char* name;                  ///< of the intermediate, or of what is made of several
+    const char* description;           ///< one line: what it shows and how it is to be read
+    std::span<const Channel> channels; ///< of the intermediate in a file; empty: there is none
+};
+
+/// In the order of the frame: every intermediate that an effect publishes to be seen.
 [[nodiscard]] std::span<const ViewInfo> listViews();
+
+/// Null: there is none of that name.
+[[nodiscard]] const ViewInfo* findView(std::string_view name);
 
 /// Intermediates that the view is made of (FrameRequest::shownIntermediates). Empty for a name that
 /// is none of listViews().

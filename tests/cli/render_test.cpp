@@ -148,6 +148,7 @@ TEST_F(CliRender, AllIntermediatesLieBesideThePicture) {
     expectSuccess(renderVase({"--method", "hybrid", "--out", "a.png", "--aov", "all"}));
     const std::set<std::string> expected = {
         "a.png",
+        "a.cost.exr",
         "a.depth.exr",
         "a.edge.exr",
         "a.mask.exr",
@@ -155,6 +156,8 @@ TEST_F(CliRender, AllIntermediatesLieBesideThePicture) {
         "a.motion.exr",
         "a.normal.exr",
         "a.reveal.exr",
+        "a.reveal_motion.exr",
+        "a.tile_max.exr",
         "a.tiles.exr"};
     EXPECT_EQ(listFiles(), expected);
     const image::Image motion = read("a.motion.exr");

@@ -93,7 +93,7 @@ const Method kDenoised = {
     .countsBlocks = false,
     .settings =
         {"tileSizePx", "neighbourhoodTiles", "filterLevels", "luminanceSigma", "maxMotionDepth"},
-    .views = {"tiles", "noisy"},
+    .views = {"tile_max", "tiles", "noisy"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             shader::DenoisedParams own{};

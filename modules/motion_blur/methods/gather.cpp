@@ -54,7 +54,7 @@ const Method kGather = {
          "foregroundMagnification",
          "uniformMotionPx",
          "halfResolutionPx"},
-    .views = {"tiles"},
+    .views = {"tile_max", "tiles", "cost"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             params.setMethod(shader::GatherParams{

@@ -61,7 +61,7 @@ const Method kGuertin2014 = {
          "maxMotionDepth",
          "centreBias",
          "speedThresholdPx"},
-    .views = {"tiles", "variance"},
+    .views = {"tile_max", "tiles", "variance", "cost"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             params.marginPx = measureTileJitter(params);

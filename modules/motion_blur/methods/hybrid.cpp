@@ -183,7 +183,7 @@ const Method kHybrid = {
          "revealTraversal",
          "rayShare",
          "luminanceThreshold"},
-    .views = {"tiles", "edge", "mask", "reveal"},
+    .views = {"tile_max", "tiles", "edge", "mask", "reveal", "reveal_motion", "cost"},
     .resolve = resolveHybrid,
     // Other tests than by id, and steps that end at a limit, show an entity behind itself.
     .alwaysTraces =

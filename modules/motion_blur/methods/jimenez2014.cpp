@@ -23,7 +23,7 @@ const Method kJimenez2014 = {
          "softDepthShare",
          "jitter",
          "maxMotionDepth"},
-    .views = {"tiles"},
+    .views = {"tile_max", "tiles", "cost"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             // A smear fades over one tap's distance beyond its end.

@@ -20,7 +20,7 @@ const Method kMcGuire2012 = {
          "softDepthShare",
          "jitter",
          "maxMotionDepth"},
-    .views = {"tiles"},
+    .views = {"tile_max", "tiles", "cost"},
     .addBudgetLevels = addSampleLevels,
     .makePasses =
         [](gpu::Device& device, VkDescriptorSetLayout) {

@@ -16,6 +16,7 @@ const Method kOwnVelocity = {
     .publication = "three.js, Babylon.js; Bevy with occluderTest=velocity",
     .defaultSamples = 16,
     .settings = {"jitter", "occluderTest", "maxMotionDepth"},
+    .views = {"cost"},
     .resolve =
         [](const MotionBlurSettings& settings, PassParams& params) {
             // No neighbour's motion comes over a pixel.

@@ -58,6 +58,7 @@ const Method kRosado2007 = {
     .readsCamera = true,
     .blursObjects = false,
     .settings = {"jitter", "maxMotionDepth"},
+    .views = {"cost"},
     .resolve =
         [](const MotionBlurSettings&, PassParams& params) {
             params.neighbourRadius = 0; // no neighbour's motion comes over a pixel

@@ -410,9 +410,9 @@ TEST_F(RenderOptionsTest, IntermediatesAreTheMethodsOwn) {
     };
     EXPECT_EQ(aovs("sharp", "depth,motion"), (std::set<std::string>{"depth", "motion"}));
     EXPECT_EQ(aovs("sharp", "all").size(), 4u);
-    EXPECT_EQ(aovs("gather", "all").size(), 5u);
-    EXPECT_EQ(aovs("hybrid", "all").size(), 8u);
-    EXPECT_EQ(aovs("own_velocity", "all").size(), 4u);
+    EXPECT_EQ(aovs("gather", "all").size(), 7u);
+    EXPECT_EQ(aovs("hybrid", "all").size(), 11u);
+    EXPECT_EQ(aovs("own_velocity", "all").size(), 5u);
     EXPECT_EQ(aovs("guertin2014", "variance,tiles").size(), 2u);
     for (const char* names : {"nosuch", "motion,", ",", "motion,nosuch", "Motion", "motion depth"})
         refuse("--aov", Words{"--aov=" + wordOf(names)});
