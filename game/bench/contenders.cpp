@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/contenders.h"
 
+#include "game/shot/picture_drawer.h"
 #include "modules/motion_blur/settings.h"
 
 #include <fmt/format.h>
@@ -126,15 +127,12 @@ std::vector<SamplePoint> makeSequencePoints(const std::vector<const game::Method
 }
 
 game::MethodOptions makeMethodOptions(const SamplePoint& point) {
-    game::MethodOptions options;
-    options.method = point.method;
-    options.samples = point.samples;
-    if (!point.method->blur)
-        return options;
+    motion_blur::MotionBlurSettings settings;
     if (isPapers(point.method->name))
-        options.motionBlur = motion_blur::paperSettings();
-    options.motionBlur.method = point.method->blur;
-    options.motionBlur.sampleCount = point.samples;
+        settings = motion_blur::paperSettings();
+    settings.sampleCount = point.samples;
+    game::MethodOptions options = game::makeMethod(*point.method, settings);
+    options.samples = point.samples;
     return options;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/setting_row.h"
 #include "game/options/option_rows.h"
 #include "game/shot/methods.h"
+#include "game/shot/picture_drawer.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/settings.h"
 
@@ -61,12 +62,8 @@ Status chooseMethod(const MethodArguments& arguments, MethodOptions& options) {
     const auto method = findMethod(preset ? preset->method : arguments.method);
     if (!method)
         return method.error();
-    options.method = method.value();
-    options.samples = options.method->defaultSamples;
-    if (preset && options.method->blur) {
-        options.motionBlur = preset->blur;
-        options.samples = preset->blur.sampleCount;
-    }
+    options =
+        makeMethod(*method.value(), preset ? preset->blur : motion_blur::MotionBlurSettings());
     return {};
 }
 
@@ -78,7 +75,6 @@ Status interpretSamples(const MethodArguments& arguments, MethodOptions& options
         return makeError("--samples {} must lie in [1, {}]", options.samples, most);
     if (!options.method->blur)
         return {};
-    options.motionBlur.method = options.method->blur;
     options.motionBlur.sampleCount = options.samples;
     if (Status valid = motion_blur::validate(options.motionBlur); !valid)
         return makeError("--samples: {}", valid.error().message);

@@ -18,7 +18,7 @@ class App;
 namespace shutter::game {
 
 struct MethodArguments {
-    std::string method = "resolved";
+    std::string method = motion_blur::getDefaultMethod().name;
     std::string preset; ///< chooses method and settings in place of `method`; empty: none
     std::optional<uint32_t> samples; ///< else the method's own number
     std::optional<double> error;

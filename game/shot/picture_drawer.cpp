@@ -25,11 +25,12 @@ makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& sett
     MethodOptions options;
     options.method = &method;
     options.samples = method.defaultSamples;
-    options.motionBlur = settings;
     if (!method.blur)
         return options;
+    options.motionBlur = settings;
     options.motionBlur.method = method.blur;
-    options.motionBlur.sampleCount = options.samples;
+    options.motionBlur = motion_blur::complete(options.motionBlur);
+    options.samples = options.motionBlur.sampleCount;
     return options;
 }
 

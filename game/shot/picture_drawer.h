@@ -62,7 +62,7 @@ struct PictureRequest {
 };
 
 /// A method with its own number of samples. \param settings of MethodFamily::MotionBlur; its method
-/// and sample count are set here
+/// is set here, and its sample count where that is 0
 [[nodiscard]] MethodOptions
 makeMethod(const MethodInfo& method, const motion_blur::MotionBlurSettings& settings = {});
 

@@ -50,8 +50,9 @@ core::Status validate(const BlurBudget& budget) {
 }
 
 std::vector<BudgetLevel> makeLevels(const MotionBlurSettings& wanted) {
-    BudgetLadder ladder(wanted);
-    wanted.method->addBudgetLevels(ladder, wanted);
+    const MotionBlurSettings whole = complete(wanted);
+    BudgetLadder ladder(whole);
+    whole.method->addBudgetLevels(ladder, whole);
     return ladder.finish();
 }
 

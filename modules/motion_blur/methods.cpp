@@ -19,8 +19,8 @@ extern const Method kResolved;
 extern const Method kAdaptive;
 extern const Method kDenoised;
 
-const Method& getDefaultMethod() {
-    return kGather;
+const Method& getDefaultMethod(bool knowsMotions) {
+    return knowsMotions ? kResolved : kGather;
 }
 
 std::span<const Method* const> listMethods() {

@@ -40,10 +40,11 @@ MotionBlur::MotionBlur(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
 MotionBlur::~MotionBlur() = default;
 
 MotionBlurOutputs MotionBlur::add(
-    graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurSettings& settings
+    graph::Graph& graph, const MotionBlurInputs& inputs, const MotionBlurSettings& wanted
 ) {
-    const core::Status valid = validate(settings);
+    const core::Status valid = validate(wanted);
     SHUTTER_CHECK(valid.ok(), "{}", valid.error().message);
+    const MotionBlurSettings settings = complete(wanted, inputs.instantMotions.has_value());
     const Method& method = *settings.method;
     const bool hasRays = mParts->sceneLayout && mParts->device.hasRays();
     SHUTTER_CHECK(

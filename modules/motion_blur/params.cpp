@@ -12,7 +12,8 @@ float measureTileJitter(const PassParams& params) {
 }
 
 PassParams
-resolve(const MotionBlurSettings& settings, uint32_t width, uint32_t height, double rasterTime) {
+resolve(const MotionBlurSettings& wanted, uint32_t width, uint32_t height, double rasterTime) {
+    const MotionBlurSettings settings = complete(wanted);
     PassParams params{};
     const uint32_t tile = chooseTileSize(settings, height);
     params.sizePx = {width, height};

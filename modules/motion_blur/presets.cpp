@@ -10,7 +10,7 @@ namespace shutter::motion_blur {
 
 namespace {
 
-MotionBlurSettings makeFor(std::string_view method, uint32_t samples) {
+MotionBlurSettings makeFor(std::string_view method, uint32_t samples = 0) {
     MotionBlurSettings settings;
     settings.method = &getMethod(method);
     settings.sampleCount = samples;
@@ -31,8 +31,8 @@ std::span<const Preset> listPresets() {
     static const std::vector<Preset> kPresets = {
         {"off", "no motion blur: the raster image", true, {}},
         {"performance", "fewer instants, and more of the fast path", false, makePerformance()},
-        {"balanced", "no rays", false, makeFor("resolved", 15)},
-        {"quality", "rays where the raster images do not suffice", false, makeFor("adaptive", 15)},
+        {"balanced", "no rays", false, makeFor("resolved")},
+        {"quality", "rays where the raster images do not suffice", false, makeFor("adaptive")},
         {"paper", "with the numbers of the publication", false, paperSettings()},
     };
     return kPresets;

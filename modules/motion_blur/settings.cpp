@@ -27,9 +27,9 @@ std::vector<Row> makeTapRows() {
         {"sampleCount",
          &S::sampleCount,
          "",
-         {.lowest = 1, .highest = 256, .step = 1, .isLogarithmic = true},
-         "Taps of each gather, or rays per pixel. Time is proportional to it; too few show "
-         "as noise.",
+         {.lowest = 0, .highest = 256, .step = 1, .isLogarithmic = true, .sliderLowest = 1},
+         "Taps of each gather, instants, or rays per pixel. Time is proportional to it; too few "
+         "show as noise. 0 is the method's own number.",
          "Samples"},
         {"tileSizePx",
          &S::tileSizePx,
@@ -260,10 +260,20 @@ core::SettingRows<MotionBlurSettings> listSettingRows() {
     return kRows;
 }
 
+MotionBlurSettings complete(const MotionBlurSettings& settings, bool knowsMotions) {
+    MotionBlurSettings whole = settings;
+    if (!whole.method)
+        whole.method = &getDefaultMethod(knowsMotions);
+    if (whole.sampleCount == 0)
+        whole.sampleCount = whole.method->defaultSamples;
+    return whole;
+}
+
 MotionBlurSettings paperSettings() {
     MotionBlurSettings settings;
     settings.method = &getMethod("hybrid");
     settings.tileSizePx = 40;
+    settings.sampleCount = 15;
     settings.softDepthExtent = 0.03f;
     settings.softDepthShare = 0.0f;
     settings.foregroundMagnification = 30.0f;
@@ -282,10 +292,9 @@ uint32_t countInstants(const MotionBlurSettings& settings) {
 }
 
 core::Status validate(const MotionBlurSettings& settings) {
-    if (!settings.method)
-        return core::makeError("motion blur: method is null");
     const auto methods = listMethods();
-    if (std::find(methods.begin(), methods.end(), settings.method) == methods.end())
+    if (settings.method &&
+        std::find(methods.begin(), methods.end(), settings.method) == methods.end())
         return core::makeError("motion blur: method is none of listMethods()");
     return core::validateRows(listSettingRows(), settings, "motion blur: ");
 }

@@ -11,9 +11,9 @@ namespace shutter::motion_blur {
 
 struct Method;
 
-/// What settings are for until another method is chosen: one that needs no more than a host without
-/// rays has.
-[[nodiscard]] const Method& getDefaultMethod();
+/// What draws where no method is chosen: `resolved` or, where nobody tells how things move through
+/// the exposure (Method::readsInstantMotions), `gather`.
+[[nodiscard]] const Method& getDefaultMethod(bool knowsMotions = true);
 
 /// How the reveal knows that it met another object.
 enum class ObjectTest : uint8_t {
@@ -50,13 +50,13 @@ enum class InstantNoise : uint8_t {
 /// Defaults are what measures best; paperSettings() are the publication's. settings.cpp lists
 /// ranges and units, each method's file which fields it reads, docs/settings.md what each costs.
 struct MotionBlurSettings {
-    const Method* method = &getDefaultMethod(); ///< methods.h; never null
-    uint32_t tileSizePx = 0;                    ///< m; also the longest blur; 0: chooseTileSize()
-    uint32_t neighbourhoodTiles = 3;            ///< n, odd; 1 lets blur end at tile borders
-    uint32_t sampleCount = 15;                  ///< what it counts: Method::sampleUnit
-    float softDepthExtent = 0.0f;               ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
-    float softDepthShare = 0.01f;               ///< of the depth, added to softDepthExtent
-    float edgeThreshold = 0.9f;                 ///< e; the paper: 0.9 to 0.98; higher: fewer rays
+    const Method* method = nullptr;  ///< methods.h; null: getDefaultMethod()
+    uint32_t tileSizePx = 0;         ///< m; also the longest blur; 0: chooseTileSize()
+    uint32_t neighbourhoodTiles = 3; ///< n, odd; 1 lets blur end at tile borders
+    uint32_t sampleCount = 0;        ///< of Method::sampleUnit; 0: Method::defaultSamples
+    float softDepthExtent = 0.0f;    ///< SOFT_Z_EXTENT; the paper: 5 mm to 3 cm
+    float softDepthShare = 0.01f;    ///< of the depth, added to softDepthExtent
+    float edgeThreshold = 0.9f;      ///< e; the paper: 0.9 to 0.98; higher: fewer rays
     /// Most surfaces along a ray, the first included, with RevealTraversal::Stepping or
     /// ObjectTest::Luminance.
     uint32_t recursionLimit = 5;
@@ -92,6 +92,11 @@ struct MotionBlurSettings {
     bool operator==(const MotionBlurSettings&) const = default;
 };
 
+/// The settings with a method and a sampleCount, whatever they leave to the effect.
+/// \param knowsMotions getDefaultMethod()'s
+[[nodiscard]] MotionBlurSettings
+complete(const MotionBlurSettings& settings, bool knowsMotions = true);
+
 /// Method `hybrid` with the numbers of the publication. Rays tell objects apart by id, which the
 /// paper names as future work; its authors' implementation has ObjectTest::Luminance,
 /// RevealTraversal::Stepping and no fast path (uniformMotionPx 0).
@@ -102,7 +107,7 @@ struct MotionBlurSettings {
 [[nodiscard]] uint32_t chooseTileSize(const MotionBlurSettings& settings, uint32_t height);
 
 /// Instants of the exposure that the pixels choose theirs from: sampleCount, and several times as
-/// many with noise.
+/// many with noise. \param settings complete()
 [[nodiscard]] uint32_t countInstants(const MotionBlurSettings& settings);
 
 /// One row per field of MotionBlurSettings, except for `method`.

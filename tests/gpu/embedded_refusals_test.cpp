@@ -137,7 +137,7 @@ TEST_F(EmbeddedRefusals, EachBadResponseIsNamed) {
 }
 
 TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
-    settings.sampleCount = 0;
+    settings.sampleCount = 257;
     expectRefusal(record(), "sampleCount");
     settings = gather();
     settings.method = &getMethod("denoised");
@@ -166,6 +166,31 @@ TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
     EXPECT_TRUE(record().ok());
     inputs.convention.scales.exposureShare = -1.0f;
     expectRefusal(record(), "convention.scales.exposureShare is -1");
+}
+
+TEST_F(EmbeddedRefusals, WithoutAMethodWhatDrawsInPlaceOfResolvedIsToldOnce) {
+    std::string told;
+    HostDevice host = describeHost();
+    host.message = [&](std::string_view sentence) { told += sentence; };
+    mBlur = create(host);
+    settings = {};
+    bool readsMotions = false;
+    inputs.observe = [&](graph::Graph&, const motion_blur::MotionBlurInputs& own, const auto&) {
+        readsMotions = own.instantMotions.has_value();
+    };
+    EXPECT_TRUE(record().ok());
+    EXPECT_FALSE(readsMotions);
+    EXPECT_EQ(
+        told,
+        "motion blur: motion.keys is empty, so the default method is gather in place of resolved"
+    );
+    EXPECT_TRUE(record().ok());
+    const motion_blur::HostCameraKey key{
+        1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, 1.5, 0.1)};
+    inputs.motion.keys = {&key, 1};
+    EXPECT_TRUE(record().ok());
+    EXPECT_TRUE(readsMotions);
+    EXPECT_TRUE(told.ends_with("in place of resolved") && told.size() < 100u) << told;
 }
 
 TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {

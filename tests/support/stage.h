@@ -44,7 +44,9 @@ struct Shot {
     uint32_t seed = 0;                 ///< truth only
     uint32_t batch = 0;                ///< truth: rays per pixel of each frame; 0: all in one
     accumulate::PixelModel pixel = accumulate::PixelModel::Centre;
-    motion_blur::MotionBlurSettings settings{}; ///< of the motion blur; its method is set here
+    /// Of the motion blur; its method is set here. As many samples for each, so that methods
+    /// compare.
+    motion_blur::MotionBlurSettings settings{.sampleCount = 15};
     std::set<std::string> aovs{};
     bool wantDisplay = false;
     /// Declared after the method's own effects and the tone map; null: none.

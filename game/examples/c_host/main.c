@@ -123,9 +123,9 @@ int main(void) {
             VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
         vkCmdCopyBufferToImage(commands, buffer, barrier.image, barrier.newLayout, 1, &copy);
     }
-    check(shutterBlurRecord(blur, commands, 0, &inputs, NULL)); /* (4) in the frame */
-    const VkImageLayout layout = inputs.color.after.layout;
-    vkCmdCopyImageToBuffer(commands, inputs.color.image, layout, buffer, 1, &copy);
+    const ShutterBlurSettings settings = {.structBytes = sizeof(settings), .method = "gather"};
+    check(shutterBlurRecord(blur, commands, 0, &inputs, &settings)); /* (4) in the frame */
+    vkCmdCopyImageToBuffer(commands, images[0]->image, images[0]->after.layout, buffer, 1, &copy);
     const VkMemoryBarrier shown = {VK_STRUCTURE_TYPE_MEMORY_BARRIER, NULL,
         VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,

@@ -148,7 +148,9 @@ typedef struct ShutterBlurValue {
 
 typedef struct ShutterBlurSettings {
     uint32_t structBytes;
-    const char* method;   /* one of shutterBlurGetMethod() */
+    /* One of shutterBlurGetMethod(). Null: resolved or, where inputs.keys is null, gather, which
+     * `message` tells. */
+    const char* method;
     uint32_t sampleCount; /* taps or instants; 0: the method's own number */
     uint32_t valueCount;
     const ShutterBlurValue* values; /* all others are as the method's page has them */
@@ -162,7 +164,6 @@ static inline ShutterBlurSettings shutterBlurDefaultSettings(void) {
     ShutterBlurSettings made;
     memset(&made, 0, sizeof(made));
     made.structBytes = (uint32_t)sizeof(made);
-    made.method = "gather";
     return made;
 }
 

@@ -175,7 +175,7 @@ OwnSamples convertSamples(const ShutterBlurInputs& given) {
 
 core::Result<const Method*> findHostMethod(const char* name) {
     if (!name)
-        return makeError("motion blur: settings.method is null");
+        return nullptr; // the default
     const Method* method = findMethod(name);
     if (method && isForHosts(*method))
         return method;
@@ -248,7 +248,6 @@ core::Result<HostSettings> convert(const ShutterBlurSettings* given) {
         if (!method)
             return method.error();
         settings.method = method.value();
-        settings.sampleCount = settings.method->defaultSamples;
     }
     if (wanted.sampleCount != 0)
         settings.sampleCount = wanted.sampleCount;

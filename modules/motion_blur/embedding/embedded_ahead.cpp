@@ -116,19 +116,20 @@ template <class Call> auto guard(const Call& call) -> decltype(call()) {
 
 core::Status EmbeddedMotionBlur::recordOnce(const HostPlan& plan) {
     HostPlan small = plan;
+    small.settings = complete(plan.settings);
     small.width = small.height = kWarmUpPixels;
     small.moverCount = std::min(plan.moverCount, 1u);
     ImaginedInputs imagined;
     imagine(small, imagined);
     const SmallImages images(*mDevice, imagined.inputs);
-    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, abilities()));
+    SHUTTER_TRY(checkInputs(imagined.inputs, small.settings, abilities()));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
     // Without a frame before and with one, with few movers and with all that may come.
     for (uint32_t i = 0; i < 4; ++i) {
         const DroppedCommands dropped(mHost.device, mHost.queueFamily);
         graph::Graph graph;
-        Frame frame{0, slot, graph, imagined.inputs, plan.settings};
+        Frame frame{0, slot, graph, imagined.inputs, small.settings};
         frame.hasAll = i >= 2;
         SHUTTER_TRY(record(frame, view, dropped.commands));
     }
@@ -202,19 +203,19 @@ core::Result<uint64_t> EmbeddedMotionBlur::estimate(const HostPlan& plan) {
     imagine(plan, imagined);
     HostAbilities host = abilities();
     host.images.device = VK_NULL_HANDLE;
-    SHUTTER_TRY(checkInputs(imagined.inputs, plan.settings, host));
+    const MotionBlurSettings settings = complete(plan.settings);
+    SHUTTER_TRY(checkInputs(imagined.inputs, settings, host));
     Slot slot(*mDevice, 0);
     View view(*mDevice);
     uint64_t transients = 0;
     uint64_t slotBytes = 0;
-    const bool keeps =
-        plan.settings.method->readsInstantMotions && plan.settings.history && !plan.lendsLast;
+    const bool keeps = settings.method->readsInstantMotions && settings.history && !plan.lendsLast;
     // The second frame has one before it.
     for (uint32_t i = 0; i < 2; ++i) {
         if (keeps)
             view.history.imagine({plan.width, plan.height});
         graph::Graph graph;
-        Frame frame{0, slot, graph, imagined.inputs, plan.settings, false, true, true};
+        Frame frame{0, slot, graph, imagined.inputs, settings, false, true, true};
         declare(frame, view);
         const auto compiled = graph::compile(graph, slot.pool.requirementFunction());
         if (!compiled)

@@ -161,15 +161,20 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
     VkCommandBuffer commands,
     uint32_t frame,
     const HostInputs& inputs,
-    const MotionBlurSettings& settings
+    const MotionBlurSettings& wanted
 ) {
     mHasLeftAPart = false;
+    const bool knowsMotions = !inputs.motion.keys.empty();
+    const MotionBlurSettings settings = complete(wanted, knowsMotions);
     try {
         SHUTTER_TRY(check(commands, frame, inputs, settings));
         if (mUnsaid)
             mUnsaid->ask(inputs, mHost.message); // before the driver meets the images
         SHUTTER_TRY(finishFrame(frame));
         mHasLeftAPart = true;
+        if (!wanted.method && !knowsMotions && !inputs.isOff && !std::exchange(mTellsMethod, true))
+            warn("motion blur: motion.keys is empty, so the default method is gather in place of "
+                 "resolved");
         Slot& slot = *mSlots[frame];
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
         graph::Graph graph;

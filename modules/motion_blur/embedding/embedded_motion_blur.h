@@ -3,7 +3,7 @@
 // recorded into the host's own command buffers, from the host's G-buffer into an image of the host.
 // The same effect as the plugin's, on a graph of its own that imports those images.
 //
-// Conventions are those of motion_blur.h. Nothing here throws. One thread at a time may use an
+// Conventions are those of frame_io.h. Nothing here throws. One thread at a time may use an
 // object: a call of another one, or from within a callback, is refused, except for living() and the
 // destructor.
 #pragma once
@@ -61,8 +61,9 @@ class EmbeddedMotionBlur {
     /// submitted. Refused while the GPU has not run it. Errors name what is wrong, and nothing was
     /// recorded; an error that tells of memory or the device may leave a part, and the command
     /// buffer must be reset then. Methods that read no raster image, or need timed rays, are
-    /// refused. After an error, the next frame of the view has none before it, whatever
-    /// HostMotion::followsLast says.
+    /// refused. Without a method, `resolved` draws or, where HostMotion::keys is empty, `gather`,
+    /// which HostDevice::message tells once. After an error, the next frame of the view has none
+    /// before it, whatever HostMotion::followsLast says.
     [[nodiscard]] core::Status record(
         VkCommandBuffer commands,
         uint32_t frame,
@@ -166,6 +167,7 @@ class EmbeddedMotionBlur {
     uint32_t mTimestampBits = 0;          ///< 0: nothing is measured
     bool mHasRays;
     bool mHasLeftAPart = false;
+    bool mTellsMethod = false; ///< the host was told that its default is gather
     MotionBlur mEffect;
     HostPreparation mPreparation;
     std::unique_ptr<HostOverlay> mOverlay;

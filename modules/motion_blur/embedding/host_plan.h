@@ -12,8 +12,8 @@
 namespace shutter::motion_blur {
 
 struct HostPlan {
-    MotionBlurSettings settings;
-    uint32_t width = 0; ///< of the picture, pixels, [1, 32768]
+    MotionBlurSettings settings; ///< without a method: `resolved`
+    uint32_t width = 0;          ///< of the picture, pixels, [1, 32768]
     uint32_t height = 0;
     uint32_t viewCount = 1; ///< that keep a history of their own, [1, framesInFlight]
     VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;

@@ -70,6 +70,7 @@ motion_blur::MotionBlurSettings makeSettings() {
     motion_blur::MotionBlurSettings settings;
     settings.method = &motion_blur::getMethod("gather");
     settings.tileSizePx = 16;
+    settings.sampleCount = 15;
     settings.softDepthExtent = float(kSoftExtent);
     settings.softDepthShare = 0.0f;
     settings.foregroundMagnification = 30.0f;

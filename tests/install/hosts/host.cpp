@@ -86,7 +86,6 @@ extern "C" int runHost(int count, char** methods) {
     for (int i = 0; i < count; ++i) {
         MotionBlurSettings settings;
         settings.method = findMethod(methods[i]);
-        settings.sampleCount = settings.method->defaultSamples;
         beginCommands(&scene);
         const auto done = blur.value()->record(scene.commands, 0, inputs, settings);
         require(done.ok(), done.ok() ? "" : done.error().message.c_str());

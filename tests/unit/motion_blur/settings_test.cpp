@@ -43,14 +43,20 @@ TEST(MotionBlurSettings, ThePapersAreThoseThatItPrintsAndValid) {
     EXPECT_EQ(settings.maskTest, MaskTest::Paper);
 }
 
-TEST(MotionBlurSettings, TheDefaultsNeedNoMoreThanEveryHostHas) {
-    const MotionBlurSettings settings;
-    EXPECT_TRUE(validate(settings).ok());
-    EXPECT_EQ(settings.method->rays, RayNeed::None);
+TEST(MotionBlurSettings, WhatIsLeftOpenIsTheDefaultMethodAndEachMethodsOwnSamples) {
+    EXPECT_TRUE(validate({}).ok());
+    EXPECT_EQ(complete({}).method, &getMethod("resolved"));
+    for (const Method* method : listMethods()) {
+        EXPECT_EQ(complete({.method = method}).sampleCount, method->defaultSamples);
+        EXPECT_EQ(complete({.method = method, .sampleCount = 3}).sampleCount, 3u);
+    }
+}
+
+TEST(MotionBlurSettings, WhereNobodyTellsMotionsTheDefaultReadsWhatEveryHostHas) {
+    const MotionBlurSettings settings = complete({}, false);
+    EXPECT_TRUE(settings.method->readsImagesOnly());
     EXPECT_FALSE(settings.method->readsNormal);
     EXPECT_FALSE(settings.method->readsEntityId);
-    EXPECT_FALSE(settings.method->readsCamera);
-    EXPECT_FALSE(settings.method->readsInstantMotions);
 }
 
 TEST(MotionBlurSettings, TilesGrowWithThePictureUnlessTheirSizeIsGiven) {

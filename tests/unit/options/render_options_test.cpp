@@ -244,6 +244,12 @@ TEST_F(RenderOptionsTest, AnUnknownMethodIsRefusedWithThoseThereAre) {
     );
 }
 
+TEST_F(RenderOptionsTest, NoMethodMeansTheBlursOwnDefault) {
+    const MethodOptions method = accept(Words{}).method;
+    EXPECT_EQ(method.method->blur, &motion_blur::getDefaultMethod());
+    EXPECT_EQ(method.motionBlur, motion_blur::complete({}));
+}
+
 TEST_F(RenderOptionsTest, NoSamplesMeansTheMethodsOwnNumber) {
     const auto samples = [&](const char* method, uint32_t count) {
         return accept(Words{"--method=" + wordOf(method), "--samples=" + wordOf(count)});

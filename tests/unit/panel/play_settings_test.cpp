@@ -232,6 +232,10 @@ TEST(PlaySettings, ReducedMotionTakesTheCamerasPartAlone) {
     EXPECT_EQ(game::makeShutter(settings).objectScale, 1.2);
 }
 
+TEST(PlaySettings, TheMethodIsTheBlursOwnDefault) {
+    EXPECT_EQ(PlaySettings().method, motion_blur::getDefaultMethod().name);
+}
+
 TEST(PlaySettings, RaysOfTheDenoisedMethodAreNotTheSamplesOfTheOthers) {
     PlaySettings settings;
     settings.blur.sampleCount = 31;
