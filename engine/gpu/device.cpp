@@ -55,8 +55,6 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->createLogicalDevice();
         device->loadFunctions();
         device->loadLimits();
-        if (options.adaptMemory)
-            options.adaptMemory(device->mMemoryProperties);
         device->createSamplers();
         if (!options.cacheFolder.empty())
             device->mCacheFile = options.cacheFolder / device->cacheFileName();
@@ -64,7 +62,6 @@ core::Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& option
         device->mMakesPipelinesAhead =
             options.pipelinesAhead == PipelinesAhead::Always ||
             (options.pipelinesAhead == PipelinesAhead::OnGpus && device->mInfo.kind != "software");
-        device->mBeforePipelineAhead = options.beforePipelineAhead;
     } catch (const DeviceError& error) {
         return core::Error{error.what()};
     }
@@ -112,10 +109,8 @@ core::Status Device::choosePhysicalDevice(const DeviceOptions& options) {
         mSurface = surface.value();
     }
     std::vector<DeviceInfo> devices = listDevices(mInstance, mSurface);
-    for (DeviceInfo& info : devices) {
+    for (DeviceInfo& info : devices)
         info.rayTier = chooseTier(info, options.bestTier);
-        info.tracesIndirect = info.tracesIndirect && options.allowIndirectLaunch;
-    }
     auto chosen = chooseDevice(devices, options.wanted);
     if (!chosen)
         return chosen.error();

@@ -37,17 +37,9 @@ struct DeviceOptions {
     bool wantsAdvice = false; ///< where `validate`: best practices too, which no count includes
     RayTier bestTier =
         RayTier::RayQuery; ///< hides the tiers above, so that lower ones can be tested
-    /// False hides launches of rays whose size is in memory, for the same reason.
-    bool allowIndirectLaunch = true;
-    /// Changes what is known of the device's memory, so that the layouts of others can be tested;
-    /// empty: it is taken as it is.
-    std::function<void(VkPhysicalDeviceMemoryProperties&)> adaptMemory;
     /// Folder of the pipeline cache on disk; empty: none is kept.
     std::filesystem::path cacheFolder;
     PipelinesAhead pipelinesAhead = PipelinesAhead::Never;
-    /// Called before a pipeline is made ahead, with its name and on the thread that makes it, so
-    /// that tests can hold it up; empty: nothing is called.
-    std::function<void(const std::string& name)> beforePipelineAhead;
     /// How many pipelines that nobody uses any more are kept for whoever wants the same
     /// (kept_pipelines.h); 0: none. Scene layouts of pipelines (PipelineInterface) must then live
     /// as long as the device, as those of textureLayout do.
@@ -184,12 +176,6 @@ class Device {
     /// As DeviceOptions says. Only pipelines may be made on other threads.
     [[nodiscard]] bool makesPipelinesAhead() const { return mMakesPipelinesAhead; }
 
-    /// Calls DeviceOptions::beforePipelineAhead, on any thread.
-    void announcePipelineAhead(const std::string& name) const {
-        if (mBeforePipelineAhead)
-            mBeforePipelineAhead(name);
-    }
-
     /// Writes the pipeline cache to disk, as the end of the device does: what was made so far is
     /// kept even where the program does not end well.
     void savePipelineCache() const;
@@ -299,7 +285,6 @@ class Device {
     uint64_t mAllocationCount = 0;
     bool mHasDebugUtils = false;
     bool mMakesPipelinesAhead = false;
-    std::function<void(const std::string&)> mBeforePipelineAhead;
     Bounds mBounds = Bounds::Trusted;
     std::atomic<uint32_t> mValidationMessages = 0; ///< written by the messenger, any thread
 };

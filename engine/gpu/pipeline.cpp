@@ -331,17 +331,17 @@ void Pipeline::release() {
     mDevice = nullptr;
 }
 
-LazyPipeline::LazyPipeline(Device& device, std::string name, std::function<Pipeline()> make)
-    : mDevice(&device), mName(std::move(name)), mMake(std::move(make)) {
+LazyPipeline::LazyPipeline(Device& device, std::function<Pipeline()> make)
+    : mMake(std::move(make)) {
     if (device.makesPipelinesAhead())
         prepare();
 }
 
 LazyPipeline::LazyPipeline(Device& device, const ComputePipelineDesc& desc)
-    : LazyPipeline(device, desc.name, [&device, desc] { return Pipeline(device, desc); }) {}
+    : LazyPipeline(device, [&device, desc] { return Pipeline(device, desc); }) {}
 
 LazyPipeline::LazyPipeline(Device& device, const RayPipelineDesc& desc)
-    : LazyPipeline(device, desc.name, [&device, desc] { return Pipeline(device, desc); }) {}
+    : LazyPipeline(device, [&device, desc] { return Pipeline(device, desc); }) {}
 
 LazyPipeline::~LazyPipeline() {
     if (mUnderWay.valid())
@@ -351,10 +351,7 @@ LazyPipeline::~LazyPipeline() {
 void LazyPipeline::prepare() const {
     if (mPipeline || mUnderWay.valid())
         return;
-    mUnderWay = std::async(std::launch::async, [device = mDevice, name = mName, make = mMake] {
-        device->announcePipelineAhead(name);
-        return make();
-    });
+    mUnderWay = std::async(std::launch::async, mMake);
 }
 
 bool LazyPipeline::isReady() const {

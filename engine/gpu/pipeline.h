@@ -135,10 +135,8 @@ class LazyPipeline {
     [[nodiscard]] Pipeline take();
 
   private:
-    LazyPipeline(Device& device, std::string name, std::function<Pipeline()> make);
+    LazyPipeline(Device& device, std::function<Pipeline()> make);
 
-    const Device* mDevice;
-    std::string mName;
     std::function<Pipeline()> mMake;
     mutable std::future<Pipeline> mUnderWay; ///< of prepare(), until get()
     mutable std::optional<Pipeline> mPipeline;

@@ -3,7 +3,9 @@
 #include "tests/fault_layer/dispatch.h"
 #include "tests/fault_layer/fault_plan.h"
 
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <string_view>
 
 namespace shutter::faults {
@@ -26,6 +28,38 @@ constexpr size_t findIndex(std::string_view name) {
     return kNames.size();
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
+    DeviceTable& table = findDevice(device);
+    if (info->objectType == VK_OBJECT_TYPE_SHADER_MODULE) {
+        const std::lock_guard lock(table.heldMutex);
+        if (info->pObjectName && info->pObjectName == FaultPlan::get().heldPipeline)
+            table.heldShaders.insert(info->objectHandle);
+        else
+            table.heldShaders.erase(info->objectHandle); // of one that is gone
+    }
+    return table.SetDebugUtilsObjectNameEXT(device, info);
+}
+
+void waitIfHeld(DeviceTable& table, std::span<const VkPipelineShaderStageCreateInfo> stages) {
+    const auto isHeld = [&](const VkPipelineShaderStageCreateInfo& stage) {
+        const std::lock_guard lock(table.heldMutex);
+        return table.heldShaders.contains(reinterpret_cast<uint64_t>(stage.module));
+    };
+    if (std::any_of(stages.begin(), stages.end(), isHeld))
+        std::ifstream(FaultPlan::get().heldUntil); // opens once somebody writes
+}
+
+/// What is no pipeline is not held.
+void hold(DeviceTable&, const auto&) {}
+
+void hold(DeviceTable& table, const VkComputePipelineCreateInfo* info) {
+    waitIfHeld(table, {&info->stage, 1});
+}
+
+void hold(DeviceTable& table, const VkRayTracingPipelineCreateInfoKHR* info) {
+    waitIfHeld(table, {info->pStages, info->stageCount});
+}
+
 /// Stands in for a function that makes something. Main memory is what any of them may lack.
 template <size_t index, auto next> struct Create;
 
@@ -36,6 +70,7 @@ struct Create<index, next> {
         const uint32_t number = ++table.creationCounts[index];
         if (FaultPlan::get().failsCreation(kNames[index], number))
             return VK_ERROR_OUT_OF_HOST_MEMORY;
+        (hold(table, args), ...);
         return (table.*next)(device, args...);
     }
 };
@@ -54,7 +89,8 @@ std::span<const char* const> listOtherCreationNames() {
 std::span<const Entry> listCreations() {
 #define SHUTTER_CREATE(name)                                                                       \
     SHUTTER_ENTRY(name, (Create<findIndex(#name), &DeviceTable::name>::call)),
-    static const std::array sEntries{SHUTTER_CREATIONS(SHUTTER_CREATE)};
+    static const std::array sEntries{SHUTTER_CREATIONS(SHUTTER_CREATE)
+                                         SHUTTER_ENTRY(SetDebugUtilsObjectNameEXT, setName)};
 #undef SHUTTER_CREATE
     return sEntries;
 }

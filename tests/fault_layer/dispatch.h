@@ -47,6 +47,7 @@ namespace shutter::faults {
     X(QueueSubmit)                                                                                 \
     X(QueueSubmit2)                                                                                \
     X(QueueWaitIdle)                                                                               \
+    X(SetDebugUtilsObjectNameEXT)                                                                  \
     X(WaitForFences)                                                                               \
     X(WaitSemaphores)
 
@@ -104,6 +105,8 @@ struct DeviceTable {
     std::atomic<uint32_t> presentationCount = 0;
     std::mutex hiddenMutex;
     std::set<VkDeviceMemory> hiddenMemory; ///< memory of types that are said not to be visible
+    std::mutex heldMutex;
+    std::set<uint64_t> heldShaders; ///< modules of FaultPlan::heldPipeline
 };
 
 #undef SHUTTER_FIELD

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace shutter::faults {
@@ -136,8 +137,12 @@ FaultPlan readPlan() {
         plan.fileBytes = readNumber(bytes);
     }
     plan.countsFile = readVariable("SHUTTER_FAULT_COUNTS");
+    if (const std::string text = readVariable("SHUTTER_FAULT_HOLD"); !text.empty())
+        std::tie(plan.heldPipeline, plan.heldUntil) = readPair(text);
     return plan;
 }
+
+FaultPlan sPlan;
 
 } // namespace
 
@@ -147,8 +152,11 @@ void refuse(const std::string& sentence) {
 }
 
 const FaultPlan& FaultPlan::get() {
-    static const FaultPlan sPlan = readPlan();
     return sPlan;
+}
+
+void FaultPlan::readAnew() {
+    sPlan = readPlan();
 }
 
 } // namespace shutter::faults

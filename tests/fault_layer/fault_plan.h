@@ -36,6 +36,8 @@ struct FaultPlan {
     std::string countsFile;                         ///< empty: none
     uint32_t lastBeforeFiles = 0; ///< submission after whose end files stay below `fileBytes`
     uint32_t fileBytes = 0;
+    std::string heldPipeline; ///< name of shaders; pipelines of these wait; empty: none
+    std::string heldUntil;    ///< FIFO that somebody opens for writing
 
     /// Whether the `number`th call of a function that makes something fails.
     [[nodiscard]] bool failsCreation(const std::string& name, uint32_t number) const {
@@ -43,9 +45,12 @@ struct FaultPlan {
         return failing != creations.end() && failing->second.holds(number);
     }
 
-    /// Reads it once. What cannot be understood ends the process: a test that asks for nothing
-    /// would pass.
+    /// What readAnew() read last.
     [[nodiscard]] static const FaultPlan& get();
+
+    /// For a new instance. What cannot be understood ends the process: a test that asks for nothing
+    /// would pass.
+    static void readAnew();
 };
 
 /// Prints a sentence and ends the process.

@@ -35,6 +35,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(
         return VK_ERROR_INITIALIZATION_FAILED;
     const auto getProcAddr = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext; // the next layer looks for its own
+    FaultPlan::readAnew();
     if (FaultPlan::get().failsCreation("CreateInstance", ++sInstanceCount))
         return VK_ERROR_OUT_OF_HOST_MEMORY;
     const auto create =

@@ -147,6 +147,9 @@ VKAPI_ATTR VkResult VKAPI_CALL enumerateExtensions(
 
 /// One heap each, as large as the device's first.
 void reportMemory(VkPhysicalDeviceMemoryProperties& memory) {
+    if (isHidden("hostCoherent"))
+        for (VkMemoryType& type : memory.memoryTypes)
+            type.propertyFlags &= ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_COHERENT_BIT};
     const auto& types = FaultPlan::get().memoryTypes;
     if (types.empty())
         return;

@@ -27,11 +27,7 @@ class Memory : public test::GpuTest {
 TEST_F(Memory, WhatIsNotCoherentIsFlushedAndInvalidated) {
     gpu::DeviceOptions options;
     options.validate = true;
-    options.adaptMemory = [](VkPhysicalDeviceMemoryProperties& memory) {
-        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            memory.memoryTypes[i].propertyFlags &= ~VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    };
-    auto opened = gpu::Device::create(options);
+    auto opened = test::openFaulty(options, "SHUTTER_FAULT_HIDE", "hostCoherent");
     ASSERT_TRUE(opened.ok()) << opened.error().message;
     const std::unique_ptr<gpu::Device> incoherent = std::move(opened).value();
     {

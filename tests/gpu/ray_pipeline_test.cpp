@@ -40,16 +40,16 @@ class RayPipelineTier : public test::GpuTest {
             return;
         if (!device().info().hasRayPipeline || !device().hasRayQuery())
             GTEST_SKIP() << "the device lacks one of the tiers";
-        open(true);
+        open("");
     }
 
-    void open(bool allowIndirectLaunch) {
+    /// \param hidden feature
+    void open(const std::string& hidden) {
         gpu::DeviceOptions options;
         options.validate = true;
         options.bestTier = gpu::RayTier::Pipeline;
-        options.allowIndirectLaunch = allowIndirectLaunch;
         options.wanted = device().info().name;
-        auto opened = gpu::Device::create(options);
+        auto opened = test::openFaulty(options, "SHUTTER_FAULT_HIDE", hidden);
         ASSERT_TRUE(opened.ok()) << opened.error().message;
         mLower = std::move(opened).value();
     }
@@ -164,7 +164,7 @@ TEST_F(RayPipelineTier, RevealsWhatQueriesRevealStepByStep) {
 }
 
 TEST_F(RayPipelineTier, RevealsWhatQueriesRevealWhereLaunchesReadNoSizeFromMemory) {
-    open(false);
+    open("rayTracingPipelineTraceRaysIndirect");
     EXPECT_FALSE(lower().info().tracesIndirect);
     expectSamePictures(makeScene(), {}, 150);
 }

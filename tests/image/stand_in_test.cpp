@@ -7,9 +7,12 @@
 #include "tests/support/picture.h"
 
 #include <algorithm>
-#include <future>
+#include <fcntl.h>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace shutter {
 namespace {
@@ -44,32 +47,36 @@ class HoldingDevice {
         options.wanted = name;
         options.bestTier = tier;
         options.pipelinesAhead = gpu::PipelinesAhead::Always;
-        options.beforePipelineAhead =
-            [letGo = mLetGo.get_future().share()](const std::string& pipeline) {
-                if (pipeline == kBlendedPipeline)
-                    letGo.wait();
-            };
-        auto made = gpu::Device::create(options);
+        EXPECT_EQ(mkfifo(mFifo.c_str(), S_IRUSR | S_IWUSR), 0);
+        auto made = test::openFaulty(
+            options, "SHUTTER_FAULT_HOLD", kBlendedPipeline + ("=" + mFifo.string())
+        );
         EXPECT_TRUE(made) << made.error().message;
         if (made)
             mDevice = std::move(made).value();
     }
 
-    ~HoldingDevice() { letGo(); }
+    ~HoldingDevice() {
+        letGo();
+        mDevice.reset();
+        close(mWriter);
+        std::filesystem::remove(mFifo);
+    }
 
     HoldingDevice(const HoldingDevice&) = delete;
     HoldingDevice& operator=(const HoldingDevice&) = delete;
 
     void letGo() {
-        if (!std::exchange(mIsLetGo, true))
-            mLetGo.set_value();
+        if (mWriter < 0)
+            mWriter = open(mFifo.c_str(), O_RDWR); // does not wait for a reader
     }
 
     [[nodiscard]] gpu::Device* device() const { return mDevice.get(); }
 
   private:
-    std::promise<void> mLetGo;
-    bool mIsLetGo = false;
+    std::filesystem::path mFifo = std::filesystem::temp_directory_path() /
+                                  ("shutter_held_pipeline_" + std::to_string(getpid()));
+    int mWriter = -1;
     std::unique_ptr<gpu::Device> mDevice;
 };
 

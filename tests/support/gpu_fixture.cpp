@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace shutter::test {
 
@@ -41,6 +42,21 @@ class CloseDevice : public ::testing::Environment {
 const auto* const kCloseDevice = ::testing::AddGlobalTestEnvironment(new CloseDevice);
 
 } // namespace
+
+core::Result<std::unique_ptr<gpu::Device>>
+openFaulty(const gpu::DeviceOptions& options, const char* variable, const std::string& value) {
+    // The loader and the layer read them when an instance is made.
+    const std::pair<const char*, std::string> variables[] = {
+        {"VK_ADD_LAYER_PATH", SHUTTER_FAULT_LAYER},
+        {"VK_INSTANCE_LAYERS", "VK_LAYER_SHUTTER_faults"},
+        {variable, value}};
+    for (const auto& [name, text] : variables)
+        setenv(name, text.c_str(), 1);
+    auto device = gpu::Device::create(options);
+    for (const auto& [name, text] : variables)
+        unsetenv(name);
+    return device;
+}
 
 void GpuTest::SetUp() {
     if (!sharedDevice())

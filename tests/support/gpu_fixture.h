@@ -6,8 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
+#include <string>
 
 namespace shutter::test {
+
+/// A device of its own that is not as it is. \param variable of tests/fault_layer/README.md
+[[nodiscard]] core::Result<std::unique_ptr<gpu::Device>>
+openFaulty(const gpu::DeviceOptions& options, const char* variable, const std::string& value);
 
 /// Base of every test that draws: one validated device for the whole process, and a test fails when
 /// validation (core or synchronization) says anything during it. Skipped with the reason where
