@@ -26,13 +26,12 @@ core::Status OtherRaster::extract(
         return extracted.error();
     mFrame = extracted.value();
     mView = view;
-    mShadows->prepare(
+    return mShadows->prepare(
         extract::planShadows(
             world, layout, view, mExtractor.view(), *mFrame, /*keepsExposure=*/true
         ),
         *mFrame
     );
-    return {};
 }
 
 OtherRasterView OtherRaster::declare(

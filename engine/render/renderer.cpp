@@ -153,7 +153,7 @@ core::Status Renderer::submitFrame(
         moving = std::move(computed).value();
     }
 
-    slot.shadows->prepare(
+    SHUTTER_TRY(slot.shadows->prepare(
         extract::planShadows(
             world,
             mScene.layout(),
@@ -163,7 +163,7 @@ core::Status Renderer::submitFrame(
             /*keepsExposure=*/false
         ),
         frame
-    );
+    ));
     SHUTTER_TRY(extractForEffects(slot, context, running));
     slot.frame.begin();
     slot.readback.reset();

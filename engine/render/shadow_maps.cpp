@@ -4,6 +4,7 @@
 #include "spirv/render/shadow_map.frag.h"
 #include "spirv/render/shadow_map.vert.h"
 
+#include "engine/core/words.h"
 #include "engine/extract/row_bounds.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
@@ -187,13 +188,14 @@ uint64_t countRoom(const extract::ShadowPlan& plan) {
 ShadowPipelines::ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene)
     : solid(device, describeCasters(scene, false)), masked(device, describeCasters(scene, true)) {}
 
-void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame) {
+core::Status ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame) {
     mPlan = std::move(plan);
     frame.constants.shadows = {0, 0};
     if (!mPlan.shadows.run) {
         mImages.clear();
-        return;
+        return {};
     }
+    SHUTTER_TRY(checkFit());
     if (mTexels.bytes() < mPlan.texelCount * sizeof(float)) {
         mTexels = gpu::Buffer(
             mDevice,
@@ -245,6 +247,7 @@ void ShadowMaps::prepare(extract::ShadowPlan plan, extract::ExtractedFrame& fram
     mTables.writeBytes(writer.bytes().data(), writer.bytes().size(), 0);
     frame.constants.shadows = addressOf(0);
     frame.constants.flags |= shader::kFrameShadows;
+    return {};
 }
 
 ShadowMaps::Kept ShadowMaps::describe(const extract::PlannedMap& map) const {
@@ -257,8 +260,32 @@ VkExtent2D ShadowMaps::placeMaps() {
     for (uint32_t i = 0; i < mPlan.maps.size(); ++i)
         if (i >= mPlan.lightMapCount || mKept[i] != describe(mPlan.maps[i]))
             mDrawn.push_back({i, {}});
-    if (mDrawn.empty())
+    return mDrawn.empty() ? VkExtent2D{} : placeDrawn();
+}
+
+core::Status ShadowMaps::checkFit() {
+    // All of them, although later frames draw few: whether a film can be drawn is told at once.
+    mDrawn.clear();
+    uint32_t largest = 0;
+    for (uint32_t i = 0; i < mPlan.maps.size(); ++i) {
+        mDrawn.push_back({i, {}});
+        largest = std::max(largest, mPlan.maps[i].sizePx);
+    }
+    const uint32_t most = mDevice.limits().maxImageDimension2D;
+    const VkExtent2D size = placeDrawn();
+    if (size.width <= most && size.height <= most)
         return {};
+    return core::makeError(
+        "shadows: {} of up to {} texels a side do not fit an image of {} x {}, the largest of the "
+        "device: mapSize (--shadow-map-size) must be less",
+        core::countOf(mDrawn.size(), "map"),
+        largest,
+        most,
+        most
+    );
+}
+
+VkExtent2D ShadowMaps::placeDrawn() {
     // Large maps, or many, need rows that are longer.
     const uint32_t most = mDevice.limits().maxImageDimension2D;
     uint32_t width = kImageWidth;

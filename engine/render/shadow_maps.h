@@ -30,8 +30,9 @@ class ShadowMaps {
     explicit ShadowMaps(gpu::Device& device) : mDevice(device) {}
 
     /// Makes the tables; the frame's constants get their address, and the flag that says whether
-    /// lights cast shadows. Comes before the constants are written.
-    void prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame);
+    /// lights cast shadows. Comes before the constants are written. Error: the plan's maps do not
+    /// fit an image of the device.
+    core::Status prepare(extract::ShadowPlan plan, extract::ExtractedFrame& frame);
 
     /// Declares the passes of what was prepared: none where there are no shadows. `frame` and
     /// `scene` must live until they have been recorded.
@@ -70,8 +71,11 @@ class ShadowMaps {
     };
 
     [[nodiscard]] Kept describe(const extract::PlannedMap& map) const;
+    [[nodiscard]] core::Status checkFit();
     /// Which maps have to be drawn, and where. \return the size of the image; 0: none has to be
     VkExtent2D placeMaps();
+    /// Places those of mDrawn. \return the size of the image
+    VkExtent2D placeDrawn();
     /// Places them in rows of that width, or of one map that is wider. \return what they take
     VkExtent2D placeInRows(uint32_t width);
     /// Null: no map has to be drawn. It is none of the graph's own images: those share their memory

@@ -90,6 +90,28 @@ TEST_F(ShadowLaw, MapsAndRaysAgreeFromACentimetreToAKilometre) {
     }
 }
 
+TEST_F(ShadowLaw, MapsThatNoImageOfTheDeviceHoldsAreRefused) {
+    SceneBuilder scene = makeFloor({.position = {0.3, 0.6, 0.2}, .velocity = {1, 0, 0}});
+    scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
+    gpu::DeviceOptions options;
+    options.wanted = device().info().name;
+    const auto small =
+        test::openFaulty(options, "SHUTTER_FAULT_LIMITS", "maxImageDimension2D=4096");
+    ASSERT_TRUE(small.ok()) << small.error().message;
+    render::Renderer renderer(*small.value(), scene.world.assets);
+    render::FrameRequest request;
+    request.view.camera = scene.camera;
+    request.view.width = 64;
+    request.view.height = 48;
+    request.view.exposure = scene::computeExposure({0.5}, 0.0);
+    request.view.shadows = {.mode = ShadowMode::Blurred, .mapSize = 4096};
+    const auto refused = renderer.renderFrame(scene.world, request, {});
+    ASSERT_FALSE(refused.ok()) << "one map leaves no room for the mover's layers";
+    EXPECT_NE(refused.error().message.find("--shadow-map-size"), std::string::npos);
+    request.view.shadows.mapSize = 1024;
+    EXPECT_TRUE(renderer.renderFrame(scene.world, request, {}).ok()) << "the next frame is fine";
+}
+
 TEST_F(ShadowLaw, ALitPlaneHasNoAcneAtAnyAngle) {
     // What is far below makes depths coarse.
     for (const auto& [height, other] :
