@@ -77,11 +77,9 @@ SHUTTER_CONST uint kQuadFlag = 0x80000000u;
 /// Head of the list of masked pixels; the pixels (x | y << 16) follow.
 struct MaskHeader {
     uint listedPixels;
-    /// Sum over the listed pixels of how many rays each traced, less one; modulo 2^32, since a
-    /// pixel of the sky traces none. Nearly all trace one, and so leave this word alone.
-    uint raysBeyondOne;
+    uint raysBeyondOne; // of the listed pixels, nearly all of which trace one
     uint sharingPixels; // masked, but in no list: they share a ray of their quad
-    uint padding0;
+    uint raylessPixels; // listed, but they traced none
 };
 
 SHUTTER_SHADER_END

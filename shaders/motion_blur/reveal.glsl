@@ -90,7 +90,8 @@ void revealPixel(uint index) {
     uint entry = pixels[index];
     uint rays;
     Revealed revealed = traceReveal(pixelOf(entry), rays);
-    if (rays != 1u) atomicAdd(header.raysBeyondOne, rays - 1u);
+    if (rays > 1u) atomicAdd(header.raysBeyondOne, rays - 1u);
+    if (rays == 0u) atomicAdd(header.raylessPixels, 1u);
     storeRevealed(entry, revealed);
 }
 

@@ -277,9 +277,8 @@ void RayReveal::addCounters(graph::Graph& graph, graph::BufferHandle list, uint3
 
 RayReveal::Counts RayReveal::count(uint32_t slot) const {
     const auto& header = static_cast<const shader::MaskHeader*>(mHeaders.mapped())[slot];
-    return {
-        header.listedPixels + header.sharingPixels,
-        mTraces.at(slot) ? header.listedPixels + header.raysBeyondOne : 0};
+    const uint32_t rays = header.listedPixels - header.raylessPixels + header.raysBeyondOne;
+    return {header.listedPixels + header.sharingPixels, mTraces.at(slot) ? rays : 0};
 }
 
 } // namespace shutter::motion_blur
