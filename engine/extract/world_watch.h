@@ -6,7 +6,7 @@
 #include "engine/ecs/registry.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/components.h"
-#include "engine/scene/path.h"
+#include "engine/scene/placing.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,27 +33,18 @@ class WorldWatch {
     [[nodiscard]] WorldChanges look(const ecs::Registry& registry);
 
   private:
-    /// A cursor of each component type.
-    template <class... Components> struct Cursors {
+    /// A cursor of each component type of a list.
+    template <class List> struct Cursors;
+
+    template <class... Components> struct Cursors<scene::ComponentList<Components...>> {
         std::tuple<std::pair<Components*, ecs::ChangeCursor>...> all;
     };
 
-    /// What worldFromObject, mayObjectMove, findBlurScale and mayComeOrGo ask of an entity and
-    /// its ancestors.
-    Cursors<
-        scene::LocalTransform,
-        scene::LocalMatrix,
-        scene::LinearVelocity,
-        scene::AngularVelocity,
-        scene::Animated,
-        scene::PathMotion,
-        scene::MotionBlur,
-        scene::Appeared>
-        mPlacing;
+    Cursors<scene::PlacingComponents> mPlacing;
     /// Any change of these concerns more than the entity itself.
-    Cursors<scene::Parent, scene::Hidden> mHierarchy;
+    Cursors<scene::ComponentList<scene::Parent, scene::Hidden>> mHierarchy;
     /// These are there or not; with one more or less, other rows are drawn, or in another way.
-    Cursors<scene::Skinned, scene::MorphWeights> mPresence;
+    Cursors<scene::ComponentList<scene::Skinned, scene::MorphWeights>> mPresence;
     ecs::ChangeCursor mDrawn;
 };
 

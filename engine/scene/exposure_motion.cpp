@@ -4,6 +4,7 @@
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/path.h"
+#include "engine/scene/placing.h"
 #include "engine/scene/world.h"
 
 #include <algorithm>
@@ -68,9 +69,10 @@ bool anyPathCut(const World& world, const TimeSpan& span) {
 
 double findBlurScale(const World& world, ecs::Entity entity) {
     const ecs::Entity nearest = findUpwards(world, entity, [&](ecs::Entity at) {
-        return world.registry.has<MotionBlur>(at);
+        return findPlacing<MotionBlur>(world.registry, at) != nullptr;
     });
-    return nearest == ecs::kNullEntity ? 1.0 : scaleOf(world.registry.get<MotionBlur>(nearest));
+    return nearest == ecs::kNullEntity ? 1.0
+                                       : scaleOf(*findPlacing<MotionBlur>(world.registry, nearest));
 }
 
 ExposureMotion::ExposureMotion(

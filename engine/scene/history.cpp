@@ -4,6 +4,7 @@
 #include "engine/core/check.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/path.h"
+#include "engine/scene/placing.h"
 #include "engine/scene/world.h"
 
 #include <algorithm>
@@ -108,7 +109,7 @@ bool isAlwaysHidden(const World& world, ecs::Entity entity) {
 
 bool mayComeOrGo(const World& world, ecs::Entity entity, double seconds) {
     return findUpwards(world, entity, [&](ecs::Entity at) {
-               const auto* appeared = world.registry.find<Appeared>(at);
+               const auto* appeared = findPlacing<Appeared>(world.registry, at);
                const auto* hidden = world.registry.find<Hidden>(at);
                return (appeared && appeared->seconds > seconds) ||
                       (hidden && std::isfinite(hidden->seconds));

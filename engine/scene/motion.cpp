@@ -5,6 +5,7 @@
 #include "engine/math/transform.h"
 #include "engine/scene/animation.h"
 #include "engine/scene/path.h"
+#include "engine/scene/placing.h"
 #include "engine/scene/world.h"
 
 #include <cmath>
@@ -30,9 +31,9 @@ struct Displacement {
 Displacement
 computeDisplacement(const ecs::Registry& registry, ecs::Entity entity, double seconds) {
     Displacement result;
-    if (const auto* linear = registry.find<LinearVelocity>(entity))
+    if (const auto* linear = findPlacing<LinearVelocity>(registry, entity))
         result.translation = linear->metresPerSecond * seconds;
-    if (const auto* angular = registry.find<AngularVelocity>(entity))
+    if (const auto* angular = findPlacing<AngularVelocity>(registry, entity))
         result.rotation = math::integrateRotation(angular->radiansPerSecond, seconds);
     return result;
 }
@@ -42,7 +43,7 @@ enum class OwnScale : uint8_t { Kept, Dropped };
 dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds, OwnScale scale) {
     const ecs::Registry& registry = world.registry;
     const Displacement displacement = computeDisplacement(registry, entity, seconds);
-    if (const auto* local = registry.find<LocalMatrix>(entity)) {
+    if (const auto* local = findPlacing<LocalMatrix>(registry, entity)) {
         dmat4 matrix = dmat4(glm::mat3_cast(displacement.rotation) * dmat3(local->matrix));
         if (scale == OwnScale::Dropped)
             matrix = math::removeScale(matrix);
@@ -50,11 +51,11 @@ dmat4 parentFromEntity(const World& world, ecs::Entity entity, double seconds, O
         return matrix;
     }
     math::Transform pose;
-    if (const auto* local = registry.find<LocalTransform>(entity))
+    if (const auto* local = findPlacing<LocalTransform>(registry, entity))
         pose = local->transform;
-    if (const auto* animated = registry.find<Animated>(entity))
+    if (const auto* animated = findPlacing<Animated>(registry, entity))
         pose = sampleAnimated(world.assets, world.playback, *animated, pose, seconds);
-    if (const auto* path = registry.find<PathMotion>(entity))
+    if (const auto* path = findPlacing<PathMotion>(registry, entity))
         pose = samplePath(*path, pose, seconds);
     pose.translation += displacement.translation;
     pose.rotation = displacement.rotation * pose.rotation;
@@ -115,12 +116,12 @@ bool mayMove(const World& world, ecs::Entity entity) {
     const ecs::Registry& registry = world.registry;
     return findUpwards(world, entity, [&](ecs::Entity at) {
                // Written so that NaN moves.
-               const auto* linear = registry.find<LinearVelocity>(at);
-               const auto* angular = registry.find<AngularVelocity>(at);
-               const auto* path = registry.find<PathMotion>(at);
+               const auto* linear = findPlacing<LinearVelocity>(registry, at);
+               const auto* angular = findPlacing<AngularVelocity>(registry, at);
+               const auto* path = findPlacing<PathMotion>(registry, at);
                return (linear && linear->metresPerSecond != dvec3(0.0)) ||
                       (angular && angular->radiansPerSecond != dvec3(0.0)) ||
-                      registry.has<Animated>(at) || (path && path->keys.size() > 1);
+                      findPlacing<Animated>(registry, at) || (path && path->keys.size() > 1);
            }) != ecs::kNullEntity;
 }
 

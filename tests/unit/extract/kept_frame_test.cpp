@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A frame that is kept up to date: by hand, and in worlds that are edited at random.
 #include "engine/extract/frame_extractor.h"
+#include "engine/extract/world_watch.h"
 #include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
 
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <random>
 #include <ranges>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -572,6 +574,24 @@ TEST_F(EditedWorld, TheKeptFrameEqualsANewOneBitByBit) {
     }
     EXPECT_GT(refreshed, 500u) << "or it was not tried";
     EXPECT_GT(placedAnew, 100u);
+}
+
+template <class T> void expectWatched() {
+    ecs::Registry registry;
+    const ecs::Entity entity = registry.create();
+    WorldWatch watch;
+    (void)watch.look(registry);
+    registry.add(entity, T{});
+    const WorldChanges changes = watch.look(registry);
+    EXPECT_TRUE(changes.structure || !changes.placed.empty()) << typeid(T).name();
+}
+
+template <class... Components> void expectAllWatched(scene::ComponentList<Components...>) {
+    (expectWatched<Components>(), ...);
+}
+
+TEST(WorldWatch, SeesEachComponentThatPlacesAnEntity) {
+    expectAllWatched(scene::PlacingComponents());
 }
 
 } // namespace
