@@ -18,8 +18,8 @@ struct Playback {
     std::vector<bool> activeClips; ///< by clip; false: does not play; clips beyond its end do
 };
 
-/// The entities and what they refer to. Systems and extraction take it by reference; rendering
-/// never sees it.
+/// The entities and what they refer to. Systems, extraction and the renderer take it by reference;
+/// passes see what was extracted of it.
 struct World {
     ecs::Registry registry;
     Assets assets;

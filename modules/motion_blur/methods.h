@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a method of blurring is, as data and passes. Each lives in a file of methods/, and
-// methods.cpp lists them; nothing else knows a method by name.
+// methods.cpp lists them.
 #pragma once
 
 #include "engine/gpu/device.h"
