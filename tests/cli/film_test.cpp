@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // `shutter film`: drawn in parts, a film is the same bits as drawn by one process, stopped or not.
-#include "tests/cli/child_processes.h"
 #include "tests/cli/cli_fixture.h"
 #include "tests/cli/drifting_scene.h"
 #include "tests/cli/fake_slurm.h"
@@ -10,12 +9,27 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <sys/types.h>
 #include <sys/wait.h>
+#include <vector>
 
 namespace shutter::cli {
 
 namespace {
+
+/// The processes that a process has started, and that run.
+std::vector<pid_t> listChildren(pid_t process) {
+    std::vector<pid_t> children;
+    for (const auto& thread :
+         std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+        std::ifstream list(thread.path() / "children");
+        for (pid_t child = 0; list >> child;)
+            children.push_back(child);
+    }
+    return children;
+}
 
 /// Frames of the films: so many that a part is killed before it has drawn them all.
 constexpr int kFrames = 24;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/report/page_films.h"
-
 #include "engine/io/file_bytes.h"
 #include "engine/io/uri.h"
+#include "game/bench/report/page_media.h"
 #include "game/bench/report/page_template.h"
 
 #include <nlohmann/json.hpp>

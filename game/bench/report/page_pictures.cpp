@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/report/page_pictures.h"
-
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/io/uri.h"
+#include "game/bench/report/page_media.h"
 #include "game/bench/report/page_template.h"
 #include "game/bench/report/shown_pictures.h"
 

@@ -3,8 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
-#include "game/bench/report/page_films.h"
-#include "game/bench/report/page_pictures.h"
+#include "game/bench/report/page_media.h"
 #include "game/bench/report/page_template.h"
 
 #include <nlohmann/json.hpp>

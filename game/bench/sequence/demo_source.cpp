@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/sequence/demo_source.h"
-
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "engine/scene/shutter.h"
+#include "game/bench/sequence/sequence_source.h"
 #include "game/demos/demo.h"
 #include "game/options/shot_arguments.h"
 #include "game/play/loop/stage.h"

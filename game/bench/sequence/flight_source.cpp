@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/bench/sequence/flight_source.h"
-
+#include "game/bench/sequence/sequence_source.h"
 #include "game/options/shot_arguments.h"
 #include "game/shot/shot.h"
 

@@ -4,8 +4,6 @@
 #include "engine/io/file_bytes.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/motion.h"
-#include "game/bench/sequence/demo_source.h"
-#include "game/bench/sequence/flight_source.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>

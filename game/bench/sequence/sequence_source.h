@@ -75,4 +75,13 @@ class SequenceSource {
     ecs::Entity mStanding{}; ///< null: the sequence's own camera
 };
 
+/// The frames that `shutter play DEMO --script FILE` draws, without the head-up display. Error: the
+/// demo's scene or the script cannot be read.
+[[nodiscard]] core::Result<std::unique_ptr<SequenceSource>>
+openDemo(const SequenceCase& film, const SequenceFiles& files);
+
+/// The frames of a flythrough. Error: the scene or the flythrough cannot be read.
+[[nodiscard]] core::Result<std::unique_ptr<SequenceSource>>
+openFlight(const SequenceCase& film, const SequenceFiles& files, uint32_t frames);
+
 } // namespace shutter::bench
