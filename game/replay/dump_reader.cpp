@@ -120,9 +120,9 @@ motion_blur::HostConvention readConvention(const JsonNode& node) {
     };
     motion_blur::HostConvention convention;
     convention.vectors.pixelsPerUnit = readPair(object.require("pixelsPerUnit"), kFloats);
-    convention.vectors.haveCamera = object.require("haveCamera").readBoolean();
+    convention.vectors.lackCamera = !object.require("haveCamera").readBoolean();
     convention.vectors.haveJitter = object.require("haveJitter").readBoolean();
-    convention.depth.isRaw = object.require("depthIsRaw").readBoolean();
+    convention.depth.isLinear = !object.require("depthIsRaw").readBoolean();
     convention.depth.metresPerUnit = readFloat("metresPerUnit");
     const JsonNode sky = object.require("skyValue");
     convention.depth.skyValue =

@@ -71,7 +71,7 @@ void storeLinearDepth(GivenFrame& given, float unitsPerMetre) {
     for (size_t i = 0; i < kCheckedPixels; ++i)
         given.depth[i] = given.metres[i] >= shader::kSkyDepth ? shader::kSkyDepth
                                                               : unitsPerMetre * given.metres[i];
-    given.inputs.convention.depth.isRaw = false;
+    given.inputs.convention.depth.isLinear = true;
     given.inputs.convention.depth.skyValue = shader::kSkyDepth;
 }
 

@@ -62,7 +62,7 @@ std::vector<CheckCase> listVectors() {
         {"without the camera's part, and said to be",
          "",
          [](Given& g, int, Drawn, Drawn) {
-             g.inputs.convention.vectors.haveCamera = false;
+             g.inputs.convention.vectors.lackCamera = true;
              keepObjectsOnly(g);
          }},
         {"no vectors, so that only the camera moves",

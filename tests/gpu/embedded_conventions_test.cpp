@@ -159,14 +159,14 @@ class EmbeddedConventions : public test::EmbeddedTest {
         HostConvention& convention = inputs.convention;
         convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, drawn.motion).describe();
         convention.depth.image = make(VK_FORMAT_R32_SFLOAT, drawn.metres).describe();
-        convention.depth.isRaw = false;
+        convention.depth.isLinear = true;
         convention.depth.skyValue = 1.0e9f;
         convention.scales.exposureShare = 1.0f;
         return inputs;
     }
 
     void useReversedInfiniteCamera(HostConvention& convention) {
-        convention.depth.isRaw = true;
+        convention.depth.isLinear = false;
         convention.depth.skyValue = 0.0f;
         convention.cameras.areGiven = true;
         convention.cameras.clipFromView = math::clipFromViewPerspective(1.0, 1.5, double(kNear));
@@ -178,7 +178,7 @@ class EmbeddedConventions : public test::EmbeddedTest {
         HostInputs inputs = conventionInputs();
         HostConvention& convention = inputs.convention;
         useReversedInfiniteCamera(convention);
-        convention.depth.isRaw = false;
+        convention.depth.isLinear = true;
         convention.depth.skyValue = 1.0e9f;
         convention.cameras.viewFromWorldBefore =
             glm::translate(math::dmat4(1.0), math::dvec3(0.5, 0.0, 0.0));
@@ -474,7 +474,7 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
     const glm::vec2 still{0.0f};
     convention.vectors.image =
         make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still)).describe();
-    convention.vectors.haveCamera = false;
+    convention.vectors.lackCamera = true;
     const image::Image zeros = blur(inputs);
     convention.vectors = {};
     EXPECT_TRUE(test::sameBits(blur(inputs), zeros));

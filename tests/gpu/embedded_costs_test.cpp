@@ -188,7 +188,7 @@ class EmbeddedCosts : public test::EmbeddedTest {
                 objects.motion[i] - shader::motionOfCamera(table, place, objects.metres[i]);
             objects.motion[i] = glm::length(own) < 0.01f ? glm::vec2(0.0f) : own;
         }
-        convention.vectors.haveCamera = false;
+        convention.vectors.lackCamera = true;
         convention.vectors.image = makeVectors(VK_FORMAT_R16G16_SFLOAT, objects, glm::vec2(1.0f));
     }
 
@@ -251,7 +251,7 @@ std::vector<EmbeddedCosts::Convention> EmbeddedCosts::listConventions() {
             "linear depth, R16F",
             [&](HostInputs& in) {
                 useConvention(in);
-                in.convention.depth.isRaw = false;
+                in.convention.depth.isLinear = true;
                 in.convention.depth.skyValue = shader::kSkyDepth;
                 in.convention.depth.image =
                     make(VK_FORMAT_R16_SFLOAT, mRaster.metres, [](float metres) {

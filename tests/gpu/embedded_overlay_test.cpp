@@ -62,7 +62,7 @@ class EmbeddedOverlay : public test::EmbeddedTest {
         auto& convention = inputs.convention;
         convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
         convention.depth.image = make(VK_FORMAT_R32_SFLOAT, std::vector<float>(kPixels, 5.0f));
-        convention.depth.isRaw = false;
+        convention.depth.isLinear = true;
         convention.depth.skyValue = 1.0e9f;
         convention.scales.exposureShare = 1.0f;
         inputs.entityId = make(VK_FORMAT_R16_UINT, ids);

@@ -16,16 +16,11 @@ struct NameRow {
 
 /// The first that fits counts, so longer ones come first.
 constexpr NameRow kNames[] = {
-    // What means the opposite.
-    {"convention.depth.isRaw is true", "depthIsLinear is false"},
-    {"depth.isRaw is true", "depthIsLinear is false"},
-    {"depth.isRaw = true", "depthIsLinear = false"},
-    {"depth.isRaw = false", "depthIsLinear = true"},
-    {"convention.vectors.haveCamera is false", "vectorsLackCamera is true"},
-    {"vectors.haveCamera is false", "vectorsLackCamera is true"},
-    {"vectors.haveCamera = true", "vectorsLackCamera = false"},
-    {"vectors.haveCamera = false", "vectorsLackCamera = true"},
     // What C has in another place.
+    {"convention.depth.isLinear", "depthIsLinear"},
+    {"depth.isLinear", "depthIsLinear"},
+    {"convention.vectors.lackCamera", "vectorsLackCamera"},
+    {"vectors.lackCamera", "vectorsLackCamera"},
     {"convention.vectors.image.image", "vectors.image"},
     {"convention.vectors.image", "vectors"},
     {"convention.vectors.pixelsPerUnit", "pixelsPerUnit"},

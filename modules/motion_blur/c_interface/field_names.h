@@ -7,7 +7,7 @@
 
 namespace shutter::motion_blur {
 
-/// The sentence with each field, function and setting of a field (`vectors.haveCamera = false`)
+/// The sentence with each field, function and setting of a field (`vectors.lackCamera = true`)
 /// under its name in shutter_motion_blur.h, where some mean the opposite. What is 'quoted', such as
 /// a file, stays as it is.
 [[nodiscard]] std::string nameForC(std::string_view sentence);

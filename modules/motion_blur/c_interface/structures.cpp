@@ -61,10 +61,10 @@ HostConvention convertConvention(const ShutterBlurInputs& given) {
     HostConvention convention;
     convention.vectors.image = convert(given.vectors);
     convention.vectors.pixelsPerUnit = {given.pixelsPerUnit[0], given.pixelsPerUnit[1]};
-    convention.vectors.haveCamera = given.vectorsLackCamera == VK_FALSE;
+    convention.vectors.lackCamera = given.vectorsLackCamera != VK_FALSE;
     convention.vectors.haveJitter = given.vectorsHaveJitter != VK_FALSE;
     convention.depth.image = convert(given.depth);
-    convention.depth.isRaw = given.depthIsLinear == VK_FALSE;
+    convention.depth.isLinear = given.depthIsLinear != VK_FALSE;
     convention.depth.metresPerUnit = given.metresPerUnit;
     convention.depth.skyValue = given.skyValue;
     convention.cameras = convert(given.cameras);

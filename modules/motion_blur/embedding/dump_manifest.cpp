@@ -45,9 +45,9 @@ ordered_json describeConvention(const HostConvention& convention) {
     ordered_json root;
     root["pixelsPerUnit"] = {
         convention.vectors.pixelsPerUnit.x, convention.vectors.pixelsPerUnit.y};
-    root["haveCamera"] = convention.vectors.haveCamera;
+    root["haveCamera"] = !convention.vectors.lackCamera;
     root["haveJitter"] = convention.vectors.haveJitter;
-    root["depthIsRaw"] = convention.depth.isRaw;
+    root["depthIsRaw"] = !convention.depth.isLinear;
     root["metresPerUnit"] = convention.depth.metresPerUnit;
     root["skyValue"] = describeNumber(convention.depth.skyValue);
     // What does not count may be anything, so it is left out.

@@ -115,7 +115,7 @@ findBefore(const CheckFacts& facts, const CheckPoint& point) {
     if (facts.isNative && !(glm::length(point.motion) < 1.5))
         return std::nullopt;
     const dvec2 motion =
-        facts.convention.vectors.haveCamera ? point.motion : point.motion + point.camera;
+        facts.convention.vectors.lackCamera ? point.motion + point.camera : point.motion;
     return std::pair(point.place - (facts.isNative ? dvec2(0.0) : motion), metres);
 }
 
@@ -198,7 +198,7 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
     if (!facts.movers.empty())
         checkListedMovers(now, findings);
     if (facts.hasVectors && hasCameras(facts) && !isCameraWrong &&
-        (facts.isNative || facts.convention.vectors.haveCamera))
+        (facts.isNative || !facts.convention.vectors.lackCamera))
         checkUnlistedMovers(now, makePoints(now, facts), findings);
 }
 

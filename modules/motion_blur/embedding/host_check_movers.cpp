@@ -65,7 +65,7 @@ struct MoverSample {
 class MoverFrame {
   public:
     MoverFrame(const CheckedFrame& frame, const Span& span) : mFacts(frame.facts), mSpan(span) {
-        const bool vectorsHaveCamera = mFacts.isNative || mFacts.convention.vectors.haveCamera;
+        const bool vectorsHaveCamera = mFacts.isNative || !mFacts.convention.vectors.lackCamera;
         std::unordered_map<uint32_t, size_t> movers;
         for (size_t i = 0; i < mFacts.movers.size(); ++i)
             if (mFacts.movers[i].firstMatrix != CheckFacts::kNone)

@@ -59,7 +59,7 @@ std::optional<size_t> judge(const Reading& said, const Reading& guess) {
 Reading read(const CheckedFrame& frame, const CheckFacts& facts) {
     Reading reading;
     reading.points = makePoints(frame, facts);
-    reading.haveCamera = facts.isNative || facts.convention.vectors.haveCamera;
+    reading.haveCamera = facts.isNative || !facts.convention.vectors.lackCamera;
     return reading;
 }
 

@@ -129,13 +129,13 @@ class Reprojection {
             apply(guess.last);
             return guess;
         };
-        const auto interpret = [&](bool isRaw) {
+        const auto interpret = [&](bool isLinear) {
             return change([&](CheckFacts& facts) {
-                facts.convention.depth.isRaw = isRaw;
+                facts.convention.depth.isLinear = isLinear;
                 facts.convention.depth.skyValue = std::numeric_limits<float>::quiet_NaN();
             });
         };
-        if (depth.isRaw) {
+        if (!depth.isLinear) {
             consider(
                 change([](CheckFacts& facts) {
                     facts.flipsDepth = true;
@@ -144,12 +144,12 @@ class Reprojection {
                 "the cameras after depth is reversed: cameras.clipFromView has near and far the "
                 "other way round than convention.depth.image"
             );
-            consider(interpret(false), "the cameras if depth is linear: set depth.isRaw = false");
+            consider(interpret(true), "the cameras if depth is linear: set depth.isLinear = true");
             return;
         }
         consider(
-            interpret(true),
-            "the cameras if depth is as the hardware stores it: set depth.isRaw = true"
+            interpret(false),
+            "the cameras if depth is as the hardware stores it: set depth.isLinear = false"
         );
         for (const float factor : kUnitFactors)
             consider(

@@ -92,7 +92,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
         add(CheckKind::DepthNan,
             fmt::format("{} holds NaN at {}", name, describeCount(now, shader::kCheckDepthNan)));
     // Infinity is a sky of linear depth.
-    if (countOf(now, shader::kCheckDepthInfinite) > 0 && depth.isRaw)
+    if (countOf(now, shader::kCheckDepthInfinite) > 0 && !depth.isLinear)
         add(CheckKind::DepthInfinite,
             fmt::format(
                 "{} holds infinity at {}; raw depth is 0 to 1",
@@ -107,7 +107,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
                 name,
                 describeCount(now, shader::kCheckDepthNegative)
             ));
-    if (!depth.isRaw && shareOf(now, shader::kCheckDepthZero) > 0.0 && depth.skyValue != 0.0f)
+    if (depth.isLinear && shareOf(now, shader::kCheckDepthZero) > 0.0 && depth.skyValue != 0.0f)
         add(CheckKind::DepthZero,
             fmt::format(
                 "{} is 0 at {}, which is no distance; if nothing is drawn there, set "
@@ -116,15 +116,15 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
                 describeCount(now, shader::kCheckDepthZero),
                 facts.isNative ? 1.0e9f : depth.skyValue
             ));
-    if (depth.isRaw && shareOf(now, shader::kCheckDepthAboveOne) > 0.01)
+    if (!depth.isLinear && shareOf(now, shader::kCheckDepthAboveOne) > 0.01)
         add(CheckKind::DepthAboveOne,
             fmt::format(
-                "convention.depth.isRaw is true, but {} is above 1 at {}: for linear depth set "
-                "depth.isRaw = false",
+                "convention.depth.isLinear is false, but {} is above 1 at {}: for linear depth set "
+                "depth.isLinear = true",
                 name,
                 describeCount(now, shader::kCheckDepthAboveOne)
             ));
-    if (depth.isRaw && depth.image.format == VK_FORMAT_R16_SFLOAT)
+    if (!depth.isLinear && depth.image.format == VK_FORMAT_R16_SFLOAT)
         add(CheckKind::DepthPrecision,
             "convention.depth.image is R16_SFLOAT with raw depth, which tells 2048 distances apart "
             "at the far end; use the depth buffer itself, or linear depth");
@@ -133,7 +133,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
 void checkSky(const CheckedFrame& now, std::vector<Finding>& findings) {
     const CheckFacts& facts = now.facts;
     const HostDepth& depth = facts.convention.depth;
-    if (!depth.isRaw || std::isnan(depth.skyValue))
+    if (depth.isLinear || std::isnan(depth.skyValue))
         return;
     const bool isZero = depth.skyValue == 0.0f;
     if (!isZero && depth.skyValue != 1.0f)
@@ -225,7 +225,7 @@ void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings) {
 bool checkDepthDirection(const CheckedFrame& now, std::vector<Finding>& findings) {
     const CheckFacts& facts = now.facts;
     const HostDepth& depth = facts.convention.depth;
-    if (!depth.isRaw || !facts.convention.cameras.areGiven)
+    if (depth.isLinear || !facts.convention.cameras.areGiven)
         return false;
     shader::PrepareTable plain = makePrepareTable(facts.convention, facts.picture);
     plain.skyValue = std::nanf("");

@@ -100,8 +100,8 @@ class Guesses {
         guess.sentence =
             mSaid.haveCamera
                 ? "vectors are 0 where things stand still although the camera moves: the camera's "
-                  "part is not in them, set vectors.haveCamera = false"
-                : "vectors hold the camera's part already: set vectors.haveCamera = true";
+                  "part is not in them, set vectors.lackCamera = true"
+                : "vectors hold the camera's part already: set vectors.lackCamera = false";
         consider(guess);
     }
 
@@ -308,7 +308,7 @@ class Guesses {
         if (mFacts.isNative || !mFacts.convention.cameras.areGiven)
             return;
         CheckFacts facts = mFacts;
-        if (depth.isRaw) {
+        if (!depth.isLinear) {
             facts.convention.depth.skyValue = 1.0f - depth.skyValue;
             facts.flipsDepth = true;
             considerFacts(
@@ -318,16 +318,16 @@ class Guesses {
             );
         }
         facts = mFacts;
-        facts.convention.depth.isRaw = !depth.isRaw;
+        facts.convention.depth.isLinear = !depth.isLinear;
         facts.convention.depth.skyValue = std::numeric_limits<float>::quiet_NaN();
         considerFacts(
             facts,
-            depth.isRaw
-                ? "vectors agree with the cameras if depth is linear: set depth.isRaw = false"
+            !depth.isLinear
+                ? "vectors agree with the cameras if depth is linear: set depth.isLinear = true"
                 : "vectors agree with the cameras if depth is as the hardware stores it: set "
-                  "depth.isRaw = true"
+                  "depth.isLinear = false"
         );
-        if (depth.isRaw)
+        if (!depth.isLinear)
             return;
         for (const float factor : kUnitFactors) {
             facts = mFacts;

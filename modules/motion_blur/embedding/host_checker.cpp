@@ -186,7 +186,7 @@ void HostChecker::add(
     push.skyValue = convention.depth.skyValue;
     push.flags = (facts.isNative ? shader::kCheckDepthIsThird : 0u) |
                  (facts.hasVectors ? shader::kCheckHasVectors : 0u) |
-                 (convention.depth.isRaw ? 0u : shader::kCheckSkyIsBeyond);
+                 (convention.depth.isLinear ? shader::kCheckSkyIsBeyond : 0u);
     push.serial = slot.serial;
     auto totals = graph.createBuffer(
         "totals", {sizeof(shader::CheckTotals), kListUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT}

@@ -105,12 +105,12 @@ core::Status checkProjection(
 
 /// What cannot be told without cameras.
 const char* findNeedForCameras(const HostConvention& convention) {
-    if (convention.depth.isRaw)
-        return "depth.isRaw is true";
+    if (!convention.depth.isLinear)
+        return "depth.isLinear is false";
     if (!convention.vectors.image.image)
         return "vectors.image.image is null";
-    if (!convention.vectors.haveCamera)
-        return "vectors.haveCamera is false";
+    if (convention.vectors.lackCamera)
+        return "vectors.lackCamera is true";
     if (convention.scales.camera != convention.scales.object)
         return "scales.camera is not scales.object";
     return nullptr;
@@ -188,7 +188,7 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
                 "0",
                 scale
             );
-    if (!depth.isRaw && !(depth.metresPerUnit > 0.0f && std::isfinite(depth.metresPerUnit)))
+    if (depth.isLinear && !(depth.metresPerUnit > 0.0f && std::isfinite(depth.metresPerUnit)))
         return makeError(
             "motion blur: convention.depth.metresPerUnit is {}, it must be finite and above 0",
             depth.metresPerUnit
@@ -208,7 +208,7 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
 HostConvention describeMotionDepth(const HostImage& motionDepth, const HostConvention& given) {
     HostConvention convention;
     convention.vectors.image = motionDepth;
-    convention.depth = {motionDepth, false, 1.0f, shader::kSkyDepth};
+    convention.depth = {.image = motionDepth, .isLinear = true, .skyValue = shader::kSkyDepth};
     convention.cameras = given.cameras;
     convention.scales.isCut = given.scales.isCut;
     return convention;
@@ -237,12 +237,12 @@ shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent
     if (convention.vectors.image.image) {
         table.flags |= shader::kPrepareHasVectors;
         table.vectors = makeArea(convention.vectors.image, picture);
-        if (convention.vectors.haveCamera)
+        if (!convention.vectors.lackCamera)
             table.flags |= shader::kPrepareVectorsHaveCamera;
         if (convention.vectors.haveJitter)
             table.jitterPx = glm::vec2(cameras.jitterPxBefore - cameras.jitterPx);
     }
-    if (!convention.depth.isRaw)
+    if (convention.depth.isLinear)
         table.flags |= shader::kPrepareSkyBeyond;
     table.skyValue = convention.depth.skyValue;
     table.depthFromValue = glm::vec4(0.0f, convention.depth.metresPerUnit, 1.0f, 0.0f);
@@ -256,7 +256,7 @@ shader::PrepareTable makePrepareTable(const HostConvention& convention, VkExtent
     table.flags |= shader::kPrepareHasCameras;
     if (pair->now.isPerspective)
         table.flags |= shader::kPreparePerspective;
-    if (convention.depth.isRaw)
+    if (!convention.depth.isLinear)
         table.depthFromValue = depthFromRaw(pair->now);
     // Both with this frame's jitter: places are those of its pixels, and it leaves their
     // differences.

@@ -29,9 +29,8 @@ struct HostVectors {
     ///
     /// Finite and not 0.
     glm::vec2 pixelsPerUnit{1.0f};
-    /// False: they hold what objects move by themselves, and the camera's part comes from
-    /// `cameras`.
-    bool haveCamera = true;
+    /// They hold what objects move by themselves, and the camera's part comes from `cameras`.
+    bool lackCamera = false;
     /// The pictures' jitter is left in them: `HostCameras::jitterPx` is taken out.
     bool haveJitter = false;
 };
@@ -39,12 +38,12 @@ struct HostVectors {
 /// The host's depth buffer, at any resolution: the image's first channel.
 struct HostDepth {
     HostImage image; ///< D32F, D16, D24S8, D32FS8, X8D24, R32F, R16F, RG32F or RGBA32F; sampled
-    /// True: as the hardware stores it, and `cameras` says what it means, whichever its range and
-    /// direction. False: along the view direction, in units of metresPerUnit.
-    bool isRaw = true;
-    float metresPerUnit = 1.0f; ///< where it is not raw; finite, above 0
-    /// Where nothing is drawn. Raw: what the buffer is cleared to, 0 where far is 0. Else: this and
-    /// all beyond it. NaN: nothing tells the sky.
+    /// True: along the view direction, in units of metresPerUnit. False: as the hardware stores it,
+    /// and `cameras` says what it means, whichever its range and direction.
+    bool isLinear = false;
+    float metresPerUnit = 1.0f; ///< where it is linear; finite, above 0
+    /// Where nothing is drawn. Linear: this and all beyond it. Else: what the buffer is cleared to,
+    /// 0 where far is 0. NaN: nothing tells the sky.
     float skyValue = 0.0f;
 };
 

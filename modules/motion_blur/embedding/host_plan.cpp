@@ -61,7 +61,7 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
     if (plan.hasVectors) {
         inputs.convention.vectors.image = make(VK_FORMAT_R16G16_SFLOAT);
         inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT);
-        inputs.convention.depth.isRaw = false;
+        inputs.convention.depth.isLinear = true;
     } else {
         inputs.motionDepth = make(kHostMotionFormat);
     }

@@ -35,7 +35,7 @@ HostInputs describeInputs(const Scene& scene) {
     own.vectors.image = describeImage(scene, kVectors);
     own.vectors.pixelsPerUnit = {-kWidth, -kHeight};
     own.depth.image = describeImage(scene, kDepth);
-    own.depth.isRaw = false;
+    own.depth.isLinear = true;
     own.depth.skyValue = 1e9f;
     own.scales.exposureShare = 1.0f;
     inputs.entityId = describeImage(scene, kIds);

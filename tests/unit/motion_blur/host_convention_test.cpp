@@ -127,7 +127,7 @@ TEST(HostConvention, TheSkyIsToldByItsValue) {
     const shader::PrepareTable raw = makePrepareTable(convention, kPicture);
     EXPECT_EQ(shader::metresOfDepth(raw, 1.0f), shader::kSkyDepth);
     EXPECT_NEAR(shader::metresOfDepth(raw, 0.5f), 0.2f, 1.0e-3f);
-    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), false, 0.01f, 6000.0f};
+    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), true, 0.01f, 6000.0f};
     const shader::PrepareTable linear = makePrepareTable(convention, kPicture);
     EXPECT_EQ(shader::metresOfDepth(linear, 500.0f), 5.0f) << "centimetres";
     EXPECT_EQ(shader::metresOfDepth(linear, 6000.0f), shader::kSkyDepth);
@@ -149,7 +149,7 @@ TEST(HostConvention, TheCamerasPartComesFromDepth) {
     for (const Projection& projection : listProjections()) {
         SCOPED_TRACE(projection.name);
         HostConvention convention = makeConvention(projection);
-        convention.vectors.haveCamera = false;
+        convention.vectors.lackCamera = true;
         convention.cameras.viewFromWorldBefore = viewBefore();
         for (const bool hasJitter : {false, true}) {
             const math::dvec2 jitter = hasJitter ? math::dvec2(0.3, -0.4) : math::dvec2(0.0);
@@ -211,7 +211,7 @@ TEST(HostConvention, WhatComesFromBehindTheCameraMovesAFiniteWay) {
 
 TEST(HostConvention, VectorsAreTurnedScaledAndFreedOfJitter) {
     HostConvention convention = makeConvention({"", forward()});
-    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), false, 1.0f, kNaN};
+    convention.depth = {makeImage(VK_FORMAT_R32_SFLOAT), true, 1.0f, kNaN};
     convention.cameras.areGiven = false;
     convention.scales.exposureShare = 0.5f;
     convention.vectors.pixelsPerUnit = {-200.0f, 50.0f}; // to before; x in uv, y in NDC, up
@@ -248,7 +248,7 @@ TEST(HostConvention, CameraAndObjectsHaveScalesOfTheirOwn) {
     ASSERT_GT(glm::length(camera), 1.0f);
     const glm::vec2 object(3.0f, -2.0f);
     const auto prepare = [&](bool haveCamera, float cameraScale, float objectScale) {
-        convention.vectors.haveCamera = haveCamera;
+        convention.vectors.lackCamera = !haveCamera;
         convention.scales.camera = cameraScale;
         convention.scales.object = objectScale;
         const glm::vec2 vector = haveCamera ? camera + object : object;
@@ -270,7 +270,7 @@ TEST(HostConvention, WhatIsNoVectorIsNoMotion) {
     for (const bool hasCameras : {false, true}) {
         HostConvention convention = makeConvention({"", forward()});
         convention.cameras.areGiven = hasCameras;
-        convention.depth.isRaw = false;
+        convention.depth.isLinear = true;
         const shader::PrepareTable table = makePrepareTable(convention, kPicture);
         for (const float value : {kNaN, kInfinity, -kInfinity, 3.0e38f}) {
             const glm::vec2 motion =
@@ -334,7 +334,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     refuse([](C& c) { c.vectors.pixelsPerUnit.x = kNaN; }, "pixelsPerUnit holds nan");
     refuse(
         [](C& c) {
-            c.depth.isRaw = false;
+            c.depth.isLinear = true;
             c.depth.metresPerUnit = 0.0f;
         },
         "metresPerUnit is 0"
@@ -372,14 +372,14 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
         refuse(
             [&](C& c) {
                 c.cameras.areGiven = false;
-                c.depth.isRaw = false;
+                c.depth.isLinear = true;
                 change(c);
             },
             part + ", which needs convention.cameras"
         );
     };
-    refuseWithoutCameras([](C& c) { c.depth.isRaw = true; }, "depth.isRaw is true");
-    refuseWithoutCameras([](C& c) { c.vectors.haveCamera = false; }, "haveCamera is false");
+    refuseWithoutCameras([](C& c) { c.depth.isLinear = false; }, "depth.isLinear is false");
+    refuseWithoutCameras([](C& c) { c.vectors.lackCamera = true; }, "lackCamera is true");
     refuseWithoutCameras([](C& c) { c.vectors.image = {}; }, "vectors.image.image is null");
     refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "camera is not scales.object");
 }

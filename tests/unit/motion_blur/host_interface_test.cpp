@@ -60,12 +60,14 @@ std::vector<std::string> listTexts(const fs::path& file) {
 
 TEST(CNames, AreThoseOfTheHeaderWithTheMeaningThere) {
     const auto expect = [](const char* inCpp, const char* inC) { EXPECT_EQ(nameForC(inCpp), inC); };
-    expect("set vectors.haveCamera = false", "set vectorsLackCamera = true");
-    expect("set vectors.haveCamera = true", "set vectorsLackCamera = false");
+    expect("set vectors.lackCamera = true", "set vectorsLackCamera = true");
+    expect("set vectors.lackCamera = false", "set vectorsLackCamera = false");
     expect("set vectors.haveJitter = true", "set vectorsHaveJitter = true");
-    expect("for linear depth set depth.isRaw = false", "for linear depth set depthIsLinear = true");
     expect(
-        "convention.depth.isRaw is true, which needs convention.cameras, and their areGiven is "
+        "for linear depth set depth.isLinear = true", "for linear depth set depthIsLinear = true"
+    );
+    expect(
+        "convention.depth.isLinear is false, which needs convention.cameras, and their areGiven is "
         "false",
         "depthIsLinear is false, which needs cameras, and their areGiven is false"
     );
