@@ -117,10 +117,10 @@ struct PostContext {
     const graph::TimedRays* timedRays; ///< null where no effect asked for moving rays
     /// Of the exposure's other end (ViewRequest::instant); null where the effect does not ask for
     /// it.
-    const OtherRasterView* secondRaster;
-    const OtherRasterView* lastRaster; ///< of the frame before; likewise
-    graph::ImageHandle color;          ///< linear HDR so far; an effect replaces it
-    graph::ImageHandle display;        ///< display-encoded, once somebody made it
+    const OtherRasterView* secondRaster = nullptr;
+    const OtherRasterView* lastRaster = nullptr; ///< of the frame before; likewise
+    graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
+    graph::ImageHandle display{};                ///< display-encoded, once somebody made it
     Intermediates& intermediates;
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants

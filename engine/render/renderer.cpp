@@ -85,6 +85,8 @@ void Renderer::declareTlas(
     const gpu_scene::DeformedMeshes& shapes,
     graph::RayScene& rays
 ) {
+    const double start = nowMilliseconds();
+    extract::assignInstanceMasks(frame, mScene.layout());
     mScene.buildAllBlas();
     const rays::TlasHandles levels = slot.frameTlas->declare(graph, frame, mScene, shapes);
     rays.tlasBuffer = levels.buffer;
@@ -93,6 +95,7 @@ void Renderer::declareTlas(
     rays.deformedBuffer = shapes.buffer;
     rays.tlas = levels.level;
     frame.constants.movingTlas = gpu::splitAddress(levels.movingTlas);
+    mTlasMilliseconds = nowMilliseconds() - start;
 }
 
 void Renderer::publishGBuffer(const GBuffer& gbuffer, Intermediates& intermediates) const {
@@ -169,7 +172,7 @@ core::Status Renderer::submitFrame(
     slot.readback.reset();
     graph::Graph graph;
     pending.tickets = declareFrame(
-        slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer
+        {slot, graph, request, facts, frame, moving ? &*moving : nullptr, running, explainer}
     );
     if (request.wantTrace)
         SHUTTER_TRY(pending.trace.declare(graph, slot.readback, mPool.requirementFunction()));
@@ -234,19 +237,12 @@ FrameResult Renderer::finishFrame() {
     return result;
 }
 
-Renderer::Tickets Renderer::declareFrame(
-    Slot& slot,
-    graph::Graph& graph,
-    const FrameRequest& request,
-    const ViewFacts& facts,
-    extract::ExtractedFrame& frame,
-    const extract::TimedTables* moving,
-    RunningEffects& running,
-    Explainer& explainer
-) {
+Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
+    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
+    DeclaredScene scene;
     explainer.beginPasses(graph, PassOwner::Scene, "a skin or morph target is drawn");
-    const gpu_scene::DeformedMeshes shapes = slot.deformation->declare(graph, frame, mScene);
-    std::vector<shader::Geometry> deformed = shapes.rows;
+    scene.shapes = slot.deformation->declare(graph, frame, mScene);
+    std::vector<shader::Geometry> deformed = scene.shapes.rows;
     const size_t firstDeformedGeometry = mScene.geometryRows().size() + deformed.size();
     if (moving) {
         mScene.buildAllBlas(); // instances of deformed meshes ask for their masks
@@ -254,34 +250,21 @@ Renderer::Tickets Renderer::declareFrame(
             slot.timedScene->prepareDeformed(*moving, mScene);
         deformed.insert(deformed.end(), keyed.begin(), keyed.end());
     }
-    graph::RayScene rays;
     explainer.beginPasses(graph, PassOwner::Rays, running.rays.reason);
     mTlasMilliseconds = 0.0;
-    if (running.rays.run) {
-        const double start = nowMilliseconds();
-        extract::assignInstanceMasks(frame, mScene.layout());
-        declareTlas(slot, graph, frame, shapes, rays);
-        mTlasMilliseconds = nowMilliseconds() - start;
-    }
-    const extract::ShadowPlan& shadows = slot.shadows->plan();
-    if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
-        mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
-    if (request.wantReasons) {
-        explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
-        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
-        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
-    }
+    if (running.rays.run)
+        declareTlas(slot, graph, frame, scene.shapes, scene.rays);
     const double start = nowMilliseconds();
     mWritten = slot.tables.updateEntities(frame);
     mTableMilliseconds = nowMilliseconds() - start;
-    const FrameTables::Addresses tables = slot.tables.upload(frame, request.view, mScene, deformed);
-    rays.frameConstants = tables.constants;
+    scene.tables = slot.tables.upload(frame, request.view, mScene, deformed);
+    graph::RayScene& rays = scene.rays;
+    rays.frameConstants = scene.tables.constants;
     rays.textures = mScene.textureSet();
     rays.hasBlended = !frame.blended.empty();
     explainer.beginPasses(graph, PassOwner::Rays, running.timedRays.reason);
-    graph::TimedRays timedRays;
     if (moving) {
-        timedRays = slot.timedScene->declare(
+        scene.timedRays = slot.timedScene->declare(
             graph,
             *moving,
             frame,
@@ -289,47 +272,30 @@ Renderer::Tickets Renderer::declareFrame(
             static_cast<uint32_t>(firstDeformedGeometry),
             rays.frameConstants
         );
-        timedRays.deformedBuffer = shapes.buffer;
+        scene.timedRays.deformedBuffer = scene.shapes.buffer;
     }
     if (mShadowPipelines) {
         explainer.beginPasses(graph, PassOwner::Scene, "what shadow maps show has changed");
         rays.shadowBuffer = slot.shadows->declare(
-            graph, *mShadowPipelines, frame, mScene, shapes.buffer, rays.frameConstants
+            graph, *mShadowPipelines, frame, mScene, scene.shapes.buffer, rays.frameConstants
         );
     }
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
-    const GBuffer gbuffer = mGBufferPass.declare(
+    scene.gbuffer = mGBufferPass.declare(
         graph,
         "G-buffer",
         frame,
         mScene,
-        std::array{shapes.buffer, rays.shadowBuffer},
+        std::array{scene.shapes.buffer, rays.shadowBuffer},
         rays.frameConstants
     );
-    std::set<std::string> wanted = request.intermediates;
-    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
-    Intermediates intermediates(std::move(wanted));
-    publishGBuffer(gbuffer, intermediates);
-    PostContext context{
-        graph,
-        request.view,
-        frame,
-        shapes,
-        facts,
-        gbuffer,
-        running.rays.run ? &rays : nullptr,
-        moving ? &timedRays : nullptr,
-        nullptr,
-        nullptr,
-        gbuffer.color,
-        {},
-        intermediates,
-        tables.response,
-        tables.constants,
-        explainer,
-        mNextSlot};
+    return scene;
+}
+
+void Renderer::declareEffects(const FrameParts& parts, PostContext& context) {
+    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
     const auto declareOther = [&](OtherRaster& other, const char* name) {
-        return other.declare(graph, name, mScene, mGBufferPass, mShadowPipelines.get());
+        return other.declare(parts.graph, name, mScene, mGBufferPass, mShadowPipelines.get());
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;
@@ -351,7 +317,39 @@ Renderer::Tickets Renderer::declareFrame(
         one.effect->declare(context);
         one.endPass = graph.passes().size();
     }
+}
 
+Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
+    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
+    const extract::ShadowPlan& shadows = slot.shadows->plan();
+    if (request.view.shadows.mode != extract::ShadowMode::None && !mShadowPipelines)
+        mShadowPipelines = std::make_unique<ShadowPipelines>(mDevice, mScene);
+    if (request.wantReasons) {
+        explainer.decide(ExplainedKind::Work, "environment", decideEnvironment(frame, mScene));
+        explainer.decide(ExplainedKind::Work, "shadows", shadows.shadows);
+        explainer.decide(ExplainedKind::Work, "blurred shadows", shadows.blur);
+    }
+    const DeclaredScene scene = declareScene(parts);
+    std::set<std::string> wanted = request.intermediates;
+    wanted.insert(request.shownIntermediates.begin(), request.shownIntermediates.end());
+    Intermediates intermediates(std::move(wanted));
+    publishGBuffer(scene.gbuffer, intermediates);
+    PostContext context{
+        .graph = graph,
+        .view = request.view,
+        .frame = frame,
+        .shapes = scene.shapes,
+        .facts = facts,
+        .gbuffer = scene.gbuffer,
+        .rays = running.rays.run ? &scene.rays : nullptr,
+        .timedRays = moving ? &scene.timedRays : nullptr,
+        .color = scene.gbuffer.color,
+        .intermediates = intermediates,
+        .response = scene.tables.response,
+        .frameConstants = scene.tables.constants,
+        .explainer = explainer,
+        .slot = mNextSlot};
+    declareEffects(parts, context);
     explainer.beginPasses(graph, PassOwner::Display, "its picture is read back");
     Tickets tickets;
     tickets.semaphores = context.semaphores;

@@ -188,6 +188,27 @@ class Renderer {
         std::unique_ptr<ShadowMaps> shadows;
     };
 
+    /// What a frame is declared from.
+    struct FrameParts {
+        Slot& slot;
+        graph::Graph& graph;
+        const FrameRequest& request;
+        const ViewFacts& facts;
+        extract::ExtractedFrame& frame;
+        const extract::TimedTables* moving; ///< null: no ray has a time of its own
+        RunningEffects& running;
+        Explainer& explainer;
+    };
+
+    /// What effects find of a frame.
+    struct DeclaredScene {
+        gpu_scene::DeformedMeshes shapes;
+        graph::RayScene rays;       ///< filled where an effect traces at the raster instant
+        graph::TimedRays timedRays; ///< likewise at any time
+        FrameTables::Addresses tables;
+        GBuffer gbuffer;
+    };
+
     /// An effect of an unfinished frame, and which of the frame's times are its own.
     struct PendingEffect {
         PostEffect* effect = nullptr;
@@ -217,16 +238,10 @@ class Renderer {
     /// of the world themselves.
     [[nodiscard]] core::Status
     extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running);
-    Tickets declareFrame(
-        Slot& slot,
-        graph::Graph& graph,
-        const FrameRequest& request,
-        const ViewFacts& facts,
-        extract::ExtractedFrame& frame,
-        const extract::TimedTables* moving,
-        RunningEffects& running,
-        Explainer& explainer
-    );
+    Tickets declareFrame(const FrameParts& parts);
+    /// All up to the frame's own G-buffer.
+    DeclaredScene declareScene(const FrameParts& parts);
+    void declareEffects(const FrameParts& parts, PostContext& context);
     static std::vector<PendingEffect> listPending(
         std::span<PostEffect* const> effects, const RunningEffects& running, const graph::Plan& plan
     );
