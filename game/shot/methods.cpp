@@ -124,8 +124,8 @@ PassGroup groupOf(const MethodInfo& method, render::PassOwner owner) {
         return drawsScene ? PassGroup::Blur : PassGroup::Scene;
     case render::PassOwner::Rays:
         return method.rays != RayNeed::None ? PassGroup::Blur : PassGroup::Other;
-    case render::PassOwner::Blur:
-        return PassGroup::Blur;
+    case render::PassOwner::Blur: // of a frame that another method drew, if this one is sharp
+        return method.family == MethodFamily::Sharp ? PassGroup::Scene : PassGroup::Blur;
     case render::PassOwner::Other:
         return PassGroup::Other;
     case render::PassOwner::Display:
