@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace shutter::environment {
@@ -20,7 +21,16 @@ using core::makeError;
 constexpr float kMostHalf = 65504.0f;
 
 core::Status validate(const image::Image& picture, const EnvironmentSettings& settings) {
-    SHUTTER_TRY(core::validateRows(listEnvironmentRows(), settings, ""));
+    // In words, since a glTF file and the command line name the settings differently.
+    for (const auto& [what, name, value] :
+         {std::tuple("an intensity", "environmentIntensity", settings.intensity),
+          std::tuple("a rotation", "environmentRotation", settings.rotationDegrees)}) {
+        const core::NumberRange& range = core::getRow(listEnvironmentRows(), name).range;
+        if (!core::contains(range, value))
+            return makeError(
+                "{} of {} must lie in [{}, {}]", what, value, range.lowest, range.highest
+            );
+    }
     if (picture.width < kLeastPictureWidth || picture.width > kMostPictureWidth)
         return makeError(
             "it is {} wide; an environment is {} to {}",
