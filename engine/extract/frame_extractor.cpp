@@ -82,7 +82,7 @@ core::Status FrameExtractor::rebuild(const Frame& frame) {
         if (mRows.size() > frame.request.entityLimit)
             return describeFullTable(frame.request.entityLimit);
     }
-    // Behind those of what stands still, whose number is known only now.
+    // Behind those of static rows, whose number is known only now.
     const auto stillMotions = static_cast<uint32_t>(mFrame.stillMotions.size());
     for (const uint32_t row : mFrame.movingRows)
         if (mFrame.entities[row].motion != shader::kNoMotion)
@@ -118,7 +118,7 @@ void FrameExtractor::clear() {
 }
 
 bool FrameExtractor::evolves(const Frame& frame, ecs::Entity entity) {
-    // Under a moving camera, a scale of its own moves in the world what stands still in it.
+    // Under a moving camera, a blur scale of its own gives a static entity motion.
     return scene::isDeformable(frame.world, entity) || scene::mayObjectMove(frame.world, entity) ||
            scene::findBlurScale(frame.world, entity) != 1.0 ||
            scene::mayComeOrGo(frame.world, entity, frame.request.exposure.frame().open) ||

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Extraction from frame to frame: what stands still in the world before a camera that stands still
-// costs nothing again.
+// Incremental extraction: static entities before a static camera cost nothing after the first
+// frame.
 #pragma once
 
 #include "engine/core/result.h"

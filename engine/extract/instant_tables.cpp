@@ -187,7 +187,7 @@ class Builder {
         });
     }
 
-    /// What has no past stands still during the exposure, and is in both of its rasters.
+    /// Entities without a past are static during the exposure, and are in both of its rasters.
     LayerTables describeSecond(
         const RasterRecord& second, const RasterRecord& now, std::vector<ShapeWay>& ways
     ) {

@@ -42,7 +42,7 @@ struct ShadowPlan {
     std::vector<uint32_t> mapCasters; ///< rows of the entity table
     /// Changes whenever one of mapCasters may have changed.
     uint64_t casterRevision = 0;
-    std::vector<shader::ShadowLight> lights; ///< one a light
+    std::vector<shader::ShadowLight> lights; ///< one per light
     std::vector<shader::ShadowMover> movers;
     std::vector<shader::ShadowInstant> instants; ///< all of a mover's, then the next one's
     std::vector<shader::ShadowRun> runs;         ///< by light that is far away, then by mover

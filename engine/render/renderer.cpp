@@ -293,9 +293,12 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
 }
 
 void Renderer::declareEffects(const FrameParts& parts, PostContext& context) {
-    auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
+    Slot& slot = parts.slot;
+    graph::Graph& graph = parts.graph;
+    RunningEffects& running = parts.running;
+    Explainer& explainer = parts.explainer;
     const auto declareOther = [&](OtherRaster& other, const char* name) {
-        return other.declare(parts.graph, name, mScene, mGBufferPass, mShadowPipelines.get());
+        return other.declare(graph, name, mScene, mGBufferPass, mShadowPipelines.get());
     };
     std::optional<OtherRasterView> second;
     std::optional<OtherRasterView> last;

@@ -262,7 +262,7 @@ class Renderer {
     GBufferPass mGBufferPass;
     graph::TransientPool mPool; ///< of all frames: they do not overlap on the GPU
     extract::FrameExtractor mExtractor;
-    std::vector<std::unique_ptr<Slot>> mSlots; ///< one a frame in flight
+    std::vector<std::unique_ptr<Slot>> mSlots; ///< one per frame in flight
     uint32_t mNextSlot = 0;
     std::deque<PendingFrame> mPending;                 ///< oldest first
     std::optional<LongestMotion> mLongestMotion;       ///< made by the first cap

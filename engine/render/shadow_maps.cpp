@@ -264,7 +264,7 @@ VkExtent2D ShadowMaps::placeMaps() {
 }
 
 core::Status ShadowMaps::checkFit() {
-    // All of them, although later frames draw few: whether a film can be drawn is told at once.
+    // All maps count, although later frames draw few: a film is refused at its first frame.
     mDrawn.clear();
     uint32_t largest = 0;
     for (uint32_t i = 0; i < mPlan.maps.size(); ++i) {

@@ -15,7 +15,7 @@
 
 namespace shutter::render {
 
-/// The pipelines of shadow maps; one a scene (they know its texture table).
+/// The pipelines of shadow maps; one set per scene, whose texture table they know.
 struct ShadowPipelines {
     ShadowPipelines(gpu::Device& device, const gpu_scene::GpuScene& scene);
 

@@ -63,7 +63,7 @@ struct Animated {
 /// meaning then (glTF 2.0, 3.7.3.3): the joints' do.
 struct Skinned {
     AssetIndex skin = kNone;
-    std::vector<ecs::Entity> joints; ///< one a joint of the skin, alive
+    std::vector<ecs::Entity> joints; ///< one per joint of the skin, alive
 };
 
 /// Weights of the morph targets of this entity's mesh.

@@ -465,17 +465,12 @@ TEST_F(RenderOptionsTest, AntiAliasingIsAboutTheRasterImage) {
         accept(Words{"--aa=box", "--method=resolved"}).shot.picture.antiAliasing, AntiAliasing::Box
     );
     refuse("--aa", Words{"--aa=msaa"});
-    for (const char* method : {"accumulate", "truth", "denoised"}) {
-        refuse(
-            "--aa is about the raster image", Words{"--aa=taa", std::string("--method=") + method}
-        );
-        refuse(
-            "--aa is about the raster image", Words{"--aa=box", std::string("--method=") + method}
-        );
-    }
+    for (const std::string method : {"accumulate", "truth", "denoised"})
+        for (const char* aa : {"--aa=taa", "--aa=box"})
+            refuse("--aa is about the raster image", Words{aa, "--method=" + method});
 }
 
-TEST_F(RenderOptionsTest, BloomHasAThresholdAndAKnee) {
+TEST_F(RenderOptionsTest, BloomHasAShareAThresholdAndAKnee) {
     EXPECT_EQ(accept(Words{}).shot.picture.bloom.threshold, 1.0f);
     EXPECT_EQ(accept(Words{}).shot.picture.bloom.knee, 0.5f);
     EXPECT_EQ(accept(Words{"--bloom-threshold=0"}).shot.picture.bloom.threshold, 0.0f);
@@ -484,9 +479,6 @@ TEST_F(RenderOptionsTest, BloomHasAThresholdAndAKnee) {
         refuse("--bloom-threshold", Words{"--bloom-threshold=" + wordOf(value)});
     for (const double value : {-0.1, 1.1})
         refuse("--bloom-knee", Words{"--bloom-knee=" + wordOf(value)});
-}
-
-TEST_F(RenderOptionsTest, BloomIsAShareOfTheLight) {
     EXPECT_EQ(accept(Words{}).shot.picture.bloom.share, 0.0f);
     EXPECT_EQ(accept(Words{"--bloom=0.05"}).shot.picture.bloom.share, 0.05f);
     for (const double value : {-0.01, 1.5, kNan, kInfinity})
