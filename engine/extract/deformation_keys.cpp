@@ -54,21 +54,74 @@ double weightOf(const Deformation& pose, size_t target) {
     return target < pose.morphWeights.size() ? pose.morphWeights[target] : 0.0;
 }
 
-/// What the morph targets do between two keys, metres before skinning.
-struct MorphDeviation {
-    double off = 0.0;   ///< of the weights from their straight way
+/// What morph targets and waves do between two keys, metres before skinning.
+struct DisplacementDeviation {
+    double off = 0.0;   ///< of the displacement from its straight way
     double way = 0.0;   ///< from one key to the other
-    double reach = 0.0; ///< farthest that they move a vertex from rest
+    double reach = 0.0; ///< farthest that it moves a vertex from rest
 };
 
-MorphDeviation measureMorph(
+/// A wave as what sine and cosine of the place's phase are multiplied with: the displacement of
+/// each vertex is linear in them.
+struct Phasor {
+    dvec3 sine;
+    dvec3 cosine;
+
+    explicit Phasor(const scene::WavePose::Wave& wave)
+        : sine(wave.displacement * std::sin(wave.phase)),
+          cosine(wave.displacement * std::cos(wave.phase)) {}
+
+    Phasor(const dvec3& s, const dvec3& c) : sine(s), cosine(c) {}
+
+    [[nodiscard]] double length() const {
+        return std::hypot(glm::length(sine), glm::length(cosine));
+    }
+};
+
+Phasor operator-(const Phasor& a, const Phasor& b) {
+    return {a.sine - b.sine, a.cosine - b.cosine};
+}
+
+Phasor mix(const Phasor& a, const Phasor& b, double t) {
+    return {glm::mix(a.sine, b.sine, t), glm::mix(a.cosine, b.cosine, t)};
+}
+
+/// \param farthest of a vertex from the object's origin before the waves, metres
+void addWaves(
+    const Deformation& exact,
+    const Deformation& a,
+    const Deformation& b,
+    double t,
+    double farthest,
+    DisplacementDeviation& sum
+) {
+    for (size_t i = 0; i < exact.waves.waves.size(); ++i) {
+        const scene::WavePose::Wave& at = exact.waves.waves[i];
+        const scene::WavePose::Wave& from = a.waves.waves.at(i);
+        const scene::WavePose::Wave& to = b.waves.waves.at(i);
+        const double change = (Phasor(to) - Phasor(from)).length();
+        const double longest =
+            std::max({Phasor(at).length(), Phasor(from).length(), Phasor(to).length()});
+        // Where the wave turns, the phase of a vertex at p changes by the turn times p. From
+        // exp(-ix) = 1 - ix within x^2 / 2, on either side of the straight way.
+        const double turn = farthest * glm::length(to.waveVector - from.waveVector);
+        const double offTurn =
+            farthest * glm::length(at.waveVector - glm::mix(from.waveVector, to.waveVector, t));
+        sum.off += (Phasor(at) - mix(Phasor(from), Phasor(to), t)).length() + longest * offTurn +
+                   t * (1.0 - t) * turn * (change + longest * turn / 2.0);
+        sum.way += change + longest * turn;
+        sum.reach += longest;
+    }
+}
+
+DisplacementDeviation measureDisplacement(
     const Deformation& exact,
     const Deformation& a,
     const Deformation& b,
     double t,
     const PoseReach& reach
 ) {
-    MorphDeviation result;
+    DisplacementDeviation result;
     for (size_t target = 0; target < reach.targets.size(); ++target) {
         const double longest = measureLongest(reach.targets[target]);
         const double from = weightOf(a, target);
@@ -78,6 +131,7 @@ MorphDeviation measureMorph(
         result.way += longest * std::abs(to - from);
         result.reach += longest * std::max({std::abs(from), std::abs(to), std::abs(at)});
     }
+    addWaves(exact, a, b, t, measureLongest(reach.rest) + result.reach, result);
     return result;
 }
 
@@ -146,13 +200,13 @@ double measureDeformationDeviation(
     double t,
     const PoseReach& reach
 ) {
-    // For v(s) = M(s) (p + d(s)), with M and d a vertex's blended matrix and morph displacement,
+    // For v(s) = M(s) (p + d(s)), with M and d a vertex's blended matrix and its displacement,
     // the straight way from key to key is M' (p + d') + t (1 - t) (M_b - M_a) (d_b - d_a), with M'
     // and d' on their own straight ways.
-    const MorphDeviation morph = measureMorph(exact, a, b, t, reach);
+    const DisplacementDeviation displacement = measureDisplacement(exact, a, b, t, reach);
     const size_t jointCount = std::min(reach.joints.size(), exact.objectFromBind.size());
     if (exact.objectFromBind.empty())
-        return morph.off;
+        return displacement.off;
     double largest = 0.0;
     for (size_t i = 0; i < jointCount; ++i) {
         if (reach.joints[i].isEmpty())
@@ -162,9 +216,9 @@ double measureDeformationDeviation(
         const dmat4& at = exact.objectFromBind[i];
         const dmat4 straight = mix(from, to, t);
         const double deviation = measureDeviation(at, straight, reach.joints[i]) +
-                                 measureStretch(at - straight) * morph.reach +
-                                 measureStretch(straight) * morph.off +
-                                 t * (1.0 - t) * measureStretch(to - from) * morph.way;
+                                 measureStretch(at - straight) * displacement.reach +
+                                 measureStretch(straight) * displacement.off +
+                                 t * (1.0 - t) * measureStretch(to - from) * displacement.way;
         // Written so that NaN comes through.
         largest = deviation <= largest ? largest : deviation;
     }

@@ -36,8 +36,8 @@ struct DeformedMotion {
 
 /// Most that any vertex of the pose half way (share t) between the keys a and b can be off `exact`
 /// when it goes straight from one to the other, metres in object space. An upper bound, from the
-/// joints' matrices and the weights alone: blending skins is linear in the matrices and, at fixed
-/// matrices, in the weights.
+/// joints' matrices, the weights and the waves alone: blending skins is linear in the matrices and,
+/// at fixed matrices, in the weights; a wave is linear in sine and cosine of its phase.
 [[nodiscard]] double measureDeformationDeviation(
     const scene::Deformation& exact,
     const scene::Deformation& a,

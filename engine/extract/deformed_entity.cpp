@@ -55,9 +55,10 @@ bool isFinite(const scene::Deformation& pose, const scene::PoseReach& reach) {
     for (size_t joint = 0; joint < pose.objectFromBind.size(); ++joint)
         if (deformsAnything(reach, joint) && !math::isFinite(pose.objectFromBind[joint]))
             return false;
-    return std::all_of(pose.morphWeights.begin(), pose.morphWeights.end(), [](double weight) {
-        return std::isfinite(weight);
-    });
+    return scene::isFinite(pose.waves) &&
+           std::all_of(pose.morphWeights.begin(), pose.morphWeights.end(), [](double weight) {
+               return std::isfinite(weight);
+           });
 }
 
 bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach) {
@@ -72,7 +73,8 @@ bool isMirrored(const scene::Deformation& pose, const scene::PoseReach& reach) {
 }
 
 bool isSame(const scene::Deformation& a, const scene::Deformation& b) {
-    return a.objectFromBind == b.objectFromBind && a.morphWeights == b.morphWeights;
+    return a.objectFromBind == b.objectFromBind && a.morphWeights == b.morphWeights &&
+           a.waves.waves == b.waves.waves;
 }
 
 double measureRounding(const math::Bounds& bounds) {

@@ -37,7 +37,7 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
     const scene::World& world, const SceneLayout& layout, const ViewRequest& request
 ) {
     SHUTTER_CHECK(request.width > 0 && request.height > 0, "an empty picture");
-    SHUTTER_TRY(mKeyedMotion.check(world.registry));
+    SHUTTER_TRY(mMotionCheck.check(world.registry));
     // Rows of another's making stand behind our own.
     mFrame.entities.resize(mRows.size());
     mFrame.entityMeshes.resize(mRows.size());

@@ -108,7 +108,7 @@ class FrameExtractor {
     std::vector<uint32_t> mRowOfEntity; ///< by entity index: a row, kLatent or kNone
     std::vector<uint32_t> mJoining;     ///< rows that count as moving ones from this frame on
     WorldWatch mWatch;
-    KeyedMotionCheck mKeyedMotion;
+    MotionCheck mMotionCheck;
     Descendants mDescendants;
     std::unique_ptr<const FrameView> mFrameView; ///< of the frame
     ViewMatrices mView;                          ///< that the rows were placed for

@@ -23,10 +23,11 @@ using math::LayerTables;
 /// Shutter times that a shape's way is drawn through.
 constexpr std::array kWayTimes{0.0, 0.5, 1.0};
 
-/// As many joints and targets.
+/// As many joints, targets and waves.
 bool hasSameParts(const scene::Deformation& a, const scene::Deformation& b) {
     return a.objectFromBind.size() == b.objectFromBind.size() &&
-           a.morphWeights.size() == b.morphWeights.size();
+           a.morphWeights.size() == b.morphWeights.size() &&
+           a.waves.waves.size() == b.waves.waves.size();
 }
 
 class Builder {
@@ -132,8 +133,7 @@ class Builder {
             for (const ShapeWay& way : *ways) {
                 scene::Deformation& middle = middles[way.shape];
                 const DeformedEntity& shape = mFrame.deformed[way.shape];
-                const bool isPosed = !middle.objectFromBind.empty() || !middle.morphWeights.empty();
-                if (!shape.changes || isPosed)
+                if (!shape.changes || !middle.isRest())
                     continue;
                 middle = mMotion.deformationAt(mFrame.entityHandles[shape.row], kWayTimes[1]);
                 // A shape that is nowhere half way goes straight.

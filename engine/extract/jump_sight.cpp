@@ -120,7 +120,7 @@ double JumpSight::measureWay(const Posed& from, const Posed& to, uint32_t mesh) 
     Bounds bounds = from.bounds;
     bounds.add(to.bounds);
     const double way = measureDeviation(from.eyeFromObject, to.eyeFromObject, bounds);
-    if (from.shape.objectFromBind.empty() && from.shape.morphWeights.empty())
+    if (from.shape.isRest())
         return way;
     return way + findLargestScale(to.eyeFromObject) *
                      measureDeformationDeviation(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/world_watch.h"
 
+#include "engine/scene/vertex_waves.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,9 +57,10 @@ checkChanged(const ecs::Registry& registry, ecs::ChangeCursor& cursor, Validate 
 
 } // namespace
 
-core::Status KeyedMotionCheck::check(const ecs::Registry& registry) {
+core::Status MotionCheck::check(const ecs::Registry& registry) {
     SHUTTER_TRY(checkChanged<scene::PathMotion>(registry, mPaths, scene::validatePath));
-    return checkChanged<scene::LensMotion>(registry, mLenses, scene::validateLens);
+    SHUTTER_TRY(checkChanged<scene::LensMotion>(registry, mLenses, scene::validateLens));
+    return checkChanged<scene::VertexWaves>(registry, mWaves, scene::validateWaves);
 }
 
 WorldChanges WorldWatch::look(const ecs::Registry& registry) {

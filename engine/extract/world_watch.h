@@ -44,20 +44,23 @@ class WorldWatch {
     /// Any change of these concerns more than the entity itself.
     Cursors<scene::ComponentList<scene::Parent, scene::Hidden>> mHierarchy;
     /// These are there or not; with one more or less, other rows are drawn, or in another way.
-    Cursors<scene::ComponentList<scene::Skinned, scene::MorphWeights>> mPresence;
+    Cursors<scene::ComponentList<scene::Skinned, scene::MorphWeights, scene::VertexWaves>>
+        mPresence;
     ecs::ChangeCursor mDrawn;
 };
 
-/// Checks paths and lenses when they change, so that whatever a game writes into them is refused
-/// before anything samples them.
-class KeyedMotionCheck {
+/// Checks paths, lenses and waves when they change, so that whatever a game writes into them is
+/// refused before anything samples them.
+class MotionCheck {
   public:
-    /// Error: names the entity whose path or lens is not valid (scene::validatePath, validateLens).
+    /// Error: names the entity whose path, lens or waves are not valid (scene::validatePath,
+    /// validateLens, validateWaves).
     [[nodiscard]] core::Status check(const ecs::Registry& registry);
 
   private:
     ecs::ChangeCursor mPaths;
     ecs::ChangeCursor mLenses;
+    ecs::ChangeCursor mWaves;
 };
 
 /// Children of all entities of a registry.

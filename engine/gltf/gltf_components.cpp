@@ -2,9 +2,15 @@
 #include "engine/core/words.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"
+#include "engine/scene/vertex_waves.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
+#include <string_view>
 
 namespace shutter::gltf {
 
@@ -82,6 +88,71 @@ void readCone(const tinygltf::SpotLight& spot, const std::string& path, scene::L
     light.outerConeAngle = float(spot.outerConeAngle);
 }
 
+/// `extras.name` of a node, or nullptr. Throws GltfError where it is not an object.
+const tinygltf::Value*
+findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path) {
+    if (!node.extras.IsObject() || !node.extras.Has(name))
+        return nullptr;
+    const tinygltf::Value& object = node.extras.Get(name);
+    if (!object.IsObject())
+        failGltf("{}.extras.{} is not an object", path, name);
+    return &object;
+}
+
+void warnOfOthers(
+    GltfContext& context,
+    const tinygltf::Value& object,
+    std::initializer_list<std::string_view> known,
+    const std::string& path
+) {
+    for (const std::string& key : object.Keys())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            context.warnings.add(fmt::format("{} has a member '{}': not used", path, key));
+}
+
+/// The index of the member's value among `names`; nothing where there is no such member.
+std::optional<size_t> findName(
+    const tinygltf::Value& object,
+    const std::string& key,
+    std::initializer_list<std::string_view> names,
+    const std::string& path
+) {
+    if (!object.Has(key))
+        return std::nullopt;
+    const tinygltf::Value& value = object.Get(key);
+    const std::string given = value.IsString() ? value.Get<std::string>() : "";
+    const auto* const found = std::find(names.begin(), names.end(), given);
+    if (found == names.end())
+        failGltf("{}.{} is none of '{}'", path, key, fmt::join(names, "', '"));
+    return static_cast<size_t>(found - names.begin());
+}
+
+std::vector<scene::VertexWave>
+readWaves(GltfContext& context, const tinygltf::Value& object, const std::string& path) {
+    std::vector<scene::VertexWave> waves;
+    if (!object.Has("waves"))
+        return waves;
+    const tinygltf::Value& array = object.Get("waves");
+    if (!array.IsArray())
+        failGltf("{}.waves is not an array", path);
+    if (array.ArrayLen() > scene::kMaxVertexWaves)
+        failGltf("{}.waves has {} waves, above {}", path, array.ArrayLen(), scene::kMaxVertexWaves);
+    for (size_t i = 0; i < array.ArrayLen(); ++i) {
+        const tinygltf::Value& source = array.Get(int(i));
+        const std::string at = fmt::format("{}.waves[{}]", path, i);
+        if (!source.IsObject())
+            failGltf("{} is not an object", at);
+        warnOfOthers(context, source, {"displacement", "waveVector", "hertz", "phase"}, at);
+        scene::VertexWave wave;
+        wave.displacement = findVec3(source, "displacement", at).value_or(wave.displacement);
+        wave.waveVector = findVec3(source, "waveVector", at).value_or(wave.waveVector);
+        wave.hertz = findNumber(source, "hertz", at).value_or(wave.hertz);
+        wave.phase = findNumber(source, "phase", at).value_or(wave.phase);
+        waves.push_back(wave);
+    }
+    return waves;
+}
+
 } // namespace
 
 scene::Camera readCamera(const GltfContext& context, size_t index) {
@@ -130,21 +201,46 @@ scene::Light readLight(const GltfContext& context, size_t index) {
 
 std::optional<scene::MotionBlur>
 readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
-    if (!node.extras.IsObject() || !node.extras.Has("motionBlur"))
+    const tinygltf::Value* object = findExtra(node, "motionBlur", path);
+    if (!object)
         return std::nullopt;
-    const tinygltf::Value& object = node.extras.Get("motionBlur");
     const std::string at = path + ".extras.motionBlur";
-    if (!object.IsObject())
-        failGltf("{} is not an object", at);
-    for (const std::string& key : object.Keys())
-        if (key != "scale" && key != "exclude")
-            context.warnings.add(fmt::format("{} has a member '{}': not used", at, key));
+    warnOfOthers(context, *object, {"scale", "exclude"}, at);
     scene::MotionBlur blur;
-    blur.scale = findNumber(object, "scale", at).value_or(blur.scale);
+    blur.scale = findNumber(*object, "scale", at).value_or(blur.scale);
     if (!(blur.scale >= 0.0 && blur.scale <= 2.0))
         failGltf("{}.scale is {}, it must lie in [0, 2]", at, blur.scale);
-    blur.exclude = findBool(object, "exclude", at).value_or(blur.exclude);
+    blur.exclude = findBool(*object, "exclude", at).value_or(blur.exclude);
     return blur;
+}
+
+std::optional<scene::VertexWaves>
+readVertexWaves(GltfContext& context, const tinygltf::Node& node, const std::string& path) {
+    const tinygltf::Value* object = findExtra(node, "vertexWaves", path);
+    if (!object)
+        return std::nullopt;
+    const std::string at = path + ".extras.vertexWaves";
+    warnOfOthers(
+        context,
+        *object,
+        {"waves", "lean", "space", "share", "axis", "heldAt", "freeAt", "channel", "exponent"},
+        at
+    );
+    scene::VertexWaves waves;
+    waves.waves = readWaves(context, *object, at);
+    waves.lean = findVec3(*object, "lean", at).value_or(waves.lean);
+    waves.inWorld = findName(*object, "space", {"object", "world"}, at).value_or(0) == 1;
+    waves.share = static_cast<scene::WaveShare>(
+        findName(*object, "share", {"all", "height", "color"}, at).value_or(0)
+    );
+    waves.axis = findVec3(*object, "axis", at).value_or(waves.axis);
+    waves.heldAt = findNumber(*object, "heldAt", at).value_or(waves.heldAt);
+    waves.freeAt = findNumber(*object, "freeAt", at).value_or(waves.freeAt);
+    waves.channel = findIndex(*object, "channel", at).value_or(waves.channel);
+    waves.exponent = findNumber(*object, "exponent", at).value_or(waves.exponent);
+    if (const core::Status valid = scene::validateWaves(waves); !valid)
+        failGltf("{}: {}", at, valid.error().message);
+    return waves;
 }
 
 } // namespace shutter::gltf

@@ -136,9 +136,17 @@ void expand(
                              sizeof(scene::MorphWeights);
         context.spendVertexBytes(transforms.size() * bytes);
     }
+    std::optional<scene::VertexWaves> waves;
+    if (const auto* found = registry.find<scene::VertexWaves>(node)) {
+        waves = *found;
+        const size_t bytes =
+            found->waves.size() * sizeof(scene::VertexWave) + sizeof(scene::VertexWaves);
+        context.spendVertexBytes(transforms.size() * bytes);
+    }
     // Removed before the instances are added, which keeps those in the order of the file.
     registry.remove<scene::MeshInstance>(node);
     registry.remove<scene::MorphWeights>(node);
+    registry.remove<scene::VertexWaves>(node);
     for (const math::Transform& transform : transforms) {
         const ecs::Entity instance = registry.create();
         registry.add<scene::Parent>(instance, {node});
@@ -146,6 +154,8 @@ void expand(
         registry.add<scene::MeshInstance>(instance, mesh);
         if (morph)
             registry.add<scene::MorphWeights>(instance, *morph);
+        if (waves)
+            registry.add<scene::VertexWaves>(instance, *waves);
     }
 }
 

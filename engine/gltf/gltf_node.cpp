@@ -176,6 +176,7 @@ class NodeLoader {
         if (use != NodeUse::Scene)
             return;
         addMesh();
+        addWaves();
         if (mNode.camera >= 0) {
             mRegistry.add<scene::Camera>(mEntity, readCamera(mContext, size_t(mNode.camera)));
             mWorld.cameras.push_back(mEntity);
@@ -232,6 +233,18 @@ class NodeLoader {
         morph.weights = readMorphWeights(mNode.weights, atRest, mPath + ".weights");
         if (!morph.weights.empty())
             mRegistry.add(mEntity, std::move(morph));
+    }
+
+    void addWaves() {
+        auto waves = readVertexWaves(mContext, mNode, mPath);
+        if (!waves)
+            return;
+        if (waves->inWorld && mNode.skin >= 0)
+            mContext.warnings.add(fmt::format(
+                "{}.extras.vertexWaves.space is 'world', but a skin places the node: not used",
+                mPath
+            ));
+        mRegistry.add(mEntity, std::move(*waves));
     }
 
     void addLight() {

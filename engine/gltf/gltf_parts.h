@@ -95,6 +95,11 @@ void readMorphTargets(
 [[nodiscard]] std::optional<scene::MotionBlur>
 readMotionBlur(GltfContext& context, const tinygltf::Node& node, const std::string& path);
 
+/// `extras.vertexWaves` of a node (README.md). Nothing where the node has none. Throws GltfError,
+/// naming the member, for values of another type or range. \param path of the node
+[[nodiscard]] std::optional<scene::VertexWaves>
+readVertexWaves(GltfContext& context, const tinygltf::Node& node, const std::string& path);
+
 /// Translation, rotation and scale whose product is `matrix` to 1e-5 of its size, or nothing where
 /// the matrix shears or flattens an axis. A mirror becomes a negative x scale. Requires finite
 /// elements and 0 0 0 1 in the last row.

@@ -48,6 +48,18 @@ void dispatch(
     vkCmdDispatch(commands, groupsX, groupsY, 1);
 }
 
+uint32_t packShare(const scene::WaveShares& shares) {
+    switch (shares.share) {
+    case scene::WaveShare::All:
+        return shader::kWaveShareAll;
+    case scene::WaveShare::Height:
+        return shader::kWaveShareHeight;
+    case scene::WaveShare::Color:
+        break;
+    }
+    return shader::kWaveShareColor + shares.channel;
+}
+
 /// A buffer that has room for `bytes`, with some in reserve.
 void fit(gpu::Device& device, gpu::Buffer& buffer, const char* name, VkDeviceSize bytes) {
     if (!buffer || buffer.bytes() < bytes)
@@ -66,25 +78,37 @@ PoseTable::Place PoseTable::add(const scene::Deformation& pose) {
     const Place place{
         mJoints.size(),
         mWeights.size(),
+        mWaves.size(),
         static_cast<uint32_t>(pose.objectFromBind.size()),
-        static_cast<uint32_t>(pose.morphWeights.size())};
+        static_cast<uint32_t>(pose.morphWeights.size()),
+        static_cast<uint32_t>(pose.waves.waves.size()),
+        pose.waves.shares};
     for (const math::dmat4& matrix : pose.objectFromBind)
         mJoints.push_back(extract::makeKey(matrix));
     for (const double weight : pose.morphWeights)
         mWeights.push_back(static_cast<float>(weight));
+    for (const scene::WavePose::Wave& wave : pose.waves.waves)
+        mWaves.push_back(
+            {math::vec4(math::vec3(wave.displacement), float(wave.phase)),
+             math::vec4(math::vec3(wave.waveVector), 0.0f)}
+        );
     return place;
 }
 
 void PoseTable::upload(gpu::Device& device, gpu::Buffer& buffer) {
     const VkDeviceSize jointBytes = mJoints.size() * sizeof(shader::MotionKey);
-    const VkDeviceSize weightsAt =
-        (jointBytes + kTableAlignment - 1) / kTableAlignment * kTableAlignment;
-    const VkDeviceSize total = weightsAt + mWeights.size() * sizeof(float);
-    fit(device, buffer, "poses", total);
+    const auto align = [](VkDeviceSize bytes) {
+        return (bytes + kTableAlignment - 1) / kTableAlignment * kTableAlignment;
+    };
+    const VkDeviceSize weightsAt = align(jointBytes);
+    const VkDeviceSize wavesAt = align(weightsAt + mWeights.size() * sizeof(float));
+    fit(device, buffer, "poses", wavesAt + mWaves.size() * sizeof(shader::WaveRow));
     buffer.write(std::span<const shader::MotionKey>(mJoints));
     buffer.write(std::span<const float>(mWeights), weightsAt);
+    buffer.write(std::span<const shader::WaveRow>(mWaves), wavesAt);
     mJointsAt = buffer.address();
     mWeightsAt = buffer.address() + weightsAt;
+    mWavesAt = buffer.address() + wavesAt;
 }
 
 shader::DeformJob
@@ -103,6 +127,11 @@ PoseTable::makeJob(const GpuScene& scene, uint32_t geometry, const Place& place)
     // Weights without targets and targets without weights change nothing.
     job.targetCount = std::min(source.targetCount, place.weightCount);
     job.weightStride = place.weightCount;
+    job.waves = gpu::splitAddress(mWavesAt + place.firstWave * sizeof(shader::WaveRow));
+    job.waveCount = place.waveCount;
+    job.waveShare = packShare(place.shares);
+    job.waveExponent = static_cast<float>(place.shares.exponent);
+    job.waveHeight = math::vec4(place.shares.height);
     return job;
 }
 

@@ -21,8 +21,11 @@ class PoseTable {
     struct Place {
         size_t firstJoint = 0;
         size_t firstWeight = 0;
+        size_t firstWave = 0;
         uint32_t jointCount = 0;
         uint32_t weightCount = 0;
+        uint32_t waveCount = 0;
+        scene::WaveShares shares; ///< of the waves
     };
 
     /// \return where the pose is
@@ -40,8 +43,10 @@ class PoseTable {
   private:
     std::vector<shader::MotionKey> mJoints;
     std::vector<float> mWeights;
+    std::vector<shader::WaveRow> mWaves;
     VkDeviceAddress mJointsAt = 0;
     VkDeviceAddress mWeightsAt = 0;
+    VkDeviceAddress mWavesAt = 0;
 };
 
 /// Jobs that one dispatch works off, however many they are.

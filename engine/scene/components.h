@@ -8,6 +8,7 @@
 #include "engine/math/transform.h"
 #include "engine/scene/assets.h"
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -71,6 +72,41 @@ struct MorphWeights {
     std::vector<float> weights; ///< at rest, one a morph target
     std::vector<Animated::Channel>
         channels; ///< into AnimationClip::weightChannels; later clips win
+};
+
+/// One wave of VertexWaves.
+struct VertexWave {
+    math::dvec3 displacement{0.0}; ///< of a crest, metres
+    math::dvec3 waveVector{0.0};   ///< radians per metre: crests travel along it; 0: all at once
+    double hertz = 0.0;            ///< [0, inf)
+    double phase = 0.0;            ///< radians, at time 0 at the origin
+};
+
+/// What the share of its waves that a vertex follows depends on.
+enum class WaveShare : uint8_t {
+    All,    ///< every vertex follows them whole
+    Height, ///< how far along an axis it is
+    Color,  ///< one channel of its colour, [0, 1]
+};
+
+/// Most waves of an entity.
+inline constexpr size_t kMaxVertexWaves = 16;
+
+/// The mesh of this entity waves, as wind moves grass and cloth: each vertex is displaced by
+/// share^exponent * (lean + sum over waves of displacement * sin(2 pi hertz t - waveVector . p +
+/// phase)), with p its place after morphing and before skinning. A pure function of time.
+struct VertexWaves {
+    math::dvec3 lean{0.0}; ///< constant displacement, metres
+    std::vector<VertexWave> waves;
+    /// Vectors and p are the world's, so that neighbours wave as one field; without effect on a
+    /// skinned entity. Else they are the entity's own.
+    bool inWorld = false;
+    WaveShare share = WaveShare::All;
+    math::dvec3 axis{0.0, 1.0, 0.0}; ///< Height: along which, entity's space
+    double heldAt = 0.0;             ///< Height: metres along the axis, from where the share is 0
+    double freeAt = 1.0;             ///< Height: to where it is 1; linear between, not as heldAt
+    uint32_t channel = 3;            ///< Color: 0 ... 3 for red, green, blue, alpha
+    double exponent = 1.0;           ///< [1, 16]: what bends stays straight near its root
 };
 
 enum class CameraKind : uint8_t { Perspective, Orthographic };

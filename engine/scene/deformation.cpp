@@ -37,10 +37,16 @@ std::vector<double> weightsAt(const World& world, const MorphWeights& morph, dou
     return sampleWeights(channel, clipSeconds(clip, world.playback.loop, seconds));
 }
 
+/// A skinned entity's own transform has no meaning.
+bool wavesInWorld(const World& world, ecs::Entity entity, const VertexWaves& waves) {
+    return waves.inWorld && !world.registry.has<Skinned>(entity);
+}
+
 } // namespace
 
 bool isDeformable(const World& world, ecs::Entity entity) {
-    return world.registry.has<Skinned>(entity) || world.registry.has<MorphWeights>(entity);
+    return world.registry.has<Skinned>(entity) || world.registry.has<MorphWeights>(entity) ||
+           world.registry.has<VertexWaves>(entity);
 }
 
 bool mayDeform(const World& world, ecs::Entity entity) {
@@ -48,6 +54,9 @@ bool mayDeform(const World& world, ecs::Entity entity) {
         for (const ecs::Entity joint : skinned->joints)
             if (mayMove(world, joint))
                 return true;
+    if (const auto* waves = world.registry.find<VertexWaves>(entity))
+        if (isRunning(*waves) || (wavesInWorld(world, entity, *waves) && mayMove(world, entity)))
+            return true;
     const auto* morph = world.registry.find<MorphWeights>(entity);
     return morph && findDriver(world, *morph) != nullptr;
 }
@@ -81,6 +90,10 @@ Deformation deformationAt(const World& world, ecs::Entity entity, double seconds
     }
     if (const auto* morph = world.registry.find<MorphWeights>(entity))
         result.morphWeights = weightsAt(world, *morph, seconds);
+    if (const auto* waves = world.registry.find<VertexWaves>(entity))
+        result.waves = wavesInWorld(world, entity, *waves)
+                           ? poseWaves(*waves, seconds, worldFromEntity(world, entity, seconds))
+                           : poseWaves(*waves, seconds);
     return result;
 }
 

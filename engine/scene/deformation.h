@@ -5,6 +5,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/math.h"
 #include "engine/scene/assets.h"
+#include "engine/scene/vertex_waves.h"
 #include "engine/scene/world.h"
 
 #include <cstddef>
@@ -12,15 +13,21 @@
 
 namespace shutter::scene {
 
-/// The shape of a mesh at one instant. A vertex is first morphed, then skinned (glTF 2.0, 3.7.2.2):
-/// p' = sum over its joints of weight * objectFromBind[joint] * (p + sum over targets of weight *
-/// d).
+/// The shape of a mesh at one instant. A vertex is first morphed, then displaced by waves, then
+/// skinned (glTF 2.0, 3.7.2.2): p' = sum over its joints of weight * objectFromBind[joint] *
+/// wave(p + sum over targets of weight * d).
 struct Deformation {
-    std::vector<math::dmat4> objectFromBind; ///< one a joint; empty: not skinned
-    std::vector<double> morphWeights;        ///< one a target; empty: not morphed
+    std::vector<math::dmat4> objectFromBind; ///< one per joint; empty: not skinned
+    std::vector<double> morphWeights;        ///< one per target; empty: not morphed
+    WavePose waves;
+
+    /// Vertices are where the mesh has them.
+    [[nodiscard]] bool isRest() const {
+        return objectFromBind.empty() && morphWeights.empty() && waves.waves.empty();
+    }
 };
 
-/// True when the entity's mesh is skinned or morphed.
+/// True when the entity's mesh is skinned or morphed, or waves.
 [[nodiscard]] bool isDeformable(const World& world, ecs::Entity entity);
 
 /// False when the shape (not the place, see mayMove) is the same at every time.

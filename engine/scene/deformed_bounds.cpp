@@ -48,10 +48,22 @@ void addTargets(const Primitive& primitive, std::vector<Bounds>& targets) {
     }
 }
 
-/// What the morph targets add to any vertex at these weights.
-Bounds boundDeltas(const PoseReach& reach, const std::vector<double>& weights) {
+/// What the waves add to any vertex: it follows a share of them, [0, 1].
+Bounds boundWaves(const WavePose& pose) {
     Bounds result;
     result.add(dvec3(0.0));
+    for (const WavePose::Wave& wave : pose.waves) {
+        const dvec3 crest = glm::abs(wave.displacement);
+        result.min -= crest;
+        result.max += crest;
+    }
+    return result;
+}
+
+/// What the morph targets and waves add to any vertex.
+Bounds boundDeltas(const PoseReach& reach, const Deformation& pose) {
+    Bounds result = boundWaves(pose.waves);
+    const std::vector<double>& weights = pose.morphWeights;
     if (weights.empty())
         return result;
     SHUTTER_CHECK(
@@ -97,10 +109,10 @@ Bounds computeDeformedBounds(const PoseReach& reach, const Deformation& deformat
             return {};
     }
     const bool isSkinned = !deformation.objectFromBind.empty();
-    if (reach.rest.isEmpty() || (!isSkinned && deformation.morphWeights.empty()))
+    if (reach.rest.isEmpty() || deformation.isRest())
         return reach.rest;
 
-    const Bounds deltas = boundDeltas(reach, deformation.morphWeights);
+    const Bounds deltas = boundDeltas(reach, deformation);
     Bounds result;
     if (isSkinned) {
         SHUTTER_CHECK(

@@ -30,6 +30,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Jo
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer WeightArray {
     float values[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer WaveArray {
+    WaveRow values[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer VertexSink {
     Vertex values[];
 };
@@ -60,6 +63,18 @@ DeformedVertex morph(DeformedVertex shaped, uint index, uint instant) {
         shaped = morphVertex(shaped, delta, weight);
     }
     return shaped;
+}
+
+DeformedVertex wave(DeformedVertex shaped, uvec2 color, uint instant) {
+    vec4 unpacked = vec4(unpackHalf2x16(color.x), unpackHalf2x16(color.y));
+    WaveShareAt at = findWaveShare(job, shaped.position, unpacked);
+    if (at.share == 0.0f) return shaped;
+    WaveSum sum = noWave();
+    for (uint i = 0u; i < job.waveCount; ++i)
+        sum = addWave(
+            sum, WaveArray(job.waves).values[instant * job.waveCount + i], at, shaped.position
+        );
+    return waveVertex(shaped, sum);
 }
 
 MotionKey blendJoints(uint index, uint instant) {
@@ -93,6 +108,7 @@ void main() {
     DeformedVertex shaped =
         DeformedVertex(vertex.positionU0.xyz, vertex.normalV0.xyz, vertex.tangent.xyz);
     shaped = morph(shaped, index, instant);
+    if (job.waveCount > 0u) shaped = wave(shaped, vertex.color, instant);
     if (job.jointCount > 0u) shaped = skinVertex(shaped, blendJoints(index, instant));
     shaped = finishVertex(shaped);
     uint at = instant * job.vertexCount + index;

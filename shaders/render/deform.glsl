@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Morph targets and linear blend skinning of one vertex (glTF 2.0, 3.7.2.2 and 3.7.3.3): first
-// morphed, then skinned.
+// Morph targets, waves and linear blend skinning of one vertex (glTF 2.0, 3.7.2.2 and 3.7.3.3):
+// first morphed, then displaced by waves, then skinned.
 #ifndef SHUTTER_DEFORM_GLSL
 #define SHUTTER_DEFORM_GLSL
 
@@ -37,6 +37,83 @@ SHUTTER_INLINE DeformedVertex morphVertex(DeformedVertex vertex, MorphDelta delt
     return result;
 }
 
+/// The share of its waves that a vertex follows, and how it changes with its place.
+struct WaveShareAt {
+    float share;   // [0, 1]
+    vec3 gradient; // per metre; 0 for a share of colour, whose change over the surface is unknown
+};
+
+/// \param color the vertex's
+SHUTTER_INLINE WaveShareAt findWaveShare(DeformJob job, vec3 position, vec4 color) {
+    WaveShareAt result;
+    result.share = 1.0f;
+    result.gradient = vec3(0.0f);
+    if (job.waveShare == kWaveShareAll) return result;
+    bool byHeight = job.waveShare == kWaveShareHeight;
+    float linear_ = byHeight ? dot(vec3(job.waveHeight), position) + job.waveHeight.w
+                             : color[job.waveShare - kWaveShareColor];
+    // Written so that NaN is held.
+    if (!(linear_ > 0.0f)) {
+        result.share = 0.0f;
+        return result;
+    }
+    if (linear_ >= 1.0f) return result;
+    result.share = pow(linear_, job.waveExponent);
+    if (byHeight)
+        result.gradient =
+            job.waveExponent * (result.share / linear_) * vec3(job.waveHeight);
+    return result;
+}
+
+/// What waves add to a vertex, and the change of that with its place.
+struct WaveSum {
+    vec3 displacement;
+    vec3 rows[3]; // of the Jacobian
+};
+
+SHUTTER_INLINE WaveSum noWave() {
+    WaveSum zero;
+    zero.displacement = vec3(0.0f);
+    for (int i = 0; i < 3; ++i) zero.rows[i] = vec3(0.0f);
+    return zero;
+}
+
+/// \param position of the vertex before any wave
+SHUTTER_INLINE WaveSum addWave(WaveSum sum, WaveRow wave, WaveShareAt at, vec3 position) {
+    const float kTurn = 6.28318530718f;
+    float phase = wave.displacement.w - dot(vec3(wave.waveVector), position);
+    // Sines of large angles are imprecise.
+    phase -= kTurn * floor(phase / kTurn + 0.5f);
+    float height = sin(phase);
+    vec3 gradient = height * at.gradient - (at.share * cos(phase)) * vec3(wave.waveVector);
+    WaveSum result = sum;
+    result.displacement += (at.share * height) * vec3(wave.displacement);
+    for (int i = 0; i < 3; ++i) result.rows[i] += wave.displacement[i] * gradient;
+    return result;
+}
+
+/// Normal and tangent turned by a linear map with these rows. The normal goes with the cofactor
+/// matrix: right for any scale.
+SHUTTER_INLINE DeformedVertex turnDirections(DeformedVertex vertex, vec3 x, vec3 y, vec3 z) {
+    DeformedVertex result = vertex;
+    result.normal = vec3(
+        dot(cross(y, z), vertex.normal), dot(cross(z, x), vertex.normal), dot(cross(x, y), vertex.normal)
+    );
+    result.tangent = vec3(dot(x, vertex.tangent), dot(y, vertex.tangent), dot(z, vertex.tangent));
+    return result;
+}
+
+SHUTTER_INLINE DeformedVertex waveVertex(DeformedVertex vertex, WaveSum sum) {
+    DeformedVertex result = turnDirections(
+        vertex,
+        vec3(1.0f, 0.0f, 0.0f) + sum.rows[0],
+        vec3(0.0f, 1.0f, 0.0f) + sum.rows[1],
+        vec3(0.0f, 0.0f, 1.0f) + sum.rows[2]
+    );
+    result.position += sum.displacement;
+    return result;
+}
+
 /// The sum of a vertex's joint matrices so far, and one more.
 SHUTTER_INLINE MotionKey addJoint(MotionKey sum, MotionKey objectFromBind, float weight) {
     MotionKey result = sum;
@@ -50,19 +127,15 @@ SHUTTER_INLINE MotionKey noJoint() {
     return zero;
 }
 
-/// The normal goes with the cofactor matrix: right for any scale. Where the matrix mirrors, it points
-/// to the back of the winding, which is turned round too (EntityRow::handedness rights both).
+/// Where the matrix mirrors, the normal points to the back of the winding, which is turned round too
+/// (EntityRow::handedness rights both).
 SHUTTER_INLINE DeformedVertex skinVertex(DeformedVertex vertex, MotionKey blended) {
     vec3 x = vec3(blended.rows[0]);
     vec3 y = vec3(blended.rows[1]);
     vec3 z = vec3(blended.rows[2]);
     vec4 p = vec4(vertex.position, 1.0f);
-    DeformedVertex result;
+    DeformedVertex result = turnDirections(vertex, x, y, z);
     result.position = vec3(dot(blended.rows[0], p), dot(blended.rows[1], p), dot(blended.rows[2], p));
-    result.normal = vec3(
-        dot(cross(y, z), vertex.normal), dot(cross(z, x), vertex.normal), dot(cross(x, y), vertex.normal)
-    );
-    result.tangent = vec3(dot(x, vertex.tangent), dot(y, vertex.tangent), dot(z, vertex.tangent));
     return result;
 }
 

@@ -22,6 +22,18 @@ struct MorphDelta {
     vec4 tangent;  // xyz, the same
 };
 
+/// One wave at one instant (scene::VertexWaves), object space.
+struct WaveRow {
+    vec4 displacement; // xyz metres of a crest, w phase in radians
+    vec4 waveVector;   // xyz radians per metre
+};
+
+/// DeformJob::waveShare: what the share of its waves that a vertex follows depends on. Colour: the
+/// number of its channel is added.
+SHUTTER_CONST uint kWaveShareAll = 0u;
+SHUTTER_CONST uint kWaveShareHeight = 1u;
+SHUTTER_CONST uint kWaveShareColor = 2u;
+
 /// Groups of a dispatch in x: every device bears 65535, and y goes on.
 SHUTTER_CONST uint kDeformRow = 32768u;
 
@@ -41,7 +53,11 @@ struct DeformJob {
     uint weightStride;   // weights an instant has, targetCount or more
     uint positionsOnly;  // 1: output_ is vec4[], xyz and w 1; 0: it is Vertex[]
     uint firstGroup;     // of the dispatch; the groups of all jobs before it come first
-    uint padding0;
+    uint waveCount;      // 0: no waves
+    uvec2 waves;         // address of WaveRow[]: all waves at the first instant, then at the next
+    uint waveShare;      // kWaveShare...
+    float waveExponent;  // of the share, 1 or more
+    vec4 waveHeight;     // kWaveShareHeight: the share is dot(xyz, p) + w, clamped to [0, 1]
 };
 
 /// Push constants.
@@ -68,7 +84,8 @@ SHUTTER_SHADER_END
 #ifdef __cplusplus
 static_assert(sizeof(shutter::shader::JointInfluences) == 24);
 static_assert(sizeof(shutter::shader::MorphDelta) == 48);
-static_assert(sizeof(shutter::shader::DeformJob) == 80);
+static_assert(sizeof(shutter::shader::WaveRow) == 32);
+static_assert(sizeof(shutter::shader::DeformJob) == 112);
 static_assert(sizeof(shutter::shader::DeformBatch) == 16);
 static_assert(sizeof(shutter::shader::DeformedBoxJob) == 40);
 #endif

@@ -202,6 +202,9 @@ dvec3 bend(const scene::Primitive& rod, size_t vertex, const Deformation& pose) 
     dvec3 position(rod.positions[vertex]);
     if (!pose.morphWeights.empty())
         position += pose.morphWeights[0] * dvec3(rod.morphTargets[0].positions[vertex]);
+    const dvec3 morphed = position;
+    for (const scene::WavePose::Wave& wave : pose.waves.waves)
+        position += std::sin(wave.phase - glm::dot(wave.waveVector, morphed)) * wave.displacement;
     if (pose.objectFromBind.empty())
         return position;
     dvec4 sum(0.0);
@@ -211,12 +214,18 @@ dvec3 bend(const scene::Primitive& rod, size_t vertex, const Deformation& pose) 
     return dvec3(sum);
 }
 
-/// The second joint turns about y = 1, and the weight swings.
-Deformation deformAt(double s, double radians, double swing) {
+/// The second joint turns about y = 1, the weight swings, and a wave of `height` metres turns as it
+/// runs.
+Deformation deformAt(double s, double radians, double swing, double height = 0.0) {
     const dmat4 turned = glm::translate(dmat4(1.0), dvec3(0, 1, 0)) *
                          glm::rotate(dmat4(1.0), radians * s, dvec3(0.6, 0.0, 0.8)) *
                          glm::translate(dmat4(1.0), dvec3(0, -1, 0));
-    return {{dmat4(1.0), turned}, {swing * std::sin(5.0 * s)}};
+    Deformation pose{{dmat4(1.0), turned}, {swing * std::sin(5.0 * s)}, {}};
+    if (height != 0.0)
+        pose.waves.waves = {
+            {{height, 0.1 * s, 0.0}, {0.3 * s, 2.0, 0.0}, 6.0 * s},
+            {{0.0, 0.0, height}, dvec3(0.0), 1.0 - 4.0 * s}};
+    return pose;
 }
 
 dmat4 placed(double scale) {
@@ -263,7 +272,8 @@ TEST(DeformationKeys, ABendStaysWithinTheTolerance) {
     for (const double scale : {1.0, 0.05, 20.0})
         for (const double swing : {0.0, 0.4})
             for (const double radians : {0.05, 1.5, 3.0}) {
-                const auto shape = [&](double s) { return deformAt(s, radians, swing); };
+                const double height = radians == 1.5 ? 0.2 : 0.0;
+                const auto shape = [&](double s) { return deformAt(s, radians, swing, height); };
                 const DeformedMotion motion = compute(shape, scale);
                 ASSERT_TRUE(motion.shape.followsExactly);
                 ASSERT_GT(motion.shape.keys.size(), 1u);
@@ -276,18 +286,24 @@ TEST(DeformationKeys, ABendStaysWithinTheTolerance) {
 }
 
 TEST(DeformationKeys, AStraightMorphHasTwoKeys) {
-    EXPECT_EQ(compute([](double s) { return Deformation{{}, {2.0 * s}}; }).shape.keys.size(), 2u);
+    EXPECT_EQ(
+        compute([](double s) {
+            return Deformation{{}, {2.0 * s}, {}};
+        }).shape.keys.size(),
+        2u
+    );
 }
 
 TEST(DeformationKeys, ABoundIsNeverBelowWhatAVertexDoes) {
     const scene::Primitive rod = makeRod();
     const scene::PoseReach reach = scene::computePoseReach({&rod, 1});
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 400; ++i) {
         const double from = 0.013 * i;
-        const Deformation a = deformAt(from, 2.0, 0.7);
-        const Deformation b = deformAt(from + 0.2, 2.0, 0.7);
+        const double height = i % 2 == 0 ? 0.0 : 0.3;
+        const Deformation a = deformAt(from, 2.0, 0.7, height);
+        const Deformation b = deformAt(from + 0.2, 2.0, 0.7, height);
         const double t = std::fmod(0.37 * i, 1.0);
-        const Deformation exact = deformAt(from + 0.2 * t, 2.0, 0.7);
+        const Deformation exact = deformAt(from + 0.2 * t, 2.0, 0.7, height);
         double largest = 0.0;
         for (size_t vertex = 0; vertex < rod.positions.size(); ++vertex)
             largest = std::max(
@@ -304,7 +320,7 @@ TEST(DeformationKeys, ABoundIsNeverBelowWhatAVertexDoes) {
 }
 
 TEST(DeformationKeys, SweptBoxesHoldEveryVertexAtEveryTime) {
-    const auto shape = [](double s) { return deformAt(s, 4.0, 0.5); };
+    const auto shape = [](double s) { return deformAt(s, 4.0, 0.5, 0.4); };
     const DeformedMotion motion = compute(shape);
     const scene::Primitive rod = makeRod();
     for (int i = 0; i <= 997; ++i)
@@ -321,7 +337,7 @@ TEST(DeformationKeys, SweptBoxesHoldEveryVertexAtEveryTime) {
 }
 
 TEST(DeformationKeys, AJumpIsDrawnOutOverTheShortestInterval) {
-    const auto shape = [](double s) { return Deformation{{}, {s < 0.4 ? 0.0 : 1.0}}; };
+    const auto shape = [](double s) { return Deformation{{}, {s < 0.4 ? 0.0 : 1.0}, {}}; };
     const DeformedMotion motion = compute(shape);
     EXPECT_FALSE(motion.shape.followsExactly);
     EXPECT_EQ(motion.shape.keys.size(), kMaxDeformationIntervals + 1u);
@@ -334,7 +350,7 @@ TEST(DeformationKeys, AShapeThatIsNowhereForAWhileHasNone) {
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         const auto weights = [bad](double s) {
-            return Deformation{{}, {s > 0.4 && s < 0.6 ? bad : s}};
+            return Deformation{{}, {s > 0.4 && s < 0.6 ? bad : s}, {}};
         };
         EXPECT_FALSE(computeDeformedMotion(still, weights, reach, perspective()));
         const auto joints = [bad](double s) {

@@ -375,7 +375,7 @@ TEST(GltfInstancing, InstancesMoveWithTheirNodeAndMorphLikeIt) {
     file.add(std::vector<float>{0, 1}, kFloat, "SCALAR");
     const LoadedScene scene = expectLoads(file.load(members(
         kAll,
-        R"("mesh":0,"weights":[0.5])",
+        R"("mesh":0,"weights":[0.5],"extras":{"vertexWaves":{"exponent":2}})",
         R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}},
             {"sampler":1,"target":{"node":0,"path":"weights"}}],
             "samplers":[{"input":5,"output":6},{"input":5,"output":7}]}])"
@@ -388,6 +388,7 @@ TEST(GltfInstancing, InstancesMoveWithTheirNodeAndMorphLikeIt) {
         const auto& morph = world.registry.get<scene::MorphWeights>(entity);
         EXPECT_EQ(morph.weights, std::vector<float>{0.5f});
         EXPECT_EQ(morph.channels.size(), 1u);
+        EXPECT_EQ(world.registry.get<scene::VertexWaves>(entity).exponent, 2.0);
     }
     const dmat4 moved = scene::worldFromEntity(world, drawn[0], 1.0);
     EXPECT_EQ(dvec3(moved[3]), dvec3(101, 0, 0));
@@ -501,6 +502,66 @@ TEST(GltfMotionBlur, BadValuesAreRefusedByName) {
             loadExtras(R"({"motionBlur":{"exclude":)" + std::string(exclude) + "}}"),
             "nodes[0].extras.motionBlur.exclude"
         );
+}
+
+TEST(GltfVertexWaves, AreReadFromExtras) {
+    const LoadedScene loaded = expectLoads(loadExtras(
+        R"({"vertexWaves":{"lean":[0.1,0,0],"space":"world","share":"height","axis":[0,0,1],)"
+        R"("heldAt":0.5,"freeAt":2,"exponent":3,"waves":[{"displacement":[1,2,3],)"
+        R"("waveVector":[4,5,6],"hertz":7,"phase":8},{"hertz":1}]}})"
+    ));
+    size_t found = 0;
+    for (auto [entity, waves] : loaded.world.registry.view<scene::VertexWaves>()) {
+        ++found;
+        EXPECT_EQ(waves.lean, dvec3(0.1, 0, 0));
+        EXPECT_TRUE(waves.inWorld);
+        EXPECT_EQ(waves.share, scene::WaveShare::Height);
+        EXPECT_EQ(waves.axis, dvec3(0, 0, 1));
+        EXPECT_EQ(waves.heldAt, 0.5);
+        EXPECT_EQ(waves.freeAt, 2.0);
+        EXPECT_EQ(waves.exponent, 3.0);
+        ASSERT_EQ(waves.waves.size(), 2u);
+        EXPECT_EQ(waves.waves[0].displacement, dvec3(1, 2, 3));
+        EXPECT_EQ(waves.waves[0].waveVector, dvec3(4, 5, 6));
+        EXPECT_EQ(waves.waves[0].hertz, 7.0);
+        EXPECT_EQ(waves.waves[0].phase, 8.0);
+        EXPECT_EQ(waves.waves[1].displacement, dvec3(0.0));
+    }
+    EXPECT_EQ(found, 1u);
+    EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(GltfVertexWaves, BadValuesAreRefusedByName) {
+    const std::string at = "nodes[0].extras.vertexWaves";
+    std::string many = R"({"hertz":1})";
+    for (int i = 0; i < 16; ++i)
+        many += R"(,{"hertz":1})";
+    expectRefused(loadExtras(R"({"vertexWaves":{"waves":[)" + many + "]}}"), "17 waves");
+    for (const auto& [json, part] : std::initializer_list<std::pair<const char*, const char*>>{
+             {R"(3)", ""},
+             {R"({"waves":{"a":1}})", ".waves"},
+             {R"({"waves":[1]})", ".waves[0]"},
+             {R"({"waves":[{"hertz":-1}]})", "waves[0].hertz"},
+             {R"({"waves":[{"displacement":[1,2]}]})", ".waves[0].displacement"},
+             {R"({"space":"view"})", ".space"},
+             {R"({"share":"weight"})", ".share"},
+             {R"({"share":"color","channel":4})", "channel"},
+             {R"({"share":"height","axis":[0,0,0]})", "axis"},
+             {R"({"exponent":0})", "exponent"}}) {
+        const auto load = [&] {
+            return loadExtras(R"({"vertexWaves":)" + std::string(json) + "}");
+        };
+        expectRefused(load(), at);
+        expectRefused(load(), part);
+    }
+}
+
+TEST(GltfVertexWaves, UnknownMembersAreWarnedOf) {
+    const LoadedScene loaded =
+        expectLoads(loadExtras(R"({"vertexWaves":{"speed":1,"waves":[{"amplitude":2}]}})"));
+    ASSERT_EQ(loaded.warnings.size(), 2u);
+    EXPECT_NE(loaded.warnings[0].find("'speed'"), std::string::npos);
+    EXPECT_NE(loaded.warnings[1].find("waves[0] has a member 'amplitude'"), std::string::npos);
 }
 
 } // namespace

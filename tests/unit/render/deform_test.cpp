@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shader's skinning and morphing against double precision.
+// The shader's skinning, morphing and waves against double precision.
 #include "engine/extract/motion_keys.h"
 #include "engine/math/math.h"
 #include "shaders/render/deform.glsl"
@@ -102,6 +102,71 @@ TEST(Deform, MorphTargetsAddUpBeforeTheSkin) {
     const DeformedVertex skinned = finishVertex(skinVertex(morphed, extract::makeKey(turn)));
     EXPECT_LT(distance(skinned.position, dvec3(turn * dvec4(1.5, 1.5, 3, 1))), 1e-6);
     EXPECT_NEAR(glm::length(skinned.normal), 1.0f, 1e-6f);
+}
+
+DeformJob makeWaveJob(uint share, float exponent) {
+    DeformJob job{};
+    job.waveShare = share;
+    job.waveExponent = exponent;
+    job.waveHeight = vec4(0.0f, 0.5f, 0.1f, 0.2f);
+    return job;
+}
+
+vec3 waveAt(const DeformJob& job, const WaveRow& row, const vec3& position) {
+    const WaveShareAt at = findWaveShare(job, position, vec4(0.25f));
+    return waveVertex(
+               {position, vec3(0, 0, 1), vec3(1, 0, 0)}, addWave(noWave(), row, at, position)
+    )
+        .position;
+}
+
+TEST(DeformWaves, TurnNormalsAndTangentsAsTheSurfaceTurns) {
+    const WaveRow row{vec4(0.1f, 0.05f, 0.3f, 0.4f), vec4(2.0f, 1.0f, -0.5f, 0.0f)};
+    for (const uint share : {kWaveShareAll, kWaveShareHeight})
+        for (const vec3& position : {vec3(0.1f, 0.6f, 0.2f), vec3(-0.4f, 1.0f, -0.3f)}) {
+            const DeformJob job = makeWaveJob(share, 2.0f);
+            const WaveShareAt at = findWaveShare(job, position, vec4(1.0f));
+            const DeformedVertex waved = finishVertex(waveVertex(
+                {position, vec3(0, 0, 1), vec3(1, 0, 0)}, addWave(noWave(), row, at, position)
+            ));
+            const float step = 1e-2f;
+            const auto along = [&](const vec3& way) {
+                return (waveAt(job, row, position + step * way) -
+                        waveAt(job, row, position - step * way)) /
+                       (2.0f * step);
+            };
+            const vec3 x = along({1, 0, 0});
+            const vec3 y = along({0, 1, 0});
+            EXPECT_LT(distance(waved.tangent, dvec3(glm::normalize(x))), 1e-3);
+            EXPECT_LT(distance(waved.normal, dvec3(glm::normalize(glm::cross(x, y)))), 1e-3);
+        }
+}
+
+TEST(DeformWaves, AShareOfHeightIsHeldBelowAndFreeAbove) {
+    const DeformJob job = makeWaveJob(kWaveShareHeight, 3.0f);
+    EXPECT_EQ(findWaveShare(job, vec3(0, -0.4f, 0), vec4(1)).share, 0.0f);
+    EXPECT_EQ(findWaveShare(job, vec3(0, 1.7f, 0), vec4(1)).share, 1.0f);
+    EXPECT_EQ(findWaveShare(job, vec3(0, 1.7f, 0), vec4(1)).gradient, vec3(0.0f));
+    EXPECT_NEAR(findWaveShare(job, vec3(0, 0.6f, 0), vec4(1)).share, 0.125f, 1e-6f);
+    EXPECT_EQ(findWaveShare(job, vec3(kNotANumber, 0, 0), vec4(1)).share, 0.0f);
+    EXPECT_EQ(findWaveShare(job, vec3(0, kInfinite, 0), vec4(1)).share, 1.0f);
+}
+
+TEST(DeformWaves, AShareOfColorIsItsChannelWithinZeroAndOne) {
+    const vec4 color(0.5f, -1.0f, 7.0f, kNotANumber);
+    const float expected[] = {0.25f, 0.0f, 1.0f, 0.0f};
+    for (uint channel = 0; channel < 4; ++channel)
+        EXPECT_EQ(
+            findWaveShare(makeWaveJob(kWaveShareColor + channel, 2.0f), vec3(0), color).share,
+            expected[channel]
+        ) << channel;
+}
+
+TEST(DeformWaves, ManyTurnsFromTheOriginAreTheSineOfTheRest) {
+    const DeformJob job = makeWaveJob(kWaveShareAll, 1.0f);
+    const WaveRow row{vec4(0, 0, 1, 0.5f), vec4(6.2831853f, 0, 0, 0)};
+    EXPECT_NEAR(waveAt(job, row, vec3(-100, 0, 0)).z, std::sin(0.5f), 1e-3f);
+    EXPECT_TRUE(isFiniteVector(waveAt(job, row, vec3(1e30f, 0, 0))));
 }
 
 TEST(Deform, WhatHasNoDirectionIsZero) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -271,6 +272,109 @@ TEST_F(Morphed, WeightsOfAnotherCountAreAProgrammersMistake) {
     EXPECT_DEATH((void)weightsAt(0.0), "targetCount");
 }
 
+class Waving : public testing::Test {
+  protected:
+    Waving() {
+        mEntity = mWorld.registry.create();
+        mWorld.registry.add(
+            mEntity,
+            LocalTransform{{{3.0, 0.0, 0.0}, glm::angleAxis(1.1, dvec3(0, 1, 0)), dvec3(2.0)}}
+        );
+        mWaves.waves = {{{0.3, 0.1, 0.0}, {1.5, 0.0, 0.4}, 2.0, 0.7}};
+    }
+
+    [[nodiscard]] WavePose poseAt(double seconds) {
+        mWorld.registry.remove<VertexWaves>(mEntity);
+        mWorld.registry.add(mEntity, mWaves);
+        return deformationAt(mWorld, mEntity, seconds).waves;
+    }
+
+    World mWorld;
+    ecs::Entity mEntity;
+    VertexWaves mWaves;
+};
+
+TEST_F(Waving, RunsByItsFrequencyAndLeansConstantly) {
+    mWaves.lean = {0.0, 0.0, 0.5};
+    for (const double seconds : {-1.3, 0.0, 0.2, 7.0}) {
+        const WavePose pose = poseAt(seconds);
+        ASSERT_EQ(pose.waves.size(), 2u);
+        EXPECT_EQ(std::sin(pose.waves[0].phase), 1.0);
+        EXPECT_EQ(pose.waves[0].displacement, mWaves.lean);
+        EXPECT_NEAR(
+            std::sin(pose.waves[1].phase), std::sin(4.0 * std::numbers::pi * seconds + 0.7), 1e-12
+        );
+    }
+    EXPECT_TRUE(isDeformable(mWorld, mEntity));
+    EXPECT_TRUE(mayDeform(mWorld, mEntity));
+    EXPECT_FALSE(mayObjectMove(mWorld, mEntity));
+}
+
+TEST_F(Waving, AfterAYearIsAsPreciseAsInTheFirstSecond) {
+    const double year = 365.0 * 86400.0;
+    EXPECT_NEAR(poseAt(year + 0.125).waves[0].phase, poseAt(0.125).waves[0].phase, 1e-6);
+}
+
+TEST_F(Waving, InTheWorldTheEntitysPlaceAndTurnDoNotMatter) {
+    mWaves.inWorld = true;
+    const double seconds = 0.3;
+    const WavePose pose = poseAt(seconds);
+    const dmat4 world = worldFromEntity(mWorld, mEntity, seconds);
+    const dvec3 point(0.4, -0.2, 0.9);
+    const WavePose::Wave& one = pose.waves.at(0);
+    const dvec3 moved = dvec3(
+        world * dvec4(std::sin(one.phase - glm::dot(one.waveVector, point)) * one.displacement, 0.0)
+    );
+    const dvec3 place = transformPoint(world, point);
+    const double phase =
+        4.0 * std::numbers::pi * seconds + 0.7 - glm::dot(mWaves.waves[0].waveVector, place);
+    expectSame(moved, std::sin(phase) * mWaves.waves[0].displacement);
+}
+
+TEST_F(Waving, InTheWorldAMovingEntityDeformsThoughNothingRuns) {
+    mWaves.waves[0].hertz = 0.0;
+    (void)poseAt(0.0);
+    mWorld.registry.add(mEntity, LinearVelocity{{1, 0, 0}});
+    EXPECT_FALSE(mayDeform(mWorld, mEntity));
+    mWaves.inWorld = true;
+    (void)poseAt(0.0);
+    EXPECT_TRUE(mayDeform(mWorld, mEntity));
+}
+
+TEST_F(Waving, InTheWorldAFlattenedEntityDoesNotWave) {
+    mWaves.inWorld = true;
+    mWorld.registry.get<LocalTransform>(mEntity).transform.scale = {1.0, 0.0, 1.0};
+    const WavePose pose = poseAt(0.3);
+    EXPECT_EQ(pose.waves.at(0).displacement, dvec3(0.0));
+    EXPECT_TRUE(isFinite(pose));
+}
+
+TEST_F(Waving, WhatNoVertexCanFollowIsRefusedByName) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto expectNamed = [&](const char* part, auto change) {
+        VertexWaves changed = mWaves;
+        changed.share = WaveShare::Height;
+        EXPECT_TRUE(validateWaves(changed).ok());
+        change(changed);
+        const core::Status status = validateWaves(changed);
+        ASSERT_FALSE(status.ok()) << part;
+        EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
+    };
+    expectNamed("17 waves", [](VertexWaves& w) { w.waves.resize(17); });
+    expectNamed("lean", [&](VertexWaves& w) { w.lean.y = nan; });
+    expectNamed("waves[0].displacement", [](VertexWaves& w) { w.waves[0].displacement.z = 2e6; });
+    expectNamed("waves[0].waveVector", [&](VertexWaves& w) { w.waves[0].waveVector.x = nan; });
+    expectNamed("waves[0].hertz", [](VertexWaves& w) { w.waves[0].hertz = -1.0; });
+    expectNamed("waves[0].phase", [&](VertexWaves& w) { w.waves[0].phase = nan; });
+    expectNamed("exponent", [](VertexWaves& w) { w.exponent = 0.5; });
+    expectNamed("axis", [](VertexWaves& w) { w.axis = dvec3(0.0); });
+    expectNamed("held at", [](VertexWaves& w) { w.freeAt = w.heldAt; });
+    expectNamed("channel", [](VertexWaves& w) {
+        w.share = WaveShare::Color;
+        w.channel = 4;
+    });
+}
+
 constexpr size_t kJointCount = 5;
 constexpr size_t kTargetCount = 3;
 
@@ -305,7 +409,29 @@ Primitive makePrimitive(Random& random, size_t vertexCount) {
     return primitive;
 }
 
-Deformation drawPose(Random& random, bool isSkinned, bool isMorphed) {
+WavePose drawWaves(Random& random) {
+    WavePose pose;
+    pose.shares.share = WaveShare::Height;
+    pose.shares.height = dvec4(drawVec3(random, 1.0), draw(random, -1.0, 1.0));
+    pose.shares.exponent = draw(random, 1.0, 4.0);
+    for (int i = 0; i < 3; ++i)
+        pose.waves.push_back({drawVec3(random, 2.0), drawVec3(random, 3.0), draw(random, -3.0, 3.0)}
+        );
+    return pose;
+}
+
+/// VertexWaves, written out for a share of height.
+dvec3 wave(const dvec3& position, const WavePose& pose) {
+    const double height = glm::dot(dvec3(pose.shares.height), position) + pose.shares.height.w;
+    const double share = std::pow(std::clamp(height, 0.0, 1.0), pose.shares.exponent);
+    dvec3 displaced = position;
+    for (const WavePose::Wave& one : pose.waves)
+        displaced +=
+            share * std::sin(one.phase - glm::dot(one.waveVector, position)) * one.displacement;
+    return displaced;
+}
+
+Deformation drawPose(Random& random, bool isSkinned, bool isMorphed, bool isWaving) {
     Deformation pose;
     for (size_t i = 0; isSkinned && i < kJointCount; ++i) {
         const dvec3 axis = glm::normalize(drawVec3(random, 1.0) + dvec3(0.0, 2.0, 0.0));
@@ -317,6 +443,8 @@ Deformation drawPose(Random& random, bool isSkinned, bool isMorphed) {
     }
     for (size_t i = 0; isMorphed && i < kTargetCount; ++i)
         pose.morphWeights.push_back(draw(random, -2.0, 2.0));
+    if (isWaving)
+        pose.waves = drawWaves(random);
     return pose;
 }
 
@@ -328,6 +456,7 @@ dvec3 deform(const Primitive& primitive, size_t vertex, const Deformation& pose)
         if (!deltas.empty())
             morphed += pose.morphWeights[t] * dvec3(deltas[vertex]);
     }
+    morphed = wave(morphed, pose.waves);
     if (pose.objectFromBind.empty())
         return morphed;
     dvec3 skinned(0.0);
@@ -351,7 +480,7 @@ TEST(DeformedBounds, HoldEveryVertexOfRandomPoses) {
     const PoseReach reach = computePoseReach(primitives);
     for (int i = 0; i < 200; ++i) {
         for (const bool isSkinned : {false, true}) {
-            const Deformation pose = drawPose(random, isSkinned, i % 2 == 0);
+            const Deformation pose = drawPose(random, isSkinned, i % 2 == 0, i % 3 == 0);
             const Bounds bounds = computeDeformedBounds(reach, pose);
             for (const Primitive& primitive : primitives) {
                 for (size_t v = 0; v < primitive.positions.size(); ++v)
