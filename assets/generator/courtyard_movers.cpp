@@ -100,7 +100,7 @@ void addCart(GltfWriter& writer, const CourtyardSurfaces& surfaces) {
     );
     const std::array times = {0.0f, 1.0f};
     const std::array places = {start, start + kX * kSpeed};
-    writer.addTranslationClip("wheel_cart_linear", cart, times, places);
+    writer.addTranslations(writer.addClip("wheel_cart_linear"), cart, times, places);
 }
 
 /// Things that are thrown through the yard.

@@ -163,7 +163,7 @@ void addCameras(GltfWriter& writer) {
     );
     const std::array times = {0.0f, 1.0f};
     const std::array turns = {first, last};
-    writer.addRotationClip("camera_pan_linear", pan, times, turns);
+    writer.addRotations(writer.addClip("camera_pan_linear"), pan, times, turns);
 }
 
 } // namespace

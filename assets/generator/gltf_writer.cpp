@@ -19,7 +19,7 @@ using nlohmann::json;
 
 // glTF is little endian and we copy arrays as they lie in memory.
 static_assert(std::endian::native == std::endian::little);
-static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8);
+static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec2) == 8 && sizeof(glm::u16vec4) == 8);
 
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
@@ -43,8 +43,12 @@ json toJson(glm::quat q) {
     return json::array({q.x, q.y, q.z, q.w});
 }
 
-template <typename Vector> std::span<const float> asFloats(const std::vector<Vector>& values) {
+template <typename Vector> std::span<const float> asFloats(std::span<const Vector> values) {
     return {&values.front()[0], values.size() * (sizeof(Vector) / sizeof(float))};
+}
+
+template <typename Vector> std::span<const float> asFloats(const std::vector<Vector>& values) {
+    return asFloats(std::span<const Vector>(values));
 }
 
 void putWord(std::string& out, size_t value) {
@@ -149,26 +153,74 @@ Index GltfWriter::addMaterial(const MaterialDesc& material) {
         surface["baseColorTexture"] = {{"index", material.texture}};
     }
     json entry = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
+    if (material.doubleSided) {
+        entry["doubleSided"] = true;
+    }
     if (material.emissive != glm::vec3(0.0f)) {
         entry["emissiveFactor"] = toJson(material.emissive);
     }
     return addEntry(mRoot["materials"], entry);
 }
 
+json GltfWriter::addAttributes(const Shape& shape) {
+    json attributes = {
+        {"POSITION", addFloats(asFloats(shape.positions), 3, kArrayBuffer, true)},
+        {"NORMAL", addFloats(asFloats(shape.normals), 3, kArrayBuffer, false)},
+        {"TEXCOORD_0", addFloats(asFloats(shape.uvs), 2, kArrayBuffer, false)}};
+    if (!shape.joints.empty()) {
+        const Index view = addView(shape.joints.data(), shape.joints.size() * 8, kArrayBuffer);
+        attributes["JOINTS_0"] = addEntry(
+            mRoot["accessors"],
+            {{"bufferView", view},
+             {"componentType", kUnsignedShort},
+             {"count", shape.joints.size()},
+             {"type", "VEC4"}}
+        );
+        attributes["WEIGHTS_0"] = addFloats(asFloats(shape.weights), 4, kArrayBuffer, false);
+    }
+    if (!shape.slack.empty()) {
+        std::vector<glm::vec4> colors;
+        for (const float slack : shape.slack)
+            colors.emplace_back(1.0f, 1.0f, 1.0f, slack);
+        attributes["COLOR_0"] = addFloats(asFloats(colors), 4, kArrayBuffer, false);
+    }
+    return attributes;
+}
+
 Index GltfWriter::addMesh(const std::string& name, std::span<const MeshPart> parts) {
     json primitives = json::array();
     for (const MeshPart& part : parts) {
-        const Shape& shape = part.shape;
-        primitives.push_back(
-            {{"attributes",
-              {{"POSITION", addFloats(asFloats(shape.positions), 3, kArrayBuffer, true)},
-               {"NORMAL", addFloats(asFloats(shape.normals), 3, kArrayBuffer, false)},
-               {"TEXCOORD_0", addFloats(asFloats(shape.uvs), 2, kArrayBuffer, false)}}},
-             {"indices", addIndices(shape.indices)},
-             {"material", part.material}}
-        );
+        json primitive = {
+            {"attributes", addAttributes(part.shape)},
+            {"indices", addIndices(part.shape.indices)},
+            {"material", part.material}};
+        for (const std::vector<glm::vec3>& target : part.targets)
+            primitive["targets"].push_back(
+                {{"POSITION", addFloats(asFloats(target), 3, kArrayBuffer, true)}}
+            );
+        primitives.push_back(primitive);
     }
     return addEntry(mRoot["meshes"], {{"name", name}, {"primitives", primitives}});
+}
+
+Index GltfWriter::addSkin(
+    const std::string& name, std::span<const Index> joints, std::span<const glm::mat4> jointFromBind
+) {
+    const std::span<const float> values(&jointFromBind.front()[0][0], jointFromBind.size() * 16);
+    const Index view = addView(values.data(), values.size_bytes(), kNoTarget);
+    const Index matrices = addEntry(
+        mRoot["accessors"],
+        {{"bufferView", view},
+         {"componentType", kFloat},
+         {"count", jointFromBind.size()},
+         {"type", "MAT4"}}
+    );
+    return addEntry(
+        mRoot["skins"],
+        {{"name", name},
+         {"joints", std::vector<Index>(joints.begin(), joints.end())},
+         {"inverseBindMatrices", matrices}}
+    );
 }
 
 Index GltfWriter::addCamera(const std::string& name, float yFov, float nearMetres) {
@@ -201,6 +253,12 @@ Index GltfWriter::addNode(const NodeDesc& node) {
     if (node.mesh != kNothing) {
         entry["mesh"] = node.mesh;
     }
+    if (node.skin != kNothing) {
+        entry["skin"] = node.skin;
+    }
+    if (!node.waves.is_null()) {
+        entry["extras"]["vertexWaves"] = node.waves;
+    }
     if (node.camera != kNothing) {
         entry["camera"] = node.camera;
     }
@@ -226,41 +284,56 @@ Index GltfWriter::addNode(const NodeDesc& node) {
     return index;
 }
 
-void GltfWriter::addTranslationClip(
-    const std::string& name,
-    Index node,
-    std::span<const float> times,
-    std::span<const glm::vec3> translations
-) {
-    const std::vector<glm::vec3> values(translations.begin(), translations.end());
-    addClip(name, node, "translation", times, addFloats(asFloats(values), 3, kNoTarget, false));
+Index GltfWriter::addClip(const std::string& name) {
+    return addEntry(
+        mRoot["animations"],
+        {{"name", name}, {"samplers", json::array()}, {"channels", json::array()}}
+    );
 }
 
-void GltfWriter::addRotationClip(
-    const std::string& name,
-    Index node,
-    std::span<const float> times,
-    std::span<const glm::quat> rotations
+void GltfWriter::addTranslations(
+    Index clip, Index node, std::span<const float> times, std::span<const glm::vec3> values
 ) {
-    std::vector<glm::vec4> values;
-    for (const glm::quat& q : rotations) {
-        values.emplace_back(q.x, q.y, q.z, q.w);
-    }
-    addClip(name, node, "rotation", times, addFloats(asFloats(values), 4, kNoTarget, false));
+    addChannel(clip, node, "translation", times, addFloats(asFloats(values), 3, kNoTarget, false));
 }
 
-void GltfWriter::addClip(
-    const std::string& name,
-    Index node,
-    const char* path,
-    std::span<const float> times,
-    Index output
+void GltfWriter::addRotations(
+    Index clip, Index node, std::span<const float> times, std::span<const glm::quat> values
+) {
+    std::vector<glm::vec4> ordered;
+    for (const glm::quat& q : values)
+        ordered.emplace_back(q.x, q.y, q.z, q.w);
+    addChannel(
+        clip,
+        node,
+        "rotation",
+        times,
+        addFloats(asFloats(std::span<const glm::vec4>(ordered)), 4, kNoTarget, false)
+    );
+}
+
+void GltfWriter::addScales(
+    Index clip, Index node, std::span<const float> times, std::span<const glm::vec3> values
+) {
+    addChannel(clip, node, "scale", times, addFloats(asFloats(values), 3, kNoTarget, false));
+}
+
+void GltfWriter::addWeights(
+    Index clip, Index node, std::span<const float> times, std::span<const float> values
+) {
+    addChannel(clip, node, "weights", times, addFloats(values, 1, kNoTarget, false));
+}
+
+void GltfWriter::addChannel(
+    Index clip, Index node, const char* path, std::span<const float> times, Index output
 ) {
     const Index input = addFloats(times, 1, kNoTarget, true);
-    const json sampler = {{"input", input}, {"output", output}, {"interpolation", "LINEAR"}};
-    const json channel = {{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}};
-    mRoot["animations"].push_back(
-        {{"name", name}, {"samplers", json::array({sampler})}, {"channels", json::array({channel})}}
+    json& animation = mRoot["animations"][static_cast<size_t>(clip)];
+    const Index sampler = addEntry(
+        animation["samplers"], {{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}
+    );
+    animation["channels"].push_back(
+        {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}}
     );
 }
 

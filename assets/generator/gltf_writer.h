@@ -29,11 +29,14 @@ struct MaterialDesc {
     float metallic = 0.0f;    ///< [0, 1]
     float roughness = 0.8f;   ///< [0, 1]
     glm::vec3 emissive{0.0f}; ///< linear, [0, 1]
+    bool doubleSided = false;
 };
 
 struct MeshPart {
     Shape shape;
     Index material = kNothing;
+    /// Morph targets, as many in every part of a mesh: what each adds to each vertex, metres.
+    std::vector<std::vector<glm::vec3>> targets{};
 };
 
 /// Exactly one of the two kinds of KHR_lights_punctual we use.
@@ -49,10 +52,12 @@ struct NodeDesc {
     glm::vec3 translation{0.0f};                ///< metres
     glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f}; ///< unit; identity for nodes that have a velocity
     Index mesh = kNothing;
+    Index skin = kNothing; ///< places the node: its own transform has no meaning then
     Index camera = kNothing;
     Index light = kNothing;
     std::optional<glm::vec3> linearVelocity{};  ///< m/s, node space
     std::optional<glm::vec3> angularVelocity{}; ///< rad/s, node space, about the node's origin
+    nlohmann::json waves{}; ///< extras.vertexWaves (engine/gltf/README.md); null: none
 };
 
 /// Collects one scene and writes it as a single binary glTF 2.0 file.
@@ -70,19 +75,28 @@ class GltfWriter {
     /// The parent must have been added before.
     Index addNode(const NodeDesc& node);
 
-    /// Clips of one channel with LINEAR interpolation; one value a time. \param times seconds
-    void addTranslationClip(
+    /// \param joints nodes, added before \param jointFromBind inverse bind matrices, one per joint
+    Index addSkin(
         const std::string& name,
-        Index node,
-        std::span<const float> times,
-        std::span<const glm::vec3> translations
+        std::span<const Index> joints,
+        std::span<const glm::mat4> jointFromBind
     );
-    void addRotationClip(
-        const std::string& name,
-        Index node,
-        std::span<const float> times,
-        std::span<const glm::quat> rotations
+
+    /// An animation without channels yet.
+    Index addClip(const std::string& name);
+    // Channels with LINEAR interpolation; one value per time, of weights one per morph target too.
+    // Times are in seconds and rise.
+    void addTranslations(
+        Index clip, Index node, std::span<const float> times, std::span<const glm::vec3> values
     );
+    void addRotations(
+        Index clip, Index node, std::span<const float> times, std::span<const glm::quat> values
+    );
+    void addScales(
+        Index clip, Index node, std::span<const float> times, std::span<const glm::vec3> values
+    );
+    void
+    addWeights(Index clip, Index node, std::span<const float> times, std::span<const float> values);
 
     /// Empty when written; else one sentence that names the file or the texture at fault.
     [[nodiscard]] std::string write(const std::filesystem::path& path) const;
@@ -91,13 +105,11 @@ class GltfWriter {
     Index addView(const void* data, size_t byteCount, int target);
     Index addFloats(std::span<const float> values, int componentCount, int target, bool withBounds);
     Index addIndices(std::span<const uint32_t> indices);
-    void addClip(
-        const std::string& name,
-        Index node,
-        const char* path,
-        std::span<const float> times,
-        Index output
+    void addChannel(
+        Index clip, Index node, const char* path, std::span<const float> times, Index output
     );
+    /// POSITION, NORMAL, TEXCOORD_0 and what deforms.
+    nlohmann::json addAttributes(const Shape& shape);
 
     nlohmann::json mRoot;
     std::vector<uint8_t> mBuffer;

@@ -148,6 +148,58 @@ std::vector<BenchCase> makeCases() {
             kOpenSky,
             {22.0f, 34.0f}
         ),
+        makeCase(
+            "walking_figure",
+            "Walking figure",
+            "A person walks past: limbs swing against the body and bend, so that nothing of it "
+            "moves as a rigid body does",
+            &buildWalkingFigureCase,
+            kYardSky,
+            {9.0f, 14.0f}
+        ),
+        makeCase(
+            "running_figure_pan",
+            "Running figure, camera pans along",
+            "A person runs and the camera turns with it: the yard streaks by behind limbs that "
+            "swing both ways",
+            &buildRunningFigureCase,
+            kYardSky,
+            {18.0f, 26.0f}
+        ),
+        makeCase(
+            "morphing_ball",
+            "Morphing ball",
+            "A ball grows spikes by morph targets while it stays in its place: every pixel of its "
+            "silhouette moves outwards in another direction",
+            &buildMorphCase,
+            kYardSky,
+            {48.0f, 80.0f}
+        ),
+        makeCase(
+            "waving_flag",
+            "Waving flag",
+            "A flag in a storm: folds run through it, hide one another and change within a tile",
+            &buildFlagCase,
+            kYardSky,
+            {15.0f, 26.0f}
+        ),
+        makeCase(
+            "whip",
+            "Whip",
+            "A chain of joints curls over so fast that its tip turns by 120 degrees in an exposure",
+            &buildWhipCase,
+            kYardSky,
+            {230.0f, 270.0f}
+        ),
+        makeCase(
+            "collapsing_limb",
+            "Collapsing limb",
+            "An arm of a walking person is scaled to nothing within the exposure, as games hide "
+            "limbs: at shutter close no surface of it is left",
+            &buildCollapseCase,
+            kYardSky,
+            {7.0f, 13.0f}
+        ),
     };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Twelve scenes, each made to be hard for motion blur in one way that the literature names.
+// Eighteen scenes, each made to be hard for motion blur in one way that the literature names.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -47,5 +47,11 @@ struct BenchCase {
 [[nodiscard]] GltfWriter buildSelfOverlapCase();
 [[nodiscard]] GltfWriter buildThinGeometryCase();
 [[nodiscard]] GltfWriter buildSkyHorizonCase();
+[[nodiscard]] GltfWriter buildWalkingFigureCase();
+[[nodiscard]] GltfWriter buildRunningFigureCase();
+[[nodiscard]] GltfWriter buildMorphCase();
+[[nodiscard]] GltfWriter buildFlagCase();
+[[nodiscard]] GltfWriter buildWhipCase();
+[[nodiscard]] GltfWriter buildCollapseCase();
 
 } // namespace shutter::generator

@@ -112,7 +112,7 @@ std::array<MeshPart, 2> tree(float height, int seed, Index bark, Index leaf) {
 }
 
 /// Grass with mown stripes, flowers and bare patches.
-Picture meadow() {
+Picture meadowTexture() {
     return paint(512, 512, [](vec2 uv) {
         const float blades = noise(uv * 96.0f, {96, 96}, 141);
         const float patch = fractalNoise(uv * 6.0f, {6, 6}, 142);
@@ -158,7 +158,7 @@ void addCountry(GltfWriter& writer) {
         writer,
         {.name = "meadow", .translation = {0.0f, -0.5f, 0.0f}},
         box({600.0f, 0.5f, 600.0f}, 9.0f),
-        addTextured(writer, "meadow", meadow(), 1.0f)
+        addTextured(writer, "meadow", meadowTexture(), 1.0f)
     );
     addObject(
         writer,

@@ -58,14 +58,14 @@ void addSteadyTranslation(
     GltfWriter& writer, const char* name, Index node, glm::vec3 place, glm::vec3 velocity
 ) {
     const std::array places = {place - velocity * kSeconds, place + velocity * kSeconds};
-    writer.addTranslationClip(name, node, kClipTimes, places);
+    writer.addTranslations(writer.addClip(name), node, kClipTimes, places);
 }
 
 void addSteadyYaw(GltfWriter& writer, const char* name, Index node, float yaw, float turn) {
     const glm::vec3 up(0, 1, 0);
     const std::array turns = {
         glm::angleAxis(yaw - turn * kSeconds, up), glm::angleAxis(yaw + turn * kSeconds, up)};
-    writer.addRotationClip(name, node, kClipTimes, turns);
+    writer.addRotations(writer.addClip(name), node, kClipTimes, turns);
 }
 
 glm::vec3 startFor(glm::vec3 place, glm::vec3 velocity) {

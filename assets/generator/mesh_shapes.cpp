@@ -41,6 +41,9 @@ void append(Shape& shape, const Shape& added, const glm::mat4& transform) {
     for (const uint32_t index : added.indices) {
         shape.indices.push_back(static_cast<uint32_t>(base) + index);
     }
+    shape.joints.insert(shape.joints.end(), added.joints.begin(), added.joints.end());
+    shape.weights.insert(shape.weights.end(), added.weights.begin(), added.weights.end());
+    shape.slack.insert(shape.slack.end(), added.slack.begin(), added.slack.end());
 }
 
 void smoothNormals(Shape& shape) {

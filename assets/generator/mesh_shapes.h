@@ -16,7 +16,12 @@ struct Shape {
     std::vector<glm::vec3> positions; ///< metres, about the shape's own pivot
     std::vector<glm::vec3> normals;   ///< unit length
     std::vector<glm::vec2> uvs;
-    std::vector<uint32_t> indices; ///< three a triangle
+    std::vector<uint32_t> indices; ///< three per triangle
+
+    // What of a shape deforms. Each is empty or has one element per vertex.
+    std::vector<glm::u16vec4> joints; ///< of the node's skin; with weights
+    std::vector<glm::vec4> weights;   ///< of the joints, their sum is 1
+    std::vector<float> slack;         ///< share of waves that the vertex follows, [0, 1]
 };
 
 void addVertex(Shape& shape, glm::vec3 position, glm::vec3 normal, glm::vec2 uv);
@@ -24,7 +29,8 @@ void addVertex(Shape& shape, glm::vec3 position, glm::vec3 normal, glm::vec2 uv)
 /// A triangle of three vertices of the shape, counter-clockwise.
 void addTriangle(Shape& shape, size_t a, size_t b, size_t c);
 
-/// Adds `added`, moved by `transform` (no mirroring: it would turn the winding round).
+/// Adds `added`, moved by `transform` (no mirroring: it would turn the winding round). Both or
+/// neither have joints and slack, unless the shape is empty.
 void append(Shape& shape, const Shape& added, const glm::mat4& transform = glm::mat4(1.0f));
 
 /// Replaces the normals by area-weighted averages over the triangles that share a vertex; a vertex
@@ -90,6 +96,10 @@ helix(float radius, float height, float turnCount, int spanCount);
 
 /// A rectangle in the XY plane that faces +Z, centred; not a solid. uv in tiles of `tileMetres`.
 [[nodiscard]] Shape sheet(glm::vec2 halfExtents, float tileMetres);
+
+/// A sheet of `cells` quads across and up, to be bent; its slack grows from 0 at its left edge to 1
+/// at its right one.
+[[nodiscard]] Shape cloth(glm::vec2 halfExtents, glm::ivec2 cells, float tileMetres);
 
 /// A spoked wheel about Z: rim, `spokeCount` thin spokes and a hub.
 struct WheelSize {

@@ -57,24 +57,10 @@ float reliefHeight(vec2 place) {
 }
 
 Shape relief(vec2 halfExtents, int columnCount, int rowCount) {
-    Shape shape;
-    for (int row = 0; row <= rowCount; ++row) {
-        for (int column = 0; column <= columnCount; ++column) {
-            const vec2 along = vec2(column, row) / vec2(columnCount, rowCount);
-            const vec2 place = halfExtents * (along * 2.0f - 1.0f);
-            addVertex(
-                shape, vec3(place, reliefHeight(place)), {0, 0, 1}, vec2(place.x, -place.y) / 1.12f
-            );
-        }
-    }
-    const auto width = static_cast<size_t>(columnCount) + 1;
-    for (size_t row = 0; row < static_cast<size_t>(rowCount); ++row) {
-        for (size_t column = 0; column + 1 < width; ++column) {
-            const size_t a = row * width + column;
-            addTriangle(shape, a, a + 1, a + width + 1);
-            addTriangle(shape, a, a + width + 1, a + width);
-        }
-    }
+    Shape shape = cloth(halfExtents, {columnCount, rowCount}, 1.12f);
+    shape.slack.clear();
+    for (vec3& position : shape.positions)
+        position.z = reliefHeight(position);
     smoothNormals(shape);
     return shape;
 }

@@ -158,4 +158,23 @@ Shape sheet(vec2 halfExtents, float tileMetres) {
     return shape;
 }
 
+Shape cloth(vec2 halfExtents, glm::ivec2 cells, float tileMetres) {
+    Shape shape;
+    for (int row = 0; row <= cells.y; ++row)
+        for (int column = 0; column <= cells.x; ++column) {
+            const vec2 along = vec2(column, row) / vec2(cells);
+            const vec2 place = halfExtents * (along * 2.0f - 1.0f);
+            addVertex(shape, vec3(place, 0.0f), {0, 0, 1}, vec2(place.x, -place.y) / tileMetres);
+            shape.slack.push_back(along.x);
+        }
+    const auto width = static_cast<size_t>(cells.x) + 1;
+    for (size_t row = 0; row < static_cast<size_t>(cells.y); ++row)
+        for (size_t column = 0; column + 1 < width; ++column) {
+            const size_t a = row * width + column;
+            addTriangle(shape, a, a + 1, a + width + 1);
+            addTriangle(shape, a, a + width + 1, a + width);
+        }
+    return shape;
+}
+
 } // namespace shutter::generator
