@@ -2,6 +2,7 @@
 #include "assets/generator/scaling_scenes.h"
 
 #include "assets/generator/axes.h"
+#include "assets/generator/figure.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
 
@@ -10,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -172,6 +174,72 @@ GltfWriter buildFewMoversScene(int count, int movers, bool merged) {
     if (!still.shape.indices.empty())
         writer.addNode({.name = "boxes", .mesh = writer.addMesh("boxes", {&still, 1})});
     return writer;
+}
+
+GltfWriter buildCrowdScene(int count, bool walk) {
+    constexpr float kCellHeight = 1.95f; // metres; a row's heads stay below the next row's feet
+    constexpr float kCellWidth = 1.15f;
+    count = std::clamp(count, 0, kMaxBodyCount);
+    GltfWriter writer("crowd");
+    // As many rows as fill a 16:9 picture with that many cells.
+    const int rows = std::max(
+        1,
+        static_cast<int>(std::ceil(
+            std::sqrt(static_cast<float>(count) * kCellWidth / kCellHeight * 9.0f / 16.0f)
+        ))
+    );
+    const int columns = (count + rows - 1) / rows;
+    const float depth = kCellHeight * static_cast<float>(rows) / (2.0f * halfView(1.0f).y);
+    addStage(writer);
+    addObject(
+        writer,
+        {.name = "wall", .translation = {0.0f, 0.0f, -depth - 2.0f}},
+        sheet(halfView(depth + 2.0f) * 1.1f, 1.12f),
+        addTextured(writer, "bricks", bricks(), 0.95f)
+    );
+    std::array<Index, 2> meshes{};
+    if (count > 0)
+        meshes = {
+            addFigureMesh(writer, "walker", {0.75f, 0.25f, 0.15f}, {0.25f, 0.32f, 0.55f}),
+            addFigureMesh(writer, "stroller", {0.20f, 0.45f, 0.25f}, {0.45f, 0.40f, 0.35f})};
+    for (int i = 0; i < count; ++i) {
+        const vec2 cell(static_cast<float>(i % columns), static_cast<float>(i / columns));
+        const vec2 from = vec2(columns, rows) / 2.0f;
+        const float side = hash(i, 0, 5) < 0.5f ? -1.0f : 1.0f;
+        const float speed =
+            walk ? glm::length(kScalingShot.velocityFor({6.0f + 4.0f * hash(i, 1, 5), 0.0f}, depth))
+                 : 0.0f;
+        NodeDesc place{
+            .name = fmt::format("walker_{}", i + 1),
+            .translation = {
+                (cell.x + 0.5f - from.x) * kCellWidth,
+                (cell.y - from.y) * kCellHeight + 0.1f,
+                -depth - 0.3f * hash(i, 2, 5)}};
+        if (walk)
+            place.linearVelocity = kX * (side * speed);
+        const Index walker = writer.addNode(place);
+        const Figure figure = addFigure(
+            writer,
+            meshes[static_cast<size_t>(i) % meshes.size()],
+            {.name = fmt::format("person_{}", i + 1),
+             .parent = walker,
+             .rotation = turned(side * glm::half_pi<float>(), kY)}
+        );
+        if (walk)
+            addGait(
+                writer,
+                writer.addClip(fmt::format("gait_{}", i + 1)),
+                figure,
+                {.strideSeconds = 1.5f / speed, .phase = hash(i, 3, 5)},
+                -0.25f,
+                0.25f
+            );
+    }
+    return writer;
+}
+
+GltfWriter buildCrowdScene(int count) {
+    return buildCrowdScene(count, true);
 }
 
 GltfWriter buildTrianglesScene(int count) {

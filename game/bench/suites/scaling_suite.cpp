@@ -4,6 +4,7 @@
 #include "game/bench/suites/suite.h"
 
 #include <array>
+#include <initializer_list>
 
 namespace shutter::bench {
 
@@ -46,30 +47,19 @@ ScalingAxis makeResolutionAxis() {
     return axis;
 }
 
-ScalingAxis makeEntitiesAxis() {
-    ScalingAxis axis{"entities", "Moving entities", "entities", {}};
-    for (int count : {1, 10, 100, 1000, 10000})
+/// \param name of the axis, and its unit
+ScalingAxis makeCountAxis(
+    const char* name,
+    const char* title,
+    std::initializer_list<int> counts,
+    generator::GltfWriter (*build)(int)
+) {
+    ScalingAxis axis{name, title, name, {}};
+    for (const int count : counts)
         axis.points.push_back(
             {double(count),
              std::to_string(count),
-             makeCase(
-                 fmt::format("entities-{}", count),
-                 [count] { return generator::buildEntitiesScene(count); }
-             )}
-        );
-    return axis;
-}
-
-ScalingAxis makeTrianglesAxis() {
-    ScalingAxis axis{"triangles", "Triangles", "triangles", {}};
-    for (int count : {10'000, 31'623, 100'000, 316'228, 1'000'000})
-        axis.points.push_back(
-            {double(count),
-             std::to_string(count),
-             makeCase(
-                 fmt::format("triangles-{}", count),
-                 [count] { return generator::buildTrianglesScene(count); }
-             )}
+             makeCase(fmt::format("{}-{}", name, count), [=] { return build(count); })}
         );
     return axis;
 }
@@ -107,8 +97,16 @@ Suite makeScalingSuite() {
     suite.limitSeconds = 30.0;
     suite.axes = {
         makeResolutionAxis(),
-        makeEntitiesAxis(),
-        makeTrianglesAxis(),
+        makeCountAxis(
+            "entities", "Moving entities", {1, 10, 100, 1000, 10000}, &generator::buildEntitiesScene
+        ),
+        makeCountAxis("bodies", "Walking bodies", {0, 1, 10, 50, 200}, &generator::buildCrowdScene),
+        makeCountAxis(
+            "triangles",
+            "Triangles",
+            {10'000, 31'623, 100'000, 316'228, 1'000'000},
+            &generator::buildTrianglesScene
+        ),
         makeMovingShareAxis(),
         makeExposureAxis()};
     return suite;
