@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The worlds of the gameplay demos (game/demos). A game finds what it plays with by the names of
-// nodes, which assets/README.md lists; it moves them itself, so that nothing here has a velocity.
+// nodes, which assets/README.md lists; it moves them itself, so that nothing here has a velocity;
+// waves move flags and grass, and a clip the gallery's runner.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"

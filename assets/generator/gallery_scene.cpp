@@ -2,6 +2,7 @@
 // The shooting gallery: a booth with three rails of targets before a striped wall.
 #include "assets/generator/axes.h"
 #include "assets/generator/demo_scenes.h"
+#include "assets/generator/figure.h"
 #include "assets/generator/mesh_shapes.h"
 #include "assets/generator/scenes.h"
 #include "assets/generator/textures.h"
@@ -56,7 +57,11 @@ void addBooth(GltfWriter& writer) {
 void hangBunting(std::array<Shape, 3>& flags, Shape& lamps, vec3 from, vec3 to) {
     constexpr int kFlags = 17;
     constexpr float kSag = 0.35f;
-    constexpr std::array kPennant = {vec2(0.0f, -0.34f), vec2(0.16f, 0.0f)};
+    constexpr std::array kPennant = {
+        vec2(0.0f, -0.34f), vec2(0.053f, -0.227f), vec2(0.107f, -0.113f), vec2(0.16f, 0.0f)};
+    Shape pennant = lathe(kPennant, 6);
+    for (const vec3& position : pennant.positions)
+        pennant.slack.push_back(position.y / kPennant[0].y);
     const vec3 along = glm::normalize(to - from);
     const mat4 turn = glm::mat4_cast(glm::angleAxis(std::atan2(-along.z, along.x), kY));
     for (int i = 0; i < kFlags; ++i) {
@@ -64,7 +69,7 @@ void hangBunting(std::array<Shape, 3>& flags, Shape& lamps, vec3 from, vec3 to) 
         const vec3 place = glm::mix(from, to, share) - kY * (4.0f * kSag * share * (1.0f - share));
         // A cone pressed flat.
         const mat4 flat = glm::scale(moved(place) * turn, vec3(1.0f, 1.0f, 0.06f));
-        append(flags[static_cast<size_t>(i) % flags.size()], lathe(kPennant, 6), flat);
+        append(flags[static_cast<size_t>(i) % flags.size()], pennant, flat);
         append(lamps, sphere(0.045f, 5, 4), moved(place + along * 0.19f + kY * 0.03f));
     }
 }
@@ -135,14 +140,75 @@ void addBunting(GltfWriter& writer) {
         hangBunting(flags, lamps, corners[i], corners[i + 1]);
     constexpr std::array kColours = {
         vec3(0.75f, 0.10f, 0.08f), vec3(0.85f, 0.60f, 0.08f), vec3(0.10f, 0.35f, 0.20f)};
-    std::vector<MeshPart> parts = {
-        {.shape = lamps,
-         .material = writer.addMaterial({.name = "bulbs", .emissive = {1.0f, 0.85f, 0.5f}})}};
+    addObject(
+        writer,
+        {.name = "lamps"},
+        lamps,
+        writer.addMaterial({.name = "bulbs", .emissive = {1.0f, 0.85f, 0.5f}})
+    );
+    std::vector<MeshPart> parts;
     for (size_t i = 0; i < flags.size(); ++i)
         parts.push_back(
             {.shape = flags[i], .material = addPlainMaterial(writer, "flags", kColours[i], 0.9f)}
         );
-    writer.addNode({.name = "bunting", .mesh = writer.addMesh("bunting", parts)});
+    writer.addNode(
+        {.name = "bunting",
+         .mesh = writer.addMesh("bunting", parts),
+         .waves =
+             {{"share", "color"},
+              {"exponent", 1.5},
+              {"waves",
+               {{{"displacement", {0.06f, 0.02f, 0.12f}},
+                 {"waveVector", {1.3f, 0.0f, 0.9f}},
+                 {"hertz", 1.6f}},
+                {{"displacement", {0.03f, 0.01f, 0.05f}},
+                 {"waveVector", {5.0f, 0.0f, 3.7f}},
+                 {"hertz", 4.3f}}}}}}
+    );
+}
+
+/// A person who runs to and fro between the first two rails, in clips that loop: where they end
+/// they are as they began.
+void addRunner(GltfWriter& writer) {
+    constexpr float kHalfWay = 4.6f;       // metres
+    constexpr float kCrossSeconds = 2.88f; // four strides
+    constexpr float kTurnSeconds = 0.72f;  // one stride, on the spot
+    constexpr float kDepth = -6.2f;
+    const Gait gait = makeRun();
+    const std::array times = {
+        0.0f,
+        kCrossSeconds,
+        kCrossSeconds + kTurnSeconds,
+        2.0f * kCrossSeconds + kTurnSeconds,
+        2.0f * (kCrossSeconds + kTurnSeconds)};
+    const vec3 left(-kHalfWay, 0.0f, kDepth);
+    const vec3 right(kHalfWay, 0.0f, kDepth);
+    const glm::quat towardsRight = turned(glm::half_pi<float>(), kY);
+    const glm::quat towardsLeft = turned(-glm::half_pi<float>(), kY);
+    const Figure runner = addFigure(
+        writer,
+        addFigureMesh(writer, "runner", {0.75f, 0.55f, 0.10f}, {0.15f, 0.30f, 0.25f}),
+        {.name = "runner", .translation = left, .rotation = towardsRight}
+    );
+    const Index clip = writer.addClip("run");
+    writer.addTranslations(clip, runner.root, times, std::array{left, right, right, left, left});
+    // By the front both times: halves of a turn have no shorter way.
+    const std::array turnTimes = {
+        times[0],
+        times[1],
+        times[1] + kTurnSeconds / 2.0f,
+        times[2],
+        times[3],
+        times[3] + kTurnSeconds / 2.0f,
+        times[4]};
+    const glm::quat front = turned(0.0f, kY);
+    writer.addRotations(
+        clip,
+        runner.root,
+        turnTimes,
+        std::array{towardsRight, towardsRight, front, towardsLeft, towardsLeft, front, towardsRight}
+    );
+    addGait(writer, clip, runner, gait, 0.0f, times.back());
 }
 
 void addRails(GltfWriter& writer) {
@@ -257,6 +323,7 @@ GltfWriter buildGalleryScene() {
     addRails(writer);
     addPrizes(writer);
     addBunting(writer);
+    addRunner(writer);
     // The one that others are made of.
     addObject(
         writer,

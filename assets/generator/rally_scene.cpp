@@ -193,6 +193,82 @@ void addPostsAndFences(GltfWriter& writer, RallyLand& land) {
             addPost(findCoursePoint(turn.x), turn.y * farther);
 }
 
+/// Poles with flags behind the grandstand, and tufts of grass before it, which one wind of the
+/// world moves.
+void addWind(GltfWriter& writer, RallyLand& land) {
+    constexpr vec2 kFlagHalf{0.75f, 0.45f};
+    const MeshPart flag{
+        .shape = cloth(kFlagHalf, {12, 6}, 0.6f),
+        .material = writer.addMaterial(
+            {.name = "flag",
+             .texture =
+                 writer.addTexture("flag", checkers({0.90f, 0.16f, 0.12f}, {0.94f, 0.90f, 0.80f})),
+             .roughness = 0.9f,
+             .doubleSided = true}
+        )};
+    const Index mesh = writer.addMesh("flag", {&flag, 1});
+    for (int i = 0; i < 4; ++i) {
+        const vec3 foot(-12.9f, 0.0f, -31.0f + 6.0f * static_cast<float>(i));
+        append(land.gatePoles, cylinder(0.05f, 6.4f, 8), moved(foot + kY * 3.2f));
+        writer.addNode(
+            {.name = fmt::format("flag_{}", i),
+             .translation = foot + vec3(kFlagHalf.x + 0.05f, 5.9f, 0.0f),
+             .mesh = mesh,
+             .waves =
+                 {{"space", "world"},
+                  {"share", "color"},
+                  {"waves",
+                   {{{"displacement", {0.0f, 0.05f, 0.22f}},
+                     {"waveVector", {5.0f, 1.0f, 0.3f}},
+                     {"hertz", 2.1f}},
+                    {{"displacement", {0.0f, 0.07f, 0.06f}},
+                     {"waveVector", {9.0f, -2.0f, 0.7f}},
+                     {"hertz", 3.7f}}}}}}
+        );
+    }
+    Shape tufts;
+    for (int i = 0; i < 180; ++i) {
+        constexpr vec2 kBladeHalf{0.20f, 0.016f}; // along, across
+        Shape blade = cloth(kBladeHalf, {3, 1}, 1.0f);
+        for (size_t vertex = 0; vertex < blade.positions.size(); ++vertex)
+            blade.positions[vertex].y *= 1.0f - blade.slack[vertex];
+        const int tuft = i / 6;
+        const vec3 foot(
+            -6.9f + 0.9f * hash(tuft, 0, 371) + 0.12f * hash(i, 1, 371),
+            kBladeHalf.x,
+            -32.0f + 0.7f * static_cast<float>(tuft) + 0.12f * hash(i, 2, 371)
+        );
+        const mat4 turn = glm::rotate(moved(foot), glm::two_pi<float>() * hash(i, 3, 371), kY);
+        append(
+            tufts, blade, glm::rotate(turn, glm::half_pi<float>() - 0.35f * hash(i, 4, 371), kZ)
+        );
+    }
+    const MeshPart grass{
+        .shape = tufts,
+        .material = writer.addMaterial(
+            {.name = "grass",
+             .color = {0.24f, 0.50f, 0.10f},
+             .roughness = 0.9f,
+             .doubleSided = true}
+        )};
+    writer.addNode(
+        {.name = "grass",
+         .mesh = writer.addMesh("grass", {&grass, 1}),
+         .waves =
+             {{"space", "world"},
+              {"share", "color"},
+              {"exponent", 1.5f},
+              {"lean", {0.03f, 0.0f, 0.02f}},
+              {"waves",
+               {{{"displacement", {0.09f, -0.02f, 0.05f}},
+                 {"waveVector", {0.9f, 0.0f, 0.6f}},
+                 {"hertz", 1.3f}},
+                {{"displacement", {0.03f, 0.0f, 0.03f}},
+                 {"waveVector", {4.0f, 0.0f, 5.0f}},
+                 {"hertz", 3.9f}}}}}}
+    );
+}
+
 } // namespace
 
 GltfWriter buildRallyScene() {
@@ -207,6 +283,7 @@ GltfWriter buildRallyScene() {
     addGates(writer, land);
     addPostsAndFences(writer, land);
     addGrandstand(land);
+    addWind(writer, land);
     addRallyLand(writer, land);
     addRallyCar(writer);
     return writer;
