@@ -210,7 +210,7 @@ TEST_F(CInterface, WhatIsWrongIsNamed) {
             in.responsePointCount = 2;
             in.responsePoints = kLate;
         },
-        "responsePoints[0].s is 0.5"
+        "responsePoints[0].time is 0.5"
     );
     refuse([](I& in) { in.color.format = VK_FORMAT_R8G8B8A8_UNORM; }, "color.format is R8G8B8A8");
     refuse([](I& in) { in.color.usage = VK_IMAGE_USAGE_SAMPLED_BIT; }, "color.usage lacks");

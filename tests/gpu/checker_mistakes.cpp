@@ -25,13 +25,13 @@ const std::vector<CheckCase>& listMistakes() {
     static const std::vector<CheckCase> kCases{
         {"texture coordinates taken for pixels",
          "as for texture coordinates that lead to this frame with y down: set "
-         "vectors.pixelsPerUnit = (192, 108)",
+         "pixelsPerUnit = (192, 108)",
          [](Given& g, int, Drawn, Drawn) {
              scaleVectors(g, {1.0f / kCheckedWidth, 1.0f / kCheckedHeight});
          }},
         {"normalised coordinates taken for texture coordinates",
          "as for normalised device coordinates that lead to the frame before with y up: set "
-         "vectors.pixelsPerUnit = (-96, 54)",
+         "pixelsPerUnit = (-96, 54)",
          [](Given& g, int, Drawn, Drawn) {
              scaleVectors(g, {-2.0f / kCheckedWidth, 2.0f / kCheckedHeight});
              g.inputs.convention.vectors.pixelsPerUnit = {
@@ -44,7 +44,7 @@ const std::vector<CheckCase>& listMistakes() {
          }},
         {"y up",
          "y is negated, as for pixels that lead to this frame with y up: set "
-         "vectors.pixelsPerUnit = (1, -1)",
+         "pixelsPerUnit = (1, -1)",
          [](Given& g, int, Drawn, Drawn) {
              scaleVectors(g, {1.0f, -1.0f});
          }},
@@ -65,15 +65,15 @@ const std::vector<CheckCase>& listMistakes() {
                  vector = {vector.y, vector.x};
          }},
         {"over the exposure already",
-         "1 / exposureShare: they are over the exposure already, set scales.exposureShare = 1",
+         "1 / exposureShare: they are over the exposure already, set exposureShare = 1",
          [](Given& g, int, Drawn, Drawn) {
              scaleVectors(g, {0.4f, 0.4f});
          }},
         {"without the camera's part",
-         "set vectors.lackCamera = true",
+         "set vectorsLackCamera = true",
          [](Given& g, int, Drawn, Drawn) { keepObjectsOnly(g); }},
         {"with the camera's part, said to be without",
-         "set vectors.lackCamera = false",
+         "set vectorsLackCamera = false",
          [](Given& g, int, Drawn, Drawn) { g.inputs.convention.vectors.lackCamera = true; }},
         {"vectors of the frame before",
          "vectors are those of the frame before",
@@ -106,7 +106,7 @@ const std::vector<CheckCase>& listMistakes() {
                      (*clip)[column].y = -(*clip)[column].y;
          }},
         {"jitter left in, and told",
-         "set vectors.haveJitter = true",
+         "set vectorsHaveJitter = true",
          [](Given& g, int frame, Drawn, Drawn) { leaveJitter(g, frame); }},
         {"jitter left in, and not told",
          "is temporal jitter left in the vectors?",
@@ -115,7 +115,7 @@ const std::vector<CheckCase>& listMistakes() {
              g.jitterPx = g.jitterPxBefore = math::dvec2(0.0);
          }},
         {"jitter said to be left in",
-         "set vectors.haveJitter = false",
+         "set vectorsHaveJitter = false",
          [](Given& g, int frame, Drawn, Drawn) {
              declareJitter(g, frame);
              g.inputs.convention.vectors.haveJitter = true;
@@ -148,13 +148,13 @@ const std::vector<CheckCase>& listMistakes() {
          1,
          "cameras.clipFromView has"},
         {"the sky at the near plane",
-         "set depth.skyValue = 0",
+         "set skyValue = 0",
          [](Given& g, int, Drawn, Drawn) { g.inputs.convention.depth.skyValue = 1.0f; }},
         {"linear depth said to be raw",
-         "for linear depth set depth.isLinear = true",
+         "for linear depth set depthIsLinear = true",
          [](Given& g, int, Drawn, Drawn) { g.depth = g.metres; }},
         {"centimetres",
-         "set depth.metresPerUnit = 0.01",
+         "set metresPerUnit = 0.01",
          [](Given& g, int, Drawn, Drawn) { storeLinearDepth(g, 100.0f); }},
         {"negative depth",
          "store -z",
@@ -175,10 +175,10 @@ const std::vector<CheckCase>& listMistakes() {
                  g.color[i] = {0.5f, -0.25f, 0.0f, 1.0f};
          }},
         {"NaN in the vectors",
-         "convention.vectors.image holds NaN at 1 pixel",
+         "vectors holds NaN at 1 pixel",
          [](Given& g, int, Drawn, Drawn) { g.motion[9].x = std::nanf(""); }},
         {"NaN in the depth",
-         "convention.depth.image holds NaN at 1 pixel",
+         "depth holds NaN at 1 pixel",
          [](Given& g, int, Drawn, Drawn) { g.depth[9] = std::nanf(""); }},
         {"vectors far too long",
          "is longer than the picture's diagonal",
@@ -187,7 +187,7 @@ const std::vector<CheckCase>& listMistakes() {
                  float(kCheckedWidth), float(kCheckedHeight)};
          }},
         {"ids that are no rows",
-         "entityId is not below motion.rowCount",
+         "entityId is not below rowCount",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              for (size_t i = 0; i < 40; ++i)
@@ -203,7 +203,7 @@ const std::vector<CheckCase>& listMistakes() {
          },
          true},
         {"a mover that is not listed",
-         "but is not in motion.movers",
+         "but is not in movers",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              g.listed.clear();

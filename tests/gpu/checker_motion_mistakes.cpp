@@ -41,14 +41,14 @@ template <class Change> void changeMatrices(Given& given, const Change& change) 
 std::vector<CheckCase> listKeys() {
     return {
         {"keys that run backwards",
-         "motion.keys run backwards",
+         "keys run backwards",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              giveKeysAt(g, {0.0, 1.0});
              std::swap(g.keys[0].viewFromWorld, g.keys[1].viewFromWorld);
          }},
         {"keys that run backwards around the raster instant",
-         "motion.keys run backwards",
+         "keys run backwards",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              g.inputs.rasterTime = 0.5;
@@ -60,21 +60,21 @@ std::vector<CheckCase> listKeys() {
              g.keys[0].viewFromWorld = ahead;
          }},
         {"keys that are all this frame's",
-         "motion.keys do not move in the exposure",
+         "keys do not move in the exposure",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              giveKeysAt(g, {0.0, 1.0});
              g.keys[0].viewFromWorld = g.keys[1].viewFromWorld;
          }},
         {"keys over the frame in place of the exposure",
-         "motion.keys go over the whole time between the frames",
+         "keys go over the whole time between the frames",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              giveKeys(g);
              g.keys.front().time = 0.0;
          }},
         {"keys of the frame before",
-         "motion.keys are those of the frame before",
+         "keys are those of the frame before",
          [](Given& g, int frame, Drawn before, Drawn) {
              g.isResolved = true;
              giveKeysAt(g, {0.0, 1.0});
@@ -94,7 +94,7 @@ std::vector<CheckCase> listKeys() {
              g.inputs.rasterTime = 0.5;
          }},
         {"keys that are the camera's place",
-         "motion.keys hold the camera's own place (world from view)",
+         "keys hold the camera's own place (world from view)",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              giveKeys(g);
@@ -102,7 +102,7 @@ std::vector<CheckCase> listKeys() {
                  key.viewFromWorld = glm::inverse(key.viewFromWorld);
          }},
         {"history that is never used",
-         "motion.followsLast is false, although 2 recordings of view 0 in a row",
+         "followsLast is false, although 2 recordings of view 0 in a row",
          [](Given& g, int, Drawn, Drawn) {
              g.isResolved = true;
              g.inputs.motion.followsLast = false;
@@ -124,7 +124,7 @@ std::vector<CheckCase> listMatrices(bool hasVectors) {
              changeMatrices(g, [](const dmat4& m, size_t) { return glm::inverse(m); });
          }},
         {"matrices that are all this frame's" + with,
-         "is the same at all motion.keys",
+         "is the same at all keys",
          [begin](Given& g, int, Drawn, Drawn) {
              begin(g);
              for (std::vector<dmat4>& matrices : g.matrices)
@@ -164,7 +164,7 @@ std::vector<CheckCase> listWithoutVectors() {
              scaleLens(g, glm::dvec2(kOtherLens));
          }},
         {"centimetres, without vectors",
-         "set depth.metresPerUnit = 0.01",
+         "set metresPerUnit = 0.01",
          [](Given& g, int, Drawn, Drawn) {
              leaveVectorsOut(g);
              storeLinearDepth(g, 100.0f);
@@ -215,7 +215,7 @@ std::vector<CheckCase> listWithVectors() {
          1,
          "cameras.clipFromView ha"}, // s another field of view; d an aspect ratio of
         {"depth that is a hundred times as far",
-         "set depth.metresPerUnit = 1",
+         "set metresPerUnit = 1",
          [](Given& g, int, Drawn, Drawn) {
              storeLinearDepth(g, 1.0f);
              g.inputs.convention.depth.metresPerUnit = 100.0f;

@@ -532,7 +532,7 @@ TEST_F(EmbeddedConventions, MoversWithNeitherVectorsNorMatricesAreRefused) {
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(
         done.error().message,
-        "motion blur: motion.movers[1] has no worldFromObject, and convention.vectors.image.image "
+        "motion blur: movers[1] has no worldFromObject, and vectors.image "
         "is "
         "null: without vectors each mover needs matrices"
     );

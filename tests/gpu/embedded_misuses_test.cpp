@@ -165,7 +165,7 @@ TEST_F(EmbeddedMisuses, OfSettingsAreNamed) {
         {"hybrid needs rays",
          [](HostInputs&, S& s) { s.method = &motion_blur::getMethod("hybrid"); },
          [](I&, CS& s) { s.method = "hybrid"; }},
-        {"samples.record is empty",
+        {"recordSamples is null",
          [](HostInputs&, S& s) { s.method = &motion_blur::getMethod("adaptive"); },
          [](I&, CS& s) { s.preset = "quality"; }},
         {"raysPerPixel is inf",
@@ -175,7 +175,7 @@ TEST_F(EmbeddedMisuses, OfSettingsAreNamed) {
              in.samples.record = [](const motion_blur::SampleTask&) {};
          },
          {}},
-        {"which needs HostDevice::measures",
+        {"which needs ShutterBlurDevice::measures",
          [](HostInputs& in, S&) { in.budget.milliseconds = 2.0; },
          [](I& in, CS&) { in.budgetMilliseconds = 2.0; }},
     };

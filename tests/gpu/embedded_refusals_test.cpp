@@ -119,12 +119,12 @@ TEST_F(EmbeddedRefusals, EachBadResponseIsNamed) {
     };
     refuse({{0, 1}}, "responsePoints holds 1, it must be 2 to 64");
     refuse(Points(65), "responsePoints holds 65");
-    refuse({{0.1, 1}, {1, 0}}, "responsePoints[0].s is 0.1, times must rise from 0 to 1");
-    refuse({{0, 1}, {0.9, 0}}, "responsePoints[1].s is 0.9");
-    refuse({{0, 1}, {0.5, 0}, {0.5, 1}, {1, 1}}, "responsePoints[2].s is 0.5");
-    refuse({{0, 1}, {0.5, 0}, {0.5 + 1e-9, 1}, {1, 1}}, "responsePoints[2].s is 0.5");
-    refuse({{0, 1}, {kNan, 0}, {1, 1}}, "responsePoints[1].s is nan");
-    refuse({{0, 1}, {2, 0}, {1, 1}}, "responsePoints[1].s is 2");
+    refuse({{0.1, 1}, {1, 0}}, "responsePoints[0].time is 0.1, times must rise from 0 to 1");
+    refuse({{0, 1}, {0.9, 0}}, "responsePoints[1].time is 0.9");
+    refuse({{0, 1}, {0.5, 0}, {0.5, 1}, {1, 1}}, "responsePoints[2].time is 0.5");
+    refuse({{0, 1}, {0.5, 0}, {0.5 + 1e-9, 1}, {1, 1}}, "responsePoints[2].time is 0.5");
+    refuse({{0, 1}, {kNan, 0}, {1, 1}}, "responsePoints[1].time is nan");
+    refuse({{0, 1}, {2, 0}, {1, 1}}, "responsePoints[1].time is 2");
     refuse({{0, 1}, {1, -1}}, "responsePoints[1].sensitivity is -1");
     refuse({{0, kInfinity}, {1, 1}}, "responsePoints[0].sensitivity is inf");
     refuse({{0, kNan}, {1, 1}}, "responsePoints[0].sensitivity is nan");
@@ -151,12 +151,12 @@ TEST_F(EmbeddedRefusals, EachMethodThatCannotRunIsNamed) {
 
 TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
     settings.method = &getMethod("rosado2007");
-    expectRefusal(record(), "convention.cameras are not given, which the method rosado2007 needs");
+    expectRefusal(record(), "cameras are not given, which the method rosado2007 needs");
     inputs.convention.cameras.areGiven = true;
     inputs.convention.cameras.clipFromView = glm::dmat4(0.0);
-    expectRefusal(record(), "convention.cameras.clipFromView is neither");
+    expectRefusal(record(), "cameras.clipFromView is neither");
     settings = gather();
-    expectRefusal(record(), "convention.cameras.clipFromView"); // checkers and dumps read them
+    expectRefusal(record(), "cameras.clipFromView"); // checkers and dumps read them
     inputs.convention.cameras.areGiven = false;
     EXPECT_TRUE(record().ok());
     settings.method = &getMethod("rosado2007");
@@ -165,7 +165,7 @@ TEST_F(EmbeddedRefusals, CamerasThatAMethodLacksOrThatAreNoneAreNamed) {
     inputs.convention.cameras.clipFromView = inputs.convention.cameras.clipFromViewBefore = clip;
     EXPECT_TRUE(record().ok());
     inputs.convention.scales.exposureShare = -1.0f;
-    expectRefusal(record(), "convention.scales.exposureShare is -1");
+    expectRefusal(record(), "exposureShare is -1");
 }
 
 TEST_F(EmbeddedRefusals, WithoutAMethodWhatDrawsInPlaceOfResolvedIsToldOnce) {
@@ -181,8 +181,7 @@ TEST_F(EmbeddedRefusals, WithoutAMethodWhatDrawsInPlaceOfResolvedIsToldOnce) {
     EXPECT_TRUE(record().ok());
     EXPECT_FALSE(readsMotions);
     EXPECT_EQ(
-        told,
-        "motion blur: motion.keys is empty, so the default method is gather in place of resolved"
+        told, "motion blur: keys is empty, so the default method is gather in place of resolved"
     );
     EXPECT_TRUE(record().ok());
     const motion_blur::HostCameraKey key{
@@ -203,15 +202,15 @@ TEST_F(EmbeddedRefusals, WhatResolvedLacksIsNamed) {
     const motion_blur::HostMover mover{0, {}};
     inputs.entityId = {};
     inputs.motion.movers = {&mover, 1};
-    expectRefusal(record(), "entityId.image is null, although motion.movers has 1 row");
+    expectRefusal(record(), "entityId.image is null, although movers has 1 row");
     inputs.motion.movers = {};
-    expectRefusal(record(), "motion.keys holds 0"); // a still world needs no ids
+    expectRefusal(record(), "keys holds 0"); // a still world needs no ids
     inputs.entityId = {ids.handle(), kSampled, kSampled};
-    expectRefusal(record(), "motion.keys holds 0"); // tests/unit/motion_blur has each of its fields
+    expectRefusal(record(), "keys holds 0"); // tests/unit/motion_blur has each of its fields
     inputs.motion.view = 2;
-    expectRefusal(record(), "motion.view is 2, framesInFlight 2");
+    expectRefusal(record(), "view is 2, framesInFlight 2");
     settings = gather();
-    expectRefusal(record(), "motion.view is 2, framesInFlight 2");
+    expectRefusal(record(), "view is 2, framesInFlight 2");
     inputs.motion.view = 1;
     EXPECT_TRUE(record().ok()) << "gather needs no motion";
 }

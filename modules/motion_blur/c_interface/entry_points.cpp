@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The C interface: nothing leaves it but results and sentences.
 #define SHUTTER_BLUR_BUILDS
-#include "modules/motion_blur/c_interface/field_names.h"
 #include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/c_interface/structures.h"
 #include "modules/motion_blur/embedding/host_features.h"
@@ -36,7 +35,7 @@ thread_local std::string tMessage;
 
 ShutterBlurResult fail(ShutterBlurResult result, std::string_view message) noexcept {
     try {
-        tMessage = motion_blur::nameForC(message);
+        tMessage = message;
     } catch (...) {
         tMessage.clear(); // out of memory: an empty one needs none
     }

@@ -2,7 +2,6 @@
 #include "modules/motion_blur/c_interface/structures.h"
 
 #include "engine/core/setting_row.h"
-#include "modules/motion_blur/c_interface/field_names.h"
 #include "modules/motion_blur/presets.h"
 
 #include <string>
@@ -224,7 +223,7 @@ core::Result<HostDevice> convert(const ShutterBlurDevice* given) {
     if (taken.value().message)
         device.message = [tell = taken.value().message,
                           user = taken.value().messageUser](std::string_view sentence) {
-            tell(user, nameForC(sentence).c_str());
+            tell(user, std::string(sentence).c_str());
         };
     return device;
 }

@@ -156,7 +156,8 @@ core::Status EmbeddedMotionBlur::startWarmUp(const HostPlan& plan) {
     const OneThread::Call call(mThread);
     SHUTTER_TRY(call.status());
     if (mWarmUp.valid())
-        return makeError("motion blur: startWarmUp: another is under way; isWarm() tells when it "
+        return makeError("motion blur: shutterBlurStartWarmUp: another is under way; "
+                         "shutterBlurIsWarm() tells when it "
                          "is done");
     return guard([&]() -> core::Status {
         // Another effect on the same device makes them, and leaves them in the cache.

@@ -35,7 +35,7 @@ uint32_t findTimestampBits(VkPhysicalDevice device, uint32_t queueFamily) {
 core::Status checkHost(const HostDevice& host) {
     if (!host.physical || !host.device)
         return makeError(
-            "motion blur: HostDevice::{} is null", host.physical ? "device" : "physical"
+            "motion blur: ShutterBlurDevice::{} is null", host.physical ? "device" : "physical"
         );
     if (host.framesInFlight < 1 || host.framesInFlight > kMostFrames)
         return makeError(
@@ -125,7 +125,7 @@ EmbeddedMotionBlur::~EmbeddedMotionBlur() {
         if (isPending(frame))
             warn(fmt::format(
                 "motion blur: destroyed while the GPU has frame {} before it, unless that was "
-                "never submitted (markDone tells)",
+                "never submitted (shutterBlurMarkDone tells)",
                 frame
             ));
     if (mChecker)
@@ -173,7 +173,7 @@ core::Status EmbeddedMotionBlur::checkAndRecord(
         SHUTTER_TRY(finishFrame(frame));
         mHasLeftAPart = true;
         if (!wanted.method && !knowsMotions && !inputs.isOff && !std::exchange(mTellsMethod, true))
-            warn("motion blur: motion.keys is empty, so the default method is gather in place of "
+            warn("motion blur: keys is empty, so the default method is gather in place of "
                  "resolved");
         Slot& slot = *mSlots[frame];
         const MotionBlurSettings chosen = chooseSettings(frame, inputs, settings);
@@ -278,7 +278,8 @@ core::Status EmbeddedMotionBlur::check(
     if (isPending(frame))
         return makeError(
             "motion blur: frame {} was recorded before, and the GPU has not run that: wait for it, "
-            "give each view of a frame a number of its own, or call markDone if it is never "
+            "give each view of a frame a number of its own, or call shutterBlurMarkDone if it is "
+            "never "
             "submitted",
             frame
         );
@@ -329,7 +330,8 @@ core::Result<HostReport> EmbeddedMotionBlur::report(uint32_t frame) const {
     if (frame >= mSlots.size())
         return makeError("motion blur: frame is {}, framesInFlight {}", frame, mSlots.size());
     if (mTimestampBits == 0)
-        return makeError("motion blur: HostDevice::measures is false, so there is no report");
+        return makeError("motion blur: ShutterBlurDevice::measures is false, so there is no report"
+        );
     if (!hasRun(frame))
         return makeError("motion blur: the GPU has not run frame {}", frame);
     const Slot& slot = *mSlots[frame];

@@ -177,9 +177,9 @@ void checkCameras(
             findings.push_back(
                 {CheckKind::CameraJump,
                  fmt::format(
-                     "convention.cameras.viewFromWorldBefore is not the viewFromWorld of the frame "
+                     "cameras.viewFromWorldBefore is not the viewFromWorld of the frame "
                      "before: the middle of the picture differs by {:.3g} px; after a cut set "
-                     "scales.isCut, and motion.followsLast = false",
+                     "isCut, and followsLast = false",
                      off
                  )}
             );
@@ -200,7 +200,7 @@ void checkCameras(
         findings.push_back(
             {CheckKind::CameraJump,
              fmt::format(
-                 "motion.followsLast is true, but the camera keys are {:.3g} px away from those of "
+                 "followsLast is true, but the camera keys are {:.3g} px away from those of "
                  "the frame before, and move {:.3g} px during the exposure: after a cut, set "
                  "followsLast = false",
                  jump,
@@ -228,7 +228,7 @@ void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Findi
     findings.push_back(
         {CheckKind::HistoryUnused,
          fmt::format(
-             "motion.followsLast is false, although {} recordings of view {} in a row go on where "
+             "followsLast is false, although {} recordings of view {} in a row go on where "
              "the one before ended: set it where that shows the frame before, or what this frame "
              "hides is not looked up there; if no history is wanted, say history = false",
              now.unusedHistory,

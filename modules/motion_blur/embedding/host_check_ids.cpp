@@ -48,8 +48,8 @@ void checkListedMovers(const CheckedFrame& now, std::vector<Finding>& findings) 
     findings.push_back(
         {CheckKind::MoverUnseen,
          fmt::format(
-             "entityId shows none of the {} rows of motion.movers, although {} of them should be "
-             "in view, but rows such as {}: HostMover::row must be the value in the image",
+             "entityId shows none of the {} rows of movers, although {} of them should be "
+             "in view, but rows such as {}: ShutterBlurMover::row must be the value in the image",
              facts.movers.size(),
              inView,
              rows.empty() ? "none" : rows
@@ -86,7 +86,7 @@ void checkUnlistedMovers(
             findings.push_back(
                 {CheckKind::MoverUnlisted,
                  fmt::format(
-                     "row {} moves by its vectors at {} of {} samples but is not in motion.movers, "
+                     "row {} moves by its vectors at {} of {} samples but is not in movers, "
                      "so it is drawn as if it stood still: list it",
                      row,
                      counts.moves,
@@ -156,7 +156,7 @@ void checkChangingIds(
          fmt::format(
              "entityId changed at {} of {} samples whose surface the frame before shows as well, "
              "as "
-             "from {} to {}: an entity keeps its id, or motion.rowIds says which row it has",
+             "from {} to {}: an entity keeps its id, or rowIds says which row it has",
              changed,
              found,
              example.first,
@@ -175,8 +175,8 @@ void checkIds(const CheckedFrame& now, const CheckedFrame* last, std::vector<Fin
         findings.push_back(
             {CheckKind::IdBeyond,
              fmt::format(
-                 "entityId is not below motion.rowCount, {}, nor noEntity, {}, at {}; sky written "
-                 "as another value is HostInputs::noEntity",
+                 "entityId is not below rowCount, {}, nor noEntity, {}, at {}; sky written "
+                 "as another value is noEntity",
                  facts.rowCount,
                  facts.noEntity,
                  describeCount(now, shader::kCheckIdBeyond)

@@ -39,15 +39,15 @@ class Keys {
         if (const auto other = findNow())
             return describeOther(*other);
         if (apart(mBefore, raster) <= kSamePx)
-            return "motion.keys are those of the frame before: the one at rasterTime is "
+            return "keys are those of the frame before: the one at rasterTime is "
                    "cameras.viewFromWorldBefore; give this frame's";
         HostCamera inverse = raster;
         inverse.viewFromWorld = glm::inverse(raster.viewFromWorld);
         if (apart(mNow, inverse) <= kSamePx)
-            return "motion.keys hold the camera's own place (world from view): the inverse of the "
+            return "keys hold the camera's own place (world from view): the inverse of the "
                    "one at rasterTime is cameras.viewFromWorld; give the inverse of each";
         return fmt::format(
-            "the key of motion.keys at rasterTime is {:.3g} px away from cameras.viewFromWorld and "
+            "the key at rasterTime is {:.3g} px away from cameras.viewFromWorld and "
             "clipFromView, which are of the same instant",
             off
         );
@@ -105,14 +105,14 @@ class Keys {
         const bool isEarlier = apart(mBefore, mWay.atKey(mFacts.rasterKey)) < apart(mBefore, mNow);
         if (isEarlier == (mFacts.rasterTime < time))
             return fmt::format(
-                "the key of motion.keys at {:.3g} is cameras.viewFromWorld, and the one at "
+                "the key at {:.3g} is cameras.viewFromWorld, and the one at "
                 "rasterTime "
                 "is not: the raster was drawn then, so set rasterTime = {:.3g}",
                 time,
                 time
             );
         return fmt::format(
-            "motion.keys run backwards: the key at {:.3g} is cameras.viewFromWorld, and the one at "
+            "keys run backwards: the key at {:.3g} is cameras.viewFromWorld, and the one at "
             "rasterTime lies before it; times rise from shutter open to close",
             time
         );
@@ -130,13 +130,13 @@ class Keys {
 std::string describeShareOff(double keyShare, double share) {
     if (std::abs(keyShare - 1.0) < 0.1)
         return fmt::format(
-            "motion.keys go over the whole time between the frames in the exposure, of which it is "
+            "keys go over the whole time between the frames in the exposure, of which it is "
             "{:.3g} by exposureShare: give the camera at shutter open, or the frame before at the "
-            "time that timeOfFrameBefore() tells",
+            "time that shutterBlurGetTimeBefore() tells",
             share
         );
     return fmt::format(
-        "motion.keys go {:.3g} of the way between cameras.viewFromWorldBefore and viewFromWorld in "
+        "keys go {:.3g} of the way between cameras.viewFromWorldBefore and viewFromWorld in "
         "the exposure, which is {:.3g} of the time between the frames by exposureShare: one of the "
         "two is wrong",
         keyShare,
@@ -170,13 +170,13 @@ void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>
         return;
     if (std::max(now.keyShare, last->keyShare) < 0.1 * keys.share())
         return tell(fmt::format(
-            "motion.keys do not move in the exposure, although the camera moves {:.3g} px between "
+            "keys do not move in the exposure, although the camera moves {:.3g} px between "
             "the frames: give it at shutter open, too, or the frame before at the time that "
-            "timeOfFrameBefore() tells",
+            "shutterBlurGetTimeBefore() tells",
             keys.framePx()
         ));
     if (now.areKeysReversed && last->areKeysReversed)
-        return tell("motion.keys run backwards: they go on from cameras.viewFromWorld the way that "
+        return tell("keys run backwards: they go on from cameras.viewFromWorld the way that "
                     "the camera came; times rise from shutter open to close");
     const bool isOff = std::abs(exposure.px - exposure.wantedPx) >
                        std::max(1.5 * kSamePx, 0.25 * exposure.wantedPx);

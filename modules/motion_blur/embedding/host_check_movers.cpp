@@ -235,7 +235,7 @@ class MoverCheck {
         // What stops between the frames may stand still in all of the exposure, once.
         const bool areTheSame = mFrame.areTheSame() && mLast && mLast->areTheSame();
         if (areTheSame && (count(said, Match::Other) >= share(4) || movesSinceLast()))
-            return describe("the same at all motion.keys, although the row moves in the picture: "
+            return describe("the same at all keys, although the row moves in the picture: "
                             "give it at each key's time");
         if (count(said, Match::Other) < share(4))
             return std::nullopt;
@@ -342,7 +342,7 @@ class MoverCheck {
     [[nodiscard]] std::string describe(const char* what) const {
         const MoverSample& sample = mFrame.samples[mFrame.samples.size() / 2];
         return fmt::format(
-            "motion.movers[{}].worldFromObject, of row {}, is {}", sample.mover, sample.row, what
+            "movers[{}].worldFromObject, of row {}, is {}", sample.mover, sample.row, what
         );
     }
 
@@ -357,9 +357,9 @@ class MoverCheck {
         if (hasVectors() ? !lasts || !areOff(said, 7) : !areOff(said, 8))
             return std::nullopt;
         return fmt::format(
-            "motion.movers' worldFromObject do not agree with {} at {} of the {} samples that show "
+            "movers' worldFromObject do not agree with {} at {} of the {} samples that show "
             "them, as at row {}: see that they are world from object at each key's time, of this "
-            "frame, and that HostMover::row is the value in entityId",
+            "frame, and that ShutterBlurMover::row is the value in entityId",
             hasVectors() ? "the vectors" : "where the last frame shows them",
             describeShare(double(count(said, Match::Other)) / double(said.size())),
             said.size(),

@@ -76,13 +76,13 @@ void checkOffset(
         isOffsetNear(offset, jitter))
         return tell(
             what + ", the change of cameras.jitterPx: jitter is left in the vectors, set "
-                   "vectors.haveJitter = true"
+                   "vectorsHaveJitter = true"
         );
     if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
         isOffsetNear(offset, -jitter))
         return tell(
             what + ", the change of cameras.jitterPx: the vectors have no jitter, set "
-                   "vectors.haveJitter = false"
+                   "vectorsHaveJitter = false"
         );
     if (!now.facts.isNative && isDeclared && convention.vectors.haveJitter &&
         (isOffsetNear(offset, (signY - 1.0) * jitter) ||
@@ -101,7 +101,7 @@ void checkOffset(
         glm::length(last->offsetPx) < 2.5)
         tell(
             what + ", and another offset in the frame before: is temporal jitter left in the "
-                   "vectors? Project both ends without it, or set vectors.haveJitter and "
+                   "vectors? Project both ends without it, or set vectorsHaveJitter and "
                    "cameras.jitterPx"
         );
 }

@@ -142,21 +142,21 @@ class Reprojection {
                     facts.convention.depth.skyValue = 1.0f - facts.convention.depth.skyValue;
                 }),
                 "the cameras after depth is reversed: cameras.clipFromView has near and far the "
-                "other way round than convention.depth.image"
+                "other way round than depth"
             );
-            consider(interpret(true), "the cameras if depth is linear: set depth.isLinear = true");
+            consider(interpret(true), "the cameras if depth is linear: set depthIsLinear = true");
             return;
         }
         consider(
             interpret(false),
-            "the cameras if depth is as the hardware stores it: set depth.isLinear = false"
+            "the cameras if depth is as the hardware stores it: set depthIsLinear = false"
         );
         for (const float factor : kUnitFactors)
             consider(
                 change([&](CheckFacts& facts) { facts.convention.depth.metresPerUnit *= factor; }),
                 fmt::format(
                     "the cameras after depth is multiplied by {:g}: depth and viewFromWorld are in "
-                    "different units, set depth.metresPerUnit = {:g}",
+                    "different units, set metresPerUnit = {:g}",
                     factor,
                     factor * depth.metresPerUnit
                 )
@@ -185,7 +185,7 @@ class Reprojection {
             CheckKind::Unexplained,
             fmt::format(
                 "by the last frame's depth, {} of what stands still is not where "
-                "convention.cameras "
+                "cameras "
                 "say, and no single mistake explains it: hold viewFromWorld, viewFromWorldBefore, "
                 "clipFromView and depth against what the picture was drawn with",
                 describeShare(double(mFound.other) / double(mFound.known()))

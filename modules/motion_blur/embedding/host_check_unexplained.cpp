@@ -61,8 +61,8 @@ void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings) {
              "the picture was drawn with",
              takeMedian(still.offPx, 1).value_or(0.0),
              describeShare(share),
-             facts.hasExposureCameras ? "motion.keys" : "convention.cameras.viewFromWorld",
-             facts.isNative ? "motionDepth" : "convention.vectors"
+             facts.hasExposureCameras ? "keys" : "cameras.viewFromWorld",
+             facts.isNative ? "motionDepth" : "vectors"
          )}
     );
 }

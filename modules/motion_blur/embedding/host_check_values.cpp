@@ -29,11 +29,11 @@ double shareOf(const CheckedFrame& frame, uint32_t index) {
 }
 
 std::string_view vectorsName(const CheckFacts& facts) {
-    return facts.isNative ? "motionDepth" : "convention.vectors.image";
+    return facts.isNative ? "motionDepth" : "vectors";
 }
 
 std::string_view depthName(const CheckFacts& facts) {
-    return facts.isNative ? "motionDepth" : "convention.depth.image";
+    return facts.isNative ? "motionDepth" : "depth";
 }
 
 void checkColorAndMotion(const CheckedFrame& now, std::vector<Finding>& findings) {
@@ -76,7 +76,7 @@ void checkColorAndMotion(const CheckedFrame& now, std::vector<Finding>& findings
                  "{} is longer than the picture's diagonal at {}; check {}",
                  vectors,
                  describeCount(now, shader::kCheckMotionBeyond),
-                 now.facts.isNative ? "that it is in pixels" : "vectors.pixelsPerUnit"
+                 now.facts.isNative ? "that it is in pixels" : "pixelsPerUnit"
              )}
         );
 }
@@ -111,7 +111,7 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
         add(CheckKind::DepthZero,
             fmt::format(
                 "{} is 0 at {}, which is no distance; if nothing is drawn there, set "
-                "convention.depth.skyValue or store {}",
+                "skyValue or store {}",
                 name,
                 describeCount(now, shader::kCheckDepthZero),
                 facts.isNative ? 1.0e9f : depth.skyValue
@@ -119,14 +119,14 @@ void checkDepthValues(const CheckedFrame& now, std::vector<Finding>& findings) {
     if (!depth.isLinear && shareOf(now, shader::kCheckDepthAboveOne) > 0.01)
         add(CheckKind::DepthAboveOne,
             fmt::format(
-                "convention.depth.isLinear is false, but {} is above 1 at {}: for linear depth set "
-                "depth.isLinear = true",
+                "depthIsLinear is false, but {} is above 1 at {}: for linear depth set "
+                "depthIsLinear = true",
                 name,
                 describeCount(now, shader::kCheckDepthAboveOne)
             ));
     if (!depth.isLinear && depth.image.format == VK_FORMAT_R16_SFLOAT)
         add(CheckKind::DepthPrecision,
-            "convention.depth.image is R16_SFLOAT with raw depth, which tells 2048 distances apart "
+            "depth is R16_SFLOAT with raw depth, which tells 2048 distances apart "
             "at the far end; use the depth buffer itself, or linear depth");
 }
 
@@ -145,8 +145,8 @@ void checkSky(const CheckedFrame& now, std::vector<Finding>& findings) {
     findings.push_back(
         {CheckKind::DepthSky,
          fmt::format(
-             "raw depth is {} at {} and {} nowhere, where convention.depth.skyValue is {}: set "
-             "depth.skyValue = {}{}",
+             "raw depth is {} at {} and {} nowhere, where skyValue is {}: set "
+             "skyValue = {}{}",
              isZero ? 1 : 0,
              describeCount(now, other),
              depth.skyValue,
@@ -168,8 +168,8 @@ void checkSkyEnd(const CheckFacts& facts, bool isReversed, std::vector<Finding>&
     findings.push_back(
         {CheckKind::DepthSky,
          fmt::format(
-             "convention.depth.skyValue is {}, but by cameras.clipFromView that is the near "
-             "plane: set depth.skyValue = {}",
+             "skyValue is {}, but by cameras.clipFromView that is the near "
+             "plane: set skyValue = {}",
              skyValue,
              isReversed ? 0 : 1
          )}
@@ -196,7 +196,7 @@ void checkTotals(const CheckedFrame& now, std::vector<Finding>& findings) {
     if (!hasCameras(now.facts))
         findings.push_back(
             {CheckKind::LeftOut,
-             "without convention.cameras, vectors and depth are not compared with what the camera "
+             "without cameras, vectors and depth are not compared with what the camera "
              "does; everything else is checked"}
         );
     checkColorAndMotion(now, findings);
@@ -253,8 +253,8 @@ bool checkDepthDirection(const CheckedFrame& now, std::vector<Finding>& findings
          fmt::format(
              "by cameras.clipFromView, {} of {} samples lie within {:.3g} m, next to the near "
              "plane, "
-             "and the other way round {}: convention.depth.image is {}, so give the {} "
-             "projection as cameras.clipFromView and clipFromViewBefore, and depth.skyValue = {}",
+             "and the other way round {}: depth is {}, so give the {} "
+             "projection as cameras.clipFromView and clipFromViewBefore, and skyValue = {}",
              atNear,
              drawn,
              2.0f * near,

@@ -100,8 +100,8 @@ class Guesses {
         guess.sentence =
             mSaid.haveCamera
                 ? "vectors are 0 where things stand still although the camera moves: the camera's "
-                  "part is not in them, set vectors.lackCamera = true"
-                : "vectors hold the camera's part already: set vectors.lackCamera = false";
+                  "part is not in them, set vectorsLackCamera = true"
+                : "vectors hold the camera's part already: set vectorsLackCamera = false";
         consider(guess);
     }
 
@@ -155,7 +155,7 @@ class Guesses {
             mFacts.isNative
                 ? fmt::format(
                       "motionDepth agrees with the cameras after {}{}: it must hold pixels, right "
-                      "and down, from shutter open to close; or give convention.vectors with "
+                      "and down, from shutter open to close; or give vectors with "
                       "pixelsPerUnit = ({:.6g}, {:.6g})",
                       describeFactors(factors),
                       unit,
@@ -163,7 +163,7 @@ class Guesses {
                       pixels.y
                   )
                 : fmt::format(
-                      "vectors agree with the cameras after {}{}: set vectors.pixelsPerUnit = "
+                      "vectors agree with the cameras after {}{}: set pixelsPerUnit = "
                       "({:.6g}, {:.6g})",
                       describeFactors(factors),
                       unit,
@@ -181,7 +181,7 @@ class Guesses {
         guess.scale = dvec2(1.0 / share);
         guess.sentence = fmt::format(
             "vectors agree with the cameras after multiplication by {:.4g}, 1 / exposureShare: "
-            "they are over the exposure already, set scales.exposureShare = 1, and give the camera "
+            "they are over the exposure already, set exposureShare = 1, and give the camera "
             "at shutter open as the one before",
             1.0 / share
         );
@@ -221,7 +221,7 @@ class Guesses {
             guess.scale = pixels / dvec2(unit.y, unit.x);
             guess.sentence = fmt::format(
                 "vectors agree with the cameras after x and y are exchanged: write x to the first "
-                "channel and y to the second, with vectors.pixelsPerUnit = ({:.6g}, {:.6g})",
+                "channel and y to the second, with pixelsPerUnit = ({:.6g}, {:.6g})",
                 pixels.x,
                 pixels.y
             );
@@ -314,7 +314,7 @@ class Guesses {
             considerFacts(
                 facts,
                 "vectors agree with the cameras after depth is reversed: cameras.clipFromView has "
-                "near and far the other way round than convention.depth.image"
+                "near and far the other way round than depth"
             );
         }
         facts = mFacts;
@@ -323,9 +323,9 @@ class Guesses {
         considerFacts(
             facts,
             !depth.isLinear
-                ? "vectors agree with the cameras if depth is linear: set depth.isLinear = true"
+                ? "vectors agree with the cameras if depth is linear: set depthIsLinear = true"
                 : "vectors agree with the cameras if depth is as the hardware stores it: set "
-                  "depth.isLinear = false"
+                  "depthIsLinear = false"
         );
         if (!depth.isLinear)
             return;
@@ -336,7 +336,7 @@ class Guesses {
                 facts,
                 fmt::format(
                     "vectors agree with the cameras after depth is multiplied by {:g}: depth and "
-                    "viewFromWorld are in different units, set depth.metresPerUnit = {:g}",
+                    "viewFromWorld are in different units, set metresPerUnit = {:g}",
                     factor,
                     facts.convention.depth.metresPerUnit
                 )

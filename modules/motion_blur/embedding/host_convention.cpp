@@ -41,13 +41,7 @@ constexpr std::array kShareFormats{VK_FORMAT_R8_UNORM, VK_FORMAT_R16_SFLOAT, VK_
 core::Status checkScale(std::string_view name, float value, float least) {
     if (value >= least && value <= kMostScale)
         return {};
-    return makeError(
-        "motion blur: convention.scales.{} is {}, it must be {} to {}",
-        name,
-        value,
-        least,
-        kMostScale
-    );
+    return makeError("motion blur: {} is {}, it must be {} to {}", name, value, least, kMostScale);
 }
 
 struct CameraPair {
@@ -70,11 +64,11 @@ std::optional<CameraPair> normalize(const HostCameras& cameras) {
 
 core::Status checkView(std::string_view name, const dmat4& viewFromWorld) {
     if (!math::isFinite(viewFromWorld))
-        return makeError("motion blur: convention.cameras.{} is not finite", name);
+        return makeError("motion blur: cameras.{} is not finite", name);
     if (!isAffine(viewFromWorld))
-        return makeError("motion blur: convention.cameras.{} is not affine", name);
+        return makeError("motion blur: cameras.{} is not affine", name);
     if (!math::isFinite(glm::inverse(viewFromWorld)))
-        return makeError("motion blur: convention.cameras.{} is singular", name);
+        return makeError("motion blur: cameras.{} is singular", name);
     return {};
 }
 
@@ -82,37 +76,35 @@ core::Status checkProjection(
     std::string_view name, const dmat4& clipFromView, bool aheadIsPlusZ, VkExtent2D picture
 ) {
     if (!math::isFinite(clipFromView))
-        return makeError("motion blur: convention.cameras.{} is not finite", name);
+        return makeError("motion blur: cameras.{} is not finite", name);
     const HostCameraKey key{0.0, dmat4(1.0), clipFromView};
     const auto camera = motion_blur::normalize(key, aheadIsPlusZ);
     if (!camera && motion_blur::normalize(key, !aheadIsPlusZ))
         return makeError(
-            "motion blur: convention.cameras.{} looks along {}Z, convention.cameras.aheadIsPlusZ "
+            "motion blur: cameras.{} looks along {}Z, cameras.aheadIsPlusZ "
             "says {}Z",
             name,
             aheadIsPlusZ ? "-" : "+",
             aheadIsPlusZ ? "+" : "-"
         );
     if (!camera)
-        return makeError(
-            "motion blur: convention.cameras.{} is neither perspective nor orthographic", name
-        );
+        return makeError("motion blur: cameras.{} is neither perspective nor orthographic", name);
     const dmat4 place = camera->pictureFromWorld({picture.width, picture.height});
     if (!math::isFinite(glm::inverse(place)))
-        return makeError("motion blur: convention.cameras.{} is singular", name);
+        return makeError("motion blur: cameras.{} is singular", name);
     return {};
 }
 
 /// What cannot be told without cameras.
 const char* findNeedForCameras(const HostConvention& convention) {
     if (!convention.depth.isLinear)
-        return "depth.isLinear is false";
+        return "depthIsLinear is false";
     if (!convention.vectors.image.image)
-        return "vectors.image.image is null";
+        return "vectors.image is null";
     if (convention.vectors.lackCamera)
-        return "vectors.lackCamera is true";
+        return "vectorsLackCamera is true";
     if (convention.scales.camera != convention.scales.object)
-        return "scales.camera is not scales.object";
+        return "cameraScale is not objectScale";
     return nullptr;
 }
 
@@ -127,16 +119,15 @@ glm::vec4 depthFromRaw(const HostCamera& camera) {
 } // namespace
 
 const HostImageRule kVectorsRule{
-    .name = "convention.vectors.image", .formats = kVectorFormats, .hasPictureSize = false};
-const HostImageRule kDepthRule{
-    .name = "convention.depth.image", .formats = kDepthFormats, .hasPictureSize = false};
+    .name = "vectors", .formats = kVectorFormats, .hasPictureSize = false};
+const HostImageRule kDepthRule{.name = "depth", .formats = kDepthFormats, .hasPictureSize = false};
 const HostImageRule kBlurScaleRule{
-    .name = "convention.scales.perPixel", .formats = kShareFormats, .hasPictureSize = false};
+    .name = "blurScale", .formats = kShareFormats, .hasPictureSize = false};
 
 core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
     if (!std::isfinite(cameras.jitterPx.x) || !std::isfinite(cameras.jitterPx.y) ||
         !std::isfinite(cameras.jitterPxBefore.x) || !std::isfinite(cameras.jitterPxBefore.y))
-        return makeError("motion blur: convention.cameras.jitterPx is not finite");
+        return makeError("motion blur: cameras.jitterPx is not finite");
     if (!cameras.areGiven)
         return {};
     SHUTTER_TRY(checkView("viewFromWorld", cameras.viewFromWorld));
@@ -149,7 +140,7 @@ core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
     const auto pair = normalize(cameras);
     if (pair && pair->now.isPerspective != pair->before.isPerspective)
         return makeError(
-            "motion blur: convention.cameras.clipFromViewBefore is {}, clipFromView is not",
+            "motion blur: cameras.clipFromViewBefore is {}, clipFromView is not",
             pair->before.isPerspective ? "perspective" : "orthographic"
         );
     return {};
@@ -157,8 +148,8 @@ core::Status checkHostCameras(const HostCameras& cameras, VkExtent2D picture) {
 
 core::Status checkScales(const HostScales& scales, VkExtent2D picture) {
     SHUTTER_TRY(checkScale("exposureShare", scales.exposureShare, 0.0f));
-    SHUTTER_TRY(checkScale("camera", scales.camera, 0.0f));
-    SHUTTER_TRY(checkScale("object", scales.object, 0.0f));
+    SHUTTER_TRY(checkScale("cameraScale", scales.camera, 0.0f));
+    SHUTTER_TRY(checkScale("objectScale", scales.object, 0.0f));
     SHUTTER_TRY(checkScale("displayedPerRendered", scales.displayedPerRendered, 1.0f));
     if (scales.perPixel.image)
         SHUTTER_TRY(checkImage(scales.perPixel, kBlurScaleRule, picture));
@@ -184,21 +175,20 @@ core::Status checkConvention(const HostConvention& convention, VkExtent2D pictur
     for (const float scale : {vectors.pixelsPerUnit.x, vectors.pixelsPerUnit.y})
         if (!std::isfinite(scale) || scale == 0.0f)
             return makeError(
-                "motion blur: convention.vectors.pixelsPerUnit holds {}, it must be finite and not "
+                "motion blur: pixelsPerUnit holds {}, it must be finite and not "
                 "0",
                 scale
             );
     if (depth.isLinear && !(depth.metresPerUnit > 0.0f && std::isfinite(depth.metresPerUnit)))
         return makeError(
-            "motion blur: convention.depth.metresPerUnit is {}, it must be finite and above 0",
-            depth.metresPerUnit
+            "motion blur: metresPerUnit is {}, it must be finite and above 0", depth.metresPerUnit
         );
     SHUTTER_TRY(checkHostCameras(countedCameras(convention), picture));
     SHUTTER_TRY(checkScales(convention.scales, picture));
     const char* need = findNeedForCameras(convention);
     if (need && !convention.cameras.areGiven)
         return makeError(
-            "motion blur: convention.{}, which needs convention.cameras, and their areGiven is "
+            "motion blur: {}, which needs cameras, and their areGiven is "
             "false",
             need
         );

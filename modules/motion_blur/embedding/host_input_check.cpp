@@ -39,8 +39,8 @@ core::Status checkMotionDepth(
     SHUTTER_TRY(checkImage(image, rule, picture));
     if (!isWhole(image, picture))
         return makeError(
-            "motion blur: {} is part of a larger image; give it as convention.vectors and "
-            "convention.depth, which may be",
+            "motion blur: {} is part of a larger image; give it as vectors and "
+            "depth, which may be",
             rule.name
         );
     return checkDevice(host.images, image, rule, picture);
@@ -56,13 +56,13 @@ core::Status checkDistinct(const HostInputs& inputs) {
     const bool isMade = !inputs.motionDepth.image;
     const std::array<Named, 8> images{
         {{"color", inputs.color},
-         {isMade ? "convention.vectors.image" : "motionDepth",
+         {isMade ? "vectors" : "motionDepth",
           isMade ? inputs.convention.vectors.image : inputs.motionDepth},
          {"normal", inputs.normal},
          {"entityId", inputs.entityId},
-         {"last.color", inputs.last.color},
-         {"last.motionDepth", inputs.last.motionDepth},
-         {"last.entityId", inputs.last.entityId},
+         {"lastColor", inputs.last.color},
+         {"lastMotionDepth", inputs.last.motionDepth},
+         {"lastEntityId", inputs.last.entityId},
          {"output", inputs.output}}};
     for (size_t i = 0; i < images.size(); ++i)
         for (size_t j = i + 1; j < images.size(); ++j) {
@@ -85,10 +85,8 @@ core::Status checkMadeMotion(const HostInputs& inputs, const HostAbilities& host
     const HostConvention& convention = inputs.convention;
     const bool hasVectors = convention.vectors.image.image != VK_NULL_HANDLE;
     if (!hasVectors && !convention.depth.image.image)
-        return makeError(
-            "motion blur: motionDepth.image is null, and so are convention.vectors.image.image and "
-            "convention.depth.image.image"
-        );
+        return makeError("motion blur: motionDepth.image is null, and so are vectors.image and "
+                         "depth.image");
     const VkExtent2D picture = pictureOf(inputs);
     SHUTTER_TRY(checkConvention(convention, picture));
     if (hasVectors)
@@ -105,13 +103,11 @@ core::Status checkReveal(
     const Method& method = *settings.method;
     if (!host.hasRays && !inputs.reveal.record)
         return makeError(
-            "motion blur: the method {} needs rays: reveal.record is empty, and "
-            "HostDevice::rayTier was none",
-            method.name
+            "motion blur: the method {} needs rays: recordReveal is null", method.name
         );
     if (inputs.reveal.record && settings.rayShare < 1.0f)
         return makeError(
-            "motion blur: rayShare is {}, but reveal.record answers each pixel; it must be 1",
+            "motion blur: rayShare is {}, but recordReveal answers each pixel; it must be 1",
             settings.rayShare
         );
     return {};
@@ -122,13 +118,13 @@ core::Status checkSamples(
 ) {
     if (!inputs.samples.record)
         return makeError(
-            "motion blur: the method {} needs rays with times of their own: samples.record is "
-            "empty",
+            "motion blur: the method {} needs rays with times of their own: recordSamples is "
+            "null",
             settings.method->name
         );
     if (!(settings.raysPerPixel <= kMostOwnSamplesPerPixel))
         return makeError(
-            "motion blur: raysPerPixel is {}, but samples.record answers from a list; it must be 0 "
+            "motion blur: raysPerPixel is {}, but recordSamples answers from a list; it must be 0 "
             "to {}",
             settings.raysPerPixel,
             kMostOwnSamplesPerPixel
@@ -177,7 +173,7 @@ core::Status checkCamera(const HostInputs& inputs, const Method& method) {
         return {};
     if (!inputs.convention.cameras.areGiven)
         return makeError(
-            "motion blur: convention.cameras are not given, which the method {} needs", method.name
+            "motion blur: cameras are not given, which the method {} needs", method.name
         );
     return checkScales(inputs.convention.scales, pictureOf(inputs));
 }
@@ -190,8 +186,8 @@ core::Status checkMoversAreKnown(const HostInputs& inputs) {
     for (size_t i = 0; i < movers.size(); ++i)
         if (movers[i].worldFromObject.empty())
             return makeError(
-                "motion blur: motion.movers[{}] has no worldFromObject, and "
-                "convention.vectors.image.image is null: without vectors each mover needs matrices",
+                "motion blur: movers[{}] has no worldFromObject, and "
+                "vectors.image is null: without vectors each mover needs matrices",
                 i
             );
     return {};
@@ -203,7 +199,7 @@ core::Status checkIds(const HostInputs& inputs, const Method& method, const Host
         return {};
     if (method.readsInstantMotions && !inputs.entityId.image)
         return makeError(
-            "motion blur: entityId.image is null, although motion.movers has {}: ids say which "
+            "motion blur: entityId.image is null, although movers has {}: ids say which "
             "pixels are theirs",
             core::countOf(inputs.motion.movers.size(), "row")
         );
@@ -265,7 +261,7 @@ core::Status checkResponsePoints(const HostInputs& inputs) {
         const bool rises = i == 0 ? s == 0.0 : float(s) > float(points[i - 1].s);
         if (!rises || !(s <= 1.0) || (i + 1 == points.size() && s != 1.0))
             return makeError(
-                "motion blur: responsePoints[{}].s is {}, times must rise from 0 to 1", i, s
+                "motion blur: responsePoints[{}].time is {}, times must rise from 0 to 1", i, s
             );
         if (!(sensitivity >= 0.0 && std::isfinite(sensitivity)))
             return makeError(
@@ -323,10 +319,10 @@ void keepRasterKey(HostMotion& motion, double rasterTime, std::vector<HostMover>
 const HostImageRule kMotionRule{.name = "motionDepth", .formats = kMotionFormats};
 const HostImageRule kNormalRule{.name = "normal", .formats = kNormalFormats};
 const HostImageRule kIdRule{.name = "entityId", .formats = kIdFormats, .hasPictureSize = false};
-const HostImageRule kLastColorRule{.name = "last.color", .formats = kColorFormats};
-const HostImageRule kLastMotionRule{.name = "last.motionDepth", .formats = kMotionFormats};
+const HostImageRule kLastColorRule{.name = "lastColor", .formats = kColorFormats};
+const HostImageRule kLastMotionRule{.name = "lastMotionDepth", .formats = kMotionFormats};
 const HostImageRule kLastIdRule{
-    .name = "last.entityId", .formats = kIdFormats, .hasPictureSize = false};
+    .name = "lastEntityId", .formats = kIdFormats, .hasPictureSize = false};
 
 VkExtent2D pictureOf(const HostInputs& inputs) {
     return {inputs.width, inputs.height};
@@ -404,14 +400,12 @@ core::Status checkInputs(
     SHUTTER_TRY(checkImages(inputs, host));
     if (inputs.motion.view >= host.framesInFlight)
         return makeError(
-            "motion blur: motion.view is {}, framesInFlight {}",
-            inputs.motion.view,
-            host.framesInFlight
+            "motion blur: view is {}, framesInFlight {}", inputs.motion.view, host.framesInFlight
         );
     SHUTTER_TRY(validate(inputs.budget));
     if (!inputs.budget.isUnlimited() && !host.measures)
         return makeError(
-            "motion blur: budget.milliseconds is {}, which needs HostDevice::measures",
+            "motion blur: budgetMilliseconds is {}, which needs ShutterBlurDevice::measures",
             inputs.budget.milliseconds
         );
     SHUTTER_TRY(validate(settings));

@@ -27,7 +27,7 @@ constexpr uint32_t kMostRows = shader::kSkyKey; // exact as floats, and not the 
 
 template <class T> core::Status checkSpan(std::string_view name, std::span<const T> values) {
     if (!values.empty() && !values.data())
-        return makeError("motion blur: motion.{} is null, its size is {}", name, values.size());
+        return makeError("motion blur: {} is null, its size is {}", name, values.size());
     return {};
 }
 
@@ -57,7 +57,7 @@ core::Status checkKeyProjection(
     const auto camera = normalize(key, motion.aheadIsPlusZ);
     if (!camera && normalize(key, !motion.aheadIsPlusZ))
         return makeError(
-            "motion blur: {} looks along {}Z, motion.aheadIsPlusZ says {}Z",
+            "motion blur: {} looks along {}Z, cameras.aheadIsPlusZ says {}Z",
             name,
             motion.aheadIsPlusZ ? "-" : "+",
             motion.aheadIsPlusZ ? "+" : "-"
@@ -69,7 +69,7 @@ core::Status checkKeyProjection(
     const auto first = normalize(motion.keys.front(), motion.aheadIsPlusZ);
     if (first && first->isPerspective != camera->isPerspective)
         return makeError(
-            "motion blur: {} is {}, motion.keys[0].clipFromView is not",
+            "motion blur: {} is {}, keys[0].clipFromView is not",
             name,
             camera->isPerspective ? "perspective" : "orthographic"
         );
@@ -80,13 +80,13 @@ core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
     SHUTTER_TRY(checkSpan("keys", motion.keys));
     if (motion.keys.empty() || motion.keys.size() > kMostKeys)
         return makeError(
-            "motion blur: motion.keys holds {}, it needs 1 to {}", motion.keys.size(), kMostKeys
+            "motion blur: keys holds {}, it needs 1 to {}", motion.keys.size(), kMostKeys
         );
     double before = -HUGE_VAL;
     bool hasRaster = false;
     for (size_t i = 0; i < motion.keys.size(); ++i) {
         const HostCameraKey& key = motion.keys[i];
-        const std::string name = fmt::format("motion.keys[{}]", i);
+        const std::string name = fmt::format("keys[{}]", i);
         if (!(std::abs(key.time) <= kMostKeyTime))
             return makeError(
                 "motion blur: {}.time is {}, it must be {} to {}",
@@ -106,7 +106,7 @@ core::Status checkKeys(const HostMotion& motion, const HostMotionFrame& frame) {
     }
     if (!hasRaster)
         return makeError(
-            "motion blur: motion.keys has no key at rasterTime, which is {}", frame.rasterTime
+            "motion blur: keys has no key at rasterTime, which is {}", frame.rasterTime
         );
     return {};
 }
@@ -121,14 +121,11 @@ core::Status checkMatrices(const HostMotion& motion, size_t index) {
         return checkSpan(describe(), matrices);
     if (matrices.size() != motion.keys.size())
         return makeError(
-            "motion blur: motion.{} holds {}, motion.keys {}",
-            describe(),
-            matrices.size(),
-            motion.keys.size()
+            "motion blur: {} holds {}, keys {}", describe(), matrices.size(), motion.keys.size()
         );
     for (size_t k = 0; k < matrices.size(); ++k)
         if (const char* fault = findFault(matrices[k]))
-            return makeError("motion blur: motion.{}[{}] is {}", describe(), k, fault);
+            return makeError("motion blur: {}[{}] is {}", describe(), k, fault);
     return {};
 }
 
@@ -139,14 +136,11 @@ core::Status checkMovers(const HostMotion& motion) {
         const HostMover& mover = motion.movers[i];
         if (mover.row >= motion.rowCount)
             return makeError(
-                "motion blur: motion.movers[{}].row is {}, rowCount {}",
-                i,
-                mover.row,
-                motion.rowCount
+                "motion blur: movers[{}].row is {}, rowCount {}", i, mover.row, motion.rowCount
             );
         if (isListed[mover.row])
             return makeError(
-                "motion blur: motion.movers[{}].row is {}, as another mover's is", i, mover.row
+                "motion blur: movers[{}].row is {}, as another mover's is", i, mover.row
             );
         isListed[mover.row] = true;
         SHUTTER_TRY(checkMatrices(motion, i));
@@ -198,15 +192,13 @@ core::Status checkMotion(const HostMotion& motion, const HostMotionFrame& frame)
     SHUTTER_TRY(checkKeys(motion, frame));
     if (motion.rowCount < 1 || motion.rowCount > kMostRows)
         return makeError(
-            "motion blur: motion.rowCount is {}, it must be 1 to {}", motion.rowCount, kMostRows
+            "motion blur: rowCount is {}, it must be 1 to {}", motion.rowCount, kMostRows
         );
     SHUTTER_TRY(checkMovers(motion));
     SHUTTER_TRY(checkSpan("rowIds", motion.rowIds));
     if (!motion.rowIds.empty() && motion.rowIds.size() != motion.rowCount)
         return makeError(
-            "motion blur: motion.rowIds holds {}, rowCount is {}",
-            motion.rowIds.size(),
-            motion.rowCount
+            "motion blur: rowIds holds {}, rowCount is {}", motion.rowIds.size(), motion.rowCount
         );
     if (frame.hasResponse != (motion.response != nullptr))
         return makeError(

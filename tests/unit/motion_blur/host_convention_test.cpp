@@ -303,26 +303,26 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
         EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
     };
     using C = HostConvention;
-    refuse([](C& c) { c.depth.image.image = VK_NULL_HANDLE; }, "depth.image.image is null");
+    refuse([](C& c) { c.depth.image.image = VK_NULL_HANDLE; }, "depth.image is null");
     refuse(
         [](C& c) { c.vectors.image.format = VK_FORMAT_R8G8B8A8_UNORM; },
-        "vectors.image.format is R8G8B8A8_UNORM, it must be one of R16G16_SFLOAT"
+        "vectors.format is R8G8B8A8_UNORM, it must be one of R16G16_SFLOAT"
     );
     refuse(
         [](C& c) { c.vectors.image.before.layout = VK_IMAGE_LAYOUT_UNDEFINED; },
-        "vectors.image.before.layout is undefined"
+        "vectors.before.layout is undefined"
     );
     refuse(
         [](C& c) { c.depth.image.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT; },
-        "depth.image.usage lacks VK_IMAGE_USAGE_SAMPLED_BIT"
+        "depth.usage lacks VK_IMAGE_USAGE_SAMPLED_BIT"
     );
-    refuse([](C& c) { c.depth.image.area.offset = {-1, 0}; }, "depth.image.area.offset is -1, 0");
+    refuse([](C& c) { c.depth.image.area.offset = {-1, 0}; }, "depth.area.offset is -1, 0");
     refuse(
         [](C& c) {
             c.depth.image.extent = {200, 100};
             c.depth.image.area = {{1, 0}, {200, 100}};
         },
-        "depth.image.area ends at 201, 100, beyond its extent of 200 x 100"
+        "depth.area ends at 201, 100, beyond its extent of 200 x 100"
     );
     refuse(
         [](C& c) {
@@ -339,13 +339,13 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
         },
         "metresPerUnit is 0"
     );
-    refuse([](C& c) { c.scales.exposureShare = -1.0f; }, "scales.exposureShare is -1");
-    refuse([](C& c) { c.scales.camera = kInfinity; }, "scales.camera is inf");
-    refuse([](C& c) { c.scales.object = kNaN; }, "scales.object is nan");
+    refuse([](C& c) { c.scales.exposureShare = -1.0f; }, "exposureShare is -1");
+    refuse([](C& c) { c.scales.camera = kInfinity; }, "cameraScale is inf");
+    refuse([](C& c) { c.scales.object = kNaN; }, "objectScale is nan");
     refuse([](C& c) { c.scales.displayedPerRendered = 0.5f; }, "displayedPerRendered is 0.5");
     refuse(
         [](C& c) { c.scales.perPixel = makeImage(VK_FORMAT_R32_UINT); },
-        "scales.perPixel.format is R32_UINT"
+        "blurScale.format is R32_UINT"
     );
     refuse([](C& c) { c.cameras.jitterPx.x = kNaN; }, "cameras.jitterPx is not finite");
     refuse([](C& c) { c.cameras.viewFromWorld[0].w = 1.0; }, "cameras.viewFromWorld is not affine");
@@ -359,7 +359,7 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     );
     refuse(
         [](C& c) { c.cameras.clipFromView = aheadPlusZ(); },
-        "clipFromView looks along +Z, convention.cameras.aheadIsPlusZ says -Z"
+        "clipFromView looks along +Z, cameras.aheadIsPlusZ says -Z"
     );
     refuse(
         [](C& c) {
@@ -375,13 +375,13 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
                 c.depth.isLinear = true;
                 change(c);
             },
-            part + ", which needs convention.cameras"
+            part + ", which needs cameras"
         );
     };
-    refuseWithoutCameras([](C& c) { c.depth.isLinear = false; }, "depth.isLinear is false");
-    refuseWithoutCameras([](C& c) { c.vectors.lackCamera = true; }, "lackCamera is true");
-    refuseWithoutCameras([](C& c) { c.vectors.image = {}; }, "vectors.image.image is null");
-    refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "camera is not scales.object");
+    refuseWithoutCameras([](C& c) { c.depth.isLinear = false; }, "depthIsLinear is false");
+    refuseWithoutCameras([](C& c) { c.vectors.lackCamera = true; }, "vectorsLackCamera is true");
+    refuseWithoutCameras([](C& c) { c.vectors.image = {}; }, "vectors.image is null");
+    refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "cameraScale is not objectScale");
 }
 
 } // namespace

@@ -396,35 +396,28 @@ class HostMotionCheck : public HostMotionFixture {
 };
 
 TEST_F(HostMotionCheck, EachBadKeyIsNamed) {
-    refuse([&] { motion.keys = {}; }, "motion.keys holds 0, it needs 1 to 64");
-    refuse([&] { setKeys(std::vector<double>(65, 0.5)); }, "motion.keys holds 65");
+    refuse([&] { motion.keys = {}; }, "keys holds 0, it needs 1 to 64");
+    refuse([&] { setKeys(std::vector<double>(65, 0.5)); }, "keys holds 65");
     refuse(
         [&] {
             motion.keys = {static_cast<const HostCameraKey*>(nullptr), 3};
         },
-        "motion.keys is null, its size is 3"
+        "keys is null, its size is 3"
     );
-    refuse([&] { keys[1].time = kNoNumber; }, "motion.keys[1].time is nan");
-    refuse([&] { keys[2].time = 2.0e6; }, "motion.keys[2].time is 2000000, it must be -1000000 to");
-    refuse([&] { keys[0].time = -2.0e6; }, "motion.keys[0].time is -2000000");
-    refuse([&] { keys[0].time = -HUGE_VAL; }, "motion.keys[0].time is -inf");
-    refuse([&] { keys[1].time = 0.0; }, "motion.keys[1].time is 0, not after");
-    refuse([&] { keys[2].time = 0.9; }, "motion.keys has no key at rasterTime, which is 1");
-    refuse(
-        [&] { keys[1].viewFromWorld[2][1] = kNoNumber; },
-        "motion.keys[1].viewFromWorld is not finite"
-    );
-    refuse(
-        [&] { keys[0].viewFromWorld[2] = dvec4(0.0); }, "motion.keys[0].viewFromWorld is singular"
-    );
-    refuse([&] { keys[0].viewFromWorld[1].w = 1.0; }, "motion.keys[0].viewFromWorld is not affine");
-    refuse(
-        [&] { keys[0].viewFromWorld = dmat4(0.0); }, "motion.keys[0].viewFromWorld is not affine"
-    );
+    refuse([&] { keys[1].time = kNoNumber; }, "keys[1].time is nan");
+    refuse([&] { keys[2].time = 2.0e6; }, "keys[2].time is 2000000, it must be -1000000 to");
+    refuse([&] { keys[0].time = -2.0e6; }, "keys[0].time is -2000000");
+    refuse([&] { keys[0].time = -HUGE_VAL; }, "keys[0].time is -inf");
+    refuse([&] { keys[1].time = 0.0; }, "keys[1].time is 0, not after");
+    refuse([&] { keys[2].time = 0.9; }, "keys has no key at rasterTime, which is 1");
+    refuse([&] { keys[1].viewFromWorld[2][1] = kNoNumber; }, "keys[1].viewFromWorld is not finite");
+    refuse([&] { keys[0].viewFromWorld[2] = dvec4(0.0); }, "keys[0].viewFromWorld is singular");
+    refuse([&] { keys[0].viewFromWorld[1].w = 1.0; }, "keys[0].viewFromWorld is not affine");
+    refuse([&] { keys[0].viewFromWorld = dmat4(0.0); }, "keys[0].viewFromWorld is not affine");
 }
 
 TEST_F(HostMotionCheck, EachBadProjectionIsNamed) {
-    const std::string name = "motion.keys[1].clipFromView ";
+    const std::string name = "keys[1].clipFromView ";
     refuse([&] { keys[1].clipFromView[0][0] = kNoNumber; }, name + "is not finite");
     refuse([&] { keys[1].clipFromView[0][0] = 0.0; }, name + "is singular");
     refuse([&] { keys[1].clipFromView = dmat4(0.0); }, name + "is neither perspective nor ortho");
@@ -432,53 +425,51 @@ TEST_F(HostMotionCheck, EachBadProjectionIsNamed) {
     refuse([&] { keys[1].clipFromView[3].w = 1.0; }, name + "is neither perspective nor ortho");
     refuse(
         [&] { keys[1].clipFromView = math::clipFromViewOrthographic(1.0, 1.0, 0.1, 9.0); },
-        name + "is orthographic, motion.keys[0].clipFromView is not"
+        name + "is orthographic, keys[0].clipFromView is not"
     );
     refuse([&] { keys[1].clipFromView[2] *= -1.0; }, name + "looks along +Z");
-    refuse([&] { motion.aheadIsPlusZ = true; }, "motion.keys[0].clipFromView looks along -Z");
+    refuse([&] { motion.aheadIsPlusZ = true; }, "keys[0].clipFromView looks along -Z");
 }
 
 TEST_F(HostMotionCheck, EachBadMoverIsNamed) {
-    refuse([&] { motion.rowCount = 0; }, "motion.rowCount is 0, it must be 1 to 16777215");
-    refuse([&] { motion.rowCount = 1u << 24u; }, "motion.rowCount is 16777216");
-    refuse([&] { movers[0].row = kRows; }, "motion.movers[0].row is 4, rowCount 4");
+    refuse([&] { motion.rowCount = 0; }, "rowCount is 0, it must be 1 to 16777215");
+    refuse([&] { motion.rowCount = 1u << 24u; }, "rowCount is 16777216");
+    refuse([&] { movers[0].row = kRows; }, "movers[0].row is 4, rowCount 4");
     refuse(
         [&] {
             movers.push_back(movers[0]);
             motion.movers = movers;
         },
-        "motion.movers[1].row is 1, as another mover's is"
+        "movers[1].row is 1, as another mover's is"
     );
     refuse(
         [&] {
             motion.movers = {static_cast<const HostMover*>(nullptr), 1};
         },
-        "motion.movers is null, its size is 1"
+        "movers is null, its size is 1"
     );
     refuse(
         [&] { movers[0].worldFromObject = movers[0].worldFromObject.first(2); },
-        "motion.movers[0].worldFromObject holds 2, motion.keys 3"
+        "movers[0].worldFromObject holds 2, keys 3"
     );
     refuse(
         [&] {
             movers[0].worldFromObject = {static_cast<const dmat4*>(nullptr), 3};
         },
-        "motion.movers[0].worldFromObject is null"
+        "movers[0].worldFromObject is null"
     );
-    refuse(
-        [&] { matrices[2][3][0] = kNoNumber; }, "motion.movers[0].worldFromObject[2] is not finite"
-    );
-    refuse([&] { matrices[1][1].w = 0.5; }, "motion.movers[0].worldFromObject[1] is not affine");
+    refuse([&] { matrices[2][3][0] = kNoNumber; }, "movers[0].worldFromObject[2] is not finite");
+    refuse([&] { matrices[1][1].w = 0.5; }, "movers[0].worldFromObject[1] is not affine");
 }
 
 TEST_F(HostMotionCheck, BadIdsAreNamed) {
     const std::vector<uint64_t> ids(3);
-    refuse([&] { motion.rowIds = ids; }, "motion.rowIds holds 3, rowCount is 4");
+    refuse([&] { motion.rowIds = ids; }, "rowIds holds 3, rowCount is 4");
     refuse(
         [&] {
             motion.rowIds = {static_cast<const uint64_t*>(nullptr), kRows};
         },
-        "motion.rowIds is null"
+        "rowIds is null"
     );
 }
 
