@@ -110,7 +110,7 @@ void ReplayedReveal::record(const motion_blur::RevealTask& task) {
             mDevice,
             "revealed",
             image,
-            {task.sizePx.x, task.sizePx.y, format, VK_IMAGE_USAGE_STORAGE_BIT}
+            {task.width, task.height, format, VK_IMAGE_USAGE_STORAGE_BIT}
         ));
     };
     gpu::BindingList bindings;
@@ -118,13 +118,13 @@ void ReplayedReveal::record(const motion_blur::RevealTask& task) {
         .storage(adopt(task.motionDepth.image, VK_FORMAT_R32G32B32A32_SFLOAT))
         .storage(adopt(task.entityId.image, VK_FORMAT_R32_UINT));
     const Push push{
-        task.sizePx,
+        {task.width, task.height},
         gpu::splitAddress(mTexels[0].address()),
         gpu::splitAddress(mTexels[1].address()),
         gpu::splitAddress(mTexels[2].address())};
     mFrame->beginIn(task.commands);
     mFrame->bind(*mPipeline, bindings, &push, sizeof(push));
-    vkCmdDispatch(task.commands, (task.sizePx.x + 7) / 8, (task.sizePx.y + 7) / 8, 1);
+    vkCmdDispatch(task.commands, (task.width + 7) / 8, (task.height + 7) / 8, 1);
 }
 
 } // namespace shutter::replay

@@ -8,7 +8,7 @@
 #include "engine/gpu/pipeline.h"
 #include "game/replay/dump_reader.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
-#include "modules/motion_blur/own_reveal.h"
+#include "modules/motion_blur/host_answers.h"
 
 #include <deque>
 #include <memory>

@@ -5,6 +5,8 @@
 #include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 
+#include <gtest/gtest.h>
+
 #include <cstring>
 #include <vector>
 
@@ -47,13 +49,15 @@ struct InputsForC {
         if (given.reveal.record) {
             inputs.revealUser = this;
             inputs.recordReveal = [](void* self, const ShutterBlurRevealTask* task) {
-                static_cast<InputsForC*>(self)->record(*task);
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.reveal.record(*task);
             };
         }
         if (given.samples.record) {
             inputs.samplesUser = this;
             inputs.recordSamples = [](void* self, const ShutterBlurSampleTask* task) {
-                static_cast<InputsForC*>(self)->record(*task);
+                EXPECT_EQ(task->structBytes, sizeof(*task));
+                static_cast<InputsForC*>(self)->mGiven.samples.record(*task);
             };
         }
     }
@@ -97,28 +101,6 @@ struct InputsForC {
         inputs.exposureShare = convention.scales.exposureShare;
         inputs.cameraScale = convention.scales.camera;
         inputs.objectScale = convention.scales.object;
-    }
-
-    void record(const ShutterBlurRevealTask& task) const {
-        motion_blur::RevealTask told;
-        told.commands = task.commands;
-        told.sizePx = {task.width, task.height};
-        told.list = task.list;
-        told.groups = task.groups;
-        told.color = {task.color.image, task.color.view};
-        told.motionDepth = {task.motionDepth.image, task.motionDepth.view};
-        told.entityId = {task.entityId.image, task.entityId.view};
-        mGiven.reveal.record(told);
-    }
-
-    void record(const ShutterBlurSampleTask& task) const {
-        motion_blur::SampleTask told;
-        told.commands = task.commands;
-        told.sizePx = {task.width, task.height};
-        told.list = task.list;
-        told.groups = task.groups;
-        told.answers = task.answers;
-        mGiven.samples.record(told);
     }
 
     const motion_blur::HostInputs& mGiven;

@@ -125,51 +125,16 @@ HostMotion convertMotion(const ShutterBlurInputs& given, InputArrays& arrays) {
     return motion;
 }
 
-/// What both kinds of tasks tell: the recording, the picture's size and the list.
-template <class Told, class Task> Told tellTask(const Task& task) {
-    Told told{};
-    told.structBytes = sizeof(told);
-    told.commands = task.commands;
-    told.width = task.sizePx.x;
-    told.height = task.sizePx.y;
-    told.list = task.list;
-    told.listAddress = task.listAddress;
-    told.listBytes = task.listBytes;
-    told.groups = task.groups;
-    told.launch = task.launch;
-    told.launchAddress = task.launchAddress;
-    return told;
-}
-
-OwnReveal convertReveal(const ShutterBlurInputs& given) {
-    OwnReveal reveal;
-    reveal.byRayPipeline = given.revealByRayPipeline != VK_FALSE;
-    if (!given.recordReveal)
-        return reveal;
-    reveal.record = [record = given.recordReveal, user = given.revealUser](const RevealTask& task) {
-        auto told = tellTask<ShutterBlurRevealTask>(task);
-        told.color = {task.color.image, task.color.view};
-        told.motionDepth = {task.motionDepth.image, task.motionDepth.view};
-        told.entityId = {task.entityId.image, task.entityId.view};
-        record(user, &told);
-    };
-    return reveal;
-}
-
-OwnSamples convertSamples(const ShutterBlurInputs& given) {
-    OwnSamples samples;
-    samples.byRayPipeline = given.samplesByRayPipeline != VK_FALSE;
-    if (!given.recordSamples)
-        return samples;
-    samples.record = [record = given.recordSamples,
-                      user = given.samplesUser](const SampleTask& task) {
-        auto told = tellTask<ShutterBlurSampleTask>(task);
-        told.answers = task.answers;
-        told.answersAddress = task.answersAddress;
-        told.answersBytes = task.answersBytes;
-        record(user, &told);
-    };
-    return samples;
+template <class Task>
+void setAnswer(
+    HostAnswer<Task>& answer,
+    void (*record)(void* user, const Task* task),
+    void* user,
+    VkBool32 byRayPipeline
+) {
+    answer.byRayPipeline = byRayPipeline != VK_FALSE;
+    if (record)
+        answer.record = [record, user](const Task& task) { record(user, &task); };
 }
 
 core::Result<const Method*> findHostMethod(const char* name) {
@@ -305,8 +270,10 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
     inputs.frameNumber = wanted.frameNumber;
     inputs.motion = convertMotion(wanted, arrays);
     inputs.normal = convert(wanted.normal);
-    inputs.reveal = convertReveal(wanted);
-    inputs.samples = convertSamples(wanted);
+    setAnswer(inputs.reveal, wanted.recordReveal, wanted.revealUser, wanted.revealByRayPipeline);
+    setAnswer(
+        inputs.samples, wanted.recordSamples, wanted.samplesUser, wanted.samplesByRayPipeline
+    );
     inputs.last = {
         convert(wanted.lastColor), convert(wanted.lastMotionDepth), convert(wanted.lastEntityId)};
     if (wanted.budgetMilliseconds != 0.0)

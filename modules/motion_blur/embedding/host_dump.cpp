@@ -380,11 +380,11 @@ OwnReveal HostDump::wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Fr
                 mDevice,
                 "revealed",
                 image,
-                {task.sizePx.x, task.sizePx.y, format, VK_IMAGE_USAGE_STORAGE_BIT}
+                {task.width, task.height, format, VK_IMAGE_USAGE_STORAGE_BIT}
             ));
         };
         const RevealPush push{
-            task.sizePx,
+            {task.width, task.height},
             addressOf("revealColor"),
             addressOf("revealMotionDepth"),
             addressOf("revealEntityId")};
@@ -394,7 +394,7 @@ OwnReveal HostDump::wrapReveal(const HostInputs& inputs, uint32_t frame, gpu::Fr
             .storage(adopt(task.entityId.image, VK_FORMAT_R32_UINT));
         recordBarrier(task.commands);
         recorder.bind(mReveal.get(), bindings, &push, sizeof(push));
-        dispatch(task.commands, task.sizePx);
+        dispatch(task.commands, {task.width, task.height});
     };
     return wrapped;
 }

@@ -10,7 +10,7 @@
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_message.h"
-#include "modules/motion_blur/own_reveal.h"
+#include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/settings.h"
 
 #include <cstdint>

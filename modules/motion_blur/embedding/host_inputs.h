@@ -13,9 +13,8 @@
 #include "modules/motion_blur/embedding/host_message.h"
 #include "modules/motion_blur/embedding/host_motion.h"
 #include "modules/motion_blur/frame_io.h"
+#include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/methods.h"
-#include "modules/motion_blur/own_reveal.h"
-#include "modules/motion_blur/own_samples.h"
 
 #include <cstdint>
 #include <functional>

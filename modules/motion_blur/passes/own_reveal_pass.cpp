@@ -45,9 +45,7 @@ RayRevealOutputs addOwnReveal(
             },
             [&own, size, listBytes](const Data& data, graph::PassContext& context) {
                 const graph::PassResources& resources = context.resources;
-                RevealTask task;
-                task.commands = context.commands;
-                task.sizePx = {size.width, size.height};
+                auto task = makeTask<RevealTask>(context.commands, {size.width, size.height});
                 task.list = resources.buffer(data.list);
                 task.listAddress = resources.address(data.list);
                 task.listBytes = listBytes;
@@ -56,7 +54,7 @@ RayRevealOutputs addOwnReveal(
                     task.launch = resources.buffer(data.launch);
                     task.launchAddress = resources.address(data.launch);
                 }
-                const auto give = [&](graph::ImageHandle image) -> RevealTarget {
+                const auto give = [&](graph::ImageHandle image) -> ShutterBlurRevealTarget {
                     return {resources.image(image).handle(), resources.view(image)};
                 };
                 task.color = give(data.out.color);

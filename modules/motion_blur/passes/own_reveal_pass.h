@@ -3,7 +3,7 @@
 
 #include "engine/gpu/device.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/own_reveal.h"
+#include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/passes/ray_reveal.h"
 
 namespace shutter::motion_blur {

@@ -163,9 +163,7 @@ void OwnSamplesPass::addAnswer(
         },
         [&own, capacity, sizePx = params.sizePx](const Data& data, graph::PassContext& context) {
             const graph::PassResources& resources = context.resources;
-            SampleTask task;
-            task.commands = context.commands;
-            task.sizePx = sizePx;
+            auto task = makeTask<SampleTask>(context.commands, sizePx);
             task.list = resources.buffer(data.lists.samples);
             task.listAddress = resources.address(data.lists.samples);
             task.listBytes = sizeof(shader::SampleHeader) + capacity * sizeof(shader::AskedSample);

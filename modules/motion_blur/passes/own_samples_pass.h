@@ -3,7 +3,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/own_samples.h"
+#include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/passes/look_up.h"
 
 namespace shutter::motion_blur {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a host answers by means of its own (its rays, its shading, or another picture that it has):
+// the background behind masked pixels, and what pixels saw at instants that no raster holds. The
+// effect asks by a list, the host records what answers.
+#pragma once
+
+#include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+
+#include <functional>
+
+namespace shutter::motion_blur {
+
+using RevealTask = ShutterBlurRevealTask;
+using SampleTask = ShutterBlurSampleTask;
+
+/// The host's commands, outside of rendering; they may bind anything.
+template <class Task> struct HostAnswer {
+    /// Records them. Called once within a recording. It must not throw.
+    std::function<void(const Task&)> record;
+    bool byRayPipeline = false; ///< they launch a ray-tracing pipeline, not compute shaders
+};
+
+struct OwnReveal : HostAnswer<RevealTask> {};
+
+struct OwnSamples : HostAnswer<SampleTask> {};
+
+/// Most that MotionBlurSettings::raysPerPixel may be where a host answers: memory is proportional
+/// to it.
+inline constexpr float kMostOwnSamplesPerPixel = 16.0f;
+
+/// A task that begins with its size; all else is nothing.
+template <class Task> [[nodiscard]] Task makeTask(VkCommandBuffer commands, math::uvec2 sizePx) {
+    Task task{};
+    task.structBytes = sizeof(Task);
+    task.commands = commands;
+    task.width = sizePx.x;
+    task.height = sizePx.y;
+    return task;
+}
+
+} // namespace shutter::motion_blur
