@@ -6,8 +6,8 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# What a build for other engines has of engine/ and modules/. With the tools there is more, which is
-# no part of the package.
+# What a build for other engines links of engine/ and modules/, without their headers. With the tools
+# there is more, which is no part of the package.
 set(SHUTTER_EMBEDDING_FOLDERS engine/core engine/math engine/gpu engine/graph modules/motion_blur)
 set(SHUTTER_INSTALL_HEADERS ${CMAKE_INSTALL_INCLUDEDIR}/shutter)
 set(SHUTTER_INSTALL_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/Shutter)
@@ -19,9 +19,14 @@ function(shutter_include_roots target scope)
         ${target}
         ${scope}
         $<BUILD_INTERFACE:${SHUTTER_ROOT}>
-        $<BUILD_INTERFACE:${SHUTTER_ROOT}/shaders>
-        $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}>
-        $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}/shaders>)
+        $<BUILD_INTERFACE:${SHUTTER_ROOT}/shaders>)
+    if(NOT SHUTTER_EMBEDDING_ONLY)
+        target_include_directories(
+            ${target}
+            ${scope}
+            $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}>
+            $<INSTALL_INTERFACE:${SHUTTER_INSTALL_HEADERS}/shaders>)
+    endif()
 endfunction()
 
 # The package that has a library of somebody else, by the library's name: <name>.pc for one that
@@ -68,10 +73,10 @@ function(shutter_install_library name)
             ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
 endfunction()
 
-# shutter_install_shared(<name> <header>)
-# Installs the shared library shutter_<name> as Shutter::<name>, with the one header that it needs
-# besides Vulkan's.
-function(shutter_install_shared name header)
+# shutter_install_shared(<name> <header>...)
+# Installs the shared library shutter_<name> as Shutter::<name>, with its headers, which need no other
+# but Vulkan's.
+function(shutter_install_shared name)
     set_target_properties(shutter_${name} PROPERTIES EXPORT_NAME ${name})
     target_include_directories(
         shutter_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -81,7 +86,7 @@ function(shutter_install_shared name header)
             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development
             ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development # Windows: of imports
             RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT Development) # Windows: the DLL
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT Development)
+    install(FILES ${ARGN} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT Development)
 endfunction()
 
 # shutter_install_pkg_config(<package> <template in cmake/> <static library without shutter_>...)
@@ -106,16 +111,17 @@ endfunction()
 
 # Once all libraries are declared.
 function(shutter_install_package)
-    set(folders engine modules)
-    if(SHUTTER_EMBEDDING_ONLY)
-        set(folders ${SHUTTER_EMBEDDING_FOLDERS})
+    # Headers for post effects and programs on the engine. Other engines have the two public ones of
+    # the motion blur; what is behind these is not theirs.
+    if(NOT SHUTTER_EMBEDDING_ONLY)
+        foreach(folder engine modules)
+            install(DIRECTORY ${SHUTTER_ROOT}/${folder} DESTINATION ${SHUTTER_INSTALL_HEADERS}
+                    COMPONENT Development FILES_MATCHING PATTERN "*.h"
+                    PATTERN embedding EXCLUDE PATTERN c_interface/structures.h EXCLUDE)
+        endforeach()
+        install(DIRECTORY ${SHUTTER_ROOT}/shaders DESTINATION ${SHUTTER_INSTALL_HEADERS}
+                COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
     endif()
-    foreach(folder IN LISTS folders)
-        install(DIRECTORY ${SHUTTER_ROOT}/${folder}/ DESTINATION ${SHUTTER_INSTALL_HEADERS}/${folder}
-                COMPONENT Development FILES_MATCHING PATTERN "*.h")
-    endforeach()
-    install(DIRECTORY ${SHUTTER_ROOT}/shaders DESTINATION ${SHUTTER_INSTALL_HEADERS}
-            COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
     install(EXPORT ShutterLibraries NAMESPACE Shutter:: DESTINATION ${SHUTTER_INSTALL_PACKAGE}
             COMPONENT Development)
 

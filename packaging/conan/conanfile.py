@@ -18,7 +18,7 @@ class ShutterMotionBlur(ConanFile):
     description = "Motion blur for renderers on Vulkan: the embeddable part of Shutter"
     license = "MIT"
     topics = ("vulkan", "graphics", "motion-blur")
-    package_type = "library"  # the shared library for C and the static ones for C++: always both
+    package_type = "library"  # the shared library and the static ones: always both
     settings = "os", "arch", "compiler", "build_type"
 
     def export_sources(self):

@@ -41,7 +41,7 @@ find_fuzzing_clang() {
 # Prints the C++ files of the repository, one per line: those that git knows or would take up.
 list_cpp_files() {
     local file
-    git ls-files --cached --others --exclude-standard '*.cpp' '*.h' | while read -r file; do
+    git ls-files --cached --others --exclude-standard '*.cpp' '*.h' '*.hpp' | while read -r file; do
         [[ ! -e $file ]] || printf '%s\n' "$file"
     done
 }

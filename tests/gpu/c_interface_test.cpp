@@ -3,16 +3,19 @@
 // and what only C can get wrong.
 #include "engine/gpu/frame.h"
 #include "engine/math/transform.h"
-#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
+#include "modules/motion_blur/c_interface/shutter_motion_blur.hpp"
 #include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <functional>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace shutter {
 namespace {
@@ -329,6 +332,122 @@ TEST_F(CInterface, OlderStructuresAreTaken) {
     static_assert(kEnd < offsetof(ShutterBlurInputs, responsePoints), "there was padding");
     std::memset(reinterpret_cast<std::byte*>(&inputs) + kEnd, 0x5A, sizeof(inputs) - kEnd);
     EXPECT_EQ(record(inputs), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
+}
+
+TEST_F(CInterface, TheCppObjectMovesAndRefusesCallsWhereItIsEmpty) {
+    auto created =
+        MotionBlur::create({device().physical(), device().handle(), device().queueFamily(), 2});
+    ASSERT_TRUE(created) << created.message();
+    EXPECT_EQ(created.message(), "");
+    MotionBlur blur = std::move(*created);
+    EXPECT_TRUE(blur);
+    EXPECT_FALSE(*created);
+    mFrame->begin();
+    mHost->recordClears(mFrame->commands());
+    ShutterBlurInputs inputs = makeInputs();
+    const BlurStatus done = blur.record(mFrame->commands(), 0, inputs, BlurSettings("gather"));
+    EXPECT_TRUE(done) << done.message();
+    inputs.width = 0;
+    const BlurStatus wrong = blur.record(mFrame->commands(), 1, inputs);
+    const BlurStatus empty = created->record(mFrame->commands(), 0, inputs);
+    mFrame->submit();
+    mFrame->wait();
+    EXPECT_EQ(wrong.code(), SHUTTER_BLUR_ERROR_REFUSED);
+    EXPECT_NE(wrong.message().find("the size is 0 x 48"), std::string::npos) << wrong.message();
+    EXPECT_EQ(empty.message(), "motion blur: blur is null");
+    EXPECT_GT(blur.memory()->bytes, 0u);
+    EXPECT_FALSE(created->memory());
+    EXPECT_EQ(MotionBlur().memory()->bytes, 0u);
+    const auto warm = blur.isWarm();
+    EXPECT_TRUE(warm && *warm);
+    const auto unmeasured = blur.report(0);
+    EXPECT_FALSE(unmeasured);
+    EXPECT_EQ(unmeasured->passCount, 0u);
+    const auto none = MotionBlur::create({});
+    EXPECT_FALSE(none || *none);
+    EXPECT_NE(none.message().find("ShutterBlurDevice::physical is null"), std::string::npos);
+}
+
+TEST_F(CInterface, TheCppObjectRecordsAPlanThatItWarmedUpFor) {
+    const BlurDevice described(device().physical(), device().handle(), device().queueFamily());
+    BlurSettings settings("gather");
+    const std::array<ShutterBlurValue, 1> values{{{"jitter", "0"}}};
+    settings.setValues(values);
+    BlurPlan plan;
+    plan.width = kWidth;
+    plan.height = kHeight;
+    plan.outputFormat = VK_FORMAT_UNDEFINED;
+    plan.settings = &settings;
+    const auto bytes = MotionBlur::estimateMemory(described, plan);
+    ASSERT_TRUE(bytes) << bytes.message();
+    EXPECT_GT(*bytes, 0u);
+    auto blur = MotionBlur::create(described);
+    ASSERT_TRUE(blur) << blur.message();
+    EXPECT_TRUE(blur->warmUp(plan));
+    EXPECT_TRUE(blur->markDone(1));
+    EXPECT_TRUE(blur->closeView(1));
+    plan.width = 0;
+    EXPECT_FALSE(MotionBlur::estimateMemory(described, plan));
+}
+
+TEST(CppStructures, BeginWithTheDefaultsOfCAndPointToWhatTheyAreGiven) {
+    const BlurInputs inputs(3, 2);
+    const ShutterBlurInputs inC = shutterBlurDefaultInputs();
+    EXPECT_EQ(inputs.structBytes, sizeof(ShutterBlurInputs));
+    EXPECT_EQ(inputs.noEntity, inC.noEntity);
+    EXPECT_EQ(inputs.timeBefore(), shutterBlurGetTimeBefore(&inC));
+    const std::array<ShutterBlurCameraKey, 2> keys{};
+    const std::vector<ShutterBlurMover> movers(3);
+    const ShutterBlurResponsePoint points[] = {{0.0, 1.0}, {1.0, 1.0}};
+    BlurInputs given;
+    given.setKeys(keys);
+    given.setMovers(movers);
+    given.setResponse(points);
+    EXPECT_TRUE(given.keys == keys.data() && given.keyCount == 2);
+    EXPECT_TRUE(given.movers == movers.data() && given.moverCount == 3);
+    EXPECT_TRUE(given.responsePoints == points && given.responsePointCount == 2);
+    uint32_t asked = 0;
+    const auto reveal = [&](const ShutterBlurRevealTask* task) { asked += task->width; };
+    auto samples = [&](const ShutterBlurSampleTask* task) { asked += task->height; };
+    given.setReveal(reveal);
+    given.setSamples(samples);
+    ShutterBlurRevealTask revealTask{};
+    revealTask.width = 5;
+    ShutterBlurSampleTask sampleTask{};
+    sampleTask.height = 70;
+    given.recordReveal(given.revealUser, &revealTask);
+    given.recordSamples(given.samplesUser, &sampleTask);
+    EXPECT_EQ(asked, 75u);
+    std::string told;
+    const auto message = [&](const char* sentence) { told = sentence; };
+    BlurDevice described;
+    described.setMessage(message);
+    described.message(described.messageUser, "said");
+    EXPECT_EQ(told, "said");
+    const BlurImage image(VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL, {}, VK_FORMAT_R8_UINT);
+    EXPECT_EQ(image.before.layout, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_TRUE(image.after.stages == 0 && image.extent.width == 0 && image.samples == 0);
+    const glm::mat4 rows(
+        1.0f,
+        2.0f,
+        3.0f,
+        4.0f,
+        5.0f,
+        6.0f,
+        7.0f,
+        8.0f,
+        9.0f,
+        10.0f,
+        11.0f,
+        12.0f,
+        13.0f,
+        14.0f,
+        15.0f,
+        16.0f
+    );
+    setMatrix(given.cameras.viewFromWorld, &rows[0][0]);
+    for (int i = 0; i < 16; ++i)
+        EXPECT_EQ(given.cameras.viewFromWorld[i], i + 1.0);
 }
 
 TEST_F(CInterface, MemoryIsTold) {

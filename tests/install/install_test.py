@@ -32,11 +32,13 @@ def check_lengths():
 
 def check_installed(prefix):
     for file in ("bin/shutter", "bin/shutter_film", "share/shutter/assets/vase.glb", "share/doc/Shutter/LICENSE",
-                 "include/shutter/modules/motion_blur/embedding/embedded_motion_blur.h",
-                 "include/shutter_motion_blur.h",
+                 "include/shutter_motion_blur.h", "include/shutter_motion_blur.hpp",
                  "include/shutter/shaders/motion_blur/motion_blur_shared.h"):
         if not (prefix / file).is_file():
             fail(f"{file} is not installed")
+    for name in ("embedded_*.h", "host_i*.h", "structures.h"):
+        if internal := list(prefix.rglob(name)):
+            fail(f"{internal[0]} is behind the motion blur's public headers and is installed")
     if layers := [file.name for file in prefix.rglob("*fault_layer*")]:
         fail(f"{layers[0]} belongs to the tests and is installed")
     # Nothing may lead back to where it was built.

@@ -183,7 +183,8 @@ std::vector<std::string> readStandardNames(std::string_view text) {
 void addSources(SourceTree& tree, const std::filesystem::path& root, std::string_view folder) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
         const std::string extension = entry.path().extension().string();
-        if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".h"))
+        if (!entry.is_regular_file() ||
+            (extension != ".cpp" && extension != ".h" && extension != ".hpp"))
             continue;
         const std::string path = entry.path().lexically_relative(root).generic_string();
         std::ifstream stream(entry.path(), std::ios::binary);

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Motion blur in a renderer that has nothing of Shutter: its own device, images, command buffers
-// and two frames in flight, no ECS, no render graph. It draws stripes and a square that moves, and
-// writes the last frame as "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4).
-#include "modules/motion_blur/embedding/embedded_motion_blur.h"
-
+// Motion blur in a renderer that has its own device, images, commands and two frames in flight:
+// from a moving square to "before.ppm" and "after.ppm". Shutter's part is marked (1) to (4).
 #include <glm/gtc/packing.hpp>
+#include <shutter_motion_blur.hpp>
 #include <vulkan/vulkan_raii.hpp>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <fstream>
+#include <stdexcept>
+#include <vector>
 
-using namespace shutter;
 constexpr uint32_t kWidth = 320, kHeight = 180, kInFlight = 2, kFrames = 5;
 constexpr float kSpeedPx = 24; // of the square, in a frame; its exposure is as long
 constexpr vk::Extent3D kSize(kWidth, kHeight, 1);
@@ -23,8 +22,6 @@ constexpr auto kSource = vk::ImageLayout::eTransferSrcOptimal;
 constexpr auto kAny = vk::PipelineStageFlagBits2::eAllCommands;
 constexpr auto kWrite = vk::AccessFlagBits2::eMemoryWrite, kRead = vk::AccessFlagBits2::eHostRead;
 constexpr auto kColor = vk::ImageAspectFlagBits::eColor;
-// What is done to images before and after the effect, by any command: stages could be named, too.
-constexpr graph::OutsideUse kDrawn{VkImageLayout(kTarget)}, kCopied{VkImageLayout(kSource)};
 
 struct Gpu {
     vk::raii::PhysicalDevice physical;
@@ -80,13 +77,17 @@ void draw(const vk::raii::CommandBuffer& commands, const Image& color, const Ima
     commands.endRendering();
 }
 
+void require(bool isDone, const char* why) {
+    if (!isDone)
+        throw std::runtime_error(why);
+}
+
 void write(const char* path, const uint64_t* halves) {
     std::ofstream file(path, std::ios::binary);
     file << "P6 " << kWidth << ' ' << kHeight << " 255\n";
     for (uint32_t i = 0; i < kWidth * kHeight * 3; ++i)
         file.put(char(255 * glm::min(glm::unpackHalf4x16(halves[i / 3])[i % 3], 1.0f) + 0.5f));
-    if (!file.flush())
-        throw std::runtime_error(std::string("cannot write ") + path);
+    require(bool(file.flush()), "cannot write the picture");
 }
 
 int main() try {
@@ -96,9 +97,11 @@ int main() try {
     const vk::raii::PhysicalDevice physical = vk::raii::PhysicalDevices(instance).at(0);
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queueInfo({}, 0, 1, &priority);
-    motion_blur::HostFeatures features; // (1) what the device must have enabled
-    features.v13.dynamicRendering = VK_TRUE;
-    const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, features.chain());
+    auto v13 = vk::PhysicalDeviceVulkan13Features().setDynamicRendering(true);
+    auto v12 = vk::PhysicalDeviceVulkan12Features().setPNext(&v13);
+    vk::PhysicalDeviceFeatures2 features({}, &v12); // (1) with what the effect needs enabled
+    require(bool(shutter::MotionBlur::addFeatures(features)), shutterBlurGetMessage());
+    const vk::DeviceCreateInfo deviceInfo({}, queueInfo, {}, {}, {}, &features);
     const Gpu gpu{physical, {physical, deviceInfo}};
     const vk::raii::CommandPool pool(gpu.device, {{}, 0});
     const vk::raii::CommandBuffers commands(gpu.device, {*pool, {}, kFrames});
@@ -111,23 +114,21 @@ int main() try {
     using enum vk::MemoryPropertyFlagBits;
     const auto memory = gpu.allocate(copies.getMemoryRequirements(), eHostVisible | eHostCoherent);
     copies.bindMemory(*memory, 0);
-    // (2) the effect, for this device and its queue family 0
-    auto blur = motion_blur::EmbeddedMotionBlur::create({*physical, *gpu.device, 0, kInFlight});
-    if (!blur)
-        throw std::runtime_error(blur.error().message);
-    motion_blur::HostInputs inputs{kWidth, kHeight}; // (3) what it reads and writes
-    inputs.color = {*color.image, kDrawn, kCopied};
-    inputs.motionDepth = {*motion.image, kDrawn, {}};
-    inputs.output = {*output.image, {}, kCopied};
-    const motion_blur::MotionBlurSettings kSettings{&motion_blur::getMethod("gather")};
+    auto blur = shutter::MotionBlur::create({*physical, *gpu.device, 0, kInFlight}); // (2) once
+    require(bool(blur), blur.message().c_str());
+    shutter::BlurInputs inputs(kWidth, kHeight); // (3) what it reads and writes
+    inputs.color = shutter::BlurImage(*color.image, VkImageLayout(kTarget), VkImageLayout(kSource));
+    inputs.motionDepth = shutter::BlurImage(*motion.image, VkImageLayout(kTarget), {});
+    inputs.output = shutter::BlurImage(*output.image, {}, VkImageLayout(kSource));
+    const shutter::BlurSettings kGather("gather");
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         if (frame >= kInFlight) // (4) is given the number of a frame that the GPU is done with
             (void)gpu.device.waitForFences(*fences[frame - kInFlight], true, UINT64_MAX);
         const vk::raii::CommandBuffer& now = commands[frame];
         now.begin({});
         draw(now, color, motion, 40 + int(kSpeedPx * float(frame)));
-        if (auto done = blur.value()->record(*now, frame % kInFlight, inputs, kSettings); !done)
-            throw std::runtime_error(done.error().message);
+        const auto done = blur->record(*now, frame % kInFlight, inputs, kGather);
+        require(bool(done), done.message().c_str());
         vk::BufferImageCopy to(2 * frame * kBytes, 0, 0, {kColor, 0, 0, 1}, {}, kSize);
         now.copyImageToBuffer(*color.image, kSource, *copies, to);
         to.bufferOffset += kBytes;
@@ -143,8 +144,7 @@ int main() try {
     write("before.ppm", halves + (2 * kFrames - 2) * kBytes / 8);
     write("after.ppm", halves + (2 * kFrames - 1) * kBytes / 8);
 
-} catch (const std::exception& error) {
+} catch (const std::runtime_error& error) {
 
-    std::fprintf(stderr, "bare_renderer: %s\n", error.what());
-    return 1;
+    return std::fprintf(stderr, "bare_renderer: %s\n", error.what()) > 0;
 }

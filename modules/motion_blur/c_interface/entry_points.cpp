@@ -27,8 +27,6 @@ struct ShutterBlur {
     std::vector<ShutterBlurCounter> counters;
 };
 
-static_assert(SHUTTER_BLUR_VERSION == motion_blur::kHeaderVersion, "C and C++ have one version");
-
 namespace {
 
 thread_local std::string tMessage;

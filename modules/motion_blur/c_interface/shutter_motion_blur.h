@@ -2,6 +2,7 @@
  *
  * Motion blur for an engine that uses nothing else of Shutter, in C11: made from Vulkan handles,
  * recorded into the host's own command buffers, from the host's images into an image of the host.
+ * shutter_motion_blur.hpp is the same for C++.
  *
  * Structures that begin with their size are made by the function of their name, which sets the size
  * and the default of every field:
@@ -101,20 +102,21 @@ typedef struct ShutterBlurDevice {
     uint32_t queueFamily;    /* of the command buffers */
     uint32_t framesInFlight; /* frames in flight times views, [1, 64] */
     VkBool32 hasDebugUtils;  /* VK_EXT_debug_utils is enabled: objects and passes get names */
-    /* Where pipelines are looked up and kept; null: in one that goes with the object. */
+    /* Where pipelines are looked up and kept, so that a host that saves it starts faster the next
+     * time; null: in one that goes with the object. Not made to be synchronized by its users. */
     VkPipelineCache pipelineCache;
     /* The feature rayTracingPipelineTraceRaysIndirect is enabled. */
     VkBool32 tracesIndirect;
-    uint32_t
-        apiVersion; /* VkApplicationInfo::apiVersion of the instance, to be checked; 0: unsaid */
-    /* The chain that the device was made with, to be checked; null: unsaid. Read by
+    /* VkApplicationInfo::apiVersion of the instance, to be checked; 0: not said. */
+    uint32_t apiVersion;
+    /* The chain that the device was made with, to be checked; null: not said. Read by
      * shutterBlurCreate() only. */
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /* shutterBlurRecord() takes the GPU's times and counts, for shutterBlurGetReport() and
-     * ShutterBlurInputs::budgetMilliseconds. */
+     * ShutterBlurInputs::budgetMilliseconds: two timestamps a pass and a few small copies. */
     VkBool32 measures;
     /* Compares the inputs of each recording with one another and with what they must be, and tells
-     * `message` what looks wrong. 0 costs nothing. */
+     * `message` what looks wrong (docs/debugging_integration.md). 0 costs nothing. */
     VkBool32 checksInputs;
     /* Gets what the checker finds, why a dump failed, and that the object is destroyed too early;
      * or null. */
@@ -182,14 +184,16 @@ typedef struct ShutterBlurUse {
     VkAccessFlags2 access;
 } ShutterBlurUse;
 
-/* 2D, one level, one sample, owned by the queue family of the commands. It may be
- * destroyed once the frame is done. */
+/* 2D, one level, one sample, owned by the queue family of the commands. It may be destroyed once
+ * the frame is done. What is said of usage and samples is checked; Vulkan does not tell them. An
+ * image whose memory is too small for what is said of it is refused. */
 typedef struct ShutterBlurImage {
     VkImage image;
     VkFormat format;   /* UNDEFINED: the first that the input takes */
     VkExtent2D extent; /* of the whole image; 0 x 0: it ends where `area` does */
     /* The part that is used; an extent of 0 x 0: all of `extent` from the offset on, or the
-     * picture's size where that is not said either. */
+     * picture's size where that is not said either. Inputs of another size than the picture's are
+     * read at the nearest pixel. */
     VkRect2D area;
     VkImageUsageFlags usage;       /* that it was made with, to be checked; 0: not said */
     VkSampleCountFlagBits samples; /* that it was made with, must be 1; 0: not said */
@@ -198,42 +202,52 @@ typedef struct ShutterBlurImage {
     ShutterBlurUse after;
 } ShutterBlurImage;
 
-/* The camera of this frame and of the one before. */
+/* The camera of this frame and of the one before: needed for depth as the hardware stores it,
+ * without vectors or with vectors that lack the camera's part, and where cameraScale is not
+ * objectScale. */
 typedef struct ShutterBlurCameras {
-    VkBool32 areGiven;     /* the fields below count */
-    VkBool32 aheadIsPlusZ; /* of view space; 0: ahead is -Z */
-    double viewFromWorld[16];
-    /* Perspective or orthographic, any range and direction of depth, without jitter. y = -1 is the
-     * picture's top: a host that flips its viewport negates the second row. */
+    VkBool32 areGiven;        /* the fields below count */
+    VkBool32 aheadIsPlusZ;    /* of view space; 0: ahead is -Z */
+    double viewFromWorld[16]; /* affine and not singular */
+    /* Perspective or orthographic, any range and direction of depth, lenses may be shifted; without
+     * jitter. y = -1 is the picture's top: a host that flips its viewport negates the second row.
+     */
     double clipFromView[16];
     double viewFromWorldBefore[16];
     double clipFromViewBefore[16];
-    /* By how much the pictures' samples lie right and down of their pixels' centres, pixels. */
+    /* By how much the pictures' samples lie right and down of their pixels' centres, pixels of the
+     * picture, [-0.5, 0.5] as a rule. */
     double jitterPx[2];
     double jitterPxBefore[2];
 } ShutterBlurCameras;
 
-/* The camera at one shutter time, for "resolved". */
+/* The camera at one shutter time, for "resolved". Between keys, translation is straight, rotation
+ * takes the shorter arc, and scale, shear and projection are linear; before the first key and after
+ * the last one all stands still. Three keys (open, raster, close) are enough for what turns evenly,
+ * by less than half a turn from key to key. */
 typedef struct ShutterBlurCameraKey {
     /* Shutter time: 0 open, 1 close. One outside of [0, 1] counts for what lies between it and the
-     * next key, as that of the frame before does: shutterBlurGetTimeBefore(). */
+     * next key, as that of the frame before does: shutterBlurGetTimeBefore(). Within 1e6 of 0. */
     double time;
-    double viewFromWorld[16];
-    double clipFromView[16]; /* as above, with this frame's jitter in all keys */
+    double viewFromWorld[16]; /* in metres, as the depth in motionDepth */
+    /* As above, the same kind in all keys, with the jitter of `color` in all keys: this frame's, or
+     * none where anti-aliasing has taken it out before the blur. */
+    double clipFromView[16];
 } ShutterBlurCameraKey;
 
 /* An entity that may not stand still in the world, for "resolved". */
 typedef struct ShutterBlurMover {
     uint32_t row; /* its value in `entityId`, below rowCount */
-    /* World from the entity's own space, 16 numbers for each camera key; null: it changes its
-     * shape, or its way is not known, and its motion vectors are followed. */
+    /* World from the entity's own space, 16 numbers for each camera key: affine, with any scale;
+     * where it is singular, the entity is not to be seen. Null: it changes its shape, or its way is
+     * not known; its motion vectors are followed, taken as straight, and it has no history. */
     const double* worldFromObject;
 } ShutterBlurMover;
 
 /* The sensor's sensitivity at a shutter time, relative to that at others. */
 typedef struct ShutterBlurResponsePoint {
-    double time; /* shutter time, [0, 1]: 0 open, 1 close */
-    double sensitivity;
+    double time;        /* shutter time, [0, 1]: 0 open, 1 close */
+    double sensitivity; /* finite, 0 or more, and not 0 at all points */
 } ShutterBlurResponsePoint;
 
 typedef struct ShutterBlurRevealTarget {
@@ -303,6 +317,7 @@ typedef void (*ShutterBlurRecordSamples)(void* user, const ShutterBlurSampleTask
 /* Records the host's commands, outside of rendering; they may bind anything. */
 typedef void (*ShutterBlurRecordReveal)(void* user, const ShutterBlurRevealTask* task);
 
+/* Arrays are read during the call only. */
 typedef struct ShutterBlurInputs {
     uint32_t structBytes;
     uint32_t width; /* of the picture, pixels, [1, 32768] */
@@ -323,20 +338,23 @@ typedef struct ShutterBlurInputs {
     ShutterBlurImage depth;   /* D32F, D16, X8D24, D24S8, D32FS8, or a first channel of floats */
     /* What the vectors are multiplied by to be pixels of the picture, right and down, from the
      * frame before to this one: (-width, -height) where they lead back in texture coordinates,
-     * (-width / 2, height / 2) back in normalised device coordinates with y up. */
+     * (-width / 2, height / 2) back in normalised device coordinates with y up. Not 0. */
     float pixelsPerUnit[2];
     VkBool32 vectorsLackCamera; /* the camera's part is not in them; `cameras` gives it */
     VkBool32 vectorsHaveJitter; /* cameras.jitterPx is left in them */
     VkBool32 depthIsLinear;     /* along the view; 0: as the hardware stores it, by `cameras` */
-    float metresPerUnit;        /* of linear depth */
-    float skyValue;             /* of the depth where nothing is; linear: that and all beyond it */
+    float metresPerUnit;        /* of linear depth, above 0 */
+    /* Of the depth where nothing is. Linear: that and all beyond it; else what the buffer is
+     * cleared to, 0 where far is 0. NaN: nothing tells the sky. */
+    float skyValue;
     ShutterBlurCameras cameras;
     /* Exposure over the time between the frames, [0, 16]: 0.5 is a shutter of 180 degrees. With
      * motionDepth it counts for "rosado2007" alone, which follows `cameras`. */
     float exposureShare;
     float cameraScale; /* share of the camera's motion that is blurred, [0, 16] */
     float objectScale; /* the same of what objects move by themselves */
-    /* Frames that are shown for each one drawn, where others are generated between, [1, 16]. */
+    /* Frames that are shown for each one drawn, where others are generated between, [1, 16]: each
+     * is shown for that much less time, and blurred as much less. */
     float displayedPerRendered;
     ShutterBlurImage blurScale; /* R8, R16F or R32F: the pixels' share of the blur; null: 1 */
     /* The frame before was of another place, or there is none: nothing is blurred, and the cameras
@@ -352,17 +370,25 @@ typedef struct ShutterBlurInputs {
      * stands still in the world, and rowCount does not count. */
     ShutterBlurImage entityId;
     uint32_t noEntity; /* its value where nothing is */
-    uint32_t rowCount; /* values are below it, [1, 2^24 - 1] */
+    /* [1, 2^24 - 1]. Values are rows below it; a pixel of another one, but noEntity, counts as
+     * unresolved. */
+    uint32_t rowCount;
     uint32_t keyCount; /* [1, 64] */
     /* Times rising, one at rasterTime; ahead by cameras.aheadIsPlusZ. They alone say how long the
      * exposure is: exposureShare scales vectors. */
     const ShutterBlurCameraKey* keys;
     uint32_t moverCount;
-    const ShutterBlurMover* movers; /* every row without one stands still in the world */
-    const uint64_t* rowIds;         /* rowCount ids that last from frame to frame; null: the rows */
-    uint32_t view;                  /* number of the view, below framesInFlight */
-    /* The recording before of this view shows the frame before, or all has stood still since: its
-     * raster is looked up, too. */
+    /* In any order, each row once. A row without one stands still in the world: where it is, and in
+     * the frame before. One that is listed but does not move costs next to nothing. */
+    const ShutterBlurMover* movers;
+    /* rowCount ids that entities have in every frame, so that history finds them in whatever row
+     * they are; one that occurs twice is not found, and a new one takes history from an entity that
+     * was teleported. Null: the rows, so no entity may come, go or change its row. */
+    const uint64_t* rowIds;
+    uint32_t view; /* number of the view, below framesInFlight: each has a history of its own */
+    /* The recording before of this view was submitted before this one, to the same queue, and shows
+     * the frame before in the same world space, or all has stood still since. Its raster is looked
+     * up, too, unless it had another size or kind of projection. */
     VkBool32 followsLast;
 
     /* For "hybrid", with entityId and noEntity: */
@@ -386,7 +412,8 @@ typedef struct ShutterBlurInputs {
      * unlimited. With ShutterBlurDevice::measures. */
     double budgetMilliseconds;
 
-    /* For debugging: panels over the blurred picture show what the effect reads. */
+    /* For debugging: panels over the blurred picture show what the effect reads, and what of it the
+     * camera explains (docs/debugging_integration.md). Dumps are without. */
     VkBool32 showsInputs;
     /* The shutter's response: times rise from 0 to 1, and it is straight between them. */
     const ShutterBlurResponsePoint* responsePoints;
@@ -408,7 +435,8 @@ static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
 }
 
 /* Shutter time of the frame before's raster, for a host that knows that frame and this one alone:
- * it gives two keys, that frame's matrices at this time, and its own at inputs->rasterTime. */
+ * it gives two keys, that frame's matrices at this time, and its own at inputs->rasterTime.
+ * Exposures lie displayedPerRendered / exposureShare apart; a share below 1e-4 counts as that. */
 static inline double shutterBlurGetTimeBefore(const ShutterBlurInputs* inputs) {
     const double share = inputs->exposureShare > 1.0e-4f ? inputs->exposureShare : 1.0e-4;
     return inputs->rasterTime - inputs->displayedPerRendered / share;
@@ -420,7 +448,8 @@ static inline double shutterBlurGetTimeBefore(const ShutterBlurInputs* inputs) {
  * submitted once at most. It binds pipelines, sets 0 and push constants of the compute bind point.
  * `frame` is below framesInFlight: the GPU must be done with what was recorded last under it, and
  * the host has waited for it. While the GPU has not run that, the call is refused;
- * shutterBlurMarkDone() tells of one that is never submitted.
+ * shutterBlurMarkDone() tells of one that is never submitted. After an error, the next frame of the
+ * view has none before it, whatever followsLast says.
  * Settings may be null. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     ShutterBlur* blur,
@@ -430,10 +459,13 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurRecord(
     const ShutterBlurSettings* settings
 );
 
-/* The GPU is done with `frame`, or will never see it; for one that is not recorded again soon. */
+/* The GPU is done with `frame`, or will never see it: for a recording that was dropped, and for a
+ * number that is not recorded again soon, since what was retired after it, by any frame, is kept
+ * until then. What resizing left over goes once every frame recorded until then is done. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurMarkDone(ShutterBlur* blur, uint32_t frame);
 
-/* The view was closed: what "resolved" keeps of its last raster goes once its frames are done. */
+/* The view was closed: what "resolved" keeps of its last raster goes once its frames are done. Its
+ * number may be used anew. */
 SHUTTER_BLUR_API ShutterBlurResult shutterBlurCloseView(ShutterBlur* blur, uint32_t view);
 
 /* ---- Times and counters --------------------------------------------------------------------- */
@@ -508,7 +540,8 @@ SHUTTER_BLUR_API ShutterBlurResult shutterBlurEstimateMemory(
     const ShutterBlurDevice* device, const ShutterBlurPlan* plan, uint64_t* bytes
 );
 
-/* Makes the pipelines that recording the plan needs, so that shutterBlurRecord() makes none. */
+/* Makes the pipelines that recording the plan needs, so that shutterBlurRecord() makes none: tens
+ * to hundreds of milliseconds without a pipeline cache. */
 SHUTTER_BLUR_API ShutterBlurResult
 shutterBlurWarmUp(ShutterBlur* blur, const ShutterBlurPlan* plan);
 

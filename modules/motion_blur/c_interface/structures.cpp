@@ -13,6 +13,10 @@ namespace {
 
 using core::makeError;
 
+std::string describeVersion(uint32_t version) {
+    return fmt::format("{}.{}.{}", version >> 22, version >> 12 & 0x3FF, version & 0xFFF);
+}
+
 graph::OutsideUse convert(const ShutterBlurUse& given) {
     graph::OutsideUse use;
     use.layout = given.layout;
@@ -165,6 +169,18 @@ core::Status apply(const ShutterBlurValue& given, MotionBlurSettings& settings) 
 
 bool isForHosts(const Method& method) {
     return method.readsRaster;
+}
+
+core::Status checkVersion(uint32_t headerVersion) {
+    constexpr uint32_t kPatch = 0xFFF;
+    if (headerVersion >> 12 == SHUTTER_BLUR_VERSION >> 12 &&
+        (headerVersion & kPatch) <= (SHUTTER_BLUR_VERSION & kPatch))
+        return {};
+    return makeError(
+        "motion blur: the host was compiled with headers of version {}, the library is {}",
+        describeVersion(headerVersion),
+        describeVersion(SHUTTER_BLUR_VERSION)
+    );
 }
 
 core::Result<HostDevice> convert(const ShutterBlurDevice* given) {

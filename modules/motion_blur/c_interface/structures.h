@@ -31,6 +31,10 @@ template <class T>
     return taken;
 }
 
+/// Whether a host compiled with a header of this version may use the library: the same major and
+/// minor version, and a patch that is not newer. The error names both versions.
+[[nodiscard]] core::Status checkVersion(uint32_t headerVersion);
+
 [[nodiscard]] core::Result<HostDevice> convert(const ShutterBlurDevice* given);
 
 struct HostSettings {

@@ -64,9 +64,8 @@ core::Status checkHost(const HostDevice& host) {
 
 } // namespace
 
-core::Result<std::unique_ptr<EmbeddedMotionBlur>>
-EmbeddedMotionBlur::create(const HostDevice& host, uint32_t headerVersion) {
-    SHUTTER_TRY(checkVersion(headerVersion)); // first: another version's HostDevice is another
+core::Result<std::unique_ptr<EmbeddedMotionBlur>> EmbeddedMotionBlur::create(const HostDevice& host
+) {
     const core::Status able = checkHost(host);
     if (!able)
         return able.error();

@@ -7,7 +7,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/embedding/host_check.h"
-#include "modules/motion_blur/embedding/host_message.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,6 @@
 
 namespace shutter::motion_blur {
 
-struct HostInputs;
 struct MotionBlurSettings;
 
 /// The host's images in the graph, as they were imported. Invalid: not given.

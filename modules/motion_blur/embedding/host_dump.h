@@ -9,7 +9,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
 #include "modules/motion_blur/embedding/host_checker.h"
-#include "modules/motion_blur/embedding/host_message.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/settings.h"
 

@@ -10,28 +10,17 @@
 
 namespace shutter::motion_blur {
 
-/// An image of the host: 2D, one level, one sample, owned by the queue family of the command
-/// buffer. It may be destroyed once the frame is done.
-///
-/// `format`, `area`, `extent` and `usage` may be left as they are by a host whose image has the
-/// input's own format and the picture's size. What is said of `usage` and `samples` is checked;
-/// Vulkan does not tell them. Its memory is: an image that is smaller than what is said of it is
-/// refused where it takes too little.
+/// ShutterBlurImage. Uses of no stages are all commands there, and OutsideUse{} here.
 struct HostImage {
     VkImage image = VK_NULL_HANDLE;
     graph::OutsideUse before; ///< the host's last use, which is waited for
     graph::OutsideUse after;  ///< the host's next use, which needs no barrier of the host's
-    VkFormat format = VK_FORMAT_UNDEFINED; ///< UNDEFINED: the first that the input takes
-    /// Size of the whole image, pixels; 0 x 0: it ends where the part that is used does.
+    VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{0, 0};
-    /// The part that is used: a picture of `area.extent` from `area.offset`. An extent of 0 x 0:
-    /// all of `extent` from there on, or the picture's size where that is not said either. Inputs
-    /// of another size than the picture's are read at the nearest pixel.
     VkRect2D area{{0, 0}, {0, 0}};
-    VkImageUsageFlags usage = 0; ///< that it was made with; 0: not said
-    /// Array layer that is used, e.g. one eye's; the layout of no other layer is changed.
+    VkImageUsageFlags usage = 0;
     uint32_t layer = 0;
-    VkSampleCountFlagBits samples{}; ///< that it was made with, which must be 1; 0: not said
+    VkSampleCountFlagBits samples{};
 };
 
 /// What one input takes, by the order of preference.

@@ -11,19 +11,20 @@
 
 namespace shutter::motion_blur {
 
+/// ShutterBlurPlan.
 struct HostPlan {
     MotionBlurSettings settings; ///< without a method: `resolved`
-    uint32_t width = 0;          ///< of the picture, pixels, [1, 32768]
+    uint32_t width = 0;
     uint32_t height = 0;
-    uint32_t viewCount = 1; ///< that keep a history of their own, [1, framesInFlight]
+    uint32_t viewCount = 1;
     VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-    VkFormat outputFormat = VK_FORMAT_R16G16B16A16_SFLOAT; ///< UNDEFINED: in place
-    VkFormat entityIdFormat = VK_FORMAT_R32_UINT;          ///< UNDEFINED: no ids
-    bool areParts = false;   ///< color and output are parts or layers of larger images
-    bool hasVectors = false; ///< vectors and depth of the host's own in place of motionDepth
-    bool lendsLast = false;  ///< HostInputs::last
-    uint32_t rowCount = 1;   ///< HostMotion::rowCount
-    uint32_t moverCount = 0; ///< movers with transforms, at most
+    VkFormat outputFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+    VkFormat entityIdFormat = VK_FORMAT_R32_UINT;
+    bool areParts = false;
+    bool hasVectors = false;
+    bool lendsLast = false;
+    uint32_t rowCount = 1;
+    uint32_t moverCount = 0;
 };
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.

@@ -3,13 +3,11 @@
 #pragma once
 
 #include "engine/gpu/vulkan.h"
-#include "modules/motion_blur/embedding/host_message.h"
+#include "modules/motion_blur/embedding/host_inputs.h"
 
 #include <cstdint>
 
 namespace shutter::motion_blur {
-
-struct HostInputs;
 
 class HostUnsaid {
   public:

@@ -1,43 +1,40 @@
 // SPDX-License-Identifier: MIT
-// A renderer in C++20: host METHOD... blurs the scene by each method and writes METHOD.raw. What is
-// here is free of exceptions and of run-time types.
+// A renderer in C++17: host METHOD... blurs the scene by each method and writes METHOD.raw. It is
+// compiled without exceptions and run-time types, too.
 #include "rays.h"
 
-#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include <shutter_motion_blur.hpp>
 
 #include <array>
+#include <string>
 
 namespace {
 
-using namespace shutter::motion_blur;
+void check(const shutter::BlurStatus& status) {
+    require(bool(status), status.message().c_str());
+}
 
 void enableFeatures(VkPhysicalDeviceFeatures2* features) {
-    const auto enabled = addHostFeatures(*features);
-    require(enabled.ok(), enabled.ok() ? "" : enabled.error().message.c_str());
+    check(shutter::MotionBlur::addFeatures(*features));
 }
 
-HostImage describeImage(const Scene& scene, Part part) {
-    HostImage image;
-    image.image = scene.images[part];
-    image.format = kFormats[part];
-    image.before.layout = part == kOutput ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL;
-    image.after.layout = VK_IMAGE_LAYOUT_GENERAL;
-    return image;
+shutter::BlurImage describeImage(const Scene& scene, Part part) {
+    const VkImageLayout before =
+        part == kOutput ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL;
+    return {scene.images[part], before, VK_IMAGE_LAYOUT_GENERAL, kFormats[part]};
 }
 
-HostInputs describeInputs(const Scene& scene) {
-    HostInputs inputs;
-    inputs.width = kWidth;
-    inputs.height = kHeight;
+shutter::BlurInputs describeInputs(const Scene& scene) {
+    shutter::BlurInputs inputs(kWidth, kHeight);
     inputs.color = describeImage(scene, kColor);
     inputs.output = describeImage(scene, kOutput);
-    HostConvention& own = inputs.convention;
-    own.vectors.image = describeImage(scene, kVectors);
-    own.vectors.pixelsPerUnit = {-kWidth, -kHeight};
-    own.depth.image = describeImage(scene, kDepth);
-    own.depth.isLinear = true;
-    own.depth.skyValue = 1e9f;
-    own.scales.exposureShare = 1.0f;
+    inputs.vectors = describeImage(scene, kVectors);
+    inputs.depth = describeImage(scene, kDepth);
+    inputs.pixelsPerUnit[0] = -kWidth;
+    inputs.pixelsPerUnit[1] = -kHeight;
+    inputs.depthIsLinear = VK_TRUE;
+    inputs.skyValue = 1e9f;
+    inputs.exposureShare = 1.0f;
     inputs.entityId = describeImage(scene, kIds);
     inputs.normal = describeImage(scene, kNormal);
     return inputs;
@@ -50,45 +47,46 @@ extern "C" int runHost(int count, char** methods) {
     openDevice(&scene, enableFeatures);
     Rays rays;
     makeRays(&rays, scene.device);
-    HostDevice device;
-    device.physical = scene.physical;
-    device.device = scene.device;
+    shutter::BlurDevice device(scene.physical, scene.device, 0);
+    device.headerVersion += 1u << 12;
+    const auto newer = shutter::MotionBlur::create(device);
     require(
-        !EmbeddedMotionBlur::create(device, kHeaderVersion + (1u << 12)).ok(),
+        !newer && newer.message().find("headers of version") != std::string::npos,
         "a host with newer headers is not refused"
     );
-    auto blur = EmbeddedMotionBlur::create(device);
-    require(blur.ok(), blur.ok() ? "" : blur.error().message.c_str());
+    device.headerVersion = SHUTTER_BLUR_VERSION;
+    auto blur = shutter::MotionBlur::create(device);
+    check(blur);
 
-    HostInputs inputs = describeInputs(scene);
-    std::array<HostCameraKey, 2> keys;
-    std::array<glm::dmat4, 2> transforms;
+    shutter::BlurInputs inputs = describeInputs(scene);
+    const float unit[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    std::array<ShutterBlurCameraKey, 2> keys;
+    std::array<std::array<double, 16>, 2> transforms;
     for (int i = 0; i < 2; ++i) {
         keys[i].time = i;
-        fillProjection(&keys[i].clipFromView[0][0]);
-        fillTransform(&transforms[i][0][0], 1.0 - i);
+        shutter::setMatrix(keys[i].viewFromWorld, unit);
+        fillProjection(keys[i].clipFromView);
+        fillTransform(transforms[i].data(), 1.0 - i);
     }
-    const std::array<HostMover, 1> movers{{{1, transforms}}};
-    inputs.motion.keys = keys;
-    inputs.motion.rowCount = 2;
-    inputs.motion.movers = movers;
-    inputs.reveal.record = [&](const RevealTask& task) {
+    const std::array<ShutterBlurMover, 1> movers{{{1, transforms[0].data()}}};
+    inputs.setKeys(keys);
+    inputs.setMovers(movers);
+    inputs.rowCount = 2;
+    const auto trace = [&rays](const ShutterBlurRevealTask* task) {
         traceRays(
             &rays,
-            task.commands,
-            task.list,
-            task.groups,
-            task.color.view,
-            task.motionDepth.view,
-            task.entityId.view
+            task->commands,
+            task->list,
+            task->groups,
+            task->color.view,
+            task->motionDepth.view,
+            task->entityId.view
         );
     };
+    inputs.setReveal(trace);
     for (int i = 0; i < count; ++i) {
-        MotionBlurSettings settings;
-        settings.method = findMethod(methods[i]);
         beginCommands(&scene);
-        const auto done = blur.value()->record(scene.commands, 0, inputs, settings);
-        require(done.ok(), done.ok() ? "" : done.error().message.c_str());
+        check(blur->record(scene.commands, 0, inputs, shutter::BlurSettings(methods[i])));
         copyPart(&scene, kOutput, 0);
         finishCommands(&scene);
         writePicture(&scene, methods[i]);

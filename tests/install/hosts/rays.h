@@ -96,7 +96,7 @@ static inline void makeRays(Rays* rays, VkDevice device) {
     require(!vkAllocateDescriptorSets(device, &set, &rays->set), "no descriptor set");
 }
 
-/* Traces the pixels of `list`, in the words of ShutterBlurRevealTask and RevealTask. */
+/* Traces the pixels of `list`, as a ShutterBlurRevealTask has them. */
 static inline void traceRays(
     Rays* rays,
     VkCommandBuffer commands,
