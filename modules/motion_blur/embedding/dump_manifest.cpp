@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/dump_manifest.h"
-
-#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_dump.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "modules/motion_blur/methods.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <string>

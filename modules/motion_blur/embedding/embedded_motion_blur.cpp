@@ -3,11 +3,10 @@
 
 #include "engine/core/log.h"
 #include "engine/gpu/vulkan.h"
+#include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/embedded_parts.h"
-#include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_dump.h"
 #include "modules/motion_blur/embedding/host_overlay.h"
-#include "modules/motion_blur/embedding/host_unsaid.h"
 
 #include <fmt/format.h>
 

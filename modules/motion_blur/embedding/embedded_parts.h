@@ -6,8 +6,8 @@
 #include "engine/gpu/memory.h"
 #include "engine/graph/graph.h"
 #include "engine/graph/transient_pool.h"
+#include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
-#include "modules/motion_blur/embedding/host_checker.h"
 #include "modules/motion_blur/embedding/host_instants.h"
 #include "modules/motion_blur/instant_motions.h"
 

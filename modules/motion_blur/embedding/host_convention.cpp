@@ -3,7 +3,7 @@
 
 #include "engine/math/layer_tables.h"
 #include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/render/scene_shared.h"
 
 #include <array>

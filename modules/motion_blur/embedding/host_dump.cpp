@@ -10,7 +10,6 @@
 #include "engine/core/words.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
-#include "modules/motion_blur/embedding/dump_manifest.h"
 #include "modules/motion_blur/embedding/embedded_motion_blur.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"

@@ -8,10 +8,12 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/embedding/host_checker.h"
+#include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/host_answers.h"
 #include "modules/motion_blur/settings.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +23,13 @@
 #include <vector>
 
 namespace shutter::motion_blur {
+
+/// What a host said of a recording: what a dump has beside its images.
+/// \param isPacked HostInputs::motionDepth counts, not the convention
+/// \param hasResponse the dump holds the table of the shutter's response
+[[nodiscard]] nlohmann::ordered_json describeInputs(
+    const HostInputs& inputs, const MotionBlurSettings& settings, bool isPacked, bool hasResponse
+);
 
 class HostDump {
   public:

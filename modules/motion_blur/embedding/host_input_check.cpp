@@ -3,7 +3,7 @@
 
 #include "engine/core/words.h"
 #include "engine/gpu/vulkan.h"
-#include "modules/motion_blur/embedding/host_camera.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/own_samples_shared.h"
 

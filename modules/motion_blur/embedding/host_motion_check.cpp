@@ -2,8 +2,8 @@
 // What a host's motion may be: one sentence for each thing that it may not.
 #include "engine/core/check.h"
 #include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_camera.h"
 #include "modules/motion_blur/embedding/host_instants.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/common/shutter_response_shared.h"
 #include "shaders/motion_blur/resolved_shared.h"
 

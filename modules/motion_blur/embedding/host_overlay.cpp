@@ -5,8 +5,8 @@
 #include "spirv/motion_blur/overlay_ids.comp.h"
 
 #include "engine/math/layer_tables.h"
-#include "modules/motion_blur/embedding/host_camera.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "modules/motion_blur/embedding/pixel_pass.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the checker says of frames made in main memory, and the panels that show a host's inputs.
 #include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_overlay.h"
 #include "shaders/motion_blur/check_grid.glsl"
 #include "shaders/motion_blur/overlay.glsl"

@@ -76,7 +76,8 @@ TEST(HostSentences, NameNoFieldThatThePublicHeaderLacks) {
         "fillFirstKnots",
         "secondRaster"};
     size_t count = 0;
-    for (const fs::directory_entry& file : fs::directory_iterator(kModule / "embedding")) {
+    for (const fs::directory_entry& file :
+         fs::recursive_directory_iterator(kModule / "embedding")) {
         const std::string name = file.path().filename().string();
         const bool isOfSentences = file.path().extension() == ".cpp" &&
                                    !name.starts_with("dump_") && name != "host_dump.cpp" &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 
 #include "engine/math/layer_tables.h"
 #include "shaders/motion_blur/check_grid.glsl"

@@ -2,8 +2,7 @@
 // Motion vectors against what the cameras imply where things stand still. What a host may have got
 // wrong is tried, one mistake at a time, and named if the vectors agree with the cameras then and
 // do not now. What moves by itself agrees with neither, and so decides nothing.
-#include "modules/motion_blur/embedding/host_check_lens.h"
-#include "modules/motion_blur/embedding/host_check_reading.h"
+#include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a host's ids say of its movers, and whether they last.
-#include "modules/motion_blur/embedding/host_check_last.h"
+#include "modules/motion_blur/embedding/check/last_frame.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/host_unsaid.h"
-
+#include "modules/motion_blur/embedding/check/checker.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 

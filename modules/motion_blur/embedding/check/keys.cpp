@@ -3,7 +3,7 @@
 // instant is this frame's camera, and in the exposure the keys go that share of the way between the
 // frames.
 #include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 
 #include <fmt/format.h>

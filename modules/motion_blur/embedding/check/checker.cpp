@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/host_checker.h"
+#include "modules/motion_blur/embedding/check/checker.h"
 
 #include "spirv/motion_blur/check_ids.comp.h"
 #include "spirv/motion_blur/check_picture.comp.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a host says of a recording, kept until its images have been looked at.
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_input_check.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 #include "modules/motion_blur/embedding/host_instants.h"

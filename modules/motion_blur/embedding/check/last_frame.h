@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/math/math.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 
 #include <array>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Cameras against the last frame's depth, for a host without motion vectors: where the cameras say
 // that this frame's surfaces were, that frame must show surfaces at their distance. As with vectors
 // (host_check_vectors.cpp), what a host may have got wrong is tried, one mistake at a time.
-#include "modules/motion_blur/embedding/host_check_last.h"
-#include "modules/motion_blur/embedding/host_check_lens.h"
+#include "modules/motion_blur/embedding/check/last_frame.h"
+#include "modules/motion_blur/embedding/check/reading.h"
 
 #include <fmt/format.h>
 

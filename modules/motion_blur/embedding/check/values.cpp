@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the values of a host's images tell by themselves.
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "shaders/motion_blur/prepare.glsl"
 
 #include <fmt/format.h>

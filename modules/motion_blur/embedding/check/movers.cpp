@@ -2,7 +2,7 @@
 // Movers' matrices against what their pixels show: the motion vectors there or, without any, the
 // last frame's ids and depth. What a host may have got wrong is tried for all movers at once.
 #include "engine/math/transform.h"
-#include "modules/motion_blur/embedding/host_check_last.h"
+#include "modules/motion_blur/embedding/check/last_frame.h"
 #include "modules/motion_blur/embedding/host_ways.h"
 
 #include <fmt/format.h>

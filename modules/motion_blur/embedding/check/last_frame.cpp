@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modules/motion_blur/embedding/host_check_last.h"
+#include "modules/motion_blur/embedding/check/last_frame.h"
 
 #include "shaders/motion_blur/check_grid.glsl"
 #include "shaders/motion_blur/prepare.glsl"

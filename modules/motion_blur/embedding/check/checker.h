@@ -5,8 +5,9 @@
 
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/vulkan.h"
 #include "engine/graph/graph.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 
 #include <array>
@@ -77,6 +78,20 @@ class HostChecker {
     uint32_t mSerial = 0;
     uint64_t mEvaluated = 0;
     std::array<uint64_t, size_t(CheckKind::Count)> mTold{}; ///< evaluation it was told in; 0: never
+};
+
+class HostUnsaid {
+  public:
+    /// \param device of the host's images
+    explicit HostUnsaid(VkDevice device) : mDevice(device) {}
+
+    /// Tells what is not said of images that are given, each once.
+    void ask(const HostInputs& inputs, const HostMessage& message);
+
+  private:
+    VkDevice mDevice;
+    uint32_t mAsked = 0;       ///< a bit for each image whose usage or samples were asked for
+    uint32_t mExtentAsked = 0; ///< the same for its extent
 };
 
 } // namespace shutter::motion_blur

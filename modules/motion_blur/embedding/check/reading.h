@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Motion vectors and cameras as a host said, or as it might have meant; the checks' own files alone
-// include this.
+// Motion vectors and cameras as a host said, or as it might have meant, such as another field of
+// view than the picture was drawn with; the checks' own files alone include this.
 #pragma once
 
 #include "engine/math/math.h"
-#include "modules/motion_blur/embedding/host_check.h"
+#include "modules/motion_blur/embedding/check/checked_frame.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,5 +64,15 @@ struct Reading {
 void checkOffset(
     CheckedFrame& now, const CheckedFrame* last, const Reading& said, std::vector<Finding>& findings
 );
+
+/// What the first two rows of both projections must be multiplied by for the least cost: both by
+/// the same, or one of them. Evaluates the cost about a hundred times.
+[[nodiscard]] math::dvec2 fitLens(const std::function<double(const math::dvec2&)>& cost);
+
+/// The facts with projections whose first two rows are multiplied.
+[[nodiscard]] CheckFacts scaleLens(const CheckFacts& facts, const math::dvec2& scale);
+
+/// "cameras.clipFromView had a field of view of 60 degrees in place of 45"
+[[nodiscard]] std::string describeLens(const CheckFacts& facts, const math::dvec2& scale);
 
 } // namespace shutter::motion_blur

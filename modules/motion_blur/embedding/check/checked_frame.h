@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a checker finds wrong with a host's inputs, from totals and samples of its images. No
-// device: host_checker.h reads them back.
+// device: checker.h reads them back.
 #pragma once
 
-#include "modules/motion_blur/embedding/host_camera.h"
 #include "modules/motion_blur/embedding/host_convention.h"
 #include "modules/motion_blur/embedding/host_motion.h"
+#include "modules/motion_blur/embedding/host_ways.h"
 #include "shaders/motion_blur/check_shared.h"
 
 #include <glm/glm.hpp>
