@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fifty ways in which a first trial in a foreign engine went wrong, through both interfaces: what
 // can be seen gives a sentence that names the field, and nothing crashes or aborts.
-#include "modules/motion_blur/embedding/host_features.h"
 #include "tests/gpu/misuse_host.h"
 
 #include <cmath>
@@ -208,10 +207,14 @@ TEST_F(EmbeddedMisuses, OfDevicesAreNamed) {
     refuse("enabledFeatures lacks shaderStorageImageExtendedFormats", [&](auto& d) {
         d.enabledFeatures = &nothing;
     });
-    motion_blur::HostFeatures features;
-    features.v13.synchronization2 = VK_FALSE;
+    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
+    EXPECT_EQ(shutterBlurAddFeatures(&features), SHUTTER_BLUR_SUCCESS);
+    v13.synchronization2 = VK_FALSE;
     refuse("enabledFeatures lacks synchronization2", [&](auto& d) {
-        d.enabledFeatures = &features.features;
+        d.enabledFeatures = &features;
     });
     refuse("sceneLayout is null", [](HostDevice& d) { d.rayTier = gpu::RayTier::RayQuery; });
 }

@@ -103,9 +103,7 @@ ShutterBlurResult shutterBlurCheckDevice(VkPhysicalDevice physical, uint32_t que
     return guard([&] {
         if (!physical)
             return refuse({"motion blur: physical is null"});
-        return finish(
-            motion_blur::checkHostDevice(physical, queueFamily, shutter::gpu::RayTier::None)
-        );
+        return finish(motion_blur::checkHostDevice(physical, queueFamily));
     });
 }
 

@@ -51,8 +51,8 @@ core::Status checkHost(const HostDevice& host) {
     if (host.rayTier != gpu::RayTier::None && !host.sceneLayout)
         return makeError("motion blur: sceneLayout is null, although rayTier asks for rays");
     if (host.enabledFeatures)
-        SHUTTER_TRY(checkEnabledFeatures(*host.enabledFeatures, host.rayTier));
-    SHUTTER_TRY(checkHostDevice(host.physical, host.queueFamily, host.rayTier));
+        SHUTTER_TRY(checkEnabledFeatures(*host.enabledFeatures));
+    SHUTTER_TRY(checkHostDevice(host.physical, host.queueFamily));
     if (host.measures && findTimestampBits(host.physical, host.queueFamily) == 0)
         return makeError(
             "motion blur: measures is true, but queueFamily {} takes no timestamps",

@@ -34,7 +34,7 @@ class HostUnsaid;
 
 class EmbeddedMotionBlur {
   public:
-    /// Errors: a null handle, something of HostFeatures that the device cannot do, a device that
+    /// Errors: a null handle, a feature (host_features.h) that the device lacks, a device that
     /// is out of memory.
     [[nodiscard]] static core::Result<std::unique_ptr<EmbeddedMotionBlur>>
     create(const HostDevice& host);

@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/host_features.h"
 
+#include "engine/gpu/device_select.h"
+
 #include <array>
 #include <vector>
 
 namespace shutter::motion_blur {
 
 namespace {
-
-constexpr std::array kQueryExtensions{
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-    VK_KHR_RAY_QUERY_EXTENSION_NAME};
-constexpr std::array kPipelineExtensions{
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-    VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
-
-/// What of 1.2 the reveal's shaders need for the bindless textures of what they meet.
-constexpr VkBool32 VkPhysicalDeviceVulkan12Features::*kBindless[] = {
-    &VkPhysicalDeviceVulkan12Features::descriptorIndexing,
-    &VkPhysicalDeviceVulkan12Features::runtimeDescriptorArray,
-    &VkPhysicalDeviceVulkan12Features::shaderSampledImageArrayNonUniformIndexing};
 
 /// A feature, in the structure of the Vulkan version that took it up or in the one that it came
 /// with.
@@ -40,20 +27,9 @@ VkBool32* findMember(VkBaseOutStructure* structure) {
 
 using V12 = VkPhysicalDeviceVulkan12Features;
 using V13 = VkPhysicalDeviceVulkan13Features;
-using Indexing = VkPhysicalDeviceDescriptorIndexingFeatures;
-using Structures = VkPhysicalDeviceAccelerationStructureFeaturesKHR;
-using Query = VkPhysicalDeviceRayQueryFeaturesKHR;
-using Pipelines = VkPhysicalDeviceRayTracingPipelineFeaturesKHR;
 
 constexpr VkStructureType kV12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
 constexpr VkStructureType kV13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-constexpr VkStructureType kIndexing =
-    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES;
-constexpr VkStructureType kStructures =
-    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
-constexpr VkStructureType kQuery = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
-constexpr VkStructureType kPipelines =
-    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR;
 
 #define SHUTTER_IN(Structure, member) findMember<Structure, &Structure::member>
 constexpr std::array kFeatures{
@@ -76,38 +52,11 @@ constexpr std::array kFeatures{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
         SHUTTER_IN(VkPhysicalDeviceSynchronization2Features, synchronization2)},
     Feature{
-        "maintenance4",
+        "maintenance4", // glslang gives workgroup sizes as LocalSizeId
         kV13,
         SHUTTER_IN(V13, maintenance4),
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES,
         SHUTTER_IN(VkPhysicalDeviceMaintenance4Features, maintenance4)}};
-constexpr std::array kRayFeatures{
-    Feature{
-        "runtimeDescriptorArray",
-        kV12,
-        SHUTTER_IN(V12, runtimeDescriptorArray),
-        kIndexing,
-        SHUTTER_IN(Indexing, runtimeDescriptorArray)},
-    Feature{
-        "shaderSampledImageArrayNonUniformIndexing",
-        kV12,
-        SHUTTER_IN(V12, shaderSampledImageArrayNonUniformIndexing),
-        kIndexing,
-        SHUTTER_IN(Indexing, shaderSampledImageArrayNonUniformIndexing)},
-    Feature{
-        "accelerationStructure",
-        kStructures,
-        SHUTTER_IN(Structures, accelerationStructure),
-        kStructures,
-        SHUTTER_IN(Structures, accelerationStructure)}};
-constexpr Feature kQueryFeature{
-    "rayQuery", kQuery, SHUTTER_IN(Query, rayQuery), kQuery, SHUTTER_IN(Query, rayQuery)};
-constexpr Feature kPipelineFeature{
-    "rayTracingPipeline",
-    kPipelines,
-    SHUTTER_IN(Pipelines, rayTracingPipeline),
-    kPipelines,
-    SHUTTER_IN(Pipelines, rayTracingPipeline)};
 #undef SHUTTER_IN
 
 /// Null: no structure of the chain has it.
@@ -121,20 +70,24 @@ VkBool32* findIn(VkPhysicalDeviceFeatures2& chain, const Feature& feature) {
     return nullptr;
 }
 
-std::vector<Feature> listFeatures(gpu::RayTier rays) {
-    std::vector<Feature> features(kFeatures.begin(), kFeatures.end());
-    if (rays == gpu::RayTier::None)
-        return features;
-    features.insert(features.end(), kRayFeatures.begin(), kRayFeatures.end());
-    features.push_back(rays == gpu::RayTier::RayQuery ? kQueryFeature : kPipelineFeature);
-    return features;
+/// The first that the chain does not have; null: it has all.
+const char* findLacking(const VkPhysicalDeviceFeatures2& chain) {
+    if (!chain.features.shaderStorageImageExtendedFormats)
+        return "shaderStorageImageExtendedFormats";
+    auto& readOnly = const_cast<VkPhysicalDeviceFeatures2&>(chain); // nothing is written to it
+    for (const Feature& feature : kFeatures) {
+        const VkBool32* const found = findIn(readOnly, feature);
+        if (!found || !*found)
+            return feature.name;
+    }
+    return nullptr;
 }
 
 } // namespace
 
-core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays) {
+core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain) {
     std::vector<VkBool32*> wanted;
-    for (const Feature& feature : listFeatures(rays)) {
+    for (const Feature& feature : kFeatures) {
         VkBool32* const found = findIn(chain, feature);
         if (!found)
             return core::makeError(
@@ -144,85 +97,23 @@ core::Status addHostFeatures(VkPhysicalDeviceFeatures2& chain, gpu::RayTier rays
     }
     for (VkBool32* const feature : wanted)
         *feature = VK_TRUE;
-    chain.features.shaderStorageImageExtendedFormats = VK_TRUE;
-    if (rays == gpu::RayTier::None)
-        return {};
-    chain.features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
-    // Vulkan 1.2's structure has one more for the whole of descriptor indexing.
-    for (auto* at = static_cast<VkBaseOutStructure*>(chain.pNext); at; at = at->pNext)
-        if (at->sType == kV12)
-            reinterpret_cast<V12*>(at)->descriptorIndexing = VK_TRUE;
+    chain.features.shaderStorageImageExtendedFormats = VK_TRUE; // images of two channels
     return {};
 }
 
-core::Status checkEnabledFeatures(const VkPhysicalDeviceFeatures2& enabled, gpu::RayTier rays) {
-    const auto lacks = [](const char* name) {
-        return core::makeError("motion blur: enabledFeatures lacks {}", name);
-    };
-    if (!enabled.features.shaderStorageImageExtendedFormats)
-        return lacks("shaderStorageImageExtendedFormats");
-    if (rays != gpu::RayTier::None && !enabled.features.shaderSampledImageArrayDynamicIndexing)
-        return lacks("shaderSampledImageArrayDynamicIndexing");
-    auto& chain = const_cast<VkPhysicalDeviceFeatures2&>(enabled); // nothing is written to it
-    for (const Feature& feature : listFeatures(rays)) {
-        const VkBool32* const found = findIn(chain, feature);
-        if (!found || !*found)
-            return lacks(feature.name);
-    }
-    return {};
+core::Status checkEnabledFeatures(const VkPhysicalDeviceFeatures2& enabled) {
+    const char* const lacking = findLacking(enabled);
+    return lacking ? core::makeError("motion blur: enabledFeatures lacks {}", lacking)
+                   : core::Status();
 }
 
-HostFeatures::HostFeatures(gpu::RayTier rays) : mRays(rays) {
-    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    v12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-    mStructure.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR;
-    mQuery.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR;
-    mPipeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR;
-    features.pNext = &v12;
-    v12.pNext = &v13;
-    features.features.shaderStorageImageExtendedFormats = VK_TRUE; // images of two channels
-    v12.bufferDeviceAddress = VK_TRUE;
-    v12.scalarBlockLayout = VK_TRUE;
-    v13.synchronization2 = VK_TRUE;
-    v13.maintenance4 = VK_TRUE; // glslang gives workgroup sizes as LocalSizeId
-    if (rays == gpu::RayTier::None)
-        return;
-    features.features.shaderSampledImageArrayDynamicIndexing = VK_TRUE;
-    for (const auto feature : kBindless)
-        v12.*feature = VK_TRUE;
-    v13.pNext = &mStructure;
-    mStructure.accelerationStructure = VK_TRUE;
-    mQuery.rayQuery = VK_TRUE;
-    mPipeline.rayTracingPipeline = VK_TRUE;
-    mStructure.pNext = &mPipeline;
-    if (rays == gpu::RayTier::RayQuery)
-        mStructure.pNext = &mQuery;
-}
-
-std::span<const char* const> HostFeatures::extensions() const {
-    switch (mRays) {
-    case gpu::RayTier::RayQuery:
-        return kQueryExtensions;
-    case gpu::RayTier::Pipeline:
-        return kPipelineExtensions;
-    case gpu::RayTier::None:
-        break;
-    }
-    return {};
-}
-
-core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu::RayTier rays) {
+core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily) {
     SHUTTER_TRY(gpu::loadVulkan());
     const gpu::DeviceInfo info = gpu::describeDevice(device);
-    const auto lacks = [&](const char* what) {
-        return core::makeError("motion blur: {} lacks {}", info.name, what);
-    };
     if (info.apiVersion < VK_API_VERSION_1_3)
-        return lacks("Vulkan 1.3");
-    VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features v12{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v13};
+        return core::makeError("motion blur: {} lacks Vulkan 1.3", info.name);
+    V13 v13{kV13};
+    V12 v12{kV12, &v13};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     vkGetPhysicalDeviceFeatures2(device, &features);
     // Each device of Vulkan 1.3 has them; an instance that is made for less does not ask the
@@ -230,24 +121,8 @@ core::Status checkHostDevice(VkPhysicalDevice device, uint32_t queueFamily, gpu:
     if (!v12.bufferDeviceAddress && !v13.synchronization2 && !v13.maintenance4)
         return core::makeError("motion blur: the instance is not made for Vulkan 1.3 "
                                "(VkApplicationInfo::apiVersion)");
-    if (!features.features.shaderStorageImageExtendedFormats)
-        return lacks("shaderStorageImageExtendedFormats");
-    if (!v12.bufferDeviceAddress)
-        return lacks("bufferDeviceAddress");
-    if (!v12.scalarBlockLayout)
-        return lacks("scalarBlockLayout");
-    if (!v13.synchronization2)
-        return lacks("synchronization2");
-    if (!v13.maintenance4)
-        return lacks("maintenance4");
-    if (rays != gpu::RayTier::None && !features.features.shaderSampledImageArrayDynamicIndexing)
-        return lacks("shaderSampledImageArrayDynamicIndexing");
-    for (const auto feature : kBindless)
-        if (rays != gpu::RayTier::None && !(v12.*feature))
-            return lacks("descriptor indexing");
-    if ((rays == gpu::RayTier::RayQuery && !info.hasRayQuery) ||
-        (rays == gpu::RayTier::Pipeline && !info.hasRayPipeline))
-        return lacks(gpu::describe(rays));
+    if (const char* const lacking = findLacking(features))
+        return core::makeError("motion blur: {} lacks {}", info.name, lacking);
 
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);

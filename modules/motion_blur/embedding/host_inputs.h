@@ -37,8 +37,7 @@ struct HostDevice {
     uint32_t queueFamily = 0;
     uint32_t framesInFlight = 2;
     bool hasDebugUtils = false;
-    /// For methods of RayNeed::Any: which rays of HostFeatures are enabled, and the layout of
-    /// HostRays::scene.
+    /// For methods of RayNeed::Any: which rays are enabled, and the layout of HostRays::scene.
     gpu::RayTier rayTier = gpu::RayTier::None;
     VkDescriptorSetLayout sceneLayout = VK_NULL_HANDLE;
     bool tracesIndirect = false;
