@@ -50,7 +50,7 @@ struct ImageRow {
     bool hasPictureSize; ///< of its area
 };
 
-constexpr std::array<ImageRow, 11> kImages{
+constexpr std::array<ImageRow, 13> kImages{
     {{"color", {Texels::Half4, Texels::Float4}, true},
      {"motionDepth", {Texels::Float4, Texels::Float4}, true},
      {"vectors", {Texels::Float2, Texels::Float2}, false},
@@ -58,6 +58,8 @@ constexpr std::array<ImageRow, 11> kImages{
      {"blurScale", {Texels::Float1, Texels::Float1}, false},
      {"normal", {Texels::Half4, Texels::Float4}, true},
      {"entityId", {Texels::Uint1, Texels::Uint1}, false},
+     {"deformedMotion", {Texels::Half4, Texels::Float4}, true},
+     {"lastDeformedMotion", {Texels::Half4, Texels::Float4}, true},
      {"revealColor", {Texels::Half4, Texels::Half4}, true},
      {"revealMotionDepth", {Texels::Float4, Texels::Float4}, true},
      {"revealEntityId", {Texels::Uint1, Texels::Uint1}, true},

@@ -168,7 +168,9 @@ class Player {
             {"depth", &inputs.convention.depth.image},
             {"blurScale", &inputs.convention.scales.perPixel},
             {"normal", &inputs.normal},
-            {"entityId", &inputs.entityId}};
+            {"entityId", &inputs.entityId},
+            {"deformedMotion", &inputs.deformedMotion},
+            {"lastDeformedMotion", &inputs.lastDeformedMotion}};
         for (const auto& [name, place] : places)
             if (const DumpImage* image = frame.find(name))
                 *place = mUploads.emplace_back(mDevice, *image).describe();

@@ -4,6 +4,7 @@
 #define SHUTTER_PREPARE_GLSL
 
 #include "common/numeric.glsl"
+#include "common/pixel_way.glsl"
 #include "motion_blur/prepare_shared.h"
 #include "render/motion.glsl"
 #include "render/scene_shared.h"
@@ -85,6 +86,25 @@ preparedMotion(PrepareTable table, vec2 place, vec2 vector, float metres, float 
         object = vec2(0.0f);
     vec2 motion = camera * table.cameraScale + object * table.objectScale;
     return storableMotion(motion * blurScale);
+}
+
+/// The way of what a pixel shows, as packWay() has it: a parabola through its places at shutter open
+/// and close and the pixel itself, or straight where the raster is too near to either end.
+/// \param ends displacement to shutter open (xy) and close (zw), pixels right and down
+/// \param rasterTime shutter time of the raster, which may lie outside of the exposure
+/// \return kNoWay in x for what is no number
+SHUTTER_INLINE uvec2 prepareWay(vec4 ends, float rasterTime) {
+    if (!isFinite(ends.x) || !isFinite(ends.y) || !isFinite(ends.z) || !isFinite(ends.w))
+        return uvec2(kNoWay, 0u);
+    PixelWay way;
+    way.open = storableMotion(vec2(ends.x, ends.y));
+    way.close = storableMotion(vec2(ends.z, ends.w));
+    way.bend = vec2(0.0f);
+    const float kLeastShare = 0.36f; // at 0.1 and 0.9
+    float share = 4.0f * rasterTime * (1.0f - rasterTime); // of the bend, at the raster
+    if (isFinite(share) && abs(share) > kLeastShare)
+        way.bend = (way.open + (way.close - way.open) * rasterTime) * (-1.0f / share);
+    return packWay(way);
 }
 
 SHUTTER_SHADER_END

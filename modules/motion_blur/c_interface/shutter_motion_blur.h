@@ -240,7 +240,8 @@ typedef struct ShutterBlurMover {
     uint32_t row; /* its value in `entityId`, below rowCount */
     /* World from the entity's own space, 16 numbers for each camera key: affine, with any scale;
      * where it is singular, the entity is not to be seen. Null: it changes its shape, or its way is
-     * not known; its motion vectors are followed, taken as straight, and it has no history. */
+     * not known; ShutterBlurInputs::deformedMotion says where its pixels go, or else their motion
+     * vectors do, taken as straight. */
     const double* worldFromObject;
 } ShutterBlurMover;
 
@@ -418,6 +419,18 @@ typedef struct ShutterBlurInputs {
     /* The shutter's response: times rise from 0 to 1, and it is straight between them. */
     const ShutterBlurResponsePoint* responsePoints;
     uint32_t responsePointCount; /* 2 to 64; 0: light is taken evenly over the exposure */
+
+    /* For "resolved" and "adaptive": what movers without worldFromObject do, by pixel, for a host
+     * that deforms its meshes itself. RGBA16F or RGBA32F: how far right and down of the pixel, in
+     * pixels of the picture and without jitter, its surface is at shutter open (red, green) and at
+     * close (blue, alpha). The way is the parabola through both and the pixel at rasterTime;
+     * where that is within 0.1 of 0 or 1, it is straight. Other pixels do not count. Null: those
+     * movers follow their motion vectors, and have no history. */
+    ShutterBlurImage deformedMotion;
+    /* The same for the raster of the frame before: how far from there its pixels' surfaces are in
+     * this exposure. The host draws what deforms once more, posed as it was then and by that
+     * frame's camera. With followsLast and deformedMotion; null: what deforms has no history. */
+    ShutterBlurImage lastDeformedMotion;
 } ShutterBlurInputs;
 
 static inline ShutterBlurInputs shutterBlurDefaultInputs(void) {
@@ -520,7 +533,8 @@ typedef struct ShutterBlurPlan {
     VkBool32 hasVectors;     /* vectors and depth of the host's own in place of motionDepth */
     VkBool32 lendsLast;      /* lastColor and those with it */
     uint32_t rowCount;
-    uint32_t moverCount; /* with matrices, at most */
+    uint32_t moverCount;          /* with matrices, at most */
+    VkBool32 givesDeformedMotion; /* deformedMotion and lastDeformedMotion */
 } ShutterBlurPlan;
 
 static inline ShutterBlurPlan shutterBlurDefaultPlan(void) {

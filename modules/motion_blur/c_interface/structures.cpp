@@ -258,6 +258,7 @@ core::Result<HostPlan> convert(const ShutterBlurPlan* given) {
     plan.lendsLast = wanted.lendsLast != VK_FALSE;
     plan.rowCount = wanted.rowCount;
     plan.moverCount = wanted.moverCount;
+    plan.givesDeformedMotion = wanted.givesDeformedMotion != VK_FALSE;
     return plan;
 }
 
@@ -292,6 +293,8 @@ core::Result<HostInputs> convert(const ShutterBlurInputs* given, InputArrays& ar
     );
     inputs.last = {
         convert(wanted.lastColor), convert(wanted.lastMotionDepth), convert(wanted.lastEntityId)};
+    inputs.deformedMotion = convert(wanted.deformedMotion);
+    inputs.lastDeformedMotion = convert(wanted.lastDeformedMotion);
     if (wanted.budgetMilliseconds != 0.0)
         inputs.budget.milliseconds = wanted.budgetMilliseconds;
     inputs.showsInputs = wanted.showsInputs != VK_FALSE;

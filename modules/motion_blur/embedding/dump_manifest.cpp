@@ -118,8 +118,12 @@ ordered_json describeInputs(
         convention = describeMotionDepth(inputs.motionDepth, inputs.convention);
         if (method.readsCamera)
             convention.scales = inputs.convention.scales;
+        // They say when the raster of the frame before was.
+        convention.scales.exposureShare = inputs.convention.scales.exposureShare;
+        convention.scales.displayedPerRendered = inputs.convention.scales.displayedPerRendered;
     }
-    const bool hasConvention = !isPacked || convention.cameras.areGiven;
+    const bool hasConvention =
+        !isPacked || convention.cameras.areGiven || inputs.lastDeformedMotion.image;
     root["convention"] = hasConvention ? describeConvention(convention) : ordered_json();
     std::vector<HostMover> movers;
     root["motion"] =

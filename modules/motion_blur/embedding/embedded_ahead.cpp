@@ -45,7 +45,9 @@ class SmallImages {
                  {&inputs.entityId, kIdRule},
                  {&inputs.last.color, kLastColorRule},
                  {&inputs.last.motionDepth, kLastMotionRule},
-                 {&inputs.last.entityId, kLastIdRule}})
+                 {&inputs.last.entityId, kLastIdRule},
+                 {&inputs.deformedMotion, kDeformedRule},
+                 {&inputs.lastDeformedMotion, kLastDeformedRule}})
             if (image->image)
                 make(*image, rule, picture);
     }

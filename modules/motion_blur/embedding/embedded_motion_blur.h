@@ -117,6 +117,8 @@ class EmbeddedMotionBlur {
     core::Status record(Frame& frame, View& view, VkCommandBuffer commands);
     /// Declares the whole of a frame.
     void declare(Frame& frame, View& view);
+    /// Where what deforms goes, by the host's images; empty: it gives none.
+    [[nodiscard]] DrawWays prepareWays(const Frame& frame) const;
     /// Where shaders find the shutter's response; 0: it is a box.
     [[nodiscard]] VkDeviceAddress giveResponse(Frame& frame) const;
     /// Imports the images, and declares what makes the effect's inputs of them.

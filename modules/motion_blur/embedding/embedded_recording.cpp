@@ -65,6 +65,10 @@ InstantMotions EmbeddedMotionBlur::describeInstants(Frame& frame, View& view) {
     motions.hasLast = made.layers.last.has_value();
     const bool hasAll = frame.hasAll && inputs.entityId.image;
     motions.deforms[size_t(LayerIndex::Raster)] = hasAll || made.layers.raster.deforms;
+    motions.deforms[size_t(LayerIndex::Last)] = motions.hasLast &&
+                                                frame.images.lastDeformed.isValid() &&
+                                                (hasAll || made.layers.last->deforms);
+    motions.drawWays = prepareWays(frame);
     motions.mayCrowd = hasAll || mayCrowdTiles(made.layers);
     if (!keeps)
         return motions;
@@ -157,6 +161,28 @@ std::optional<LentRaster> EmbeddedMotionBlur::prepareLast(Frame& frame) const {
     return lent;
 }
 
+DrawWays EmbeddedMotionBlur::prepareWays(const Frame& frame) const {
+    const HostInputs& inputs = frame.inputs;
+    if (!frame.images.deformed.isValid())
+        return {};
+    return [this, &inputs, &images = frame.images](
+               graph::Graph& graph, LayerIndex layer, graph::ImageHandle, uint32_t
+           ) {
+        const VkExtent2D picture = pictureOf(inputs);
+        if (layer == LayerIndex::Raster)
+            return mPreparation.addWays(
+                graph, images.deformed, inputs.deformedMotion, float(inputs.rasterTime), picture
+            );
+        return mPreparation.addWays(
+            graph,
+            images.lastDeformed,
+            inputs.lastDeformedMotion,
+            float(timeOfFrameBefore(inputs)),
+            picture
+        );
+    };
+}
+
 VkDeviceAddress EmbeddedMotionBlur::giveResponse(Frame& frame) const {
     if (frame.inputs.responsePoints.empty())
         return frame.inputs.response;
@@ -194,6 +220,10 @@ MotionBlurInputs EmbeddedMotionBlur::prepare(Frame& frame) const {
     own.normal = frame.images.normal = frame.import(device, "normal", inputs.normal, kNormalRule);
     if (own.normal.isValid() && !isOwn(inputs.normal, kHostColorFormat, picture))
         own.normal = mPreparation.addNormal(graph, own.normal, inputs.normal, picture);
+    frame.images.deformed =
+        frame.import(device, "deformed motion", inputs.deformedMotion, kDeformedRule);
+    frame.images.lastDeformed =
+        frame.import(device, "last deformed motion", inputs.lastDeformedMotion, kLastDeformedRule);
     own.entityId = frame.images.entityId =
         frame.import(device, "entity id", inputs.entityId, kIdRule);
     if (own.entityId.isValid() &&

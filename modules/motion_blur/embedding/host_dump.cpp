@@ -155,7 +155,15 @@ HostDump::listInputs(const HostInputs& inputs, const ImportedInputs& images) {
         {"depth", &convention.depth.image, images.depth, shader::kDumpFloat1},
         {"blurScale", &convention.scales.perPixel, images.blurScale, shader::kDumpFloat1},
         {"normal", &inputs.normal, images.normal, chooseTexels(inputs.normal)},
-        {"entityId", &inputs.entityId, images.entityId, shader::kDumpUint1}};
+        {"entityId", &inputs.entityId, images.entityId, shader::kDumpUint1},
+        {"deformedMotion",
+         &inputs.deformedMotion,
+         images.deformed,
+         chooseTexels(inputs.deformedMotion)},
+        {"lastDeformedMotion",
+         &inputs.lastDeformedMotion,
+         images.lastDeformed,
+         chooseTexels(inputs.lastDeformedMotion)}};
     std::erase_if(list, [](const Input& input) { return !input.image.isValid(); });
     return list;
 }

@@ -54,7 +54,7 @@ core::Status checkDistinct(const HostInputs& inputs) {
     };
 
     const bool isMade = !inputs.motionDepth.image;
-    const std::array<Named, 8> images{
+    const std::array<Named, 10> images{
         {{"color", inputs.color},
          {isMade ? "vectors" : "motionDepth",
           isMade ? inputs.convention.vectors.image : inputs.motionDepth},
@@ -63,6 +63,8 @@ core::Status checkDistinct(const HostInputs& inputs) {
          {"lastColor", inputs.last.color},
          {"lastMotionDepth", inputs.last.motionDepth},
          {"lastEntityId", inputs.last.entityId},
+         {"deformedMotion", inputs.deformedMotion},
+         {"lastDeformedMotion", inputs.lastDeformedMotion},
          {"output", inputs.output}}};
     for (size_t i = 0; i < images.size(); ++i)
         for (size_t j = i + 1; j < images.size(); ++j) {
@@ -141,6 +143,19 @@ core::Status checkSamples(
             host.mostBufferBytes
         );
     return {};
+}
+
+core::Status checkDeformed(const HostInputs& inputs, const HostAbilities& host) {
+    const VkExtent2D picture = pictureOf(inputs);
+    if (inputs.deformedMotion.image)
+        SHUTTER_TRY(check(inputs.deformedMotion, kDeformedRule, picture, host));
+    if (!inputs.lastDeformedMotion.image)
+        return {};
+    if (!inputs.deformedMotion.image)
+        return makeError(
+            "motion blur: deformedMotion.image is null, but lastDeformedMotion.image is not"
+        );
+    return check(inputs.lastDeformedMotion, kLastDeformedRule, picture, host);
 }
 
 core::Status checkLast(const HostInputs& inputs, const HostAbilities& host) {
@@ -233,6 +248,7 @@ core::Status checkMethod(
         SHUTTER_TRY(checkMotion(countedMotion(inputs, movers), describeFrame(inputs, settings)));
         SHUTTER_TRY(checkMoversAreKnown(inputs));
         SHUTTER_TRY(checkLast(inputs, host));
+        SHUTTER_TRY(checkDeformed(inputs, host));
     }
     if (method.readsCamera)
         return checkCamera(inputs, method);
@@ -323,6 +339,8 @@ const HostImageRule kLastColorRule{.name = "lastColor", .formats = kColorFormats
 const HostImageRule kLastMotionRule{.name = "lastMotionDepth", .formats = kMotionFormats};
 const HostImageRule kLastIdRule{
     .name = "lastEntityId", .formats = kIdFormats, .hasPictureSize = false};
+const HostImageRule kDeformedRule{.name = "deformedMotion", .formats = kNormalFormats};
+const HostImageRule kLastDeformedRule{.name = "lastDeformedMotion", .formats = kNormalFormats};
 
 VkExtent2D pictureOf(const HostInputs& inputs) {
     return {inputs.width, inputs.height};
@@ -379,7 +397,8 @@ HostMotionFrame describeFrame(const HostInputs& inputs, const MotionBlurSettings
         {inputs.width, inputs.height},
         inputs.rasterTime,
         inputs.response != 0,
-        countInstants(settings)};
+        countInstants(settings),
+        inputs.lastDeformedMotion.image != VK_NULL_HANDLE};
 }
 
 core::Status checkInputs(

@@ -21,6 +21,8 @@ extern const HostImageRule kIdRule;
 extern const HostImageRule kLastColorRule; ///< HostLastFrame
 extern const HostImageRule kLastMotionRule;
 extern const HostImageRule kLastIdRule;
+extern const HostImageRule kDeformedRule;
+extern const HostImageRule kLastDeformedRule;
 
 [[nodiscard]] HostImageRule colorRule(const HostInputs& inputs);
 [[nodiscard]] HostImageRule outputRule(const HostInputs& inputs);

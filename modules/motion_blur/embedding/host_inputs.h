@@ -93,8 +93,10 @@ struct HostInputs {
     int64_t frameNumber = 0; ///< for InstantNoise::Turning
     HostMotion motion;       ///< for Method::readsInstantMotions; its `view` for all
     HostLastFrame last;
-    BlurBudget budget;  ///< unlimited unless HostDevice::measures
-    bool isOff = false; ///< no blur: `output`, if there is one, gets a copy of `color`
+    HostImage deformedMotion;
+    HostImage lastDeformedMotion; ///< with and without `last`
+    BlurBudget budget;            ///< unlimited unless HostDevice::measures
+    bool isOff = false;           ///< no blur: `output`, if there is one, gets a copy of `color`
     bool showsInputs = false;
     /// For tools: called within record() once the effect's passes are declared, unless `isOff`. It
     /// may declare passes that read what the effect reads and makes, and must not throw.

@@ -150,8 +150,11 @@ class Builder {
             const uint32_t moverNow = rows[row] == kNone ? kNone : mMoverOfRow[rows[row]];
             if (rows[row] != kNone && moverNow == kNone && !then)
                 continue; // stood still and does
-            // Without both transforms nobody knows where it was, or is.
-            if (!then || then->deforms || moverNow == kNone || !mWays[moverNow])
+            const bool bothDeform = then && then->deforms && moverNow != kNone && !mWays[moverNow];
+            // Without both transforms, or what its pixels do, nobody knows where it was, or is.
+            if (bothDeform && mFrame.knowsLastDeformed)
+                layer.setMover(row, shader::kDeformedMover);
+            else if (!then || then->deforms || moverNow == kNone || !mWays[moverNow])
                 layer.setMover(row, shader::kNoMover);
             else
                 addMover(layer, row, *mWays[moverNow], then->worldFromObject);

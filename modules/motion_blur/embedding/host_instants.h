@@ -15,9 +15,10 @@ namespace shutter::motion_blur {
 /// What a frame's motion depends on besides HostMotion itself.
 struct HostMotionFrame {
     math::uvec2 sizePx{1u};
-    double rasterTime = 1.0;   ///< HostInputs::rasterTime
-    bool hasResponse = false;  ///< HostInputs::response is not 0
-    uint32_t instantCount = 1; ///< countInstants() (settings.h)
+    double rasterTime = 1.0;        ///< HostInputs::rasterTime
+    bool hasResponse = false;       ///< HostInputs::response is not 0
+    uint32_t instantCount = 1;      ///< countInstants() (settings.h)
+    bool knowsLastDeformed = false; ///< HostInputs::lastDeformedMotion is given
 };
 
 /// Whether a key is the raster instant's.

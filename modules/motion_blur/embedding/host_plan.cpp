@@ -69,6 +69,10 @@ void imagine(const HostPlan& plan, ImaginedInputs& imagined) {
         inputs.last = {make(kHostColorFormat), make(kHostMotionFormat), inputs.entityId};
     if (inputs.last.entityId.image)
         inputs.last.entityId.image = imagineImage(next);
+    if (plan.givesDeformedMotion) {
+        inputs.deformedMotion = make(kHostColorFormat);
+        inputs.lastDeformedMotion = make(kHostColorFormat);
+    }
     inputs.reveal.record = [](const RevealTask&) {};
     inputs.samples.record = [](const SampleTask&) {};
     imagineMotion(plan, imagined);

@@ -25,6 +25,7 @@ struct HostPlan {
     bool lendsLast = false;
     uint32_t rowCount = 1;
     uint32_t moverCount = 0;
+    bool givesDeformedMotion = false;
 };
 
 /// Inputs as the plan's host would give them, whose handles are of nothing.

@@ -7,6 +7,7 @@
 #include "spirv/motion_blur/prepare_ids.comp.h"
 #include "spirv/motion_blur/prepare_image.comp.h"
 #include "spirv/motion_blur/prepare_motion.comp.h"
+#include "spirv/motion_blur/prepare_ways.comp.h"
 #include "spirv/motion_blur/prepare_world.comp.h"
 
 #include "engine/core/check.h"
@@ -41,6 +42,12 @@ struct PrepareIdsPush {
 
 struct PrepareWorldPush {
     glm::uvec2 sizePx;
+};
+
+struct PrepareWaysPush {
+    glm::uvec2 sizePx;
+    shader::PrepareArea area;
+    float rasterTime;
 };
 
 struct DeliverPush {
@@ -87,6 +94,12 @@ HostPreparation::HostPreparation(gpu::Device& device)
           device,
           describePixelPass(
               "prepare world", motion_blur_prepare_world_comp, 1, sizeof(PrepareWorldPush)
+          )
+      ),
+      mWays(
+          device,
+          describePixelPass(
+              "prepare ways", motion_blur_prepare_ways_comp, 1, sizeof(PrepareWaysPush)
           )
       ),
       mDeliverHalf(
@@ -177,6 +190,24 @@ graph::ImageHandle HostPreparation::addWorldIds(
         {motionDepth},
         createPicture(graph, "world ids", VK_FORMAT_R32_UINT, picture),
         PrepareWorldPush{sizeOf(picture)},
+        mSampler
+    );
+}
+
+graph::ImageHandle HostPreparation::addWays(
+    graph::Graph& graph,
+    graph::ImageHandle image,
+    const HostImage& given,
+    float rasterTime,
+    VkExtent2D picture
+) const {
+    return addPixelPass(
+        graph,
+        mWays,
+        "prepare ways",
+        {image},
+        createPicture(graph, "ways", VK_FORMAT_R32G32_UINT, picture),
+        PrepareWaysPush{sizeOf(picture), makeArea(given, picture), rasterTime},
         mSampler
     );
 }

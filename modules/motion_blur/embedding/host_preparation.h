@@ -47,6 +47,14 @@ class HostPreparation {
     /// R32_UINT of one id for all that is not the sky. \param motionDepth as the effect reads it
     [[nodiscard]] graph::ImageHandle
     addWorldIds(graph::Graph& graph, graph::ImageHandle motionDepth, VkExtent2D picture) const;
+    /// RG32UI of packWay()s (common/pixel_way.glsl) of ShutterBlurInputs::deformedMotion.
+    [[nodiscard]] graph::ImageHandle addWays(
+        graph::Graph& graph,
+        graph::ImageHandle image,
+        const HostImage& given,
+        float rasterTime,
+        VkExtent2D picture
+    ) const;
     /// Writes the picture into the part of the host's image that is used, and returns that image.
     /// \param format RGBA16F, RGBA32F or B10G11R11
     [[nodiscard]] graph::ImageHandle addDelivery(
@@ -64,6 +72,7 @@ class HostPreparation {
     gpu::LazyPipeline mNormal;
     gpu::LazyPipeline mIds;
     gpu::LazyPipeline mWorldIds;
+    gpu::LazyPipeline mWays;
     gpu::LazyPipeline mDeliverHalf;
     gpu::LazyPipeline mDeliverFloat;
     gpu::LazyPipeline mDeliverPacked;

@@ -384,5 +384,33 @@ TEST(HostConvention, EachFieldThatIsWrongIsNamed) {
     refuseWithoutCameras([](C& c) { c.scales.camera = 0.5f; }, "cameraScale is not objectScale");
 }
 
+TEST(PrepareWay, PassesThroughBothEndsAndThePixelItself) {
+    const math::vec4 ends(-20.0f, 4.0f, 12.0f, -6.0f);
+    for (const float rasterTime : {0.3f, 0.5f, 0.8f, -1.0f, -0.4f, 2.5f}) {
+        const shader::PixelWay way = shader::unpackWay(shader::prepareWay(ends, rasterTime));
+        EXPECT_LT(glm::distance(way.open, math::vec2(-20, 4)), 0.1f);
+        EXPECT_LT(glm::distance(way.close, math::vec2(12, -6)), 0.1f);
+        const float exact = glm::length(shader::displacementAt(way, rasterTime));
+        EXPECT_LT(exact, 0.1f * (1.0f + rasterTime * rasterTime * 4.0f)) << rasterTime;
+    }
+}
+
+TEST(PrepareWay, IsStraightWhereTheRasterIsAtAnEndOrNowhere) {
+    for (const float rasterTime : {0.0f, 0.05f, 0.95f, 1.0f, kNaN, kInfinity, -kInfinity, 1e30f})
+        EXPECT_EQ(
+            shader::unpackWay(shader::prepareWay({-8, 0, 2, 1}, rasterTime)).bend, math::vec2(0.0f)
+        ) << rasterTime;
+}
+
+TEST(PrepareWay, WhatIsNoNumberIsNoWay) {
+    for (int channel = 0; channel < 4; ++channel)
+        for (const float bad : {kNaN, kInfinity, -kInfinity}) {
+            math::vec4 ends(1.0f);
+            ends[channel] = bad;
+            EXPECT_EQ(shader::prepareWay(ends, 0.5f).x, shader::kNoWay);
+        }
+    EXPECT_NE(shader::prepareWay(math::vec4(1e38f), 0.5f).x, shader::kNoWay);
+}
+
 } // namespace
 } // namespace shutter::motion_blur

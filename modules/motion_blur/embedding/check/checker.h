@@ -28,6 +28,8 @@ struct ImportedInputs {
     graph::ImageHandle blurScale;
     graph::ImageHandle normal;
     graph::ImageHandle entityId;
+    graph::ImageHandle deformed;
+    graph::ImageHandle lastDeformed;
 };
 
 class HostChecker {
