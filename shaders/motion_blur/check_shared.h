@@ -25,6 +25,7 @@ struct CheckSample {
     vec2 vector;
     float depth;
     uint id;
+    vec4 deformed; // ShutterBlurInputs::deformedMotion
 };
 
 // Indices of CheckTotals::counts: pixels of which ...
@@ -64,8 +65,8 @@ SHUTTER_CONST uint kCheckHasVectors = 4u;   // the image of vectors counts; else
 SHUTTER_SHADER_END
 
 #ifdef __cplusplus
-static_assert(sizeof(shutter::shader::CheckSample) == 16);
-static_assert(sizeof(shutter::shader::CheckTotals) == 340048);
+static_assert(sizeof(shutter::shader::CheckSample) == 32);
+static_assert(sizeof(shutter::shader::CheckTotals) == 376912);
 static_assert(
     shutter::shader::kCheckSamples == shutter::shader::kCheckAcross * shutter::shader::kCheckDown
 );

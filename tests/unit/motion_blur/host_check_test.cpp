@@ -209,6 +209,45 @@ TEST(HostCheck, MatricesThatAreTheSameAreNamedWhereTheMoverMoves) {
     EXPECT_NE(check(CheckedWorld(), change).find("the same at all keys"), std::string::npos);
 }
 
+/// What is said of a mover that deforms, whose displacements are changed.
+std::string checkDeformedBy(math::vec4 (*change)(const math::vec4&)) {
+    std::string all;
+    auto frame = CheckedWorld().draw(1.0);
+    frame->facts.hasDeformed = true;
+    frame->facts.movers[0].firstMatrix = CheckFacts::kNone;
+    for (shader::CheckSample& sample : frame->totals.samples)
+        sample.deformed = sample.id == kMoverRow
+                              ? change(math::vec4(-float(kShare) * sample.vector, 0.0f, 0.0f))
+                              : math::vec4(std::numeric_limits<float>::quiet_NaN());
+    for (const Finding& finding : checkFrame(*frame, nullptr))
+        if (finding.kind == CheckKind::Deformed)
+            all += finding.sentence;
+    return all;
+}
+
+TEST(HostCheck, WhatDeformsMustGoWhereItsVectorsDo) {
+    const auto contains = [](const std::string& said, const char* part) {
+        return said.find(part) != std::string::npos;
+    };
+    EXPECT_EQ(checkDeformedBy([](const math::vec4& v) { return v; }), "");
+    EXPECT_TRUE(contains(checkDeformedBy([](const math::vec4& v) { return -v; }), "exchanged"));
+    EXPECT_TRUE(contains(
+        checkDeformedBy([](const math::vec4& v) { return v / math::vec4(320, 180, 320, 180); }),
+        "shares of the picture"
+    ));
+    EXPECT_TRUE(contains(
+        checkDeformedBy([](const math::vec4& v) { return v / math::vec4(160, 90, 160, 90); }),
+        "clip space"
+    ));
+    EXPECT_TRUE(contains(
+        checkDeformedBy([](const math::vec4& v) { return v / float(kShare); }), "between the frames"
+    ));
+    const std::string other =
+        checkDeformedBy([](const math::vec4& v) { return v + math::vec4(90, 70, 0, 0); });
+    EXPECT_TRUE(contains(other, "deformedMotion")) << other;
+    EXPECT_FALSE(contains(other, "would be")) << other;
+}
+
 TEST(HostCheck, AMoverBehindAWallIsInNobodysView) {
     const Change behind = [](CheckFacts& facts, const CheckedWorld&, double) {
         facts.rowCount = 3; // the picture does not show the last of them

@@ -69,6 +69,7 @@ CheckPoint makePoint(
     point.metres = shader::metresOfDepth(table, depth);
     point.isSky = point.metres >= shader::kSkyDepth;
     point.id = sample.id;
+    point.deformed = sample.deformed;
     if (!hasCameras(said))
         return point;
     const glm::vec2 place(point.place);
@@ -262,6 +263,7 @@ std::vector<Finding> checkFrame(CheckedFrame& now, const CheckedFrame* last) {
     if (isCut || isCameraWrong)
         return findings;
     checkMovers(now, last, findings);
+    checkDeformed(now, findings);
     checkUnexplained(now, findings);
     return findings;
 }

@@ -48,6 +48,7 @@ struct CheckFacts {
     HostCameras open;  ///< now: the raster instant; before: the shutter's opening
     HostCameras close; ///< before: its closing
     bool hasIds = false;
+    bool hasDeformed = false; ///< CheckSample::deformed counts
     bool readsMotion = false; ///< the method reads HostMotion; else what is of it is empty
     uint32_t noEntity = 0xFFFFFFFF;
     uint32_t rowCount = 0;           ///< 0: not said
@@ -90,6 +91,7 @@ enum class CheckKind : uint8_t {
     MoverUnlisted,
     MoverUnseen,
     Movers,
+    Deformed,
     CameraJump,
     Keys,
     HistoryUnused,
@@ -146,6 +148,8 @@ void checkReprojection(
 void checkKeys(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
 /// Movers' matrices against the vectors of their pixels, or without vectors against the last frame.
 void checkMovers(const CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
+/// Where deforming movers' pixels go against their vectors.
+void checkDeformed(const CheckedFrame& now, std::vector<Finding>& findings);
 /// What no part above explains.
 void checkUnexplained(const CheckedFrame& now, std::vector<Finding>& findings);
 void checkHistory(CheckedFrame& now, const CheckedFrame* last, std::vector<Finding>& findings);
@@ -160,6 +164,7 @@ struct CheckPoint {
     float metresBefore = 0.0f;
     bool isSky = false;
     uint32_t id = 0;
+    glm::vec4 deformed{0.0f}; ///< as in the image
 };
 
 /// "0.03 %", "4 %", "100 %"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modules/motion_blur/embedding/check/checker.h"
 
+#include "spirv/motion_blur/check_deformed.comp.h"
 #include "spirv/motion_blur/check_ids.comp.h"
 #include "spirv/motion_blur/check_picture.comp.h"
 
@@ -41,6 +42,11 @@ struct CheckIdsPush {
     shader::PrepareArea area;
     uint32_t noneValue;
     uint32_t rowCount;
+};
+
+struct CheckDeformedPush {
+    glm::uvec2 sizePx;
+    shader::PrepareArea area;
 };
 
 gpu::ComputePipelineDesc describeCheck(
@@ -155,6 +161,12 @@ HostChecker::HostChecker(gpu::Device& device, uint32_t frames, HostMessage messa
           describeCheck("check picture", motion_blur_check_picture_comp, 3, sizeof(PicturePush))
       ),
       mIds(device, describeCheck("check ids", motion_blur_check_ids_comp, 1, sizeof(CheckIdsPush))),
+      mDeformed(
+          device,
+          describeCheck(
+              "check deformed", motion_blur_check_deformed_comp, 1, sizeof(CheckDeformedPush)
+          )
+      ),
       mSlots(frames), mLast(frames), mNumbers(frames), mNow(std::make_unique<CheckedFrame>()) {}
 
 void HostChecker::add(
@@ -227,6 +239,16 @@ void HostChecker::add(
                 makeArea(inputs.entityId, facts.picture),
                 inputs.noEntity,
                 facts.rowCount},
+            sampler
+        );
+    if (facts.hasDeformed)
+        totals = addTotalsPass(
+            graph,
+            "check deformed",
+            mDeformed,
+            {images.deformed},
+            totals,
+            CheckDeformedPush{push.sizePx, makeArea(inputs.deformedMotion, facts.picture)},
             sampler
         );
     addReadback(graph, totals, slot.totals);

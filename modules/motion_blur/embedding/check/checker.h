@@ -73,6 +73,7 @@ class HostChecker {
     HostMessage mMessage;
     gpu::LazyPipeline mPicture;
     gpu::LazyPipeline mIds;
+    gpu::LazyPipeline mDeformed;
     std::vector<Slot> mSlots;
     std::vector<std::unique_ptr<CheckedFrame>> mLast; ///< by view
     std::vector<uint32_t> mNumbers;                   ///< by view: recordings so far

@@ -103,6 +103,7 @@ void describeFacts(
     facts.rasterTime = inputs.rasterTime;
     facts.hasIds = inputs.entityId.image != VK_NULL_HANDLE;
     facts.readsMotion = settings.method->readsInstantMotions;
+    facts.hasDeformed = facts.readsMotion && inputs.deformedMotion.image;
     facts.wantsHistory = settings.history;
     facts.noEntity = inputs.noEntity;
     facts.frameNumber = inputs.frameNumber;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Where the pixels of what deforms go, by deformedMotion, against their motion vectors: from
+// shutter open to close both must be the same way.
+#include "modules/motion_blur/embedding/check/reading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using math::dvec2;
+using math::dvec4;
+
+constexpr size_t kLeastDeformed = 24; ///< fewer samples tell nothing
+constexpr double kLeastMotionPx = 1.0;
+constexpr double kDeformedTolerancePx = 0.5;
+constexpr double kDeformedToleranceShare =
+    0.25; ///< vectors of a frame are not quite the exposure's
+
+struct DeformedSample {
+    dvec2 vector{0.0}; ///< over the exposure
+    dvec4 ends{0.0};   ///< to shutter open and close
+
+    [[nodiscard]] dvec2 way() const { return dvec2(ends.z, ends.w) - dvec2(ends.x, ends.y); }
+};
+
+/// What a host might have meant.
+struct DeformedGuess {
+    const char* sentence;
+    dvec2 (*way)(const DeformedSample& sample, const CheckFacts& facts);
+};
+
+dvec2 pictureSize(const CheckFacts& facts) {
+    return {facts.picture.width, facts.picture.height};
+}
+
+constexpr std::array kGuesses{
+    DeformedGuess{
+        "shutter open and close are exchanged, or displacements point the other way",
+        [](const DeformedSample& sample, const CheckFacts&) { return -sample.way(); }},
+    DeformedGuess{
+        "y points up",
+        [](const DeformedSample& sample, const CheckFacts&) {
+            return dvec2(1.0, -1.0) * sample.way();
+        }},
+    DeformedGuess{
+        "both are exchanged and y points up",
+        [](const DeformedSample& sample, const CheckFacts&) {
+            return dvec2(-1.0, 1.0) * sample.way();
+        }},
+    DeformedGuess{
+        "displacements are shares of the picture, not pixels",
+        [](const DeformedSample& sample, const CheckFacts& facts) {
+            return pictureSize(facts) * sample.way();
+        }},
+    DeformedGuess{
+        "displacements are in clip space, not pixels",
+        [](const DeformedSample& sample, const CheckFacts& facts) {
+            return 0.5 * pictureSize(facts) * sample.way();
+        }},
+    DeformedGuess{
+        "they are over the time between the frames, not over the exposure",
+        [](const DeformedSample& sample, const CheckFacts& facts) {
+            return double(facts.convention.scales.exposureShare) * sample.way();
+        }}};
+
+std::vector<DeformedSample> listSamples(const CheckedFrame& frame) {
+    const CheckFacts& facts = frame.facts;
+    std::vector<bool> deforms(facts.rowCount, false);
+    for (const CheckFacts::Mover& mover : facts.movers)
+        if (mover.row < deforms.size())
+            deforms[mover.row] = mover.firstMatrix == CheckFacts::kNone;
+    const HostScales& scales = facts.convention.scales;
+    const double share =
+        facts.isNative ? 1.0 : double(scales.exposureShare) / scales.displayedPerRendered;
+    const bool lackCamera = !facts.isNative && facts.convention.vectors.lackCamera;
+    std::vector<DeformedSample> samples;
+    for (const CheckPoint& point : makePoints(frame, facts)) {
+        const dvec2 motion = lackCamera ? point.motion + point.camera : point.motion;
+        DeformedSample sample{motion * share, dvec4(point.deformed)};
+        const dvec2 way = sample.way();
+        if (point.id < deforms.size() && deforms[point.id] && std::isfinite(way.x + way.y) &&
+            glm::length(sample.vector) > kLeastMotionPx)
+            samples.push_back(sample);
+    }
+    return samples;
+}
+
+/// Share of the samples at which the way is the vector.
+double measureAgreement(
+    const std::vector<DeformedSample>& samples, const CheckFacts& facts, const DeformedGuess& guess
+) {
+    const auto agreeing =
+        std::count_if(samples.begin(), samples.end(), [&](const DeformedSample& sample) {
+            return glm::distance(guess.way(sample, facts), sample.vector) <=
+                   kDeformedTolerancePx + kDeformedToleranceShare * glm::length(sample.vector);
+        });
+    return double(agreeing) / double(samples.size());
+}
+
+} // namespace
+
+void checkDeformed(const CheckedFrame& now, std::vector<Finding>& findings) {
+    constexpr DeformedGuess kSaid{
+        "", [](const DeformedSample& sample, const CheckFacts&) { return sample.way(); }};
+    const CheckFacts& facts = now.facts;
+    if (!facts.hasDeformed || !facts.hasVectors || !facts.hasIds ||
+        hasFound(findings, {CheckKind::Vectors, CheckKind::IdChanges}))
+        return;
+    const std::vector<DeformedSample> samples = listSamples(now);
+    if (samples.size() < kLeastDeformed)
+        return;
+    const double agreeing = measureAgreement(samples, facts, kSaid);
+    if (agreeing >= 0.5)
+        return;
+    std::string sentence = fmt::format(
+        "deformedMotion, from shutter open to close, is not what {} has at {} of what deforms",
+        facts.isNative ? "motionDepth" : "vectors",
+        describeShare(1.0 - agreeing)
+    );
+    for (const DeformedGuess& guess : kGuesses)
+        if (measureAgreement(samples, facts, guess) >= 0.8) {
+            sentence += fmt::format(": it would be if {}", guess.sentence);
+            break;
+        }
+    findings.push_back({CheckKind::Deformed, sentence});
+}
+
+} // namespace shutter::motion_blur
