@@ -14,8 +14,8 @@ from package import (BUILD, CC, CMAKE, CXX, ROOT, fail, list_symbols, list_words
                      run_validated)
 
 EXAMPLES = ROOT / "game/examples"
-MOST_LINES = {"bare_renderer": 150, "c_host": 150, "new_effect": 99}
-SOURCES = {".c", ".cpp", ".h", ".comp", ".txt"}
+MOST_LINES = {"bare_renderer": 150, "c_host": 150, "deforming_host": 300, "new_effect": 99}
+SOURCES = {".c", ".cpp", ".h", ".comp", ".frag", ".vert", ".txt"}
 
 
 def check_lengths():
@@ -195,6 +195,22 @@ def check_vignette(prefix, folder, picture):
             fail(f"the corner {x}, {y} goes from {before} to {after}; it should be dark")
 
 
+def check_flag(folder):
+    """The flag's free end is blurred; the wall and the end at the pole are not."""
+    _, _, before = read_ppm(folder / "before.ppm")
+    _, _, after = read_ppm(folder / "after.ppm")
+
+    def measure_changed(columns, lines):
+        places = [(x, y) for y in lines for x in columns]
+        return sum(max(abs(a - b) for a, b in zip(before(*place), after(*place))) > 8
+                   for place in places) / len(places)
+
+    free = measure_changed(range(445, 470), range(75, 245))
+    held = measure_changed(range(100, 200), range(110, 245))
+    if free < 0.2 or held > 0.01:
+        fail(f"{free:.0%} of the flag's free end is blurred, and {held:.0%} of what hardly moves")
+
+
 def has_device(prefix, folder):
     done = subprocess.run([prefix / "bin/shutter", "info", "--devices"], cwd=folder, text=True,
                           capture_output=True, check=False)
@@ -222,6 +238,8 @@ def main():
     for host in ("c_host", "by_pkg_config"):
         run_validated([folder / host / "c_host"], folder)
         check_blur(folder, left=120)
+    run_validated([folder / "deforming_host/deforming_host"], folder)
+    check_flag(folder)
     scene = prefix / "share/shutter/assets/vase.glb"
     run_validated([folder / "new_effect/new_effect", scene, "vignette.png"], folder)
     check_vignette(prefix, folder, folder / "vignette.png")

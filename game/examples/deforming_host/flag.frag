@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#version 460
+layout(push_constant) uniform Push { layout(offset = 32) vec4 sizePx; } push;
+layout(location = 0) in vec4 vClips[3];
+layout(location = 3) in vec2 vPlace;
+layout(location = 0) out vec4 outColor;
+layout(location = 1) out vec4 outMotionDepth; // pixels from shutter open to close; metres
+layout(location = 2) out uint outEntityId;
+layout(location = 3) out vec4 outDeformed; // pixels from here to shutter open and to close
+
+vec2 placeOf(vec4 clip) { return (0.5f * clip.xy / clip.w + 0.5f) * push.sizePx.xy; }
+
+void main() {
+    bool isFlag = vClips[0].w < 6.0f;
+    float checks = mod(floor(vPlace.x * (isFlag ? 12.0f : 40.0f)) + floor(vPlace.y * (isFlag ? 4.0f : 40.0f)), 2.0f);
+    outColor = vec4(isFlag ? mix(vec3(0.8f, 0.1f, 0.1f), vec3(0.9f), checks)
+                           : mix(vec3(0.2f, 0.25f, 0.4f), vec3(0.5f, 0.5f, 0.45f), checks), 1.0f);
+    vec2 open = placeOf(vClips[1]);
+    vec2 close = placeOf(vClips[2]);
+    outMotionDepth = vec4(close - open, vClips[0].w, 0.0f);
+    outEntityId = isFlag ? 1u : 0u;
+    outDeformed = vec4(open, close) - placeOf(vClips[0]).xyxy;
+}
