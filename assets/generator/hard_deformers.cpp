@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
