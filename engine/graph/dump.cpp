@@ -102,7 +102,7 @@ std::string describeUse(const Graph& graph, const PassRecord& pass, const Resour
 }
 
 void dumpPasses(const Graph& graph, const Plan& plan, std::string& text) {
-    static constexpr std::array<const char*, 4> kKinds{"compute", "raster", "transfer", "build"};
+    static constexpr std::array kKinds{"compute", "raster", "transfer", "build", "ray tracing"};
     auto out = std::back_inserter(text);
     fmt::format_to(out, "passes: {}\n", plan.passes.size());
     for (size_t position = 0; position < plan.passes.size(); ++position) {

@@ -340,6 +340,15 @@ TEST(Dump, ABarrierThatOnlyWaitsSaysSo) {
     EXPECT_NE(text.find("'look' (compute, side effect)"), std::string::npos) << text;
 }
 
+TEST(Dump, ALaunchOfARayTracingPipelineSaysSo) {
+    Graph graph;
+    addPass(graph, "launch", PassKind::RayTracing, [](PassBuilder& builder) {
+        builder.sideEffect();
+    });
+    const std::string text = dump(graph, mustCompile(graph));
+    EXPECT_NE(text.find("'launch' (ray tracing, side effect)"), std::string::npos) << text;
+}
+
 TEST(Dump, AFormatWithoutANameHasItsNumber) {
     Graph graph;
     graph.markOutput(store(graph, "a", makeImage(graph, "odd", 16, VK_FORMAT_R64_UINT)));
