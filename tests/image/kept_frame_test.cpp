@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// What a renderer keeps from frame to frame: rows, tables and top levels of what stands still.
+// What a renderer keeps from frame to frame, and frames that the CPU submits before the GPU is done
+// with those before.
 #include "engine/rays/tlas.h"
 #include "engine/scene/history.h"
 #include "modules/motion_blur/plugin/motion_blur_plugin.h"
-#include "tests/kit/scene_builder.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
+#include "tests/support/stage.h"
 
-#include <algorithm>
 #include <array>
 #include <functional>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -20,14 +20,27 @@ namespace {
 using math::dvec3;
 using test::SceneBuilder;
 
-class KeptFrames : public test::GpuTest {
-  protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
-            GTEST_SKIP() << device().info().name << " has no ray queries";
+class KeptFrame : public test::RayTest {};
+
+class KeptFrames : public test::Frames {
+  public:
+    using Frames::Frames;
+
+    render::FrameResult hybrid(double seconds, uint32_t width = 96) {
+        return draw(
+            {.method = "hybrid",
+             .width = width,
+             .seconds = seconds,
+             .exposureSeconds = 0.5,
+             .aovs = {"motion", "mesh_id"}}
+        );
     }
 };
+
+void expectWritten(const render::FrameResult& frame, uint64_t rows, uint64_t motions) {
+    EXPECT_EQ(frame.statistics.counters.at("entity rows written"), rows);
+    EXPECT_EQ(frame.statistics.counters.at("entity motions written"), motions);
+}
 
 /// A mover before `count` tiles of a wall, each an entity of its own.
 struct Crowd {
@@ -37,9 +50,13 @@ struct Crowd {
 
     explicit Crowd(size_t count) {
         scene.setPerspective(0.9);
-        const auto material = scene.addTextured(scene.addWaveTexture());
+        const auto material = scene.addWaves();
         const auto tile = scene.addMesh({test::makeQuad(0.32, 0.3, material)});
-        const auto glass = addGlass();
+        scene::Material pane;
+        pane.unlit = true;
+        pane.alphaMode = scene::AlphaMode::Blend;
+        pane.baseColorFactor = {0.2f, 0.6f, 0.9f, 0.5f};
+        const auto glass = scene.addMesh({test::makeQuad(0.32, 0.3, scene.addMaterial(pane))});
         for (size_t i = 0; i < count; ++i) {
             const dvec3 place(-3.2 + 0.34 * double(i % 20), -2.2 + 0.31 * double(i / 20), -5.0);
             tiles.push_back(scene.add(i % 16 == 15 ? glass : tile, {.position = place}));
@@ -50,105 +67,51 @@ struct Crowd {
         );
     }
 
-    scene::AssetIndex addGlass() {
-        scene::Material material;
-        material.unlit = true;
-        material.alphaMode = scene::AlphaMode::Blend;
-        material.baseColorFactor = {0.2f, 0.6f, 0.9f, 0.5f};
-        return scene.addMesh({test::makeQuad(0.32, 0.3, scene.addMaterial(material))});
-    }
-
     math::Transform& transformOf(ecs::Entity entity) {
         return scene.world.registry.get<scene::LocalTransform>(entity).transform;
     }
 };
 
-/// Frames of one renderer.
-class Frames {
-  public:
-    Frames(gpu::Device& device, const SceneBuilder& scene)
-        : mScene(scene), mRenderer(device, scene.world.assets),
-          mBlur(device, mRenderer.scene(), {.method = &motion_blur::getMethod("hybrid")}) {}
-
-    render::FrameResult hybrid(double seconds, uint32_t width = 96) {
-        render::FrameRequest request;
-        request.view.camera = mScene.camera;
-        request.view.exposure = scene::computeExposure({0.5, scene::ShutterPhase::Centre}, seconds);
-        request.view.width = width;
-        request.view.height = 64;
-        request.intermediates = {"motion", "mesh_id"};
-        std::array<render::PostEffect*, 1> effects{&mBlur};
-        auto result = mRenderer.renderFrame(mScene.world, request, effects);
-        EXPECT_TRUE(result.ok());
-        return result ? std::move(result).value() : render::FrameResult{};
-    }
-
-  private:
-    const SceneBuilder& mScene;
-    render::Renderer mRenderer;
-    motion_blur::MotionBlurPlugin mBlur;
-};
-
-bool ran(const render::FrameResult& frame, const std::string& pass) {
-    const auto& passes = frame.statistics.passes;
-    return std::any_of(passes.begin(), passes.end(), [&](const gpu::PassTime& time) {
-        return time.name == pass;
-    });
-}
-
-uint64_t rowsWritten(const render::FrameResult& frame) {
-    return frame.statistics.counters.at("entity rows written");
-}
-
-uint64_t motionsWritten(const render::FrameResult& frame) {
-    return frame.statistics.counters.at("entity motions written");
-}
-
-} // namespace
-
-TEST_F(KeptFrames, AStillFrameWritesNeitherRowsNorMotionsAndBuildsNothing) {
+TEST_F(KeptFrame, AStillFrameWritesNeitherRowsNorMotionsAndBuildsNothing) {
     Crowd crowd(40);
     scene::hide(crowd.scene.world, crowd.mover);
-    Frames frames(device(), crowd.scene);
+    KeptFrames frames(device(), crowd.scene);
     const auto first = frames.hybrid(0.0);
-    EXPECT_EQ(rowsWritten(first), 40u);
-    EXPECT_EQ(motionsWritten(first), 0u);
+    expectWritten(first, 40, 0);
     const auto second = frames.hybrid(1.0);
-    EXPECT_EQ(rowsWritten(second), 0u);
-    EXPECT_EQ(motionsWritten(second), 0u);
-    EXPECT_FALSE(ran(second, "build TLAS"));
+    expectWritten(second, 0, 0);
+    EXPECT_FALSE(test::hasPass(second, "build TLAS"));
     EXPECT_TRUE(test::sameBits(first.color, second.color));
 }
 
-TEST_F(KeptFrames, OnlyWhatMovesIsWritten) {
+TEST_F(KeptFrame, OnlyWhatMovesIsWritten) {
     const Crowd crowd(40);
-    Frames frames(device(), crowd.scene);
-    EXPECT_EQ(rowsWritten(frames.hybrid(0.0)), 41u);
+    KeptFrames frames(device(), crowd.scene);
+    expectWritten(frames.hybrid(0.0), 41, 1);
     const auto second = frames.hybrid(0.1);
-    EXPECT_EQ(rowsWritten(second), 1u);
-    EXPECT_EQ(motionsWritten(second), 1u);
-    EXPECT_TRUE(ran(second, "build TLAS")) << "the mover stands elsewhere";
+    expectWritten(second, 1, 1);
+    EXPECT_TRUE(test::hasPass(second, "build TLAS")) << "the mover stands elsewhere";
     const auto paused = frames.hybrid(0.1);
-    EXPECT_EQ(rowsWritten(paused), 0u);
-    EXPECT_FALSE(ran(paused, "build TLAS")) << "no instance moved";
-    EXPECT_TRUE(ran(paused, "ray reveal"));
+    expectWritten(paused, 0, 1);
+    EXPECT_FALSE(test::hasPass(paused, "build TLAS")) << "no instance moved";
+    EXPECT_TRUE(test::hasPass(paused, "ray reveal"));
     EXPECT_TRUE(test::sameBits(second.color, paused.color));
 }
 
-TEST_F(KeptFrames, ManyThatStandStillHaveATopLevelThatIsBuiltOnce) {
+TEST_F(KeptFrame, ManyThatStandStillHaveATopLevelThatIsBuiltOnce) {
     Crowd crowd(rays::kStaticTlasInstances);
-    Frames frames(device(), crowd.scene);
+    KeptFrames frames(device(), crowd.scene);
     const auto first = frames.hybrid(0.0);
-    EXPECT_TRUE(ran(first, "build TLAS"));
-    EXPECT_TRUE(ran(first, "build TLAS of movers"));
+    EXPECT_TRUE(test::hasPass(first, "build TLAS"));
+    EXPECT_TRUE(test::hasPass(first, "build TLAS of movers"));
     const auto second = frames.hybrid(0.1);
-    EXPECT_FALSE(ran(second, "build TLAS"));
-    EXPECT_TRUE(ran(second, "build TLAS of movers"));
+    EXPECT_FALSE(test::hasPass(second, "build TLAS"));
+    EXPECT_TRUE(test::hasPass(second, "build TLAS of movers"));
     crowd.transformOf(crowd.scene.camera).translation.x = 0.1;
-    EXPECT_TRUE(ran(frames.hybrid(0.2), "build TLAS")) << "seen from another place";
+    EXPECT_TRUE(test::hasPass(frames.hybrid(0.2), "build TLAS")) << "seen from another place";
 }
 
-TEST_F(KeptFrames, ATableThatMissedAFrameTakesAllRows) {
+TEST_F(KeptFrame, ATableThatMissedAFrameTakesAllRows) {
     const Crowd crowd(40);
     const gpu_scene::GpuScene scene(device(), crowd.scene.world.assets);
     extract::FrameExtractor extractor;
@@ -169,7 +132,7 @@ TEST_F(KeptFrames, ATableThatMissedAFrameTakesAllRows) {
     EXPECT_EQ(table.update(extract(0.5)).rows, 1u);
 }
 
-TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
+TEST_F(KeptFrame, PicturesAreThoseOfARendererThatKeptNothing) {
     for (const size_t count : {size_t{60}, rays::kStaticTlasInstances + 40}) {
         Crowd crowd(count);
         scene::World& world = crowd.scene.world;
@@ -198,11 +161,11 @@ TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
             [&] { scene::show(world, crowd.tiles[30], 0.0); },
             [&] { width = 112; },
             [&] { scene::despawn(world, crowd.mover); }};
-        Frames kept(device(), crowd.scene);
+        KeptFrames kept(device(), crowd.scene);
         for (size_t i = 0; i < edits.size(); ++i) {
             edits[i]();
             const auto frame = kept.hybrid(seconds, width);
-            Frames fresh(device(), crowd.scene);
+            KeptFrames fresh(device(), crowd.scene);
             const auto expected = fresh.hybrid(seconds, width);
             EXPECT_TRUE(test::sameBits(frame.color, expected.color)) << count << ", edit " << i;
             for (const auto& [name, image] : expected.intermediates)
@@ -211,4 +174,69 @@ TEST_F(KeptFrames, PicturesAreThoseOfARendererThatKeptNothing) {
     }
 }
 
+constexpr int kFrames = 9;
+
+struct Sequence {
+    std::vector<image::Image> colors;
+    std::vector<render::Counters> counters;
+};
+
+Sequence draw(gpu::Device& device, uint32_t framesInFlight) {
+    // The mover comes and goes, under a camera that moves.
+    Crowd crowd(40);
+    crowd.scene.moveCamera({.velocity = {0.1, 0, 0}});
+    scene::World& world = crowd.scene.world;
+    render::Renderer renderer(device, world.assets, framesInFlight);
+    motion_blur::MotionBlurPlugin blur(
+        device, renderer.scene(), {.method = &motion_blur::getMethod("hybrid")}
+    );
+    std::array<render::PostEffect*, 1> effects{&blur};
+    Sequence sequence;
+    const auto finish = [&] {
+        render::FrameResult result = renderer.finishFrame();
+        sequence.colors.push_back(std::move(result.color));
+        // How many rows were written depends on what each frame in flight held before.
+        result.statistics.counters.erase("entity rows written");
+        result.statistics.counters.erase("entity motions written");
+        sequence.counters.push_back(result.statistics.counters);
+    };
+    for (int i = 0; i < kFrames; ++i) {
+        if (i == 3)
+            scene::hide(world, crowd.mover);
+        if (i == 6)
+            scene::show(world, crowd.mover, 0.05 * i);
+        if (renderer.unfinishedCount() == framesInFlight)
+            finish();
+        render::FrameRequest request;
+        request.view.camera = crowd.scene.camera;
+        request.view.exposure =
+            scene::computeExposure({0.25, scene::ShutterPhase::Centre}, 0.05 * i);
+        // The picture changes its size on the way.
+        request.view.width = i < 5 ? 96 : 80;
+        request.view.height = 64;
+        EXPECT_TRUE(renderer.submitFrame(world, request, effects).ok());
+    }
+    while (renderer.unfinishedCount() > 0)
+        finish();
+    return sequence;
+}
+
+class FramesInFlight : public test::RayTest {};
+
+TEST_F(FramesInFlight, GiveThePicturesAndCountersOfFramesOneByOne) {
+    const Sequence alone = draw(device(), 1);
+    ASSERT_EQ(alone.colors.size(), size_t{kFrames});
+    EXPECT_GT(alone.counters[2].at("pixels masked"), 100u);
+    EXPECT_NE(alone.counters[2], alone.counters[4]);
+    for (const uint32_t count : {2u, gpu::kMaxFramesInFlight}) {
+        const Sequence ahead = draw(device(), count);
+        ASSERT_EQ(ahead.colors.size(), alone.colors.size());
+        for (size_t i = 0; i < alone.colors.size(); ++i) {
+            EXPECT_TRUE(test::sameBits(ahead.colors[i], alone.colors[i])) << count << ", " << i;
+            EXPECT_EQ(ahead.counters[i], alone.counters[i]) << count << ", " << i;
+        }
+    }
+}
+
+} // namespace
 } // namespace shutter

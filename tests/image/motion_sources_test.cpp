@@ -5,17 +5,16 @@
 #include "engine/scene/animation.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/deformation.h"
-#include "tests/image/shutter_command.h"
 #include "tests/support/expected_motion.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/stage.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter {
@@ -108,7 +107,8 @@ class MotionSources : public test::GpuTest, public ::testing::WithParamInterface
         GpuTest::SetUp();
         if (IsSkipped())
             return;
-        const auto path = test::sharedFolder() / "scenes/gltf-samples" / GetParam().file;
+        const auto path =
+            std::filesystem::path(SHUTTER_SHARED_DIR) / "scenes/gltf-samples" / GetParam().file;
         if (!std::filesystem::exists(path))
             GTEST_SKIP() << "the scenes are not beside the project (" << path.filename() << ")";
         auto loaded = gltf::loadGltf(path);
@@ -187,13 +187,6 @@ TEST_P(MotionSources, MotionVectorsAreDifferencesOfRasterisedPositions) {
             longest = std::max(longest, glm::length(truth));
             ++inside;
         }
-    fmt::print(
-        "{}: {} pixels, longest motion {:.1f} px, worst error {:.4f} px\n",
-        GetParam().name,
-        inside,
-        longest,
-        worst
-    );
     EXPECT_GT(inside, 1200u);
     EXPECT_GT(longest, 4.0);
     EXPECT_LE(worst, 0.05);
@@ -275,17 +268,6 @@ TEST_P(MotionSources, BlurIsAsNearToTruthAsOnARigidMoverOfTheSameSpeed) {
     const double metresPerSecond = moving.speed / (perMetre * GetParam().exposureSeconds);
     slide(mScene.world, GetParam().seconds, right * metresPerSecond);
     const Scores rigid = measure();
-    fmt::print(
-        "{}: moving {:.1f} px, gather {:.2f} dB, hybrid {:.2f} dB; rigid {:.1f} px, gather {:.2f} "
-        "dB, hybrid {:.2f} dB\n",
-        GetParam().name,
-        moving.speed,
-        moving.gather,
-        moving.hybrid,
-        rigid.speed,
-        rigid.gather,
-        rigid.hybrid
-    );
     EXPECT_NEAR(rigid.speed, moving.speed, 0.1 * moving.speed);
     EXPECT_GE(moving.gather, rigid.gather - GetParam().mostLost);
     EXPECT_GE(moving.hybrid, rigid.hybrid - GetParam().mostLost);

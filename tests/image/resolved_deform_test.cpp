@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What `resolved` and `adaptive` make of what deforms: as good as of what is rigid.
 #include "engine/image/metrics.h"
-#include "engine/render/renderer.h"
 #include "engine/scene/history.h"
-#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
@@ -11,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 #include <string>
 #include <string_view>
@@ -463,44 +460,34 @@ TEST_F(ResolvedDeform, TheLightThatLeavesASilhouetteIsAllThere) {
 }
 
 /// Draws frames of a scene in any order, as an application does.
-class Frames {
+class DeformFrames : public test::Frames {
   public:
-    Frames(gpu::Device& device, SceneBuilder& scene)
-        : mScene(scene), mRenderer(device, scene.world.assets),
-          mBlur(device, mRenderer.scene(), {}) {}
+    using Frames::Frames;
 
-    render::FrameResult draw(int frame) {
-        motion_blur::MotionBlurSettings settings;
-        settings.method = &motion_blur::getMethod("resolved");
-        mBlur.configure(settings, {});
-        render::FrameRequest request;
-        request.view.camera = mScene.camera;
-        request.view.exposure = scene::computeExposure({kExposure}, frame / 24.0, 1.0 / 24.0);
-        request.view.width = kWidth;
-        request.view.height = kHeight;
-        render::PostEffect* effects[] = {&mBlur};
-        auto drawn = mRenderer.renderFrame(mScene.world, request, effects);
-        EXPECT_TRUE(drawn.ok());
-        return std::move(drawn.value());
+    render::FrameResult at(int frame) {
+        return draw(
+            {.method = "resolved",
+             .width = kWidth,
+             .height = kHeight,
+             .seconds = frame / 24.0,
+             .exposureSeconds = kExposure,
+             .phase = scene::ShutterPhase::End,
+             .frameSeconds = 1.0 / 24.0}
+        );
     }
-
-  private:
-    SceneBuilder& mScene;
-    render::Renderer mRenderer;
-    motion_blur::MotionBlurPlugin mBlur;
 };
 
 TEST_F(ResolvedDeform, ASequenceThatIsTakenUpAgainHasTheSameBits) {
     SceneBuilder scene = makeRoom();
     addWaver(scene, 20.0, {6, 0, 0});
-    Frames all(device(), scene);
+    DeformFrames all(device(), scene);
     for (int frame = -3; frame < 0; ++frame)
-        (void)all.draw(frame);
-    Frames resumed(device(), scene);
-    (void)resumed.draw(-1);
-    const auto expected = all.draw(0);
+        (void)all.at(frame);
+    DeformFrames resumed(device(), scene);
+    (void)resumed.at(-1);
+    const auto expected = all.at(0);
     EXPECT_GT(expected.statistics.counters.at("samples from the last frame"), 0u);
-    EXPECT_TRUE(test::sameBits(resumed.draw(0).color, expected.color));
+    EXPECT_TRUE(test::sameBits(resumed.at(0).color, expected.color));
 }
 
 TEST_F(ResolvedDeform, ACharacterThatIsTeleportedOrAppearsHasNoPast) {
@@ -513,15 +500,15 @@ TEST_F(ResolvedDeform, ACharacterThatIsTeleportedOrAppearsHasNoPast) {
             test::makeQuad(0.2, 0.2, scene.addWaves()),
             {.position = {-1.5, 1.0, -4}, .velocity = {0, 0.1, 0}}
         );
-        Frames frames(device(), scene);
-        (void)frames.draw(-1);
+        DeformFrames frames(device(), scene);
+        (void)frames.at(-1);
         math::Transform elsewhere;
         elsewhere.translation = {-0.6, -0.8, -3};
         if (event == Event::Appearance)
             scene::appear(scene.world, waver.entity, -0.5 / 24.0);
         if (event == Event::Teleport)
             scene::teleport(scene.world, waver.joints[0], elsewhere, -0.5 / 24.0);
-        const auto counters = frames.draw(0).statistics.counters;
+        const auto counters = frames.at(0).statistics.counters;
         const auto found = counters.at("samples from the last frame");
         if (event == Event::None)
             EXPECT_GT(found, 1000u);

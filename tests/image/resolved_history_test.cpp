@@ -3,10 +3,8 @@
 // after the other by one renderer, with something in between. A frame finds the same there whether
 // the frame before kept it or it is drawn once more.
 #include "engine/image/metrics.h"
-#include "engine/render/renderer.h"
 #include "engine/scene/history.h"
 #include "engine/scene/path.h"
-#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
@@ -56,36 +54,25 @@ struct FrameOptions {
 };
 
 /// Draws frames of a scene in any order, as an application does.
-class Frames {
+class HistoryFrames : public test::Frames {
   public:
-    Frames(gpu::Device& device, Scene& scene)
-        : mScene(scene), mRenderer(device, scene.builder.world.assets),
-          mBlur(device, mRenderer.scene(), {}) {}
+    HistoryFrames(gpu::Device& device, const Scene& scene) : Frames(device, scene.builder) {}
 
-    render::FrameResult draw(int frame, const FrameOptions& options = {}) {
-        motion_blur::MotionBlurSettings settings;
-        settings.method = &motion_blur::getMethod(options.method);
-        settings.history = options.history;
-        mBlur.configure(settings, {});
-        render::FrameRequest request;
-        request.view.camera =
-            options.camera == ecs::Entity{} ? mScene.builder.camera : options.camera;
-        request.view.exposure = scene::computeExposure(
-            {options.exposureSeconds}, frame / kFramesPerSecond, 1.0 / kFramesPerSecond
-        );
-        request.wantReasons = true;
-        request.view.width = options.width;
-        request.view.height = options.height;
-        render::PostEffect* effects[] = {&mBlur};
-        auto drawn = mRenderer.renderFrame(mScene.world(), request, effects);
-        EXPECT_TRUE(drawn.ok());
-        return std::move(drawn.value());
+    render::FrameResult at(int frame, const FrameOptions& options = {}) {
+        test::Shot shot{
+            .method = options.method,
+            .width = options.width,
+            .height = options.height,
+            .seconds = frame / kFramesPerSecond,
+            .exposureSeconds = options.exposureSeconds,
+            .phase = scene::ShutterPhase::End,
+            .frameSeconds = 1.0 / kFramesPerSecond};
+        shot.settings.history = options.history;
+        return draw(shot, [&](game::PictureRequest& request) {
+            if (options.camera != ecs::Entity{})
+                request.frame.view.camera = options.camera;
+        });
     }
-
-  private:
-    Scene& mScene;
-    render::Renderer mRenderer;
-    motion_blur::MotionBlurPlugin mBlur;
 };
 
 /// 0 where nothing moves and so nothing is looked up.
@@ -95,25 +82,18 @@ uint64_t countFromLast(const render::FrameResult& frame) {
     return found == counters.end() ? 0 : found->second;
 }
 
-bool hasPass(const render::FrameResult& frame, std::string_view name) {
-    const auto& passes = frame.statistics.passes;
-    return std::any_of(passes.begin(), passes.end(), [&](const render::PassTime& pass) {
-        return pass.name == name;
-    });
-}
-
 /// The raster of the frame before was drawn once more.
 bool drawsLast(const render::FrameResult& frame) {
-    return hasPass(frame, "last G-buffer");
+    return test::hasPass(frame, "last G-buffer");
 }
 
 class ResolvedHistory : public test::GpuTest {
   protected:
     /// The frame as it is after one that kept its raster.
     render::FrameResult drawFollowing(Scene& scene, FrameOptions options = {}, int frame = 0) {
-        Frames frames(device(), scene);
-        (void)frames.draw(frame - 1, options);
-        auto drawn = frames.draw(frame, options);
+        HistoryFrames frames(device(), scene);
+        (void)frames.at(frame - 1, options);
+        auto drawn = frames.at(frame, options);
         EXPECT_FALSE(drawsLast(drawn));
         EXPECT_GT(countFromLast(drawn), 0u);
         return drawn;
@@ -122,45 +102,45 @@ class ResolvedHistory : public test::GpuTest {
     /// The frame as it is drawn without the one before.
     render::FrameResult drawAlone(Scene& scene, FrameOptions options = {}, int frame = 0) {
         options.history = false;
-        return Frames(device(), scene).draw(frame, options);
+        return HistoryFrames(device(), scene).at(frame, options);
     }
 };
 
 TEST_F(ResolvedHistory, TheFrameBeforeIsLookedUp) {
     Scene scene;
-    Frames frames(device(), scene);
-    (void)frames.draw(-1);
-    const auto drawn = frames.draw(0);
+    HistoryFrames frames(device(), scene);
+    (void)frames.at(-1);
+    const auto drawn = frames.at(0);
     EXPECT_GT(countFromLast(drawn), 0u);
     EXPECT_FALSE(test::sameBits(drawn.color, drawAlone(scene).color));
 }
 
-TEST_F(ResolvedHistory, NothingFromBeforeACutIs) {
+TEST_F(ResolvedHistory, NothingFromBeforeACutIsLookedUp) {
     Scene scene;
-    Frames frames(device(), scene);
-    (void)frames.draw(-1);
+    HistoryFrames frames(device(), scene);
+    (void)frames.at(-1);
     // The frame of the cut is sharp; the one after it moves, and must not see past the cut.
     scene::cut(scene.world(), scene.builder.camera, -0.75 / kFramesPerSecond);
-    const auto ofCut = frames.draw(0);
+    const auto ofCut = frames.at(0);
     EXPECT_EQ(countFromLast(ofCut), 0u);
     EXPECT_TRUE(test::sameBits(ofCut.color, drawAlone(scene).color));
-    EXPECT_TRUE(test::sameBits(frames.draw(1).color, Frames(device(), scene).draw(1).color));
+    EXPECT_TRUE(test::sameBits(frames.at(1).color, HistoryFrames(device(), scene).at(1).color));
 }
 
-TEST_F(ResolvedHistory, NorOfAnotherCamera) {
+TEST_F(ResolvedHistory, NothingOfAnotherCameraIsLookedUp) {
     Scene scene;
     const ecs::Entity other = scene.world().registry.create();
     scene.world().registry.add(other, scene::LocalTransform{{.translation = {0.3, 0, 0.5}}});
     scene.world().registry.add(other, scene.builder.cameraSettings());
     scene.world().cameras.push_back(other);
-    Frames frames(device(), scene);
+    HistoryFrames frames(device(), scene);
     for (int frame = -2; frame < 0; ++frame) {
-        (void)frames.draw(frame);
-        (void)frames.draw(frame, {.camera = other});
+        (void)frames.at(frame);
+        (void)frames.at(frame, {.camera = other});
     }
-    EXPECT_TRUE(test::sameBits(frames.draw(0).color, drawFollowing(scene).color));
+    EXPECT_TRUE(test::sameBits(frames.at(0).color, drawFollowing(scene).color));
     EXPECT_TRUE(test::sameBits(
-        frames.draw(0, {.camera = other}).color, drawFollowing(scene, {.camera = other}).color
+        frames.at(0, {.camera = other}).color, drawFollowing(scene, {.camera = other}).color
     ));
 }
 
@@ -182,51 +162,51 @@ TEST_F(ResolvedHistory, AFrameThatFollowsNoneOfItsKindFindsWhatItWouldHaveFound)
         {"after one without history", -1, {.history = false}, {}}};
     for (const auto& [what, before, options, own] : cases) {
         Scene scene;
-        Frames frames(device(), scene);
-        (void)frames.draw(before, options);
-        const auto drawn = frames.draw(0, own);
+        HistoryFrames frames(device(), scene);
+        (void)frames.at(before, options);
+        const auto drawn = frames.at(0, own);
         EXPECT_TRUE(drawsLast(drawn)) << what;
         EXPECT_TRUE(test::sameBits(drawn.color, drawFollowing(scene, own).color)) << what;
-        EXPECT_FALSE(drawsLast(frames.draw(1, own))) << what << ": this one kept its own";
+        EXPECT_FALSE(drawsLast(frames.at(1, own))) << what << ": this one kept its own";
     }
     Scene scene;
-    const auto first = Frames(device(), scene).draw(0);
+    const auto first = HistoryFrames(device(), scene).at(0);
     EXPECT_TRUE(drawsLast(first));
     EXPECT_TRUE(test::sameBits(first.color, drawFollowing(scene).color)) << "the first frame";
 }
 
 TEST_F(ResolvedHistory, AFrameThatIsDrawnAgainFindsTheSameAgain) {
     Scene scene;
-    Frames frames(device(), scene);
-    (void)frames.draw(-1);
-    const auto first = frames.draw(0);
+    HistoryFrames frames(device(), scene);
+    (void)frames.at(-1);
+    const auto first = frames.at(0);
     EXPECT_GT(countFromLast(first), 0u);
     // As while time stands still: nothing is drawn for it, however long.
     for (int i = 0; i < 3; ++i) {
-        const auto again = frames.draw(0);
+        const auto again = frames.at(0);
         EXPECT_FALSE(drawsLast(again)) << i;
         EXPECT_TRUE(test::sameBits(again.color, first.color)) << i;
     }
-    const auto resumed = frames.draw(1);
+    const auto resumed = frames.at(1);
     EXPECT_FALSE(drawsLast(resumed));
     EXPECT_TRUE(test::sameBits(resumed.color, drawFollowing(scene, {}, 1).color));
 }
 
 TEST_F(ResolvedHistory, WhereNothingIsLookedUpNothingIsDrawnForIt) {
     Scene scene;
-    Frames frames(device(), scene);
-    EXPECT_FALSE(drawsLast(frames.draw(0, {.exposureSeconds = 0.0})));
-    EXPECT_FALSE(drawsLast(frames.draw(1, {.method = "gather"})));
-    EXPECT_FALSE(drawsLast(frames.draw(2, {.history = false})));
+    HistoryFrames frames(device(), scene);
+    EXPECT_FALSE(drawsLast(frames.at(0, {.exposureSeconds = 0.0})));
+    EXPECT_FALSE(drawsLast(frames.at(1, {.method = "gather"})));
+    EXPECT_FALSE(drawsLast(frames.at(2, {.history = false})));
     scene::cut(scene.world(), scene.builder.camera, 2.5 / kFramesPerSecond);
-    EXPECT_FALSE(drawsLast(frames.draw(3))) << "nothing moves in the frame of a cut";
-    const auto afterCut = frames.draw(4);
+    EXPECT_FALSE(drawsLast(frames.at(3))) << "nothing moves in the frame of a cut";
+    const auto afterCut = frames.at(4);
     EXPECT_TRUE(drawsLast(afterCut)) << "the frame of the cut is history of the one after it";
     EXPECT_GT(countFromLast(afterCut), 0u);
     scene.world().registry.remove<scene::LinearVelocity>(scene.box);
-    const auto still = frames.draw(5);
+    const auto still = frames.at(5);
     EXPECT_FALSE(drawsLast(still));
-    EXPECT_FALSE(hasPass(still, "pack surface") || hasPass(still, "keep colour"));
+    EXPECT_FALSE(test::hasPass(still, "pack surface") || test::hasPass(still, "keep colour"));
 }
 
 TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
@@ -242,10 +222,10 @@ TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
     }
     scene.world().registry.remove<scene::LinearVelocity>(scene.box);
     scene.world().registry.add(scene.box, path);
-    Frames frames(device(), scene);
+    HistoryFrames frames(device(), scene);
     for (int frame = -3; frame < 0; ++frame)
-        EXPECT_FALSE(hasPass(frames.draw(frame), "resolve")) << frame;
-    const auto drawn = frames.draw(0);
+        EXPECT_FALSE(test::hasPass(frames.at(frame), "resolve")) << frame;
+    const auto drawn = frames.at(0);
     test::Shot truth{
         .method = "accumulate",
         .width = 192,
@@ -264,15 +244,15 @@ TEST_F(ResolvedHistory, TheFirstFrameThatMovesIsAsNearToTheTruthAsTheNext) {
 
 TEST_F(ResolvedHistory, WhatNoFrameLooksUpIsGivenBackAfterAWhile) {
     Scene scene;
-    Frames frames(device(), scene);
-    (void)frames.draw(0, {.method = "gather"});
-    (void)frames.draw(1, {.method = "gather"});
+    HistoryFrames frames(device(), scene);
+    (void)frames.at(0, {.method = "gather"});
+    (void)frames.at(1, {.method = "gather"});
     device().collect();
     const uint32_t without = device().living().images;
-    (void)frames.draw(2);
-    (void)frames.draw(3);
+    (void)frames.at(2);
+    (void)frames.at(3);
     for (uint32_t i = 0; i <= render::kFramesKept; ++i)
-        (void)frames.draw(int(i % 2), {.method = "gather"}); // in which the box is in the picture
+        (void)frames.at(int(i % 2), {.method = "gather"}); // in which the box is in the picture
     device().collect();
     EXPECT_EQ(device().living().images, without);
 }
@@ -300,10 +280,10 @@ TEST_F(ResolvedHistory, WhatIsNoLongerThereLeavesNoGhost) {
         Scene scene(true);
         // The camera turns, so that every pixel is searched for.
         scene.builder.moveCamera({.angularVelocity = {0.0, 3.0, 0.0}});
-        Frames frames(device(), scene);
-        EXPECT_GT(findReddest(frames.draw(-1).color), 0.5f) << "the box is in the picture";
+        HistoryFrames frames(device(), scene);
+        EXPECT_GT(findReddest(frames.at(-1).color), 0.5f) << "the box is in the picture";
         happen(scene);
-        const auto drawn = frames.draw(0);
+        const auto drawn = frames.at(0);
         EXPECT_GT(countFromLast(drawn), 0u) << name << ": what left the picture's side";
         EXPECT_LT(findReddest(drawn.color), findReddest(drawAlone(scene).color) + 1e-3f) << name;
     }
@@ -312,15 +292,15 @@ TEST_F(ResolvedHistory, WhatIsNoLongerThereLeavesNoGhost) {
 TEST_F(ResolvedHistory, WhatAppearsHasNoPastAndHidesNothingBefore) {
     Scene scene;
     scene::hide(scene.world(), scene.box);
-    Frames frames(device(), scene);
-    (void)frames.draw(-1);
+    HistoryFrames frames(device(), scene);
+    (void)frames.at(-1);
     scene::show(scene.world(), scene.box, -0.25 / kFramesPerSecond);
     // It stands still in this frame: all that is seen is in this frame's raster.
-    const auto drawn = frames.draw(0);
+    const auto drawn = frames.at(0);
     EXPECT_EQ(countFromLast(drawn), 0u);
     EXPECT_TRUE(test::sameBits(drawn.color, drawAlone(scene).color));
-    (void)frames.draw(1);
-    EXPECT_GT(countFromLast(frames.draw(2)), 0u) << "then it moves, and has a past";
+    (void)frames.at(1);
+    EXPECT_GT(countFromLast(frames.at(2)), 0u) << "then it moves, and has a past";
 }
 
 } // namespace

@@ -1,109 +1,472 @@
 // SPDX-License-Identifier: MIT
-// The two truths, from a scene file to a picture file: rays that each have their own time, and
-// sharp frames at many times.
+// The truths: the mean of many instants and distributed rays, each against closed forms, what rays
+// say of their own error, and both alike whatever moves.
 #include "engine/image/metrics.h"
-#include "tests/image/shutter_command.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+#include "tests/support/white_quads.h"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
 
 namespace shutter {
 namespace {
 
-class Truth : public test::GpuTest {
+using accumulate::PixelModel;
+using test::SceneBuilder;
+using test::Stage;
+
+class AccumulateLaw : public test::GpuTest {};
+
+SceneBuilder makeTumbling() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
+    scene.add(
+        test::makeBox({0.8, 0.8, 0.8}, scene.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {0.1, 0, -2.5},
+         .velocity = {0.6, 0.2, 0.3},
+         .angularVelocity = {0.3, 2.0, 1.0}}
+    );
+    return scene;
+}
+
+TEST_F(AccumulateLaw, MoreInstantsComeNearerToTheMean) {
+    const SceneBuilder scene = makeTumbling();
+    Stage stage(device(), scene);
+    const auto accumulated = [&](uint32_t instants) {
+        return stage
+            .render({.method = "accumulate", .width = 64, .height = 48, .instants = instants})
+            .color;
+    };
+    const auto truth = accumulated(256);
+    const double with64 = image::computePsnr(accumulated(64), truth);
+    const double with16 = image::computePsnr(accumulated(16), truth);
+    EXPECT_GT(with64, with16);
+    EXPECT_GT(with16, 25.0) << "16 instants are already near";
+}
+
+TEST_F(AccumulateLaw, OneInstantIsTheSharpPictureOfTheMiddle) {
+    const SceneBuilder scene = makeTumbling();
+    Stage stage(device(), scene);
+    const auto sharp = stage.render({});
+    const auto one = stage.render({.method = "accumulate", .instants = 1});
+    EXPECT_TRUE(test::sameBits(sharp.color, one.color));
+}
+
+/// One metre is one pixel.
+uint64_t countInstants(gpu::Device& device, const test::Placement& placement) {
+    SceneBuilder scene;
+    scene.setPixelView(64);
+    scene.add(test::makeQuad(40, 6, scene.addColor({1, 1, 1})), placement);
+    const auto result = test::renderOnce(
+        device, scene, {.method = "accumulate", .instants = 1024, .maxStepPx = 1.0}
+    );
+    return result.statistics.counters.at("instants");
+}
+
+TEST_F(AccumulateLaw, InstantsFollowTheLongestWayThoughItEndsWhereItBegan) {
+    const math::dvec3 place(0, 0, -10);
+    EXPECT_EQ(countInstants(device(), {.position = place}), 1u);
+    EXPECT_EQ(countInstants(device(), {.position = place, .velocity = {11.5, 0, 0}}), 12u);
+    const double turn = 2.0 * 3.14159265358979;
+    const uint64_t turning =
+        countInstants(device(), {.position = place, .angularVelocity = {0, 0, turn}});
+    // Corners go 127 px; chords of the parts are up to a tenth shorter, pixels' centres lie within.
+    EXPECT_GT(turning, 105u);
+    EXPECT_LE(turning, 128u);
+}
+
+TEST_F(AccumulateLaw, AStillFrameByItsOwnInstantsIsTheSharpPicture) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
+    Stage stage(device(), scene);
+    const auto own = stage.render({.method = "accumulate", .instants = 1024, .maxStepPx = 1.0});
+    EXPECT_TRUE(test::sameBits(stage.render({}).color, own.color));
+}
+
+class TruthLaw : public test::RayTest {};
+
+/// Lit and textured; only a box tumbles, if anything moves.
+SceneBuilder makeScene(bool moves) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+    scene.add(test::makeQuad(6, 5, scene.addWaves()), {.position = {0, 0, -5}});
+    test::Placement placement{.position = {0.1, 0, -2.5}};
+    if (moves) {
+        placement.velocity = {0.6, 0.2, 0.3};
+        placement.angularVelocity = {0.3, 2.0, 1.0};
+    }
+    scene.add(test::makeBox({0.8, 0.8, 0.8}, scene.addMaterial({})), placement);
+    return scene;
+}
+
+double findLargestColor(const image::Image& picture) {
+    return *std::max_element(picture.pixels.begin(), picture.pixels.end());
+}
+
+/// Channels that differ by more than half floats round, 2^-11 of a value.
+size_t countDifferent(const image::Image& sharp, const image::Image& rays) {
+    size_t different = 0;
+    for (size_t i = 0; i < sharp.pixels.size(); ++i)
+        different += i % 4 < 3 && std::abs(sharp.pixels[i] - rays.pixels[i]) > 2e-3f;
+    return different;
+}
+
+TEST_F(TruthLaw, AStillSceneIsTheSharpPicture) {
+    const SceneBuilder scene = makeScene(false);
+    Stage stage(device(), scene);
+    const auto sharp = stage.render({.ambient = math::vec3(0.3f)});
+    const auto rays = stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 4});
+    EXPECT_EQ(rays.statistics.measures.at("standard error"), 0.0);
+    // A silhouette that runs through a pixel's centre may fall to either side.
+    EXPECT_LE(countDifferent(sharp.color, rays.color), 12u);
+    EXPECT_GT(findLargestColor(rays.color), 0.3);
+}
+
+TEST_F(TruthLaw, RaysSeeWhatRasterSeesThroughEveryCamera) {
+    const auto scaleParent = [](SceneBuilder& scene, const math::dvec3& scale) {
+        const ecs::Entity parent = scene.world.registry.create();
+        scene.world.registry.add(parent, scene::LocalTransform{{{0, 0, 0}, {1, 0, 0, 0}, scale}});
+        scene.world.registry.add(scene.camera, scene::Parent{parent});
+    };
+    const auto magnify = [](SceneBuilder& scene, double x, double y) {
+        scene.setPixelView(4);
+        scene.cameraSettings().xMag = x;
+        scene.cameraSettings().yMag = y;
+    };
+    const std::pair<const char*, std::function<void(SceneBuilder&)>> cameras[] = {
+        {"sheared",
+         [&](SceneBuilder& scene) {
+             scene.moveCamera({.rotation = glm::angleAxis(0.4, math::dvec3(0, 0, 1))});
+             scaleParent(scene, {1, 3, 1});
+         }},
+        {"mirrored",
+         [&](SceneBuilder& scene) {
+             scaleParent(scene, {-1, 1, 1});
+         }},
+        {"upside down",
+         [&](SceneBuilder& scene) {
+             scaleParent(scene, {2, -1, 1});
+         }},
+        {"a wide frame", [](SceneBuilder& scene) { scene.cameraSettings().aspectRatio = 2.5; }},
+        {"a wide orthographic frame", [&](SceneBuilder& scene) { magnify(scene, 4.0, 2.0); }},
+        {"a mirroring frame", [&](SceneBuilder& scene) { magnify(scene, -4.0, 2.0); }},
+        {"a frame that mirrors twice", [&](SceneBuilder& scene) { magnify(scene, -1.0, -2.0); }}};
+    for (const auto& [name, change] : cameras) {
+        SceneBuilder scene = makeScene(false);
+        change(scene);
+        Stage stage(device(), scene);
+        const auto sharp = stage.render({.ambient = math::vec3(0.3f)});
+        const auto rays =
+            stage.render({.method = "truth", .ambient = math::vec3(0.3f), .instants = 2});
+        EXPECT_LE(countDifferent(sharp.color, rays.color), 12u) << name;
+        EXPECT_GT(findLargestColor(sharp.color), 0.3) << name;
+    }
+}
+
+TEST_F(TruthLaw, AQuadAtConstantSpeedIsTheExactTrapezoidInEachPhase) {
+    // An end of the interval of s is met to half a stratum: two ends, 1/512 < 1/255; by rays each
+    // to a stratum of the 256 of each set.
+    test::expectTrapezoidInEachPhase(device(), "accumulate", 512, 1.0 / 255.0);
+    test::expectTrapezoidInEachPhase(device(), "truth", 512, 2.0 / 256.0);
+}
+
+TEST_F(TruthLaw, TheBoxPixelIsTheAreaThatAStillQuadCovers) {
+    // Silhouettes at 38.3 and 57.6: the pixels they cross are covered by 0.7 and 0.6.
+    SceneBuilder scene;
+    scene.setPixelView(8);
+    scene.add(test::makeQuad(19.3, 20, scene.addColor({1, 1, 1})), {.position = {-0.05, 0, -10}});
+    Stage stage(device(), scene);
+    // Hammersley's first 256 radical inverses of base 2 are the multiples of 1/256: the count to
+    // one side of an edge is right to one. Rays meet it to one of the 128 strata of each set.
+    for (const auto& [method, whole, part] :
+         {std::tuple{"accumulate", 1.0 / 256.0, 1.0 / 256.0}, {"truth", 1e-6, 1.0 / 128.0}}) {
+        const auto result =
+            stage.render({.method = method, .height = 8, .instants = 256, .pixel = PixelModel::Box}
+            );
+        EXPECT_NEAR(result.color.at(37, 4, 0), 0.0, whole) << method;
+        EXPECT_NEAR(result.color.at(38, 4, 0), 0.7, part) << method;
+        EXPECT_NEAR(result.color.at(39, 4, 0), 1.0, whole) << method;
+        EXPECT_NEAR(result.color.at(57, 4, 0), 0.6, part) << method;
+        EXPECT_NEAR(result.color.at(58, 4, 0), 0.0, whole) << method;
+    }
+}
+
+TEST_F(TruthLaw, AnyNumberOfRaysHasTheTrapezoidForItsMean) {
+    // Also counts that are no power of two, and one: over 64 rows the errors average out.
+    SceneBuilder scene;
+    scene.setPixelView(64);
+    scene.add(
+        test::makeQuad(16, 100, scene.addColor({1, 1, 1})),
+        {.position = {0, 0, -10}, .velocity = {32, 0, 0}}
+    );
+    Stage stage(device(), scene);
+    for (const uint32_t rays : {1u, 3u, 5u}) {
+        const auto result = stage.render({.method = "truth", .instants = rays, .seed = rays});
+        for (const uint32_t x : {32u, 40u, 47u, 55u}) {
+            double mean = 0.0;
+            for (uint32_t y = 0; y < 64; ++y)
+                mean += result.color.at(x, y, 0) / 64.0;
+            const double at = x + 0.5 - 48.0;
+            const double covered = std::clamp((at + 8.0) / 32.0 + 0.5, 0.0, 1.0) -
+                                   std::clamp((at - 8.0) / 32.0 + 0.5, 0.0, 1.0);
+            // Independent rays would have a standard deviation of at most 0.5 / 8.
+            EXPECT_NEAR(mean, covered, 4.0 * 0.5 / 8.0 / std::sqrt(double(rays)))
+                << rays << " rays at " << x;
+        }
+    }
+}
+
+double computeRms(const image::Image& a, const image::Image& b) {
+    double sum = 0.0;
+    for (uint32_t y = 0; y < a.height; ++y)
+        for (uint32_t x = 0; x < a.width; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                sum += std::pow(double(a.at(x, y, c)) - double(b.at(x, y, c)), 2.0);
+    return std::sqrt(sum / (3.0 * a.width * a.height));
+}
+
+TEST_F(TruthLaw, TheErrorItEstimatesIsTheErrorItHas) {
+    const SceneBuilder scene = makeScene(true);
+    Stage stage(device(), scene);
+    const auto draw = [&](uint32_t rays, uint32_t seed) {
+        return stage.render(
+            {.method = "truth", .width = 64, .height = 48, .instants = rays, .seed = seed}
+        );
+    };
+    const auto reference = draw(1024, 1000);
+    for (const uint32_t rays : {2u, 16u, 64u}) {
+        double estimated = 0.0;
+        double actual = 0.0;
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            const auto result = draw(rays, seed);
+            estimated += std::pow(result.statistics.measures.at("standard error"), 2.0) / 4.0;
+            actual += std::pow(computeRms(result.color, reference.color), 2.0) / 4.0;
+        }
+        EXPECT_GT(actual, 0.0);
+        EXPECT_NEAR(std::sqrt(estimated / actual), 1.0, 0.2) << rays << " rays";
+    }
+}
+
+TEST_F(TruthLaw, TheErrorViewIsWhatTheFigureSumsAndOneRayHasNone) {
+    const SceneBuilder scene = makeScene(true);
+    const auto result = test::renderOnce(
+        device(), scene, {.method = "truth", .width = 61, .height = 43, .aovs = {"error"}}
+    );
+    const image::Image& error = result.intermediates.at("error");
+    const image::Image nothing(61, 43, 4);
+    EXPECT_NEAR(computeRms(error, nothing), result.statistics.measures.at("standard error"), 1e-6);
+    EXPECT_GT(computeRms(error, nothing), 1e-3);
+    const auto one =
+        test::renderOnce(device(), scene, {.method = "truth", .instants = 1, .aovs = {"error"}});
+    EXPECT_FALSE(one.statistics.measures.contains("standard error"));
+    EXPECT_FALSE(one.intermediates.contains("error"));
+    EXPECT_EQ(one.statistics.counters.at("rays traced"), 96u * 64u);
+}
+
+TEST_F(TruthLaw, BatchesAddUpToTheSamePictureAndSeedsDiffer) {
+    const SceneBuilder scene = makeScene(true);
+    Stage stage(device(), scene);
+    for (const auto pixel : {PixelModel::Centre, PixelModel::Box}) {
+        const auto whole = stage.render({.method = "truth", .instants = 13, .pixel = pixel});
+        for (const uint32_t batch : {1u, 5u})
+            EXPECT_TRUE(test::sameBits(
+                whole.color,
+                stage.render({.method = "truth", .instants = 13, .batch = batch, .pixel = pixel})
+                    .color
+            )) << batch;
+        const auto other =
+            stage.render({.method = "truth", .instants = 13, .seed = 1, .pixel = pixel});
+        EXPECT_FALSE(test::sameBits(whole.color, other.color));
+    }
+}
+
+TEST_F(TruthLaw, TheRasterImageIsNotDrawnUnlessAsked) {
+    const SceneBuilder scene = makeScene(true);
+    const auto without = test::renderOnce(device(), scene, {.method = "truth"});
+    const auto with = test::renderOnce(device(), scene, {.method = "truth", .aovs = {"depth"}});
+    EXPECT_FALSE(test::hasPass(without, "G-buffer"));
+    EXPECT_TRUE(test::hasPass(with, "G-buffer"));
+}
+
+class TruthMotionLaw : public test::RayTest {
   protected:
-    void SetUp() override {
-        GpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() && !device().hasRayQuery())
-            GTEST_SKIP() << device().info().name << " has no ray queries";
+    static void expectAgreement(const SceneBuilder& scene, double mostSharp = 40.0) {
+        Stage stage(device(), scene);
+        test::expectTruthsAgree(
+            stage,
+            {.width = 64,
+             .height = 48,
+             .background = {0.1f, 0.2f, 0.3f},
+             .ambient = math::vec3(0.2f)},
+            mostSharp
+        );
     }
 };
 
-void expectAgreement(
-    const std::string& name, const std::string& scene, const std::vector<std::string>& arguments
-) {
-    const auto file = test::buildFolder() / "assets" / scene;
-    ASSERT_TRUE(std::filesystem::exists(file)) << "the target shutter_assets makes it";
-    for (const std::string pixel : {"centre", "box"}) {
-        const auto draw = [&](const std::string& method) {
-            std::vector<std::string> all = arguments;
-            all.insert(
-                all.end(),
-                {"--size", "160x90", "--method", method, "--samples", "256", "--pixel", pixel}
-            );
-            return test::renderWithShutter(
-                fmt::format("truth_{}_{}_{}", name, pixel, method), ".exr", file, all
-            );
-        };
-        const image::Image rays = draw("truth");
-        const image::Image frames = draw("accumulate");
-        ASSERT_EQ(rays.width, 160u);
-        ASSERT_EQ(frames.width, 160u);
-        const double psnr = image::computePsnr(rays, frames);
-        fmt::print("{} {}: {:.2f} dB\n", name, pixel, psnr);
-        EXPECT_GE(psnr, 45.0) << pixel;
-    }
+SceneBuilder makeRoom() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(8, 6, scene.addWaves()), {.position = {0, 0, -5}});
+    return scene;
 }
 
-TEST_F(Truth, BothTruthsAgreeOnTheVase) {
-    expectAgreement("vase", "vase.glb", {});
+scene::AssetIndex addLit(SceneBuilder& scene) {
+    scene::Material material;
+    material.baseColorFactor = {0.8f, 0.5f, 0.3f, 1.0f};
+    material.roughnessFactor = 0.6f;
+    material.metallicFactor = 0.0f;
+    return scene.addMaterial(material);
 }
 
-TEST_F(Truth, BothTruthsAgreeOnTheCourtyardUnderAPan) {
-    expectAgreement(
-        "courtyard",
-        "courtyard.glb",
-        {"--camera", "pan", "--time", "0.05", "--background", "0.35,0.5,0.75"}
+TEST_F(TruthMotionLaw, ASpinOfMoreThanATurn) {
+    SceneBuilder scene = makeRoom();
+    scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+    scene.add(
+        test::makeBox({2.2, 0.3, 0.3}, addLit(scene)),
+        {.position = {0, 0, -3}, .angularVelocity = {0.2, 0.5, 9.0}}
     );
+    expectAgreement(scene);
 }
 
-nlohmann::json readPicture(const std::filesystem::path& stats) {
-    std::ifstream file(stats);
-    return nlohmann::json::parse(file).at("pictures").at(0);
+TEST_F(TruthMotionLaw, ACameraThatMovesAndTurns) {
+    SceneBuilder scene = makeRoom();
+    scene.add(
+        test::makeBox({0.4, 3, 0.4}, scene.addColor({0.9f, 0.2f, 0.1f})), {.position = {0.5, 0, -2}}
+    );
+    scene.moveCamera({.velocity = {0.2, 0.05, -0.3}, .angularVelocity = {0.02, 0.25, 0.1}});
+    expectAgreement(scene);
 }
 
-TEST_F(Truth, ItStopsAtTheErrorThatIsWished) {
-    const auto scene = test::buildFolder() / "assets" / "vase.glb";
-    const auto stats = test::buildFolder() / "test_pictures" / "truth_stop.json";
-    const auto draw = [&](const std::string& error) {
-        const auto picture = test::renderWithShutter(
-            "truth_stop",
-            ".exr",
-            scene,
-            // Large enough that a batch is fewer rays than --samples.
-            {"--method",
-             "truth",
-             "--samples",
-             "64",
-             "--size",
-             "400x225",
-             "--unlit",
-             "--error",
-             error,
-             "--stats",
-             stats.string()}
-        );
-        EXPECT_EQ(picture.width, 400u);
-        return readPicture(stats);
+TEST_F(TruthMotionLaw, AMovedAndSpinningChildOfASpinningParentUnderAMovingCamera) {
+    SceneBuilder scene = makeRoom();
+    const ecs::Entity parent = scene.add(
+        test::makeBox({0.3, 0.3, 0.3}, scene.addColor({0.1f, 0.9f, 0.2f})),
+        {.position = {0, 0, -3}, .velocity = {0.3, 0, 0}, .angularVelocity = {0, 0, 4}}
+    );
+    const ecs::Entity child = scene.add(
+        test::makeBox({0.5, 0.2, 0.2}, scene.addColor({0.9f, 0.9f, 0.1f})),
+        {.position = {0.8, 0, 0}, .angularVelocity = {0, 0, -7}}
+    );
+    scene.world.registry.add(child, scene::Parent{parent});
+    scene.moveCamera({.angularVelocity = {0.0, 0.1, 0.0}});
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, AMirroredMoverKeepsItsSides) {
+    SceneBuilder scene = makeRoom();
+    scene.addSun({-0.3, -1.0, -0.8}, 2.0f);
+    scene.add(
+        test::makeBox({0.9, 0.5, 0.5}, addLit(scene)),
+        {.position = {0, 0, -3},
+         .scale = {-1, 1, 1.5},
+         .velocity = {0.8, 0, 0},
+         .angularVelocity = {1, 2, 0}}
+    );
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, HolesOfAMaskedMover) {
+    SceneBuilder scene = makeRoom();
+    scene::Material material;
+    material.unlit = true;
+    material.alphaMode = scene::AlphaMode::Mask;
+    material.baseColor.texture = scene.addWaveTexture(64, true);
+    scene.add(
+        test::makeQuad(2, 2, scene.addMaterial(material)),
+        {.position = {-0.3, 0, -3}, .velocity = {0.7, 0.1, 0}}
+    );
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, BlendedSurfacesBeforeAndBehindAMover) {
+    SceneBuilder scene = makeRoom();
+    const auto addGlass = [&](const math::vec4& color) {
+        scene::Material glass;
+        glass.unlit = true;
+        glass.alphaMode = scene::AlphaMode::Blend;
+        glass.baseColorFactor = color;
+        return scene.addMaterial(glass);
     };
-    const nlohmann::json early = draw("0.5");
-    EXPECT_LT(early.at("counters").at("rays a pixel").get<int>(), 64);
-    EXPECT_GE(early.at("counters").at("rays a pixel").get<int>(), 16);
-    EXPECT_LE(early.at("measures").at("standard error").get<double>(), 0.5);
-    EXPECT_EQ(
-        early.at("counters").at("rays traced").get<int>(),
-        early.at("counters").at("rays a pixel").get<int>() * 400 * 225
+    scene.add(
+        test::makeBox({0.6, 0.6, 0.6}, scene.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
     );
-    const nlohmann::json never = draw("0.0000001");
-    EXPECT_EQ(never.at("counters").at("rays a pixel").get<int>(), 64);
-    EXPECT_GT(never.at("measures").at("standard error").get<double>(), 0.0000001);
+    scene.add(test::makeQuad(1.5, 1, addGlass({0.1f, 0.3f, 0.9f, 0.4f})), {.position = {0, 0, -2}});
+    scene.add(
+        test::makeQuad(2, 1, addGlass({0.2f, 0.9f, 0.1f, 0.7f})),
+        {.position = {0, 0.5, -4}, .velocity = {-0.5, 0, 0}}
+    );
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, TheBackOfASingleSidedMoverIsNotSeen) {
+    SceneBuilder scene = makeRoom();
+    scene.add(
+        test::makeQuad(2, 2, scene.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {0, 0, -3}, .angularVelocity = {0, 6, 0}}
+    );
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, ALightThatMovesAndTurns) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(8, 6, addLit(scene)), {.position = {0, 0, -5}});
+    const ecs::Entity lamp = scene.world.registry.create();
+    scene::Light light;
+    light.kind = scene::LightKind::Spot;
+    light.intensity = 12.0f;
+    light.outerConeAngle = 0.4f;
+    scene.world.registry.add(lamp, light);
+    math::Transform transform;
+    transform.translation = {-1.0, 0.0, -3.0};
+    scene.world.registry.add(lamp, scene::LocalTransform{transform});
+    scene.world.registry.add(lamp, scene::LinearVelocity{{2.0, 0.3, 0.0}});
+    scene.world.registry.add(lamp, scene::AngularVelocity{{0.4, 0.8, 0.0}});
+    expectAgreement(scene, 45.0);
+}
+
+TEST_F(TruthMotionLaw, AMoverThatIsScaledToNothingAtTheRasterInstantIsSeenBefore) {
+    SceneBuilder scene = makeRoom();
+    const ecs::Entity box = scene.add(
+        test::makeBox({1, 1, 1}, scene.addColor({0.9f, 0.2f, 0.1f})), {.position = {0, 0, -3}}
+    );
+    // From full size at open to nothing from the middle on, which is the raster instant.
+    scene::AnimationChannel channel;
+    channel.path = scene::AnimationPath::Scale;
+    channel.times = {-0.5f, 0.0f};
+    channel.values = {math::vec4(1.0f), math::vec4(0.0f)};
+    scene::AnimationClip clip;
+    clip.name = "shrink";
+    clip.channels = {channel};
+    scene.world.assets.clips.push_back(clip);
+    scene.world.playback.activeClips.assign(1, true);
+    scene.world.registry.add(box, scene::Animated{{{0, 0}}});
+    expectAgreement(scene);
+}
+
+TEST_F(TruthMotionLaw, TheRaysOfTheRevealPassBlendedSurfaces) {
+    SceneBuilder scene = makeRoom();
+    scene.add(
+        test::makeBox({0.6, 0.6, 0.6}, scene.addColor({0.9f, 0.2f, 0.1f})),
+        {.position = {0, 0, -3}, .velocity = {0.8, 0, 0}}
+    );
+    const auto without = test::renderOnce(device(), scene, {.method = "hybrid"});
+    scene::Material glass;
+    glass.unlit = true;
+    glass.alphaMode = scene::AlphaMode::Blend;
+    glass.baseColorFactor = {0.5f, 0.5f, 0.5f, 0.0f}; // invisible to raster
+    scene.add(test::makeQuad(6, 5, scene.addMaterial(glass)), {.position = {0, 0, -4}});
+    const auto with = test::renderOnce(device(), scene, {.method = "hybrid"});
+    EXPECT_TRUE(test::sameBits(without.color, with.color));
 }
 
 } // namespace

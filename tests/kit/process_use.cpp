@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/kit/process_use.h"
 
-#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -16,10 +15,6 @@ std::optional<uint64_t> findResidentBytes() {
     if (!(file >> kibibytes))
         return std::nullopt;
     return kibibytes * 1024;
-}
-
-double countProcessorMilliseconds() {
-    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
 }
 
 } // namespace shutter::test

@@ -1,87 +1,308 @@
 // SPDX-License-Identifier: MIT
-// A frame costs what its scene demands. What frames are made of is held in every run; their times,
-// which other programs disturb, are held where SHUTTER_MEASURE is set (README.md beside this file).
-#include "tests/conformance/demand/claim.h"
-#include "tests/support/gpu_fixture.h"
+// Only what the scene calls for is computed: passes, images, pixels, rays and rows are counted.
+// What that takes in time is for `shutter bench --suite scaling`.
+#include "assets/generator/scaling_scenes.h"
+#include "assets/generator/scenes.h"
+#include "engine/environment/environment.h"
+#include "engine/gltf/gltf_loader.h"
+#include "modules/bloom/bloom.h"
+#include "tests/stability/hard_case.h"
 #include "tests/support/temp_folder.h"
 
-#include <cstdlib>
-#include <memory>
-#include <ostream>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <set>
-#include <utility>
+#include <sstream>
 
-namespace shutter {
+namespace shutter::stability {
 namespace {
 
-using demand::Claim;
-using stability::Measured;
+using math::dvec3;
+using test::Frames;
+using Lines = std::multiset<std::string>;
 
-bool isMeasuring() {
-    return std::getenv("SHUTTER_MEASURE") != nullptr; // NOLINT(concurrency-mt-unsafe)
-}
-
-class Claims : public test::GpuTest, public ::testing::WithParamInterface<Claim> {};
-
-/// --gtest_output=json:FILE writes the figures.
-void hold(const stability::Measurements& rows) {
-    for (const Measured& row : rows) {
-        EXPECT_TRUE(stability::holds(row)) << row.check << ": " << describe(row);
-        ::testing::Test::RecordProperty(row.check, describe(row));
+/// The lines of a section ("passes", "images", "buffers") of graph::dump(): what stands two spaces
+/// in, a pass without its place in the frame.
+Lines listParts(const std::string& dump, const std::string& section) {
+    Lines parts;
+    bool isInside = false;
+    std::istringstream lines(dump);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(" "))
+            isInside = line.starts_with(section + ":");
+        else if (isInside && line.size() > 2 && line[2] != ' ' && !line.starts_with("  end"))
+            parts.insert(line.substr(line.find('\'')));
     }
+    return parts;
 }
 
-TEST_P(Claims, Hold) {
+/// Those of `lines` that have no equal of their own among `others`.
+std::vector<std::string> listBeyond(const Lines& lines, const Lines& others) {
+    std::vector<std::string> beyond;
+    std::set_difference(
+        lines.begin(), lines.end(), others.begin(), others.end(), std::back_inserter(beyond)
+    );
+    return beyond;
+}
+
+const std::vector<std::string> kNone;
+
+Shot makeFrame(std::string_view method, double exposureSeconds) {
+    return {
+        .method = method,
+        .width = 320,
+        .height = 180,
+        .exposureSeconds = exposureSeconds,
+        .phase = scene::ShutterPhase::End,
+        .wantDisplay = true};
+}
+
+Shot makeFrame(std::string_view method) {
+    return makeFrame(method, generator::kScalingExposureSeconds);
+}
+
+SceneBuilder load(const generator::GltfWriter& writer) {
     const test::TempFolder folder;
-    demand::DemandOptions options;
-    options.folder = folder.path();
-    if (!isMeasuring()) {
-        options.width = 160;
-        options.height = 90;
-        options.rounds = 1;
-    }
-    std::unique_ptr<gpu::Device> unvalidated;
-    if (isMeasuring()) { // validation takes time of its own
-        gpu::DeviceOptions same;
-        same.wanted = device().info().name;
-        auto made = gpu::Device::create(same);
-        ASSERT_TRUE(made) << made.error().message;
-        unvalidated = std::move(made).value();
-    }
-    const auto found = GetParam().measure(unvalidated ? *unvalidated : device(), options);
-    ASSERT_TRUE(found) << found.error().message;
-    hold(found.value().counts);
-    if (isMeasuring())
-        hold(found.value().times);
-    for (const Measured& row : found.value().times)
-        EXPECT_GT(row.samples, 0u) << row.check << " was not measured";
+    EXPECT_EQ(writer.write(folder.path() / "scene.glb"), "");
+    SceneBuilder scene;
+    scene.world = std::move(need(gltf::loadGltf(folder.path() / "scene.glb")).world);
+    scene.camera = scene.world.cameras.at(0);
+    return scene;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Demand,
-    Claims,
-    ::testing::ValuesIn(demand::listClaims()),
-    [](const ::testing::TestParamInfo<Claim>& instance) { return instance.param.name; }
-);
+/// Panels before a wall, of which more and more move: none, some, all.
+std::vector<SceneBuilder> loadRegions() {
+    std::vector<SceneBuilder> regions;
+    for (const auto& [columns, rows] :
+         {std::pair{0, 0},
+          {1, 1},
+          {4, 1},
+          {6, 5},
+          {generator::kPanelColumns, generator::kPanelRows}})
+        regions.push_back(load(generator::buildMovingRegionScene(columns, rows)));
+    return regions;
+}
 
-TEST(ClaimList, NamesAreUniqueAndEveryClaimSaysWhatItCompares) {
-    std::set<std::string> names;
-    for (const Claim& claim : demand::listClaims()) {
-        EXPECT_TRUE(names.insert(claim.name).second) << claim.name;
-        EXPECT_FALSE(claim.title.empty()) << claim.name;
-        EXPECT_TRUE(claim.description.ends_with('.')) << claim.name;
+class Demand : public test::RayTest {};
+
+TEST_F(Demand, WhereNothingMovesOrIsExposedAFrameIsThatOfSharp) {
+    const std::pair<SceneBuilder, double> scenes[] = {
+        {load(generator::buildVaseScene()), 0.0},
+        {load(generator::buildMovingRegionScene(0, 0)), generator::kScalingExposureSeconds}};
+    for (const auto& [scene, exposure] : scenes)
+        for (const char* method : {"hybrid", "resolved"}) {
+            SCOPED_TRACE(method);
+            const auto sharp = Frames(device(), scene).draw(makeFrame("sharp", exposure));
+            const uint32_t levels = device().living().accelerationStructures;
+            const auto blurred = Frames(device(), scene).draw(makeFrame(method, exposure));
+            EXPECT_LE(device().living().accelerationStructures, levels);
+            for (const char* section : {"passes", "images", "buffers"})
+                EXPECT_EQ(
+                    listBeyond(listParts(blurred.dump, section), listParts(sharp.dump, section)),
+                    kNone
+                );
+            EXPECT_FALSE(listParts(blurred.dump, "passes").empty());
+            EXPECT_EQ(blurred.statistics.transientBytes, sharp.statistics.transientBytes);
+            EXPECT_TRUE(test::sameBits(blurred.display, sharp.display));
+        }
+}
+
+TEST_F(Demand, OnlyBlocksOfTilesInWhoseNeighbourhoodSomethingMovesAreFiltered) {
+    double last = -1.0;
+    for (const SceneBuilder& region : loadRegions()) {
+        Shot shot = makeFrame("gather");
+        shot.aovs = {"tiles"};
+        shot.settings.tileSizePx = 20; // the picture's sides are multiples
+        const auto drawn = Frames(device(), region).draw(shot);
+        double share = 0.0;
+        double filtered = 0.0;
+        const auto found = drawn.intermediates.find("tiles");
+        if (found != drawn.intermediates.end()) { // else the effect was not asked for
+            const image::Image& tiles = found->second;
+            for (uint32_t y = 0; y < tiles.height; ++y)
+                for (uint32_t x = 0; x < tiles.width; ++x)
+                    share += std::hypot(tiles.at(x, y, 0), tiles.at(x, y, 1)) >= 0.5f;
+            share /= double(tiles.width) * tiles.height;
+            const auto& counters = drawn.statistics.counters;
+            filtered = double(counters.at("blocks uniform") + counters.at("blocks mixed"));
+            filtered /= filtered + double(counters.at("blocks still"));
+        }
+        // Of a tile's blocks, those that no motion reaches are left out.
+        EXPECT_GE(filtered, 0.4 * share);
+        EXPECT_LE(filtered, 1.05 * share); // blocks lie across the borders of tiles
+        EXPECT_GT(share, last);
+        last = share;
     }
-    EXPECT_EQ(names.size(), 5u);
+    EXPECT_GT(last, 0.95) << "the full screen";
+}
+
+/// A sheet that fills the picture, before and after it moves, in front of a wall that rays could
+/// find.
+SceneBuilder makeSheet(Placement movement) {
+    SceneBuilder scene = makeEmptyScene();
+    movement.position = {0, 0, -5};
+    scene.add(test::makeQuad(30, 30, scene.addLitWaves()), movement);
+    scene.add(test::makeQuad(60, 60, scene.addLitWaves()), {.position = {0, 0, -9}});
+    scene.addSun(dvec3(0, 0, -1), 3.0f);
+    return scene;
+}
+
+TEST_F(Demand, RaysAreTracedForMaskedPixelsAlone) {
+    uint64_t mostMasked = 0;
+    for (const SceneBuilder& region : loadRegions()) {
+        auto counters = Frames(device(), region).draw(makeFrame("hybrid")).statistics.counters;
+        EXPECT_LE(counters["rays traced"], counters["pixels masked"]);
+        mostMasked = std::max(mostMasked, counters["pixels masked"]);
+    }
+    EXPECT_GT(mostMasked, 500u);
+    // About 6 px in both, everywhere alike or from 0 in the middle.
+    for (const Placement& movement :
+         {Placement{.velocity = {9.7, 0, 0}}, Placement{.angularVelocity = {0, 0, 2.25}}}) {
+        const auto frame = Frames(device(), makeSheet(movement)).draw(makeFrame("hybrid"));
+        EXPECT_EQ(frame.statistics.counters.at("pixels masked"), 0u);
+        EXPECT_EQ(frame.statistics.counters.at("rays traced"), 0u);
+    }
+}
+
+TEST_F(Demand, OfTenThousandEntitiesTheTenThatMoveAreWritten) {
+    const SceneBuilder scene =
+        load(generator::buildFewMoversScene(generator::kMaxEntityCount, 10, false));
+    Frames frames(device(), scene);
+    Shot shot = makeFrame("hybrid");
+    EXPECT_EQ(frames.draw(shot).statistics.counters.at("entity rows written"), 10'000u);
+    shot.seconds = 1.0 / 240.0;
+    const auto counters = frames.draw(shot).statistics.counters;
+    EXPECT_EQ(counters.at("entity rows written"), 10u);
+    EXPECT_EQ(counters.at("entity motions written"), 10u);
+}
+
+/// A picture with options that the scene has no use for against one without them.
+struct Useless {
+    const char* name; ///< the options, and why they make no work
+    extract::ShadowMode shadows = extract::ShadowMode::None;
+    bool isUnlit = false; ///< and so is the picture without the options
+    bool hasSun = true;
+    bool hasSolid = true; ///< floor and ball hold light back; else they are blended
+    bool isSeen = true;   ///< the camera looks at them; else away from them
+    bool moves = false;   ///< the ball
+    bool hasEnvironment = false;
+    bool isFirst = true; ///< its first frame is looked at; else the one after
+    double stepSeconds = 0.0;
+    bloom::BloomSettings bloom{};
+};
+
+constexpr auto kSharp = extract::ShadowMode::Sharp;
+constexpr auto kBlurred = extract::ShadowMode::Blurred;
+
+const Useless kUseless[] = {
+    {.name = "shadows without a light", .shadows = kBlurred, .hasSun = false},
+    {.name = "shadows where nothing holds light back", .shadows = kBlurred, .hasSolid = false},
+    {.name = "shadows where nothing is in view", .shadows = kBlurred, .isSeen = false},
+    {.name = "shadows of an unlit picture", .shadows = kBlurred, .isUnlit = true},
+    {.name = "sharp shadows where nothing moves, in the frame after",
+     .shadows = kSharp,
+     .isFirst = false},
+    {.name = "blurred shadows where nothing moves, in the frame after",
+     .shadows = kBlurred,
+     .isFirst = false,
+     .stepSeconds = scene::kStillFrameSeconds},
+    {.name = "blurred shadows where only a blended ball moves",
+     .shadows = kBlurred,
+     .hasSolid = false,
+     .moves = true,
+     .isFirst = false,
+     .stepSeconds = scene::kStillFrameSeconds},
+    {.name = "an environment, which the G-buffer draws", .hasEnvironment = true},
+    {.name = "an environment that an unlit picture leaves out",
+     .isUnlit = true,
+     .hasEnvironment = true},
+    {.name = "bloom that scatters no light"},
+    {.name = "bloom where nothing is above its knee, in the frame after",
+     .isFirst = false,
+     .bloom = {.share = 0.1f, .threshold = 20.0f}},
+};
+
+/// The frame's dump. \param isAsked with the options
+std::string drawUseless(
+    gpu::Device& device,
+    const Useless& wanted,
+    bool isAsked,
+    game::AntiAliasing antiAliasing = game::AntiAliasing::None
+) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.moveCamera(
+        {.position = {0, 2, 4},
+         .rotation = glm::angleAxis(wanted.isSeen ? -0.45 : 2.0, dvec3(1, 0, 0))}
+    );
+    scene::Material material;
+    if (!wanted.hasSolid) {
+        material.alphaMode = scene::AlphaMode::Blend;
+        material.baseColorFactor.w = 0.5f;
+    }
+    const auto used = scene.addMaterial(material);
+    scene.add(
+        test::makeQuad(8.0, 8.0, used),
+        {.rotation = glm::angleAxis(-glm::radians(90.0), dvec3(1, 0, 0))}
+    );
+    scene.add(
+        test::makeSphere(0.5, used),
+        {.position = {0, 0.8, 0}, .velocity = {wanted.moves ? 1.0 : 0.0, 0, 0}}
+    );
+    if (wanted.hasSun)
+        scene.addSun({-0.5, -1.0, -0.4}, 3.0f);
+    if (wanted.hasEnvironment && isAsked) {
+        image::Image sky(64, 32, 3);
+        std::fill(sky.pixels.begin(), sky.pixels.end(), 0.5f);
+        scene.world.assets.environment = need(environment::makeEnvironment(std::move(sky), {}));
+    }
+    Shot shot = makeFrame("sharp", 1.0 / 48.0);
+    if (isAsked)
+        shot.shadows.mode = wanted.shadows;
+    bloom::Bloom bloom(device, wanted.bloom);
+    Frames frames(device, scene);
+    std::string dump;
+    for (int frame = wanted.isFirst ? 1 : 0; frame < 2; ++frame) {
+        dump = frames
+                   .draw(
+                       shot,
+                       [&](game::PictureRequest& request) {
+                           request.frame.view.unlit = wanted.isUnlit;
+                           request.frame.wantColor = false;
+                           request.frame.wantBrightest = isAsked; // of what the last picture showed
+                           request.antiAliasing = antiAliasing;
+                           if (isAsked)
+                               request.ending.insert(request.ending.begin(), &bloom);
+                       }
+                   )
+                   .dump;
+        shot.seconds += wanted.stepSeconds;
+    }
+    return dump;
+}
+
+TEST_F(Demand, LightThatASceneHasNoUseForHasNoPassAndNoImage) {
+    for (const Useless& wanted : kUseless) {
+        SCOPED_TRACE(wanted.name);
+        const std::string plain = drawUseless(device(), wanted, false);
+        const std::string asked = drawUseless(device(), wanted, true);
+        for (const char* section : {"passes", "images"})
+            EXPECT_EQ(listBeyond(listParts(asked, section), listParts(plain, section)), kNone);
+        EXPECT_FALSE(listParts(asked, "passes").empty());
+    }
+}
+
+TEST_F(Demand, AntiAliasingWhereNothingMovesHasOnePassAndOneImage) {
+    const Useless still{.name = "taa", .isFirst = false};
+    const std::string plain = drawUseless(device(), still, false);
+    const std::string asked = drawUseless(device(), still, false, game::AntiAliasing::Taa);
+    const auto passes = listBeyond(listParts(asked, "passes"), listParts(plain, "passes"));
+    ASSERT_EQ(passes.size(), 1u);
+    EXPECT_TRUE(passes.front().starts_with("'taa'")) << passes.front();
+    // Lines say how long images live, which a pass of its own changes.
+    EXPECT_LE(listParts(asked, "images").size(), listParts(plain, "images").size() + 1);
 }
 
 } // namespace
-
-namespace demand {
-
-/// How googletest prints a parameter.
-void PrintTo(const Claim& claim, std::ostream* stream) {
-    *stream << claim.title;
-}
-
-} // namespace demand
-} // namespace shutter
+} // namespace shutter::stability

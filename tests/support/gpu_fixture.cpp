@@ -78,6 +78,12 @@ void GpuTest::TearDown() {
         << "Vulkan validation had something to say (see above)";
 }
 
+void RayTest::SetUp() {
+    GpuTest::SetUp();
+    if (!IsSkipped() && !HasFatalFailure() && !device().hasRayQuery())
+        GTEST_SKIP() << device().info().name << " has no ray queries";
+}
+
 gpu::Device& GpuTest::device() {
     SHUTTER_CHECK(
         sharedDevice() && sharedDevice()->device, "a test without a device must not get this far"

@@ -29,4 +29,10 @@ class GpuTest : public ::testing::Test {
     uint32_t mMessagesBefore = 0;
 };
 
+/// Skipped, with the reason, on a device that traces no rays in shaders.
+class RayTest : public GpuTest {
+  protected:
+    void SetUp() override;
+};
+
 } // namespace shutter::test

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/stage.h"
 
-#include "game/shot/picture_drawer.h"
-#include "modules/tonemap/tonemap.h"
+#include "engine/image/metrics.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -95,6 +95,61 @@ render::FrameResult Stage::render(const Shot& shot) {
 
 render::FrameResult renderOnce(gpu::Device& device, const SceneBuilder& scene, const Shot& shot) {
     return Stage(device, scene).render(shot);
+}
+
+Frames::Frames(
+    gpu::Device& device, const SceneBuilder& scene, const motion_blur::BlurBudget& budget
+)
+    : mDevice(device), mScene(scene), mBudget(budget), mRenderer(device, scene.world.assets),
+      mDrawer(device, mRenderer) {}
+
+render::FrameResult
+Frames::draw(const Shot& shot, const std::function<void(game::PictureRequest&)>& change) {
+    auto picture = makePicture(mScene, shot);
+    if (!picture) {
+        ADD_FAILURE() << picture.error().message;
+        return {};
+    }
+    game::PictureRequest& request = picture.value();
+    request.method.budget = mBudget;
+    request.frame.wantReasons = request.frame.wantDump = true;
+    request.drawsFramesBefore = false;
+    if (shot.wantDisplay && !mTonemap)
+        mTonemap.emplace(mDevice, tonemap::TonemapSettings{});
+    if (shot.wantDisplay)
+        request.ending.push_back(&*mTonemap);
+    if (change)
+        change(request);
+    auto drawn = mDrawer.draw(mScene.world, request);
+    if (drawn)
+        return std::move(drawn).value();
+    ADD_FAILURE() << drawn.error().message;
+    return {};
+}
+
+void expectTruthsAgree(Stage& stage, Shot shot, double mostSharp) {
+    shot.instants = 256;
+    const auto draw = [&](std::string_view method) {
+        shot.method = method;
+        return stage.render(shot).color;
+    };
+    const image::Image rays = draw("truth");
+    EXPECT_GE(image::computePsnr(rays, draw("accumulate")), 45.0);
+    EXPECT_LE(image::computePsnr(rays, draw("sharp")), mostSharp) << "nothing is blurred";
+}
+
+size_t countPasses(const render::FrameResult& frame, std::string_view part) {
+    const auto& passes = frame.statistics.passes;
+    return size_t(std::count_if(passes.begin(), passes.end(), [&](const gpu::PassTime& pass) {
+        return pass.name.find(part) != std::string::npos;
+    }));
+}
+
+bool hasPass(const render::FrameResult& frame, std::string_view name) {
+    const auto& passes = frame.statistics.passes;
+    return std::any_of(passes.begin(), passes.end(), [&](const gpu::PassTime& pass) {
+        return pass.name == name;
+    });
 }
 
 std::string describeMotionBlur(const render::FrameResult& result) {

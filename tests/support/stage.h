@@ -5,8 +5,10 @@
 #include "engine/gpu/device.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/motion.h"
+#include "game/shot/picture_drawer.h"
 #include "modules/accumulate/accumulate.h"
 #include "modules/motion_blur/methods.h"
+#include "modules/tonemap/tonemap.h"
 #include "tests/kit/scene_builder.h"
 
 #include <cstdint>
@@ -68,6 +70,39 @@ class Stage {
     const SceneBuilder& mScene;
     render::Renderer mRenderer;
 };
+
+/// Frames drawn one after the other, as in a game: effects keep what they keep from frame to frame,
+/// and nothing is drawn again that an earlier one should have left.
+class Frames {
+  public:
+    /// \param scene outlives this
+    Frames(
+        gpu::Device& device, const SceneBuilder& scene, const motion_blur::BlurBudget& budget = {}
+    );
+
+    /// With reasons and the graph's dump. Fails the test, and returns an empty result, on an error.
+    /// \param change made to what is asked of the drawer
+    [[nodiscard]] render::FrameResult
+    draw(const Shot& shot, const std::function<void(game::PictureRequest&)>& change = {});
+
+  private:
+    gpu::Device& mDevice;
+    const SceneBuilder& mScene;
+    motion_blur::BlurBudget mBudget;
+    render::Renderer mRenderer;
+    std::optional<tonemap::Tonemap> mTonemap; ///< since Shot::wantDisplay
+    game::PictureDrawer mDrawer;
+};
+
+/// Expects rays that each have their own time, and sharp frames at many times, to see the same to
+/// 45 dB, and the sharp picture to be no nearer to that than `mostSharp` dB: something moves in it.
+void expectTruthsAgree(Stage& stage, Shot shot, double mostSharp = 40.0);
+
+/// How many of the frame's passes have `part` in their names.
+[[nodiscard]] size_t countPasses(const render::FrameResult& frame, std::string_view part);
+
+/// Whether a pass of the frame has this name.
+[[nodiscard]] bool hasPass(const render::FrameResult& frame, std::string_view name);
 
 /// "ran: ..." or "skipped: ..." of the motion blur; "not asked" where the frame had none.
 [[nodiscard]] std::string describeMotionBlur(const render::FrameResult& result);

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+// A frame pays for what it shows, and what it leaves out is not missing from the picture; passes it
+// can do without; frames that another method draws while pipelines are being made.
+#include "engine/image/metrics.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <fcntl.h>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace shutter {
+namespace {
+
+using motion_blur::UntilReady;
+using test::Frames;
+using test::SceneBuilder;
+using test::Shot;
+
+/// A sphere that crosses the picture.
+SceneBuilder makeSphere() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(
+        test::makeSphere(0.5, scene.addColor({1.0f, 0.4f, 0.1f})),
+        {.position = {0, 0, -2}, .velocity = {0.5, 0.2, 0}}
+    );
+    return scene;
+}
+
+/// ... before a wall of waves.
+SceneBuilder makeCrossing() {
+    SceneBuilder scene = makeSphere();
+    scene.add(test::makeQuad(9.0, 9.0, scene.addWaves()), {.position = {0, 0, -4}});
+    return scene;
+}
+
+/// A frame of a game: exposed for the share of 1/24 s.
+Shot frameShot(std::string_view method, double exposureSeconds = 0.5) {
+    return {
+        .method = method,
+        .exposureSeconds = exposureSeconds,
+        .phase = scene::ShutterPhase::End,
+        .frameSeconds = 1.0 / 24.0};
+}
+
+class DemandLaw : public test::RayTest {
+  protected:
+    static render::FrameResult draw(
+        const SceneBuilder& scene,
+        const motion_blur::MotionBlurSettings& settings,
+        std::string_view method = "hybrid"
+    ) {
+        return test::renderOnce(
+            device(),
+            scene,
+            {.method = method,
+             .width = 160,
+             .height = 120,
+             .background = math::vec3(0.2f, 0.3f, 0.4f),
+             .settings = settings}
+        );
+    }
+};
+
+TEST_F(DemandLaw, BeforeTheSkyNoRayIsTracedAndThePictureIsTheSame) {
+    const SceneBuilder scene = makeSphere();
+    const auto frame = draw(scene, {});
+    EXPECT_GT(frame.statistics.counters.at("pixels masked"), 100u);
+    EXPECT_EQ(frame.statistics.counters.at("rays traced"), 0u);
+    EXPECT_EQ(test::countPasses(frame, "TLAS"), 0u);
+    EXPECT_EQ(test::countPasses(frame, "sky reveal"), 1u);
+    const auto traced = draw(scene, {.revealTraversal = motion_blur::RevealTraversal::Stepping});
+    EXPECT_GT(traced.statistics.counters.at("rays traced"), 100u);
+    EXPECT_GT(test::countPasses(traced, "TLAS"), 0u);
+    EXPECT_TRUE(test::sameBits(frame.color, traced.color));
+}
+
+TEST_F(DemandLaw, WithoutRaysHybridIsSkippedBeforeTheSkyToo) {
+    gpu::DeviceOptions options;
+    options.validate = true;
+    options.bestTier = gpu::RayTier::None;
+    auto lower = gpu::Device::create(options);
+    ASSERT_TRUE(lower.ok());
+    const SceneBuilder scene = makeSphere();
+    render::Renderer renderer(*lower.value(), scene.world.assets);
+    motion_blur::MotionBlurPlugin blur(
+        *lower.value(), renderer.scene(), {.method = &motion_blur::getMethod("hybrid")}
+    );
+    render::FrameRequest request;
+    request.view.camera = scene.camera;
+    request.view.exposure = scene::computeExposure({1.0}, 0.0);
+    request.view.width = request.view.height = 64;
+    request.wantReasons = true;
+    render::PostEffect* effects[] = {&blur};
+    const auto frame = renderer.renderFrame(scene.world, request, effects);
+    ASSERT_TRUE(frame.ok());
+    EXPECT_NE(test::describeMotionBlur(frame.value()).find("needs rays"), std::string::npos);
+    EXPECT_EQ(lower.value()->validationMessageCount(), 0u);
+}
+
+TEST_F(DemandLaw, WhatNobodyWantsIsGivenBackAfterAWhile) {
+    const SceneBuilder scene = makeCrossing();
+    Frames frames(device(), scene);
+    for (int i = 0; i < 2; ++i)
+        (void)frames.draw(frameShot("hybrid", 0.0));
+    device().collect();
+    const gpu::LivingObjects still = device().living();
+    (void)frames.draw(frameShot("hybrid"));
+    // Pipelines and the read-back of counters stay; they know no picture's size.
+    EXPECT_GT(device().living().accelerationStructures, still.accelerationStructures);
+    // One more: what is retired goes when the next frame is done.
+    for (uint32_t i = 0; i <= render::kFramesKept; ++i)
+        (void)frames.draw(frameShot("hybrid", 0.0));
+    device().collect();
+    EXPECT_EQ(device().living().accelerationStructures, still.accelerationStructures);
+    EXPECT_EQ(device().living().images, still.images);
+    EXPECT_GT(frames.draw(frameShot("hybrid")).statistics.counters.at("rays traced"), 0u);
+}
+
+TEST_F(DemandLaw, ATooSmallBudgetEndsWithTheCheapestBlurAndSaysSo) {
+    const SceneBuilder scene = makeCrossing();
+    const Shot shot = frameShot("gather");
+    motion_blur::MotionBlurSettings settings = shot.settings;
+    settings.method = &motion_blur::getMethod("gather");
+    const double last = double(motion_blur::makeLevels(settings).size() - 1);
+    Frames frames(device(), scene, {1e-6});
+    render::FrameResult frame;
+    const core::Decision* budget = nullptr;
+    for (int i = 0; i < 40; ++i) {
+        frame = frames.draw(shot);
+        const auto& explanations = frame.statistics.explanations;
+        const auto* blur = render::findDecision(explanations, "motion blur");
+        ASSERT_NE(blur, nullptr);
+        ASSERT_TRUE(blur->run) << "a budget took the blur away: " << blur->reason;
+        EXPECT_GT(frame.statistics.measures.at("blur ms"), 0.0);
+        budget = render::findDecision(explanations, "blur budget");
+        ASSERT_NE(budget, nullptr);
+        EXPECT_EQ(budget->run, frame.statistics.measures.at("blur budget level") > 0.0);
+    }
+    EXPECT_EQ(frame.statistics.measures.at("blur budget level"), last);
+    EXPECT_EQ(test::countPasses(frame, "own velocity"), 1u);
+    EXPECT_NE(budget->reason.find("4 samples"), std::string::npos) << budget->reason;
+    EXPECT_FALSE(test::sameBits(frame.color, frames.draw(frameShot("gather", 0.0)).color));
+}
+
+TEST_F(DemandLaw, ABudgetOfPlentyChangesNoBit) {
+    const SceneBuilder scene = makeCrossing();
+    Frames limited(device(), scene, {1e6});
+    Frames unlimited(device(), scene);
+    for (int i = 0; i < 5; ++i)
+        EXPECT_TRUE(test::sameBits(
+            limited.draw(frameShot("gather")).color, unlimited.draw(frameShot("gather")).color
+        ));
+}
+
+TEST_F(DemandLaw, AQuarterOfTheRaysRevealsNearlyTheSame) {
+    const SceneBuilder scene = makeCrossing();
+    const auto full = draw(scene, {});
+    const auto& counted = full.statistics.counters;
+    double last = 1.01;
+    for (const float share : {1.0f, 0.6f, 0.25f, 0.1f, 0.0f}) {
+        const auto frame = draw(scene, {.rayShare = share});
+        const auto& counters = frame.statistics.counters;
+        const double traced =
+            double(counters.at("rays traced")) / double(counted.at("rays traced"));
+        // The rims of the mask have quads with few masked pixels.
+        EXPECT_LE(traced, share + 0.2) << share;
+        EXPECT_GE(traced, 0.6 * share) << share;
+        EXPECT_LE(traced, last);
+        last = traced;
+        if (share >= 0.25f) {
+            EXPECT_EQ(counters.at("pixels masked"), counted.at("pixels masked"));
+        }
+        if (share == 1.0f)
+            EXPECT_TRUE(test::sameBits(frame.color, full.color));
+        else
+            EXPECT_GT(image::computePsnr(frame.color, full.color), share >= 0.25f ? 40.0 : 25.0);
+        if (share == 0.0f) {
+            EXPECT_TRUE(test::sameBits(frame.color, draw(scene, {}, "gather").color));
+        }
+    }
+}
+
+TEST_F(DemandLaw, HalfOfTheResolutionAlongAPanIsHardToTellAndForSmearsAlongRowsAndColumnsAlone) {
+    const auto pan = [](const math::dvec3& velocityPx) {
+        SceneBuilder scene;
+        scene.setPixelView(120);
+        scene.add(
+            test::makeQuad(900, 900, scene.addWaves()),
+            {.position = {0, 0, -10}, .velocity = velocityPx}
+        );
+        return scene;
+    };
+    const SceneBuilder across = pan({20, 20, 0});
+    const auto full = draw(across, {}, "gather");
+    EXPECT_GT(full.statistics.counters.at("blocks uniform"), 200u);
+    EXPECT_TRUE(test::sameBits(draw(across, {.halfResolutionPx = 8}, "gather").color, full.color));
+    const SceneBuilder along = pan({24, 3, 0});
+    const auto expected = draw(along, {}, "gather").color;
+    const auto half = draw(along, {.halfResolutionPx = 8}, "gather").color;
+    EXPECT_FALSE(test::sameBits(half, expected));
+    EXPECT_GT(image::computePsnr(half, expected), 40.0);
+    // Longer than anything moves.
+    EXPECT_TRUE(test::sameBits(draw(along, {.halfResolutionPx = 100}, "gather").color, expected));
+}
+
+/// A pane that moves before a wall.
+SceneBuilder makePane() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(9, 7, scene.addWaves()), {.position = {0, 0, -6}});
+    scene.add(
+        test::makeQuad(0.7, 0.7, scene.addColor({1, 0, 0})),
+        {.position = {-0.2, 0, -2}, .velocity = {0.8, 0.1, 0}}
+    );
+    return scene;
+}
+
+class PassCount : public test::RayTest {};
+
+TEST_F(PassCount, AllThatAMethodMustFindEmptyIsClearedInOnePass) {
+    const SceneBuilder scene = makePane();
+    for (const char* method : {"gather", "hybrid", "resolved", "adaptive"})
+        EXPECT_EQ(
+            test::countPasses(Frames(device(), scene).draw(frameShot(method, 0.25)), "clear"), 1u
+        ) << method;
+}
+
+TEST_F(PassCount, WhatNobodyReadsIsNotReadBack) {
+    const SceneBuilder scene = makePane();
+    Frames frames(device(), scene);
+    const auto check = [&](const char* method, const char* counter, const char* pass) {
+        const auto draw = [&](bool wantCounters) {
+            return frames.draw(frameShot(method, 0.25), [&](game::PictureRequest& request) {
+                request.frame.wantCounters = wantCounters;
+            });
+        };
+        // Frames that follow are alike: the first builds what rays need and counts its blocks.
+        (void)draw(true);
+        const render::FrameResult counted = draw(true);
+        const render::FrameResult plain = draw(false);
+        EXPECT_TRUE(counted.statistics.counters.contains(counter)) << method;
+        EXPECT_FALSE(plain.statistics.counters.contains(counter)) << method;
+        EXPECT_TRUE(test::hasPass(counted, pass)) << method;
+        EXPECT_FALSE(test::hasPass(plain, pass)) << method;
+        EXPECT_EQ(plain.statistics.passes.size() + 1, counted.statistics.passes.size()) << method;
+        EXPECT_TRUE(test::sameBits(plain.color, counted.color)) << method;
+        // They choose how the next frame's still pixels are copied.
+        EXPECT_TRUE(plain.statistics.counters.contains("blocks still")) << method;
+    };
+    check("hybrid", "pixels masked", "read ray mask counters");
+    check("resolved", "unresolved samples", "read resolved counters");
+}
+
+/// A device that makes pipelines ahead, except for one, which waits until it is let go.
+class HoldingDevice {
+  public:
+    HoldingDevice(const std::string& name, gpu::RayTier tier) {
+        gpu::DeviceOptions options;
+        options.validate = true;
+        options.wanted = name;
+        options.bestTier = tier;
+        options.pipelinesAhead = gpu::PipelinesAhead::Always;
+        EXPECT_EQ(mkfifo(mFifo.c_str(), S_IRUSR | S_IWUSR), 0);
+        auto made = test::openFaulty(
+            options, "SHUTTER_FAULT_HOLD", "ray reveal through blended surfaces=" + mFifo.string()
+        );
+        EXPECT_TRUE(made) << made.error().message;
+        if (made)
+            mDevice = std::move(made).value();
+    }
+
+    ~HoldingDevice() {
+        letGo();
+        mDevice.reset();
+        close(mWriter);
+        std::filesystem::remove(mFifo);
+    }
+
+    HoldingDevice(const HoldingDevice&) = delete;
+    HoldingDevice& operator=(const HoldingDevice&) = delete;
+
+    void letGo() {
+        if (mWriter < 0)
+            mWriter = open(mFifo.c_str(), O_RDWR); // does not wait for a reader
+    }
+
+    [[nodiscard]] gpu::Device* device() const { return mDevice.get(); }
+
+  private:
+    std::filesystem::path mFifo = std::filesystem::temp_directory_path() /
+                                  ("shutter_held_pipeline_" + std::to_string(getpid()));
+    int mWriter = -1;
+    std::unique_ptr<gpu::Device> mDevice;
+};
+
+/// What is destroyed before a pipeline is made waits for it: a test that fails must not hold it.
+struct LetGoAtEnd {
+    HoldingDevice& holding;
+
+    ~LetGoAtEnd() { holding.letGo(); }
+};
+
+class StandIn : public test::RayTest {
+  protected:
+    static render::FrameResult draw(Frames& frames, const char* method, UntilReady untilReady) {
+        return frames.draw(frameShot(method, 0.25), [&](game::PictureRequest& request) {
+            request.untilReady = untilReady;
+        });
+    }
+
+    static bool standsIn(const render::FrameResult& frame) {
+        return frame.statistics.measures.contains("blur stands in");
+    }
+
+    /// `hybrid` on a device of the tier.
+    static void checkTier(gpu::RayTier tier) {
+        HoldingDevice holding(device().info().name, tier);
+        const SceneBuilder scene = makePane();
+        ASSERT_TRUE(holding.device());
+        {
+            Frames frames(*holding.device(), scene);
+            const LetGoAtEnd atEnd{holding};
+            const auto waited = draw(frames, "hybrid", UntilReady::Wait);
+            EXPECT_FALSE(standsIn(waited));
+            EXPECT_TRUE(test::hasPass(waited, "build TLAS"));
+            EXPECT_TRUE(test::hasPass(waited, "ray reveal"));
+
+            // Now the one for scenes without blended surfaces is made, which is not enough: one may
+            // come into sight in any frame.
+            const auto held = draw(frames, "hybrid", UntilReady::StandIn);
+            ASSERT_TRUE(standsIn(held));
+            EXPECT_FALSE(test::hasPass(held, "ray mask"));
+            EXPECT_FALSE(test::hasPass(held, "build TLAS")) << "nobody traces rays";
+            const auto gathered = draw(frames, "gather", UntilReady::StandIn);
+            EXPECT_FALSE(standsIn(gathered)) << "gather has nothing to wait for";
+            EXPECT_TRUE(test::sameBits(held.color, gathered.color));
+
+            holding.letGo();
+            auto ready = draw(frames, "hybrid", UntilReady::StandIn);
+            for (int i = 0; i < 1000 && standsIn(ready); ++i)
+                ready = draw(frames, "hybrid", UntilReady::StandIn);
+            EXPECT_FALSE(standsIn(ready)) << "hybrid never took over";
+            EXPECT_TRUE(test::sameBits(ready.color, waited.color));
+            EXPECT_FALSE(test::sameBits(ready.color, gathered.color)) << "the scene tells nothing";
+        }
+        EXPECT_EQ(holding.device()->validationMessageCount(), 0u);
+    }
+};
+
+// Each in a process of its own: the layer reads what it holds once.
+TEST_F(StandIn, GatherDrawsUntilBothKindsOfRevealArePreparedByQueries) {
+    checkTier(gpu::RayTier::RayQuery);
+}
+
+TEST_F(StandIn, GatherDrawsUntilBothKindsOfRevealArePreparedByRayPipelines) {
+    checkTier(gpu::RayTier::Pipeline);
+}
+
+TEST_F(StandIn, WherePipelinesAreMadeWhenFirstUsedNoneStandsIn) {
+    const SceneBuilder scene = makePane();
+    Frames frames(device(), scene);
+    EXPECT_FALSE(standsIn(draw(frames, "hybrid", UntilReady::StandIn)));
+}
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: MIT
+// What rays reveal behind a mover is what raster draws when the mover is not there; one traversal
+// reveals what stepping from hit to hit reveals.
+#include "assets/generator/hard_cases.h"
+#include "assets/generator/scenes.h"
+#include "game/options/shot_arguments.h"
+#include "tests/support/deformed_meshes.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+#include "tests/support/temp_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using math::dvec3;
+using motion_blur::RevealTraversal;
+using scene::Material;
+using test::Placement;
+using test::SceneBuilder;
+using test::Shot;
+using test::Stage;
+using AddToScene = std::function<void(SceneBuilder&)>;
+
+class RevealLaw : public test::RayTest {};
+
+Shot revealShot() {
+    return {
+        .method = "hybrid",
+        .background = math::vec3(0.2f, 0.3f, 0.4f),
+        .aovs = {"mask", "reveal", "reveal_motion", "motion", "mesh_id"}};
+}
+
+void addOccluder(SceneBuilder& scene) {
+    scene.add(
+        test::makeQuad(0.9, 0.9, scene.addColor({1, 0, 0.9f})),
+        {.position = {0.05, -0.03, -2}, .velocity = {0.35, 0.1, 0}}
+    );
+}
+
+Placement wall() {
+    return {
+        .position = {0, 0, -4},
+        .rotation = glm::angleAxis(0.4, glm::normalize(dvec3(0.3, 1.0, 0.0)))};
+}
+
+/// Two double-sided slabs, one behind the other, joined below the picture: four surfaces on a ray.
+void addPronged(SceneBuilder& scene) {
+    const auto color = scene.addColor({1, 0, 0.9f});
+    const auto near = test::makeBox({0.9, 0.9, 0.1}, color);
+    scene.world.assets.materials.back().doubleSided = true;
+    const auto far = test::transformed(near, glm::translate(math::dmat4(1.0), dvec3(0, 0, -0.5)));
+    const auto mesh = scene.addMesh({near, far});
+    scene.add(mesh, {.position = {0.05, -0.03, -1.95}, .velocity = {0.35, 0.1, 0}});
+}
+
+struct RevealCase {
+    const char* name;
+    AddToScene background;
+    AddToScene occluder = addOccluder;
+    Shot shot = revealShot();
+    /// Pixels that must be in the mask for the case to mean anything.
+    size_t leastMasked = 150;
+    /// Of the background, somewhere behind the mask; the motion that is revealed is raster's. Below
+    /// 0: it is not looked at.
+    double leastMotionPx = -1.0;
+};
+
+/// Renders the background with and without the occluder; inside the mask the revealed colour of the
+/// first must be the raster of the second to 1/255.
+void expectRevealIsRaster(gpu::Device& device, const RevealCase& law) {
+    SCOPED_TRACE(law.name);
+    SceneBuilder alone;
+    alone.setPerspective(0.9);
+    law.background(alone);
+    SceneBuilder both;
+    both.setPerspective(0.9);
+    law.background(both);
+    law.occluder(both);
+    Shot sharp = law.shot;
+    sharp.method = "sharp";
+    const auto drawn = test::renderOnce(device, alone, sharp);
+    const image::Image& expected = drawn.color;
+    const auto result = test::renderOnce(device, both, law.shot);
+    ASSERT_TRUE(result.intermediates.contains("mask"));
+    const image::Image& mask = result.intermediates.at("mask");
+    EXPECT_GT(test::countSet(mask), law.leastMasked);
+    // Of a background that moves the occluder's pixels count, which is the second entity.
+    const image::Image& ids = result.intermediates.at("mesh_id");
+    const auto masked = [&](uint32_t x, uint32_t y) {
+        return mask.at(x, y, 0) > 0.5f && (law.leastMotionPx < 0.0 || ids.at(x, y, 0) == 1.0f);
+    };
+    const image::Image& reveal = result.intermediates.at("reveal");
+    EXPECT_LE(test::computeMaxDifferenceWhere(reveal, expected, masked), 1.0 / 255.0);
+    // The law means nothing where the occluder looks like what it hides.
+    const auto hidden = test::renderOnce(device, both, sharp).color;
+    EXPECT_GT(test::computeMaxDifferenceWhere(hidden, expected, masked), 0.2);
+    const image::Image& motion = drawn.intermediates.at("motion");
+    const image::Image& revealed = result.intermediates.at("reveal_motion");
+    double longest = 0.0;
+    size_t compared = 0;
+    for (uint32_t y = 0; y < mask.height && law.leastMotionPx >= 0.0; ++y)
+        for (uint32_t x = 0; x < mask.width; ++x)
+            for (uint32_t c = 0; c < 2 && masked(x, y); ++c) {
+                ASSERT_NEAR(revealed.at(x, y, c), motion.at(x, y, c), 0.02) << x << ", " << y;
+                longest = std::max(longest, std::abs(double(motion.at(x, y, c))));
+                ++compared;
+            }
+    EXPECT_GE(longest, law.leastMotionPx);
+    EXPECT_TRUE(law.leastMotionPx < 0.0 || compared > 200u) << compared;
+}
+
+void addWall(SceneBuilder& scene) {
+    scene.add(test::makeQuad(5, 4, scene.addWaves()), wall());
+}
+
+TEST_F(RevealLaw, WhatIsRevealedIsWhatRasterDrawsWithoutTheMover) {
+    std::vector<RevealCase> cases = {
+        {"a textured wall", addWall},
+        {"a mirrored box, whose own front must not be lost, nor the back come through",
+         [](SceneBuilder& scene) {
+             scene.add(
+                 test::makeBox({1.6, 1.6, 0.6}, scene.addWaves()),
+                 {.position = {0, 0, -4},
+                  .rotation = glm::angleAxis(0.4, dvec3(0, 1, 0)),
+                  .scale = {-1.5, 1, 1}}
+             );
+             scene.add(
+                 test::makeQuad(9, 7, scene.addColor({0, 0.5f, 0})), {.position = {0, 0, -6}}
+             );
+         }},
+        // z scaled by -1 keeps the corners but turns the winding: raster culls it, rays must too.
+        {"a mirrored quad that turns its back",
+         [](SceneBuilder& scene) {
+             scene.add(
+                 test::makeQuad(5, 4, scene.addColor({1, 1, 0})),
+                 {.position = {0, 0, -3}, .scale = {-1, -1, -1}}
+             );
+             addWall(scene);
+         }},
+        {"holes of an alpha mask",
+         [](SceneBuilder& scene) {
+             const auto leaves = scene.addWaves(true);
+             // Level 0 of its texture (nearest, below one texel a pixel): the hole's border is
+             // where both say it is.
+             scene.world.assets.textures.back().nearest = true;
+             scene.add(test::makeQuad(9, 9, leaves), {.position = {0.03, 0.02, -3}});
+             addWall(scene);
+         }},
+        {"the back of a double-sided wall",
+         [](SceneBuilder& scene) {
+             scene.add(
+                 test::makeQuad(5, 4, scene.addTextured(scene.addWaveTexture(), true)),
+                 {.position = {0, 0, -4}, .rotation = glm::angleAxis(2.8, dvec3(0, 1, 0))}
+             );
+         }},
+        {"a texture transform",
+         [](SceneBuilder& scene) {
+             Material material;
+             material.unlit = true;
+             material.baseColor = {scene.addWaveTexture(), 0, {0.3f, -0.2f}, 0.7f, {2.5f, 1.3f}};
+             scene.add(test::makeQuad(5, 4, scene.addMaterial(material)), wall());
+         }},
+        // From the front: a single-sided part that turns its back, then, side by side, the back of
+        // a double-sided part and the front of a single-sided one.
+        {"single-sided and double-sided parts of one mesh",
+         [](SceneBuilder& scene) {
+             const auto texture = scene.addWaveTexture();
+             const auto around = glm::rotate(math::dmat4(1.0), 3.0, dvec3(0, 1, 0));
+             const auto part = [&](double width,
+                                   scene::AssetIndex material,
+                                   const dvec3& place,
+                                   const math::dmat4& turn) {
+                 return test::transformed(
+                     test::makeQuad(width, 4, material),
+                     glm::translate(math::dmat4(1.0), place) * turn
+                 );
+             };
+             scene.add(
+                 scene.addMesh(
+                     {part(4, scene.addColor({1, 1, 0}), {0, 0, 1}, around),
+                      part(2, scene.addTextured(texture, true), {-1, 0, 0}, around),
+                      part(2, scene.addTextured(texture), {1, 0, -0.2}, math::dmat4(1.0))}
+                 ),
+                 {.position = {0, 0, -4}}
+             );
+         }},
+        {"an orthographic camera",
+         [](SceneBuilder& scene) {
+             scene.setPixelView(64);
+             Placement placement = wall();
+             placement.position = {0, 0, -50};
+             scene.add(test::makeQuad(110, 90, scene.addWaves()), placement);
+         },
+         [](SceneBuilder& scene) {
+             scene.add(
+                 test::makeQuad(30, 30, scene.addColor({1, 0, 0.9f})),
+                 {.position = {1.3, 0.4, -5}, .velocity = {11, 4, 0}}
+             );
+         }},
+        // More movers than masks, all behind the camera and larger than the one in front: that one
+        // is passed candidate by candidate.
+        {"movers without masks of their own",
+         [](SceneBuilder& scene) {
+             addWall(scene);
+             const auto color = scene.addColor({0, 1, 0});
+             for (int i = 0; i < 40; ++i)
+                 scene.add(
+                     test::makeQuad(9, 9, color),
+                     {.position = {0, 0, 2.0 + 0.01 * i}, .velocity = {0.1, 0, 0}}
+                 );
+         },
+         addPronged}};
+    for (const auto phase : {scene::ShutterPhase::Start, scene::ShutterPhase::End}) {
+        cases.push_back({"in another phase", addWall});
+        cases.back().shot.phase = phase;
+    }
+    // A row is 256 groups of 64 pixels.
+    cases.push_back(
+        {.name = "more pixels than one row of groups holds",
+         .background = [](SceneBuilder& scene
+                       ) { scene.add(test::makeQuad(9, 9, scene.addWaves()), wall()); },
+         .leastMasked = 256 * 64 + 64}
+    );
+    cases.back().shot.width = 960;
+    cases.back().shot.height = 720;
+    cases.push_back({"a concave mover by enough levels", addWall, addPronged});
+    cases.back().shot.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
+    cases.back().shot.settings.recursionLimit = 5; // four surfaces of its own, then the wall
+    cases.push_back({"a concave mover by one traversal", addWall, addPronged});
+    cases.back().shot.settings.recursionLimit = 1; // of stepping alone
+    cases.push_back(
+        {"another luminance than the waves', which stay below 0.9",
+         addWall,
+         [](SceneBuilder& scene) {
+             scene.add(
+                 test::makeBox({0.9, 0.9, 0.2}, scene.addColor({1, 1, 1})),
+                 {.position = {0.05, -0.03, -2}, .velocity = {0.35, 0.1, 0}}
+             );
+         }}
+    );
+    cases.back().shot.settings.objectTest = motion_blur::ObjectTest::Luminance;
+    for (const RevealCase& law : cases)
+        expectRevealIsRaster(device(), law);
+}
+
+/// A wall of 6 m that bends back and forth.
+AddToScene bendingWall(const dvec3& scale) {
+    return [scale](SceneBuilder& scene) {
+        const std::array joints{
+            Placement{.position = {0, -3, -4}, .scale = scale, .angularVelocity = {0, 0.1, 0}},
+            Placement{.position = {0, 3, 0}, .angularVelocity = {0.2, 0.1, 0.3}}};
+        test::addSkinned(scene, test::makeStrip(7.0, 6.0, 10, scene.addWaves()), joints);
+    };
+}
+
+TEST_F(RevealLaw, DeformedMeshesAreMetWhereRasterDrawsThemWithItsMotion) {
+    const RevealCase cases[] = {
+        {.name = "a bending wall", .background = bendingWall(dvec3(1)), .leastMotionPx = 2.0},
+        {.name = "a mirrored single-sided wall",
+         .background = bendingWall(dvec3(-1, 1, 1)),
+         .leastMotionPx = 2.0},
+        {.name = "a morphing wall",
+         .background =
+             [](SceneBuilder& scene) {
+                 scene::Primitive wall = test::makeStrip(7.0, 6.0, 10, scene.addWaves());
+                 scene::MorphTarget& target = wall.morphTargets.emplace_back();
+                 for (const math::vec3& position : wall.positions)
+                     target.positions.push_back({0.3f * position.y, 0.0f, 0.2f * position.x});
+                 const Placement place{.position = {0, -3, -4}, .angularVelocity = {0, 0.1, 0}};
+                 test::addMorphed(scene, wall, place, {{0.0f}, {1.0f}});
+             },
+         .leastMotionPx = 2.0},
+        {.name = "a wall behind a bending strip",
+         .background = addWall,
+         .occluder =
+             [](SceneBuilder& scene) {
+                 const std::array joints{
+                     Placement{.position = {-0.1, -0.5, -2}, .velocity = {0.35, 0, 0}},
+                     Placement{.position = {0, 0.5, 0}, .angularVelocity = {0, 0, 0.8}}};
+                 const auto color = scene.addColor({1, 0, 0.9f});
+                 test::addSkinned(scene, test::makeStrip(0.7, 1.0, 10, color), joints);
+             },
+         .leastMasked = 100,
+         .leastMotionPx = 0.0}};
+    for (const RevealCase& law : cases)
+        expectRevealIsRaster(device(), law);
+}
+
+TEST_F(RevealLaw, TooFewLevelsEndInsideAConcaveOccluder) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    addWall(scene);
+    addPronged(scene);
+    Shot shot = revealShot();
+    shot.settings.revealTraversal = motion_blur::RevealTraversal::Stepping;
+    shot.settings.recursionLimit = 3;
+    const auto result = test::renderOnce(device(), scene, shot);
+    const image::Image& mask = result.intermediates.at("mask");
+    const image::Image& reveal = result.intermediates.at("reveal");
+    // The third surface is the far slab's front, half a side of 0.45 m at 2.45 m; one pixel less.
+    const double focalPx = 32.0 / std::tan(0.45);
+    const double halfPx = focalPx * 0.45 / 2.45 - 1.0;
+    const math::dvec2 centre(48.0 + focalPx * 0.05 / 2.45, 32.0 + focalPx * 0.03 / 2.45);
+    size_t compared = 0;
+    for (uint32_t y = 0; y < 64; ++y)
+        for (uint32_t x = 0; x < 96; ++x) {
+            const math::dvec2 offset = glm::abs(math::dvec2(x + 0.5, y + 0.5) - centre);
+            if (mask.at(x, y, 0) < 0.5f || std::max(offset.x, offset.y) > halfPx)
+                continue;
+            ++compared;
+            ASSERT_GT(reveal.at(x, y, 0), 0.99f) << x << ", " << y;
+            ASSERT_LT(reveal.at(x, y, 1), 0.01f) << x << ", " << y;
+        }
+    EXPECT_GT(compared, 150u);
+}
+
+TEST_F(RevealLaw, TheLuminanceTestPassesObjectsOfEqualLuminanceAndTheMeshTestDoesNot) {
+    // Two white slabs of one luminance before the wall. By mesh id the second is another object; by
+    // luminance it is the same, and the wall is revealed.
+    const auto occluders = [](SceneBuilder& scene) {
+        addWall(scene);
+        const auto white = scene.addColor({1, 1, 1}); // the waves stay below 0.9
+        scene.add(test::makeQuad(3, 3, white), {.position = {0, 0, -3}});
+        scene.add(
+            test::makeQuad(0.9, 0.9, white),
+            {.position = {0.05, -0.03, -2}, .velocity = {0.35, 0.1, 0}}
+        );
+    };
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    occluders(scene);
+    SceneBuilder alone;
+    alone.setPerspective(0.9);
+    addWall(alone);
+    const auto wallOnly = test::renderOnce(device(), alone, {});
+    Stage stage(device(), scene);
+    for (auto objectTest : {motion_blur::ObjectTest::MeshId, motion_blur::ObjectTest::Luminance}) {
+        Shot shot = revealShot();
+        shot.settings.objectTest = objectTest;
+        const auto result = stage.render(shot);
+        const image::Image& mask = result.intermediates.at("mask");
+        ASSERT_GT(test::countSet(mask), 150u);
+        image::Image expected = wallOnly.color;
+        if (objectTest == motion_blur::ObjectTest::MeshId)
+            expected.pixels.assign(expected.pixels.size(), 1.0f);
+        EXPECT_LE(
+            test::computeMaxDifferenceWhere(
+                result.intermediates.at("reveal"),
+                expected,
+                [&](uint32_t x, uint32_t y) { return mask.at(x, y, 0) > 0.5f; }
+            ),
+            1.0 / 255.0
+        );
+    }
+}
+
+TEST_F(RevealLaw, BeforeTheSkyOnlyTheBackgroundColourIsRevealed) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    addOccluder(scene);
+    const Shot shot = revealShot();
+    const auto result = test::renderOnce(device(), scene, shot);
+    const image::Image& mask = result.intermediates.at("mask");
+    const image::Image& reveal = result.intermediates.at("reveal");
+    ASSERT_GT(test::countSet(mask), 150u);
+    for (uint32_t y = 0; y < 64; ++y)
+        for (uint32_t x = 0; x < 96; ++x)
+            for (uint32_t c = 0; c < 3; ++c)
+                if (mask.at(x, y, 0) > 0.5f) {
+                    // One conversion to half floats.
+                    ASSERT_NEAR(reveal.at(x, y, c), shot.background[int(c)], 0.4f / 1024.0f);
+                }
+}
+
+struct SceneCase {
+    std::string name;
+    generator::GltfWriter (*build)();
+    std::string camera = "main";
+    double seconds = 0.0;
+    double exposureSeconds = generator::kCaseExposureSeconds;
+    std::string phase = "end";
+};
+
+/// Without it the test's name would hold the bytes of a pointer.
+void PrintTo(const SceneCase& scene, std::ostream* stream) {
+    *stream << scene.name;
+}
+
+std::vector<SceneCase> listScenes() {
+    constexpr double kExposure = 1.0 / 30.0;
+    std::vector<SceneCase> scenes = {
+        {"vase", &generator::buildVaseScene, "main", 0.0, kExposure},
+        {"courtyard", &generator::buildCourtyardScene, "main", 0.2, kExposure},
+        {"courtyard_pan", &generator::buildCourtyardScene, "pan", 0.2, kExposure}};
+    for (const generator::BenchCase& hard : generator::listHardCases())
+        scenes.push_back(
+            {hard.name, hard.build, hard.camera, hard.timeSeconds, hard.exposureSeconds, hard.phase}
+        );
+    return scenes;
+}
+
+class RevealOfScenes : public test::RayTest, public testing::WithParamInterface<SceneCase> {
+  protected:
+    void SetUp() override {
+        RayTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        const SceneCase& scene = GetParam();
+        const test::TempFolder folder;
+        game::ShotArguments arguments;
+        arguments.scene = (folder.path() / "scene.glb").string();
+        ASSERT_EQ(scene.build().write(arguments.scene), "");
+        arguments.camera = scene.camera;
+        arguments.time = scene.seconds;
+        arguments.shutter = game::makeShutterArguments(scene.exposureSeconds, scene.phase);
+        arguments.size = {240, 136};
+        mOptions = game::interpret(arguments).value();
+        mShot.emplace(game::loadShot(mOptions).value());
+    }
+
+    render::FrameResult draw(RevealTraversal traversal, uint32_t recursionLimit) {
+        game::MethodOptions method = game::makeMethod(*game::findMethod("hybrid").value());
+        method.motionBlur.revealTraversal = traversal;
+        method.motionBlur.recursionLimit = recursionLimit;
+        render::Renderer renderer(device(), mShot->world.assets);
+        game::PictureRequest picture =
+            game::makePicture(*mShot, mOptions, method, GetParam().seconds);
+        picture.frame.intermediates = {"mask", "mesh_id", "reveal", "reveal_motion", "reveal_id"};
+        auto frame = game::PictureDrawer(device(), renderer).draw(mShot->world, picture);
+        EXPECT_TRUE(frame.ok());
+        return std::move(frame).value();
+    }
+
+    game::ShotOptions mOptions;
+    std::optional<game::Shot> mShot;
+};
+
+double relativeError(float a, float b, float least) {
+    return std::abs(a - b) / std::max({std::abs(a), std::abs(b), least});
+}
+
+TEST_P(RevealOfScenes, OneTraversalFindsWhatSteppingFinds) {
+    const auto single = draw(RevealTraversal::Single, 1); // its limit means nothing
+    const auto& found = single.intermediates;
+    ASSERT_TRUE(found.contains("mask")) << "nothing moves in sight";
+    for (const uint32_t limit : {5u, 64u}) {
+        const auto stepping = draw(RevealTraversal::Stepping, limit);
+        const auto& views = stepping.intermediates;
+        const image::Image& mask = views.at("mask");
+        size_t masked = 0;
+        size_t stopped = 0;
+        size_t otherObject = 0;
+        double worstColor = 0.0; // relative to the larger, or to 0.1 where both are darker
+        double worstDepth = 0.0; // relative
+        for (uint32_t y = 0; y < mask.height; ++y)
+            for (uint32_t x = 0; x < mask.width; ++x) {
+                if (mask.at(x, y, 0) < 0.5f)
+                    continue;
+                ++masked;
+                const auto differ = [&](const char* view, uint32_t c, float least) {
+                    return relativeError(
+                        found.at(view).at(x, y, c), views.at(view).at(x, y, c), least
+                    );
+                };
+                const float front = views.at("mesh_id").at(x, y, 0);
+                const float id = found.at("reveal_id").at(x, y, 0);
+                const float stepped = views.at("reveal_id").at(x, y, 0);
+                if (stepped == front && id != front) {
+                    ++stopped; // at its limit; the other finds the background that lies deeper
+                    continue;
+                }
+                otherObject += id != stepped;
+                for (uint32_t c = 0; c < 3; ++c)
+                    worstColor = std::max(worstColor, differ("reveal", c, 0.1f));
+                worstDepth = std::max(worstDepth, differ("reveal_motion", 2, 1.0e-6f));
+            }
+        EXPECT_TRUE(GetParam().name != "vase" || masked > 200) << masked;
+        EXPECT_EQ(otherObject, 0u);
+        // A step that is not the first starts at another place of the ray: the hit moves by
+        // rounding.
+        EXPECT_LE(worstColor, 1.0 / 256);
+        EXPECT_LE(worstDepth, 1.0e-5);
+        // None of these scenes' objects has more surfaces than the second limit.
+        EXPECT_TRUE(limit == 5u || stopped == 0u) << stopped;
+    }
+    const auto& counters = single.statistics.counters;
+    EXPECT_LE(counters.at("rays traced"), counters.at("pixels masked"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes,
+    RevealOfScenes,
+    testing::ValuesIn(listScenes()),
+    [](const auto& param) { return param.param.name; }
+);
+
+} // namespace
+} // namespace shutter

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Temporal anti-aliasing against the mean over the pixel: better than one sample a pixel where
+// history is of the same surface, and no worse where something has just moved away.
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/stage.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using game::AntiAliasing;
+using Region = std::function<bool(uint32_t x, uint32_t y)>;
+
+constexpr uint32_t kWidth = 96;
+constexpr uint32_t kHeight = 64;
+constexpr double kSeconds = 1.0;
+
+bool isAnywhere(uint32_t, uint32_t) {
+    return true;
+}
+
+class TaaLaw : public test::GpuTest {
+  protected:
+    TaaLaw() { mScene.setPerspective(0.9); }
+
+    /// White tiles on black, turned so that their edges need smoothing: no colour between the two
+    /// looks out of place on it.
+    void addTiles(const test::Placement& placement) {
+        mScene.add(test::makeQuad(12.0, 12.0, mScene.addColor(math::vec3(0.05f))), placement);
+        const auto white = mScene.addColor(math::vec3(0.9f));
+        std::vector<scene::Primitive> tiles;
+        for (int y = -7; y <= 7; ++y)
+            for (int x = -7; x <= 7; ++x)
+                tiles.push_back(test::transformed(
+                    test::makeQuad(0.45, 0.45, white),
+                    glm::rotate(math::dmat4(1.0), 0.2, math::dvec3(0, 0, 1)) *
+                        glm::translate(math::dmat4(1.0), math::dvec3(0.8 * x, 0.8 * y, 0.01))
+                ));
+        mScene.add(mScene.addMesh(std::move(tiles)), placement);
+    }
+
+    /// The picture at kSeconds, by the frames before it where there is history.
+    image::Image draw(AntiAliasing antiAliasing) {
+        const test::Shot shot{
+            .seconds = kSeconds,
+            .exposureSeconds = 1.0 / 60.0,
+            .phase = scene::ShutterPhase::End,
+            .frameSeconds = 1.0 / 24.0};
+        return test::Frames(device(), mScene)
+            .draw(
+                shot,
+                [&](game::PictureRequest& request) {
+                    request.antiAliasing = antiAliasing;
+                    request.drawsFramesBefore = true;
+                }
+            )
+            .color;
+    }
+
+    /// Root of the mean squared difference from the mean over the pixel.
+    double measureError(AntiAliasing antiAliasing, const Region& region = isAnywhere) {
+        const image::Image truth = draw(AntiAliasing::Box);
+        const image::Image picture = draw(antiAliasing);
+        double sum = 0.0;
+        size_t count = 0;
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x)
+                for (uint32_t c = 0; c < 3 && region(x, y); ++c, ++count)
+                    sum += std::pow(picture.at(x, y, c) - truth.at(x, y, c), 2.0);
+        return std::sqrt(sum / double(count));
+    }
+
+    test::SceneBuilder mScene;
+};
+
+TEST_F(TaaLaw, NothingStaysBehindWhatMoves) {
+    addTiles({.position = {0, 0, -5}});
+    // It ends at the picture's middle.
+    const double speed = 9.0;
+    mScene.add(
+        test::makeQuad(1.0, 2.0, mScene.addColor(math::vec3(0.45f))),
+        {.position = {0.5 - speed * kSeconds, 0, -4}, .velocity = {speed, 0, 0}}
+    );
+    // What it covered in the four frames before and does not now.
+    const Region isBehind = [](uint32_t x, uint32_t y) {
+        return x < kWidth / 2 - 2 && y > 24 && y < 40;
+    };
+    EXPECT_LT(
+        measureError(AntiAliasing::Taa, isBehind), 0.65 * measureError(AntiAliasing::None, isBehind)
+    );
+}
+
+TEST_F(TaaLaw, StillEdgesKeepTheirHistory) {
+    addTiles({.position = {0, 0, -5}});
+    mScene.add(
+        test::makeQuad(1.5, 1.5, mScene.addColor(math::vec3(0.9f))),
+        {.position = {0, 0, -3}, .rotation = glm::angleAxis(0.3, math::dvec3(0, 0, 1))}
+    );
+    EXPECT_LT(measureError(AntiAliasing::Taa), 0.5 * measureError(AntiAliasing::None));
+}
+
+TEST_F(TaaLaw, AFloorUnderAMovingCameraKeepsItsHistory) {
+    addTiles(
+        {.position = {0, -1.0, -7.0},
+         .rotation = glm::angleAxis(glm::radians(-90.0), math::dvec3(1, 0, 0))}
+    );
+    mScene.moveCamera({.velocity = {0.4, 0, 0}});
+    EXPECT_LT(measureError(AntiAliasing::Taa), 0.8 * measureError(AntiAliasing::None));
+}
+
+TEST_F(TaaLaw, BetweenTurningSpokesNothingTurnsWithThem) {
+    addTiles({.position = {0, 0, -5}});
+    const auto red = mScene.addColor({0.6f, 0.1f, 0.05f});
+    std::vector<scene::Primitive> spokes;
+    for (int i = 0; i < 8; ++i)
+        spokes.push_back(test::transformed(
+            test::makeQuad(0.07, 3.0, red),
+            glm::rotate(math::dmat4(1.0), i * glm::radians(22.5), math::dvec3(0, 0, 1))
+        ));
+    mScene.add(
+        mScene.addMesh(std::move(spokes)), {.position = {0, 0, -4}, .angularVelocity = {0, 0, 2.0}}
+    );
+    const Region isBetween = [](uint32_t x, uint32_t y) {
+        return std::hypot(x - 0.5 * kWidth, y - 0.5 * kHeight) < 0.35 * kHeight;
+    };
+    EXPECT_LT(
+        measureError(AntiAliasing::Taa, isBetween), measureError(AntiAliasing::None, isBetween)
+    );
+}
+
+TEST_F(TaaLaw, WhatComesIntoThePictureHasNoHistory) {
+    addTiles({.position = {0, 0, -5}});
+    mScene.moveCamera({.position = {-12.0 * kSeconds, 0, 0}, .velocity = {12.0, 0, 0}});
+    // The camera moves by nearly seven pixels a frame.
+    const Region isNew = [](uint32_t x, uint32_t) { return x > kWidth - 6; };
+    EXPECT_LT(measureError(AntiAliasing::Taa, isNew), measureError(AntiAliasing::None, isNew));
+}
+
+} // namespace
+} // namespace shutter
