@@ -3,13 +3,16 @@
 // and counts. README.md says what is required of their pictures.
 #include "engine/extract/extracted_frame.h"
 #include "tests/stability/hard_case.h"
+#include "tests/support/deformed_meshes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <utility>
 
 namespace shutter::stability {
 namespace {
@@ -185,6 +188,61 @@ void buildSingularMatrices(SceneBuilder& scene) {
     scene.add(makeBox({0.3, 0.3, 0.3}, waves), kMover);
 }
 
+/// Two skins whose second joint is scaled to nothing, or mirrored, within the exposure.
+void buildCollapsingSkins(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
+    double x = -0.5;
+    for (const dvec3& scale : {dvec3(0.0), dvec3(-1.0, 1.0, 1.0)}) {
+        const std::array joints{
+            Placement{.position = {x, -0.4, -2}, .velocity = {0.4, 0.1, 0}},
+            Placement{.position = {0, 0.4, 0}, .scale = scale, .angularVelocity = {0, 1, 2}}};
+        test::addSkinned(scene, test::makeStrip(0.4, 0.8, 6, waves), joints);
+        x += 1.0;
+    }
+}
+
+/// A morph that turns its mesh inside out through a point, and one that reaches 1e30.
+void buildInsideOutMorphs(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
+    for (const float reach : {1.0f, 1e30f}) {
+        scene::Primitive box = makeBox({0.5, 0.4, 0.3}, waves);
+        scene::MorphTarget target;
+        for (const math::vec3& position : box.positions)
+            target.positions.push_back(-2.0f * reach * position);
+        box.morphTargets.push_back(target);
+        test::addMorphed(
+            scene,
+            std::move(box),
+            {.position = {0.2, 0, -2}, .velocity = {0.3, 0, 0}},
+            {.from = {0.0f}, .to = {1.0f}}
+        );
+    }
+}
+
+/// As many waves as there may be, up to a kilometre high, over one sheet each.
+void buildWaves(SceneBuilder& scene) {
+    addWall(scene);
+    const auto waves = scene.addWaves();
+    double x = -0.8;
+    for (const double size : {0.0, 1e-30, 0.05, 1e3}) {
+        const ecs::Entity entity =
+            scene.add(test::makeStrip(0.4, 0.8, 12, waves), {.position = {x, -0.4, -2}});
+        scene::VertexWaves moved;
+        moved.inWorld = size != 0.05;
+        moved.share = scene::WaveShare::Height;
+        moved.exponent = 16.0;
+        moved.waves.assign(
+            scene::kMaxVertexWaves, {dvec3(size), dvec3(std::min(size, 40.0)), 1e3 * size, size}
+        );
+        for (scene::VertexWave& wave : moved.waves)
+            wave.hertz = std::min(wave.hertz, 1e6);
+        scene.world.registry.add(entity, moved);
+        x += 0.5;
+    }
+}
+
 struct SceneCase {
     const char* name;
     void (*build)(SceneBuilder&);
@@ -220,6 +278,9 @@ const SceneCase kScenes[] = {
     {"NegativeScale", buildNegativeScale},
     {"ZeroScale", buildZeroScale},
     {"SingularMatrices", buildSingularMatrices},
+    {"CollapsingSkins", buildCollapsingSkins},
+    {"InsideOutMorphs", buildInsideOutMorphs},
+    {"Waves", buildWaves},
 };
 
 /// Rays at one instant against raster: the share of pixels that differ by more than two steps of
