@@ -9,6 +9,7 @@
 #include "tests/support/gpu_fixture.h"
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -71,28 +72,46 @@ void build(gpu::Device& device, gpu::Tlas& top, std::span<const gpu::Instance> i
     gpu::runOnce(device, [&](VkCommandBuffer commands) { top.record(device, commands); });
 }
 
-TEST_F(AccelerationStructure, NoMeshesGiveNoStructures) {
-    EXPECT_TRUE(gpu::buildBlas(device(), {}).empty());
+/// Validation sees whether the levels fit.
+void expectTop(
+    gpu::Device& device, std::initializer_list<const gpu::AccelerationStructure*> levels
+) {
+    std::vector<gpu::Instance> instances;
+    for (const gpu::AccelerationStructure* level : levels)
+        instances.push_back(makeInstance(*level));
+    gpu::Tlas top;
+    build(device, top, instances);
+    EXPECT_TRUE(top.structure());
 }
 
-TEST_F(AccelerationStructure, AMeshWithoutTrianglesGivesAnEmptyOne) {
-    Triangles none = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+using Meshes = std::vector<std::vector<gpu::TriangleGeometry>>;
+
+Triangles makeTriangle(gpu::Device& device) {
+    return makeTriangles(device, {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+}
+
+TEST_F(AccelerationStructure, WithoutTrianglesThereIsNone) {
+    EXPECT_TRUE(gpu::buildBlas(device(), {}).empty());
+    EXPECT_TRUE(gpu::buildTlas(device(), {}).empty());
+    Triangles none = makeTriangle(device());
     none.geometry.triangleCount = 0;
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{}, {none.geometry}};
-    const auto structures = gpu::buildBlas(device(), meshes);
+    const auto structures = gpu::buildBlas(device(), Meshes{{}, {none.geometry}});
     ASSERT_EQ(structures.size(), 2u);
     EXPECT_FALSE(structures[0]);
     EXPECT_FALSE(structures[1]);
+    gpu::Tlas top;
+    build(device(), top, {});
+    EXPECT_TRUE(top.structure()) << "a top level of nothing";
 }
 
 TEST_F(AccelerationStructure, ThousandsOfMeshesShareABufferAndASubmission) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(2000, {one.geometry});
+    const Triangles one = makeTriangle(device());
+    const Meshes meshes(2000, {one.geometry});
     device().collectIdle();
     const gpu::LivingObjects before = device().living();
     const uint64_t allocations = device().allocationCount();
     {
-        const auto structures = gpu::buildBlas(device(), meshes);
+        auto structures = gpu::buildBlas(device(), meshes);
         ASSERT_EQ(structures.size(), 2000u);
         std::set<VkDeviceAddress> addresses;
         for (const gpu::AccelerationStructure& structure : structures)
@@ -100,11 +119,12 @@ TEST_F(AccelerationStructure, ThousandsOfMeshesShareABufferAndASubmission) {
         EXPECT_EQ(addresses.size(), 2000u);
         EXPECT_EQ(device().living().accelerationStructures, before.accelerationStructures + 2000);
         EXPECT_EQ(device().allocationCount(), allocations + 2) << "structures and scratch";
-        gpu::Tlas top;
-        build(
-            device(), top, std::vector{makeInstance(structures[0]), makeInstance(structures[1999])}
-        );
-        EXPECT_TRUE(top.structure());
+        expectTop(device(), {&structures[0], &structures[1999]});
+        const gpu::AccelerationStructure kept = std::move(structures[1]);
+        structures.clear();
+        device().collectIdle();
+        EXPECT_EQ(device().living().buffers, before.buffers + 1) << "it lives as long as one";
+        expectTop(device(), {&kept});
     }
     device().collectIdle();
     EXPECT_EQ(device().living(), before);
@@ -115,7 +135,7 @@ TEST_F(AccelerationStructure, CompactionLeavesTheSmallerCopiesAlone) {
     for (int i = 0; i < 3000; ++i)
         positions.emplace_back(float(i % 71), float(i % 37), float(i % 3));
     const Triangles many = makeTriangles(device(), positions);
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(50, {many.geometry});
+    const Meshes meshes(50, {many.geometry});
     device().collectIdle();
     const gpu::LivingObjects before = device().living();
     uint64_t bytes[2] = {};
@@ -128,80 +148,28 @@ TEST_F(AccelerationStructure, CompactionLeavesTheSmallerCopiesAlone) {
         EXPECT_EQ(device().living().accelerationStructures, before.accelerationStructures + 50);
         EXPECT_EQ(device().living().buffers, before.buffers + 1);
         bytes[compacts] = device().living().memoryBytes - before.memoryBytes;
-        gpu::Tlas top;
-        build(
-            device(), top, std::vector{makeInstance(structures[0]), makeInstance(structures[49])}
-        );
-        EXPECT_TRUE(top.structure());
+        expectTop(device(), {&structures[0], &structures[49]});
     }
     EXPECT_LE(bytes[1], bytes[0]);
     device().collectIdle();
     EXPECT_EQ(device().living(), before);
 }
 
-TEST_F(AccelerationStructure, ABufferLivesAsLongAsOneOfItsStructures) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes(3, {one.geometry});
-    device().collectIdle();
-    const gpu::LivingObjects before = device().living();
-    {
-        auto structures = gpu::buildBlas(device(), meshes);
-        const gpu::AccelerationStructure kept = std::move(structures[1]);
-        structures.clear();
-        device().collectIdle();
-        EXPECT_EQ(device().living().buffers, before.buffers + 1);
-        gpu::Tlas top;
-        build(device(), top, std::vector{makeInstance(kept)});
-        EXPECT_TRUE(top.structure());
-    }
-    device().collectIdle();
-    EXPECT_EQ(device().living(), before);
-}
-
-TEST_F(AccelerationStructure, OneTriangleBuildsAndHasAnAddress) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBlas(device(), meshes);
-    ASSERT_EQ(structures.size(), 1u);
-    ASSERT_TRUE(structures[0]);
-    EXPECT_NE(structures[0].address(), 0u);
-    gpu::Tlas top;
-    build(device(), top, std::vector{makeInstance(structures[0])});
-    EXPECT_TRUE(top.structure());
-}
-
 TEST_F(AccelerationStructure, TrianglesWithoutAreaBuild) {
-    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const vec3 nan(std::numeric_limits<float>::quiet_NaN());
+    const vec3 right(1, 0, 0);
+    // A point, a line, and inactive, as Vulkan calls it.
     const Triangles flat = makeTriangles(
-        device(),
-        {vec3(1),
-         vec3(1),
-         vec3(1), // a point
-         vec3(0),
-         vec3(1, 0, 0),
-         vec3(2, 0, 0), // a line
-         vec3(nan),
-         vec3(0),
-         vec3(1)} // inactive, as Vulkan calls it
+        device(), {vec3(1), vec3(1), vec3(1), vec3(0), right, 2.0f * right, nan, vec3(0), vec3(1)}
     );
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{flat.geometry}};
-    const auto structures = gpu::buildBlas(device(), meshes);
+    const auto structures = gpu::buildBlas(device(), Meshes{{flat.geometry}});
     ASSERT_TRUE(structures.at(0));
-    gpu::Tlas top;
-    build(device(), top, std::vector{makeInstance(structures[0])});
-    EXPECT_TRUE(top.structure());
-}
-
-TEST_F(AccelerationStructure, ATopLevelOfNothingBuilds) {
-    gpu::Tlas top;
-    build(device(), top, {});
-    EXPECT_TRUE(top.structure());
+    expectTop(device(), {&structures[0]});
 }
 
 TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBlas(device(), meshes);
+    const Triangles one = makeTriangle(device());
+    const auto structures = gpu::buildBlas(device(), Meshes{{one.geometry}});
     gpu::Tlas top;
     build(device(), top, std::vector{makeInstance(structures.at(0))});
     const VkAccelerationStructureKHR small = top.structure().handle();
@@ -213,19 +181,17 @@ TEST_F(AccelerationStructure, ATopLevelGrowsAndKeepsItsRoomWhenItShrinks) {
 }
 
 TEST_F(AccelerationStructure, OneTopLevelAnInstance) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
-    const std::vector<std::vector<gpu::TriangleGeometry>> meshes{{one.geometry}};
-    const auto structures = gpu::buildBlas(device(), meshes);
+    const Triangles one = makeTriangle(device());
+    const auto structures = gpu::buildBlas(device(), Meshes{{one.geometry}});
     const auto tops = gpu::buildTlas(device(), std::vector(3, makeInstance(structures.at(0))));
     ASSERT_EQ(tops.size(), 3u);
     for (const gpu::AccelerationStructure& top : tops)
         EXPECT_NE(top.address(), 0u);
     EXPECT_NE(tops[0].address(), tops[1].address());
-    EXPECT_TRUE(gpu::buildTlas(device(), {}).empty());
 }
 
 TEST_F(AccelerationStructure, ASetOfLevelsIsKeptWhileItsSizesStay) {
-    const Triangles one = makeTriangles(device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)});
+    const Triangles one = makeTriangle(device());
     const Triangles two = makeTriangles(
         device(), {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0), vec3(0, 1, 0), vec3(0, 0, 1)}
     );
@@ -291,9 +257,7 @@ TEST_F(AccelerationStructure, BoxesGrowAndKeepTheirRoomWhenTheyShrink) {
     const VkDeviceAddress large = buildBoxes(level, 100);
     EXPECT_NE(large, small);
     EXPECT_EQ(buildBoxes(level, 3), large);
-    gpu::Tlas top;
-    build(device(), top, std::vector{makeInstance(level.structure())});
-    EXPECT_TRUE(top.structure());
+    expectTop(device(), {&level.structure()});
 }
 
 } // namespace

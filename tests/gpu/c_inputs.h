@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The inputs of the C++ interface in the words of the C one.
+// An effect of the C interface, and the inputs of the C++ interface in the words of the C one.
 #pragma once
 
+#include "engine/gpu/device.h"
 #include "modules/motion_blur/c_interface/shutter_motion_blur.h"
 #include "modules/motion_blur/embedding/host_inputs.h"
 
@@ -11,6 +12,32 @@
 #include <vector>
 
 namespace shutter::test {
+
+inline ShutterBlurDevice describeForC(const gpu::Device& device) {
+    ShutterBlurDevice described = shutterBlurDefaultDevice();
+    described.physical = device.physical();
+    described.device = device.handle();
+    described.queueFamily = device.queueFamily();
+    described.hasDebugUtils = VK_TRUE;
+    return described;
+}
+
+class BlurOfC {
+  public:
+    explicit BlurOfC(const ShutterBlurDevice& described) {
+        EXPECT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS)
+            << shutterBlurGetMessage();
+    }
+
+    explicit BlurOfC(const gpu::Device& device) : BlurOfC(describeForC(device)) {}
+
+    ~BlurOfC() { shutterBlurDestroy(blur); }
+
+    BlurOfC(const BlurOfC&) = delete;
+    BlurOfC& operator=(const BlurOfC&) = delete;
+
+    ShutterBlur* blur = nullptr;
+};
 
 inline ShutterBlurImage convertForC(const motion_blur::HostImage& image) {
     const auto use = [](const graph::OutsideUse& given) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/gpu/checker_changes.h"
+#include "tests/gpu/checker_host.h"
 
 #include <array>
 
@@ -75,22 +75,22 @@ void storeLinearDepth(GivenFrame& given, float unitsPerMetre) {
     given.inputs.convention.depth.skyValue = shader::kSkyDepth;
 }
 
-void declareJitter(GivenFrame& given, int frame) {
-    given.jitterPx = kJitters[size_t(frame)];
-    given.jitterPxBefore = kJitters[size_t(frame + 2) % kJitters.size()];
+void declareJitter(GivenFrame& given) {
+    given.jitterPx = kJitters[size_t(given.frame)];
+    given.jitterPxBefore = kJitters[size_t(given.frame + 2) % kJitters.size()];
 }
 
-void leaveJitter(GivenFrame& given, int frame) {
-    declareJitter(given, frame);
+void leaveJitter(GivenFrame& given) {
+    declareJitter(given);
     const glm::vec2 more(given.jitterPxBefore - given.jitterPx);
     for (size_t i = 0; i < kCheckedPixels; ++i)
         if (given.metres[i] < shader::kSkyDepth)
             given.motion[i] += more;
 }
 
-void turnAway(GivenFrame& given, int frame) {
-    given.inputs.frameNumber = frame + 1;
-    const dmat4 turn = glm::rotate(dmat4(1.0), 0.3 * frame, math::dvec3(0.0, 1.0, 0.0));
+void turnAway(GivenFrame& given) {
+    given.inputs.frameNumber = given.frame + 1;
+    const dmat4 turn = glm::rotate(dmat4(1.0), 0.3 * given.frame, math::dvec3(0.0, 1.0, 0.0));
     given.cameras.viewFromWorld *= turn;
     given.cameras.viewFromWorldBefore *= turn;
 }

@@ -3,12 +3,13 @@
 
 #include "assets/generator/demo_scenes.h"
 #include "assets/generator/scenes.h"
+#include "engine/flythrough/flythrough.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/exposure_motion.h"
-#include "tests/gpu/checker_changes.h"
-#include "tests/gpu/checker_images.h"
+#include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,8 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <span>
 #include <utility>
 
 namespace shutter::test {
@@ -147,6 +150,209 @@ class RowTeller : public render::PostEffect {
     std::vector<bool> mDeforms;
 };
 
+core::Status useCamera(const CheckScene& scene, game::Shot& shot) {
+    const auto flight = flythrough::parseFlythrough(scene.keys, "keys");
+    if (!flight)
+        return flight.error();
+    auto& registry = shot.world.registry;
+    const auto shutter = registry.get<scene::CameraShutter>(shot.camera);
+    shot.camera = flythrough::addFlythroughCamera(shot.world, flight.value());
+    registry.add(shot.camera, scene::CameraShutter(shutter));
+    if (scene.orthographicYMag == 0.0)
+        return {};
+    auto& camera = registry.get<scene::Camera>(shot.camera);
+    camera.kind = scene::CameraKind::Orthographic;
+    camera.yMag = scene.orthographicYMag;
+    camera.far = 100.0;
+    if (registry.has<scene::LensMotion>(shot.camera))
+        registry.remove<scene::LensMotion>(shot.camera);
+    return {};
+}
+
+/// Unlit, the raster instant at the end of the exposure. Error: a file cannot be read or written.
+core::Result<CheckedShot> loadCheckedShot(const CheckScene& scene) {
+    const TempFolder folder;
+    fs::path file = fs::path(SHUTTER_SHARED_DIR) / "scenes" / scene.path;
+    if (scene.build) {
+        file = folder.path() / "scene.glb";
+        if (const std::string error = scene.build().write(file); !error.empty())
+            return core::Error{error};
+    }
+    game::ShotArguments arguments;
+    arguments.scene = file.string();
+    arguments.unlit = true;
+    arguments.shutter = game::makeShutterArguments(kFrameSeconds, "end");
+    arguments.size = {kWidth, kHeight};
+    CheckedShot made;
+    auto options = game::interpret(arguments);
+    if (!options)
+        return options.error();
+    made.options = std::move(options).value();
+    auto shot = game::loadShot(made.options);
+    if (!shot)
+        return shot.error();
+    made.shot = std::move(shot).value();
+    SHUTTER_TRY(useCamera(scene, made.shot));
+    if (scene.prepare)
+        scene.prepare(made.shot.world);
+    return made;
+}
+
+class CheckedImages {
+  public:
+    CheckedImages(gpu::Device& device, const GivenFrame& given)
+        : mDevice(device), mPlacing(given) {}
+
+    /// Fills the inputs in with images.
+    void describe(GivenFrame& given);
+
+    /// Uploads the texels.
+    void record(VkCommandBuffer commands) const;
+
+  private:
+    struct Layered {
+        std::unique_ptr<TwoLayers> image;
+        gpu::Buffer texels;
+        gpu::Buffer rubbish;
+        uint32_t layer;
+    };
+
+    /// \param texels of kCheckedWidth x kCheckedHeight, `texelBytes` each
+    /// \param coarseness so many times fewer columns and rows
+    motion_blur::HostImage make(
+        VkFormat format, std::span<const std::byte> texels, size_t texelBytes, uint32_t coarseness
+    );
+    motion_blur::HostImage
+    makeLayer(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels);
+
+    gpu::Device& mDevice;
+    const GivenFrame& mPlacing;
+    std::deque<HostTexels> mTexels;
+    std::deque<Layered> mLayered;
+};
+
+/// What is where no picture is: 0xFF is NaN in floats, and an id that is no row.
+constexpr std::byte kRubbish{0xFF};
+constexpr VkOffset2D kMargin{24, 12};
+
+template <class T> void append(std::vector<std::byte>& bytes, const T& value) {
+    const auto* from = reinterpret_cast<const std::byte*>(&value);
+    bytes.insert(bytes.end(), from, from + sizeof(value));
+}
+
+std::vector<std::byte> packVectors(VkFormat format, const std::vector<glm::vec2>& vectors) {
+    std::vector<std::byte> bytes;
+    for (const glm::vec2& vector : vectors)
+        if (format == VK_FORMAT_R16G16_SFLOAT)
+            append(bytes, glm::packHalf2x16(vector));
+        else
+            append(bytes, vector);
+    return bytes;
+}
+
+std::vector<std::byte> packDepth(VkFormat format, const std::vector<float>& depth) {
+    std::vector<std::byte> bytes;
+    for (const float value : depth)
+        if (format == VK_FORMAT_D16_UNORM)
+            append(bytes, uint16_t(std::clamp(value, 0.0f, 1.0f) * 65535.0f + 0.5f));
+        else if (format == VK_FORMAT_R16_SFLOAT)
+            append(bytes, glm::packHalf1x16(value));
+        else
+            append(bytes, value);
+    return bytes;
+}
+
+bool isDepthFormat(VkFormat format) {
+    return (gpu::aspectOf(format) & VK_IMAGE_ASPECT_DEPTH_BIT) != 0;
+}
+
+void CheckedImages::describe(GivenFrame& given) {
+    motion_blur::HostInputs& inputs = given.inputs;
+    std::vector<uint64_t> halves;
+    for (const glm::vec4& color : given.color)
+        halves.push_back(packHalf(color));
+    inputs.color = make(VK_FORMAT_R16G16B16A16_SFLOAT, bytesOf(halves), sizeof(uint64_t), 1);
+    if (given.hasIds)
+        inputs.entityId = make(VK_FORMAT_R32_UINT, bytesOf(given.ids), sizeof(uint32_t), 1);
+    if (given.isNative) {
+        std::vector<glm::vec4> texels;
+        for (size_t i = 0; i < kCheckedPixels; ++i)
+            texels.emplace_back(given.motion[i], given.metres[i], 0.0f);
+        inputs.motionDepth =
+            make(VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels), sizeof(glm::vec4), 1);
+        return;
+    }
+    if (given.hasVectors) {
+        const auto vectors = packVectors(given.vectorFormat, given.motion);
+        inputs.convention.vectors.image =
+            make(given.vectorFormat, vectors, vectors.size() / kCheckedPixels, given.coarseness);
+    }
+    const auto depth = packDepth(given.depthFormat, given.depth);
+    inputs.convention.depth.image =
+        make(given.depthFormat, depth, depth.size() / kCheckedPixels, given.coarseness);
+}
+
+motion_blur::HostImage CheckedImages::make(
+    VkFormat format, std::span<const std::byte> texels, size_t texelBytes, uint32_t coarseness
+) {
+    const VkExtent2D extent{kCheckedWidth / coarseness, kCheckedHeight / coarseness};
+    const VkOffset2D margin = mPlacing.isSurrounded ? kMargin : VkOffset2D{0, 0};
+    const VkExtent2D whole{
+        extent.width + 2 * uint32_t(margin.x), extent.height + 2 * uint32_t(margin.y)};
+    std::vector<std::byte> placed(size_t{whole.width} * whole.height * texelBytes, kRubbish);
+    for (uint32_t y = 0; y < extent.height; ++y)
+        for (uint32_t x = 0; x < extent.width; ++x) {
+            const size_t from = (size_t{y} * kCheckedWidth + x) * coarseness;
+            const size_t to = size_t{y + uint32_t(margin.y)} * whole.width + x + uint32_t(margin.x);
+            std::memcpy(
+                placed.data() + to * texelBytes, texels.data() + from * texelBytes, texelBytes
+            );
+        }
+    const VkRect2D part = mPlacing.part;
+    const auto scaled = [&](auto value) { return value / decltype(value)(coarseness); };
+    const VkRect2D area{
+        {margin.x + scaled(part.offset.x), margin.y + scaled(part.offset.y)},
+        {scaled(part.extent.width), scaled(part.extent.height)}};
+    if (mPlacing.layer) {
+        motion_blur::HostImage image = makeLayer(format, whole, placed);
+        image.area = area;
+        return image;
+    }
+    const VkImageUsageFlags more = isDepthFormat(format) ? 0 : VK_IMAGE_USAGE_STORAGE_BIT;
+    return mTexels.emplace_back(mDevice, format, whole, placed, more).describe(area);
+}
+
+motion_blur::HostImage
+CheckedImages::makeLayer(VkFormat format, VkExtent2D extent, std::span<const std::byte> texels) {
+    const std::vector<std::byte> rubbish(texels.size(), kRubbish);
+    const auto stage = [&](std::span<const std::byte> bytes) {
+        gpu::Buffer buffer(mDevice, "layer", bytes.size(), 0, gpu::MemoryUse::Staging);
+        buffer.writeBytes(bytes.data(), bytes.size(), 0);
+        return buffer;
+    };
+    const Layered& made = mLayered.emplace_back(Layered{
+        std::make_unique<TwoLayers>(mDevice, format, extent),
+        stage(texels),
+        stage(rubbish),
+        *mPlacing.layer});
+    motion_blur::HostImage image{made.image->image, kWritten, kCopied};
+    image.format = format;
+    image.extent = extent;
+    image.layer = made.layer;
+    image.usage = kAllUsage;
+    image.samples = VK_SAMPLE_COUNT_1_BIT;
+    return image;
+}
+
+void CheckedImages::record(VkCommandBuffer commands) const {
+    for (const HostTexels& one : mTexels)
+        one.record(commands);
+    for (const Layered& one : mLayered) {
+        one.image->copyFrom(commands, one.texels, one.layer);
+        one.image->copyFrom(commands, one.rubbish, 1 - one.layer);
+    }
+}
+
 } // namespace
 
 void PrintTo(const CheckScene& scene, std::ostream* stream) {
@@ -228,7 +434,7 @@ void CheckerHost::SetUp() {
     const CheckScene& scene = GetParam();
     if (!scene.build && !fs::exists(fs::path(SHUTTER_SHARED_DIR) / "scenes" / scene.path))
         GTEST_SKIP() << "the shared scenes are not there";
-    auto shot = loadCheckedShot(scene, {kWidth, kHeight}, kFrameSeconds);
+    auto shot = loadCheckedShot(scene);
     ASSERT_TRUE(shot.ok()) << shot.error().message;
     mShot.emplace(std::move(shot).value());
     render::Renderer renderer(device(), mShot->shot.world.assets);
@@ -292,9 +498,10 @@ GivenFrame CheckerHost::give(int frame, const CheckCase& one, uint32_t view) con
         given.listed.push_back({row, {}});
     if (one.needsMovers || one.isUneven)
         giveMatrices(given);
-    const CheckedDrawing& before = mDrawn[size_t(std::max(at - 2, 0))];
-    const CheckedDrawing& after = mDrawn[size_t(std::min(at + 2, last))];
-    one.change(given, frame, before, after);
+    given.frame = frame;
+    given.before = &mDrawn[size_t(std::max(at - 2, 0))];
+    given.after = &mDrawn[size_t(std::min(at + 2, last))];
+    one.change(given);
     convention.cameras = given.cameras;
     convention.cameras.jitterPx = given.jitterPx;
     convention.cameras.jitterPxBefore = given.jitterPxBefore;
@@ -334,15 +541,13 @@ void CheckerHost::record(
         given.inputs.motion.rowCount = given.rowCount;
         given.inputs.motion.rowIds = given.rowIds;
     }
-    gpu::Frame commands(device());
-    commands.begin();
-    images.record(commands.commands());
-    const core::Status done = blur.record(commands.commands(), number, given.inputs, settings);
-    ASSERT_TRUE(done.ok()) << done.error().message;
-    if (output)
-        output->recordReadback(commands.commands());
-    commands.submit();
-    commands.wait();
+    submit([&](VkCommandBuffer commands) {
+        images.record(commands);
+        const core::Status done = blur.record(commands, number, given.inputs, settings);
+        ASSERT_TRUE(done.ok()) << done.error().message;
+        if (output)
+            output->recordReadback(commands);
+    });
 }
 
 } // namespace shutter::test

@@ -3,19 +3,39 @@
 // convention and with the mistake that a case says.
 #pragma once
 
+#include "assets/generator/gltf_writer.h"
+#include "engine/core/result.h"
 #include "engine/render/renderer.h"
+#include "game/options/shot_arguments.h"
+#include "game/shot/shot.h"
 #include "shaders/render/scene_shared.h"
-#include "tests/gpu/checked_shot.h"
-#include "tests/gpu/embedding_host.h"
+#include "tests/gpu/gbuffer_host.h"
 
 #include <deque>
 #include <functional>
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::test {
+
+struct CheckScene {
+    std::string name;
+    generator::GltfWriter (*build)(); ///< null: a file of the shared scenes
+    std::string path;                 ///< of that
+    std::string keys;                 ///< of a flythrough
+    double orthographicYMag = 0.0;    ///< half height of what is seen, metres; 0: perspective
+    /// Too much moves by itself for mistakes to be seen.
+    bool hidesMistakes = false;
+    void (*prepare)(scene::World& world) = nullptr; ///< moves what the file has at rest
+};
+
+struct CheckedShot {
+    game::ShotOptions options;
+    game::Shot shot;
+};
 
 inline constexpr uint32_t kCheckedWidth = 192;
 inline constexpr uint32_t kCheckedHeight = 108;
@@ -39,6 +59,9 @@ struct CheckedDrawing {
 
 /// What a host hands in, to be changed into what it gets wrong or has in another way.
 struct GivenFrame : CheckedDrawing {
+    int frame = 0;
+    const CheckedDrawing* before = nullptr; ///< the frame before and the next one
+    const CheckedDrawing* after = nullptr;
     std::vector<float> depth; ///< as stored
     motion_blur::HostInputs inputs;
     std::vector<motion_blur::HostMover> listed;
@@ -63,18 +86,31 @@ struct GivenFrame : CheckedDrawing {
     VkRect2D part{{0, 0}, {kCheckedWidth, kCheckedHeight}};
 };
 
-using ChangeGiven = std::function<
-    void(GivenFrame&, int frame, const CheckedDrawing& before, const CheckedDrawing& after)>;
-
 struct CheckCase {
     std::string name;
     std::string sentence; ///< part of one; empty: none may come
-    ChangeGiven change;
-    bool isStill = false; ///< the camera stands still in all frames
-    uint32_t viewCount = 1;
+    std::function<void(GivenFrame&)> change;
     std::string orthographicSentence{}; ///< in place of `sentence`; empty: that
-    bool needsMovers = false;           ///< rigid ones, in view
-    bool isUneven = false;              ///< the last frame is twice as long after the one before
+    bool isStill = false;               ///< the camera stands still in all frames
+    uint32_t viewCount = 1;
+    bool needsMovers = false; ///< rigid ones, in view
+    bool isUneven = false;    ///< the last frame is twice as long after the one before
+};
+
+/// Gathers cases; the one that is returned may be changed until the next.
+struct Cases {
+    CheckCase& operator()(
+        const std::string& name, const char* sentence, std::function<void(GivenFrame&)> change
+    ) {
+        return all.emplace_back(CheckCase{name, sentence, std::move(change)});
+    }
+
+    /// Of a host that is right.
+    CheckCase& operator()(const std::string& name, std::function<void(GivenFrame&)> change) {
+        return (*this)(name, "", std::move(change));
+    }
+
+    std::vector<CheckCase> all;
 };
 
 /// Named for gtest's sake.
@@ -84,8 +120,6 @@ void PrintTo(const CheckScene& scene, std::ostream* stream);
 [[nodiscard]] std::vector<CheckScene> listCheckScenes();
 /// What hosts get wrong, with part of the sentence that says so.
 [[nodiscard]] const std::vector<CheckCase>& listMistakes();
-/// The same of what "resolved" reads besides.
-[[nodiscard]] const std::vector<CheckCase>& listMotionMistakes();
 /// What hosts may do; the first is the plainest.
 [[nodiscard]] const std::vector<CheckCase>& listRightHosts();
 
@@ -123,5 +157,42 @@ class CheckerHost : public EmbeddedTest, public testing::WithParamInterface<Chec
     std::deque<CheckedDrawing> mDrawn; ///< each half a frame after the one before
     CheckedDrawing mUneven;            ///< the last frame, where it is longer
 };
+
+// Changes of what a host hands to the checker that several cases share.
+
+/// To units in which vectors are so many times as long.
+void scaleVectors(GivenFrame& given, const glm::vec2& factor);
+
+/// Takes the camera's part out of the vectors.
+void keepObjectsOnly(GivenFrame& given);
+
+/// Stores depth with far at 1, at 1000 m where the camera is perspective.
+void storeForwardDepth(GivenFrame& given);
+/// Gives cameras of that depth.
+void declareForwardDepth(GivenFrame& given);
+
+/// Stores depth along the view.
+void storeLinearDepth(GivenFrame& given, float unitsPerMetre);
+
+/// Another jitter in each frame.
+void declareJitter(GivenFrame& given);
+/// Draws with it, and leaves it in the vectors.
+void leaveJitter(GivenFrame& given);
+
+/// Turns the cameras of each frame away from those of the frame before.
+void turnAway(GivenFrame& given);
+
+/// Share of the time between the frames at a shutter time: 0 the frame before, 1 this one.
+[[nodiscard]] double shareAt(const GivenFrame& given, double shutterTime);
+
+/// Keys of the frame before and of this one, as a host has them that knows no others.
+void giveKeys(GivenFrame& given);
+/// Keys at these shutter times.
+void giveKeysAt(GivenFrame& given, const std::vector<double>& times);
+/// A matrix for each key, of each listed mover that does not deform, and keys if there are none.
+void giveMatrices(GivenFrame& given);
+
+/// Keeps part of the picture only, which the lens does not lie in the middle of.
+void cutOut(GivenFrame& given, const VkRect2D& part);
 
 } // namespace shutter::test

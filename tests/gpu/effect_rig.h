@@ -32,6 +32,19 @@ struct EffectRig {
 [[nodiscard]] gpu::ComputePipelineDesc describeScalePipeline();
 [[nodiscard]] gpu::Pipeline makeScalePipeline(gpu::Device& device);
 
+/// Motion right and down in pixels, and depth, of each pixel.
+/// \param at of a pixel's x and y, a vec3
+template <class At> image::Image makeMotion(uint32_t width, uint32_t height, const At& at) {
+    image::Image motion(width, height, 4);
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            const math::vec3 value = at(x, y);
+            for (uint32_t c = 0; c < 3; ++c)
+                motion.at(x, y, c) = value[int(c)];
+        }
+    return motion;
+}
+
 /// One value in all four channels.
 [[nodiscard]] image::Image makePicture(uint32_t width, uint32_t height, float value);
 /// Half floats, so that a colour image holds the picture itself.

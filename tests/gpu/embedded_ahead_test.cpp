@@ -1,92 +1,58 @@
 // SPDX-License-Identifier: MIT
 // What a host learns and prepares before its frames, and what it is told after them: memory,
-// pipelines, times and counters, the budget, presets.
-#include "engine/gpu/frame.h"
-#include "engine/gpu/vulkan.h"
+// pipelines, times and counters, the budget.
 #include "engine/math/transform.h"
-#include "modules/motion_blur/c_interface/shutter_motion_blur.h"
-#include "modules/motion_blur/presets.h"
 #include "tests/gpu/embedding_host.h"
-#include "tests/support/picture.h"
 
-#include <cstring>
 #include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace shutter {
 namespace {
 
 using motion_blur::EmbeddedMotionBlur;
-using motion_blur::getMethod;
 using motion_blur::HostInputs;
 using motion_blur::HostPlan;
 using motion_blur::MotionBlurSettings;
-using test::kNothing;
-using test::kSampled;
-using test::kWritten;
 
-/// Counts what the library asks the driver for: its functions are pointers.
-struct Asked {
+/// Counts what the library asks the driver for while it lives: its functions are pointers.
+template <auto pointer> class Asked;
+
+template <class... Args, VkResult(VKAPI_PTR** pointer)(Args...)> class Asked<pointer> {
+  public:
     Asked() {
-        sAsked = this;
-        mPipelines = vkCreateComputePipelines;
-        mAllocate = vkAllocateMemory;
-        vkCreateComputePipelines = countPipelines;
-        vkAllocateMemory = countAllocations;
+        sNext = *pointer;
+        sCount = 0;
+        *pointer = [](Args... args) {
+            ++sCount;
+            return sNext(args...);
+        };
     }
 
-    ~Asked() {
-        vkCreateComputePipelines = mPipelines;
-        vkAllocateMemory = mAllocate;
-    }
+    ~Asked() { *pointer = sNext; }
 
     Asked(const Asked&) = delete;
     Asked& operator=(const Asked&) = delete;
 
-    uint32_t pipelines = 0;
-    uint32_t allocations = 0;
+    [[nodiscard]] uint32_t count() const { return sCount; }
 
   private:
-    static VkResult VKAPI_CALL countPipelines(
-        VkDevice device,
-        VkPipelineCache cache,
-        uint32_t count,
-        const VkComputePipelineCreateInfo* infos,
-        const VkAllocationCallbacks* callbacks,
-        VkPipeline* pipelines
-    ) {
-        sAsked->pipelines += count;
-        return sAsked->mPipelines(device, cache, count, infos, callbacks, pipelines);
-    }
-
-    static VkResult VKAPI_CALL countAllocations(
-        VkDevice device,
-        const VkMemoryAllocateInfo* info,
-        const VkAllocationCallbacks* callbacks,
-        VkDeviceMemory* memory
-    ) {
-        ++sAsked->allocations;
-        return sAsked->mAllocate(device, info, callbacks, memory);
-    }
-
-    static inline Asked* sAsked = nullptr;
-    PFN_vkCreateComputePipelines mPipelines;
-    PFN_vkAllocateMemory mAllocate;
+    static inline VkResult(VKAPI_PTR* sNext)(Args...) = nullptr;
+    static inline uint32_t sCount = 0;
 };
 
 /// A host's images for every method, and a frame in which all of the picture moves.
 struct Host : test::HostFrame {
     Host(gpu::Device& device, uint32_t w, uint32_t h)
-        : HostFrame(device, w, h), ids(test::makeImage(device, "ids", VK_FORMAT_R32_UINT, w, h)),
+        : HostFrame(device, w, h),
           normal(test::makeImage(device, "normal", VK_FORMAT_R16G16B16A16_SFLOAT, w, h)),
           key{1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, double(w) / h, 0.1)} {}
 
     [[nodiscard]] HostInputs inputs() const {
         HostInputs in = HostFrame::inputs();
-        in.entityId = {ids.handle(), kWritten, kSampled};
-        in.normal = {normal.handle(), kWritten, kSampled};
+        in.entityId = ids();
+        in.normal = {normal.handle(), test::kWritten, test::kSampled};
         in.motion.keys = {&key, 1};
         in.motion.movers = {&mover, 1};
         in.motion.rowCount = 1;
@@ -108,25 +74,16 @@ struct Host : test::HostFrame {
 
     void recordClears(VkCommandBuffer commands) const {
         HostFrame::recordClears(commands);
-        const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        const VkClearColorValue none{};
-        for (const gpu::Image* image : {&ids, &normal}) {
-            test::moveOn(commands, image->handle(), kNothing, kWritten);
-            vkCmdClearColorImage(commands, image->handle(), kWritten.layout, &none, 1, &all);
-        }
+        test::clear(commands, normal, {});
     }
 
-    gpu::Image ids;
     gpu::Image normal;
     motion_blur::HostCameraKey key;
     motion_blur::HostMover mover{0, {}};
 };
 
 MotionBlurSettings settingsOf(const char* method) {
-    MotionBlurSettings settings;
-    settings.method = &getMethod(method);
-    settings.sampleCount = 7;
-    return settings;
+    return test::settingsOf(method, 7);
 }
 
 /// Of a host without ids, in whose world nothing moves by itself.
@@ -152,12 +109,11 @@ class EmbeddedAhead : public test::EmbeddedTest {
         const HostInputs& in,
         const MotionBlurSettings& settings
     ) {
-        gpu::Frame frame(device());
-        frame.begin();
-        host.recordClears(frame.commands());
-        core::Status done = blur.record(frame.commands(), slot, in, settings);
-        frame.submit();
-        frame.wait();
+        core::Status done;
+        submit([&](VkCommandBuffer commands) {
+            host.recordClears(commands);
+            done = blur.record(commands, slot, in, settings);
+        });
         return done;
     }
 
@@ -190,8 +146,7 @@ TEST_F(EmbeddedAhead, MemoryIsToldWithinATenthOfWhatIsHeld) {
 TEST_F(EmbeddedAhead, APlanThatCannotBeRecordedIsRefused) {
     const auto refuse = [](const HostPlan& plan, const std::string& part) {
         const auto told = EmbeddedMotionBlur::estimateMemory(describeHost(), plan);
-        ASSERT_FALSE(told.ok());
-        EXPECT_NE(told.error().message.find(part), std::string::npos) << told.error().message;
+        test::expectRefusal(told ? core::Status() : core::Status(told.error()), part);
     };
     HostPlan plan = planOf("resolved", 64, 0);
     refuse(plan, "the size is 64 x 0");
@@ -220,14 +175,17 @@ TEST_F(EmbeddedAhead, RecordMakesNoPipelinesAfterAWarmUpAndLaterNoMemory) {
                 const core::Status done = blur->warmUp(plan);
                 ASSERT_TRUE(done.ok()) << done.error().message;
             }
-            Asked asked;
-            for (uint32_t frame = 0; frame < 4; ++frame)
-                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok());
-            EXPECT_EQ(asked.pipelines, 0u);
-            asked.allocations = 0;
-            for (uint32_t frame = 0; frame < 2; ++frame)
-                ASSERT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok());
-            EXPECT_EQ(asked.allocations, 0u);
+            const auto drawFrames = [&](uint32_t count) {
+                for (uint32_t frame = 0; frame < count; ++frame)
+                    EXPECT_TRUE(draw(*blur, host, frame % 2, host.inputs(plan), plan.settings).ok()
+                    );
+            };
+            const Asked<&vkCreateComputePipelines> pipelines;
+            drawFrames(4);
+            EXPECT_EQ(pipelines.count(), 0u);
+            const Asked<&vkAllocateMemory> allocations;
+            drawFrames(2);
+            EXPECT_EQ(allocations.count(), 0u);
         }
 }
 
@@ -284,82 +242,6 @@ TEST_F(EmbeddedAhead, ABudgetGivesUpQualityUntilItIsKept) {
     in.budget.milliseconds = 1e6; // a new budget begins anew
     ASSERT_TRUE(draw(*blur, host, 0, in, settingsOf("resolved")).ok());
     EXPECT_EQ(blur->report(0).value().gaveUp, "");
-}
-
-TEST_F(EmbeddedAhead, EachPresetRunsInCAndOffIsACopy) {
-    ShutterBlurDevice described = shutterBlurDefaultDevice();
-    described.physical = device().physical();
-    described.device = device().handle();
-    described.queueFamily = device().queueFamily();
-    described.measures = VK_TRUE;
-    ShutterBlur* blur = nullptr;
-    ASSERT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS);
-    const Host host(device(), 96, 64);
-    for (const motion_blur::Preset& preset : motion_blur::listPresets()) {
-        SCOPED_TRACE(preset.name);
-        const test::Picture output(device(), "output", {96, 64});
-        gpu::Frame frame(device());
-        frame.begin();
-        host.recordClears(frame.commands());
-        ShutterBlurInputs in = shutterBlurDefaultInputs();
-        in.width = 96;
-        in.height = 64;
-        const auto give =
-            [](VkImage image, const graph::OutsideUse& before, const graph::OutsideUse& after) {
-                ShutterBlurImage made{};
-                made.image = image;
-                made.before = {before.layout, before.stages, before.access};
-                made.after = {after.layout, after.stages, after.access};
-                return made;
-            };
-        in.color = give(host.color.handle(), kWritten, kSampled);
-        in.motionDepth = give(host.motionDepth.handle(), kWritten, kSampled);
-        in.entityId = give(host.ids.handle(), kWritten, kSampled);
-        in.normal = give(host.normal.handle(), kWritten, kSampled);
-        in.output = give(output.handle(), kNothing, test::kCopied);
-        ShutterBlurCameraKey key{1.0, {}, {}};
-        std::memcpy(key.viewFromWorld, &host.key.viewFromWorld, sizeof(key.viewFromWorld));
-        std::memcpy(key.clipFromView, &host.key.clipFromView, sizeof(key.clipFromView));
-        const ShutterBlurMover mover{0, nullptr};
-        in.keys = &key;
-        in.movers = &mover;
-        in.keyCount = in.moverCount = in.rowCount = 1;
-        in.recordReveal = [](void*, const ShutterBlurRevealTask*) {};
-        in.recordSamples = [](void*, const ShutterBlurSampleTask*) {};
-        ShutterBlurSettings settings = shutterBlurDefaultSettings();
-        settings.preset = preset.name;
-        EXPECT_EQ(
-            shutterBlurRecord(blur, frame.commands(), 0, &in, &settings), SHUTTER_BLUR_SUCCESS
-        ) << shutterBlurGetMessage();
-        output.recordReadback(frame.commands());
-        frame.submit();
-        frame.wait();
-        ShutterBlurReport report = shutterBlurDefaultReport();
-        ASSERT_EQ(shutterBlurGetReport(blur, 0, &report), SHUTTER_BLUR_SUCCESS)
-            << shutterBlurGetMessage();
-        EXPECT_GT(report.passCount, 0u);
-        EXPECT_EQ(report.counterCount == 0, preset.isOff);
-        if (!preset.isOff)
-            continue;
-        const image::Image picture = output.read();
-        for (size_t i = 0; i < picture.pixels.size(); i += 4)
-            ASSERT_EQ(picture.pixels[i], 3.0f) << "the input, to the bit";
-    }
-    ShutterBlurPlan plan = shutterBlurDefaultPlan();
-    plan.width = 96;
-    plan.height = 64;
-    uint64_t bytes = 0;
-    EXPECT_EQ(shutterBlurEstimateMemory(&described, &plan, &bytes), SHUTTER_BLUR_SUCCESS)
-        << shutterBlurGetMessage();
-    EXPECT_GT(bytes, 0u);
-    EXPECT_EQ(shutterBlurWarmUp(blur, &plan), SHUTTER_BLUR_SUCCESS) << shutterBlurGetMessage();
-    EXPECT_EQ(shutterBlurStartWarmUp(blur, &plan), SHUTTER_BLUR_SUCCESS);
-    VkBool32 isWarm = VK_FALSE;
-    while (!isWarm && shutterBlurIsWarm(blur, &isWarm) == SHUTTER_BLUR_SUCCESS)
-        std::this_thread::yield();
-    EXPECT_TRUE(isWarm);
-    EXPECT_EQ(shutterBlurEstimateMemory(&described, &plan, nullptr), SHUTTER_BLUR_ERROR_REFUSED);
-    shutterBlurDestroy(blur);
 }
 
 } // namespace

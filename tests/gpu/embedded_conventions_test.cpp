@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A host may bring its images in other formats, conventions and places than the motion blur's own:
 // the picture is the same, to the bit where nothing is rounded on the way.
-#include "engine/gpu/frame.h"
-#include "engine/gpu/vulkan.h"
 #include "engine/image/metrics.h"
 #include "engine/math/transform.h"
+#include "shaders/motion_blur/overlay.glsl"
 #include "tests/gpu/embedding_host.h"
-#include "tests/gpu/host_texels.h"
 #include "tests/support/picture.h"
 
 #include <glm/gtc/packing.hpp>
@@ -14,11 +12,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <deque>
-#include <functional>
 #include <limits>
 #include <random>
-#include <span>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,16 +25,12 @@ using motion_blur::HostConvention;
 using motion_blur::HostImage;
 using motion_blur::HostInputs;
 using motion_blur::MotionBlurSettings;
-using test::bytesOf;
 using test::HostTexels;
-using test::kCopied;
-using test::kSampled;
-using test::kWritten;
-using test::moveOn;
 using test::packHalf;
 
 constexpr uint32_t kWidth = 96;
 constexpr uint32_t kHeight = 64;
+constexpr VkExtent2D kExtent{kWidth, kHeight};
 constexpr float kNear = 0.125f;
 constexpr size_t kPixels = size_t{kWidth} * kHeight;
 
@@ -51,7 +43,7 @@ struct Drawn {
     std::vector<uint32_t> ids = std::vector<uint32_t>(kPixels);
 };
 
-Drawn draw() {
+Drawn paint() {
     Drawn drawn;
     std::mt19937 random(5);
     for (uint32_t y = 0; y < kHeight; ++y)
@@ -106,22 +98,25 @@ class EmbeddedConventions : public test::EmbeddedTest {
   protected:
     void SetUp() override {
         EmbeddedTest::SetUp();
-        if (IsSkipped() || HasFatalFailure())
-            return;
-        mBlur = create(describeHost());
-        drawn = draw();
-    }
-
-    void TearDown() override {
-        mTexels.clear();
-        mBlur.reset();
-        EmbeddedTest::TearDown();
+        drawn = paint();
     }
 
     template <class T>
-    const HostTexels&
-    make(VkFormat format, const std::vector<T>& values, VkExtent2D extent = {kWidth, kHeight}) {
-        return mTexels.emplace_back(device(), format, extent, bytesOf(values));
+    HostImage make(VkFormat format, const std::vector<T>& values, VkExtent2D extent = kExtent) {
+        return makeTexels(format, extent, values).describe();
+    }
+
+    /// The values around the picture's in a larger image.
+    template <class T>
+    HostImage makePart(
+        VkFormat format,
+        const std::vector<T>& inner,
+        const T& outside,
+        VkExtent2D whole,
+        VkRect2D area
+    ) {
+        return makeTexels(format, whole, surround(inner, outside, whole, area.offset))
+            .describe(area);
     }
 
     /// Whether images of the format may be used so.
@@ -132,15 +127,14 @@ class EmbeddedConventions : public test::EmbeddedTest {
     }
 
     HostImage color() {
-        return make(VK_FORMAT_R16G16B16A16_SFLOAT, convert<uint64_t>(drawn.color, packHalf))
-            .describe();
+        return make(VK_FORMAT_R16G16B16A16_SFLOAT, convert<uint64_t>(drawn.color, packHalf));
     }
 
     HostImage ownMotionDepth() {
         std::vector<glm::vec4> texels;
         for (size_t i = 0; i < kPixels; ++i)
             texels.emplace_back(drawn.motion[i], drawn.metres[i], 0.0f);
-        return make(VK_FORMAT_R32G32B32A32_SFLOAT, texels).describe();
+        return make(VK_FORMAT_R32G32B32A32_SFLOAT, texels);
     }
 
     HostInputs ownInputs() {
@@ -157,8 +151,8 @@ class EmbeddedConventions : public test::EmbeddedTest {
         HostInputs inputs = ownInputs();
         inputs.motionDepth = {};
         HostConvention& convention = inputs.convention;
-        convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, drawn.motion).describe();
-        convention.depth.image = make(VK_FORMAT_R32_SFLOAT, drawn.metres).describe();
+        convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, drawn.motion);
+        convention.depth.image = make(VK_FORMAT_R32_SFLOAT, drawn.metres);
         convention.depth.isLinear = true;
         convention.depth.skyValue = 1.0e9f;
         convention.scales.exposureShare = 1.0f;
@@ -185,37 +179,12 @@ class EmbeddedConventions : public test::EmbeddedTest {
         return inputs;
     }
 
-    /// Runs the effect, and what is recorded behind it.
-    void
-    run(const HostInputs& inputs,
-        const MotionBlurSettings& settings,
-        const std::function<void(VkCommandBuffer)>& behind) {
-        gpu::Frame frame(device());
-        frame.begin();
-        for (const HostTexels& texels : mTexels)
-            texels.record(frame.commands());
-        const core::Status done = mBlur->record(frame.commands(), 0, inputs, settings);
-        EXPECT_TRUE(done.ok()) << done.error().message;
-        if (done)
-            behind(frame.commands());
-        frame.submit();
-        frame.wait();
-    }
-
-    /// Draws into an image of the picture's size.
-    image::Image blur(HostInputs inputs, const MotionBlurSettings& settings = test::gather()) {
-        const test::Picture output(device(), "output", {kWidth, kHeight});
-        inputs.output = {output.handle(), test::kNothing, kCopied};
-        run(inputs, settings, [&](VkCommandBuffer commands) { output.recordReadback(commands); });
-        return output.read();
-    }
-
     /// Draws with `inputs` as they are, and reads what `target` holds then.
     template <class T> std::vector<T> blurInto(const HostTexels& target, const HostInputs& inputs) {
         const VkExtent2D extent = target.extent();
         const size_t count = size_t{extent.width} * extent.height;
         const gpu::Buffer copy(device(), "copy", count * sizeof(T), 0, gpu::MemoryUse::Readback);
-        run(inputs, test::gather(), [&](VkCommandBuffer commands) {
+        run(inputs, test::gather(), 0, [&](VkCommandBuffer commands) {
             test::copyToBuffer(commands, target.image(), copy);
         });
         std::vector<T> texels(count);
@@ -249,8 +218,6 @@ class EmbeddedConventions : public test::EmbeddedTest {
     }
 
     Drawn drawn;
-    std::unique_ptr<motion_blur::EmbeddedMotionBlur> mBlur;
-    std::deque<HostTexels> mTexels;
 };
 
 void expectNear(const image::Image& made, const image::Image& own, double psnrDb) {
@@ -259,20 +226,20 @@ void expectNear(const image::Image& made, const image::Image& own, double psnrDb
 }
 
 TEST_F(EmbeddedConventions, VectorsAndDepthApartGiveTheSameBits) {
-    const image::Image own = blur(ownInputs());
-    EXPECT_TRUE(test::sameBits(blur(conventionInputs()), own));
+    const image::Image own = draw(ownInputs());
+    EXPECT_TRUE(test::sameBits(draw(conventionInputs()), own));
     EXPECT_FALSE(test::sameBits(
         own,
         [&] {
             HostInputs cut = conventionInputs();
             cut.convention.scales.isCut = true;
-            return blur(cut);
+            return draw(cut);
         }()
     )) << "nothing was blurred";
 }
 
 TEST_F(EmbeddedConventions, EachFormatOfVectorsAndEachSignIsTheSamePicture) {
-    const image::Image own = blur(ownInputs());
+    const image::Image own = draw(ownInputs());
 
     struct Case {
         std::string name;
@@ -292,26 +259,23 @@ TEST_F(EmbeddedConventions, EachFormatOfVectorsAndEachSignIsTheSamePicture) {
         });
         HostInputs inputs = conventionInputs();
         inputs.convention.vectors.pixelsPerUnit = one.pixelsPerUnit;
-        inputs.convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors).describe();
-        expectNear(blur(inputs), own, 70.0);
-        inputs.convention.vectors.image = make(VK_FORMAT_R32G32B32A32_SFLOAT, wide).describe();
-        expectNear(blur(inputs), own, 70.0);
+        inputs.convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, vectors);
+        expectNear(draw(inputs), own, 70.0);
+        inputs.convention.vectors.image = make(VK_FORMAT_R32G32B32A32_SFLOAT, wide);
+        expectNear(draw(inputs), own, 70.0);
         inputs.convention.vectors.image =
-            make(VK_FORMAT_R16G16B16A16_SFLOAT, convert<uint64_t>(wide, packHalf)).describe();
-        expectNear(blur(inputs), own, 50.0);
+            make(VK_FORMAT_R16G16B16A16_SFLOAT, convert<uint64_t>(wide, packHalf));
+        expectNear(draw(inputs), own, 50.0);
         inputs.convention.vectors.image =
-            make(
-                VK_FORMAT_R16G16_SFLOAT,
-                convert<uint32_t>(
-                    vectors, [](const glm::vec2& value) { return glm::packHalf2x16(value); }
-                )
-            ).describe();
-        expectNear(blur(inputs), own, 50.0);
+            make(VK_FORMAT_R16G16_SFLOAT, convert<uint32_t>(vectors, [](const glm::vec2& value) {
+                     return glm::packHalf2x16(value);
+                 }));
+        expectNear(draw(inputs), own, 50.0);
     }
 }
 
 TEST_F(EmbeddedConventions, EachFormatOfDepthIsTheSamePicture) {
-    const image::Image own = blur(ownInputs());
+    const image::Image own = draw(ownInputs());
     // Powers of two: near / metres is exact.
     const auto raw = convert<float>(drawn.metres, [](float metres) {
         return metres < 1.0e9f ? kNear / metres : 0.0f;
@@ -321,67 +285,99 @@ TEST_F(EmbeddedConventions, EachFormatOfDepthIsTheSamePicture) {
     for (const VkFormat format :
          {VK_FORMAT_D32_SFLOAT, VK_FORMAT_R32_SFLOAT, VK_FORMAT_D32_SFLOAT_S8_UINT}) {
         SCOPED_TRACE(gpu::nameFormat(format));
-        inputs.convention.depth.image = make(format, raw).describe();
-        EXPECT_TRUE(test::sameBits(blur(inputs), own));
+        inputs.convention.depth.image = make(format, raw);
+        EXPECT_TRUE(test::sameBits(draw(inputs), own));
     }
     inputs.convention.depth.image =
-        make(
-            VK_FORMAT_D16_UNORM,
-            convert<uint16_t>(raw, [](float value) { return uint16_t(value * 65535.0f + 0.5f); })
-        ).describe();
-    expectNear(blur(inputs), own, 60.0);
+        make(VK_FORMAT_D16_UNORM, convert<uint16_t>(raw, [](float value) {
+                 return uint16_t(value * 65535.0f + 0.5f);
+             }));
+    expectNear(draw(inputs), own, 60.0);
 }
 
 TEST_F(EmbeddedConventions, PartsOfLargerImagesGiveTheSameBitsAndTouchNothingElse) {
-    const image::Image own = blur(ownInputs());
+    const image::Image own = draw(ownInputs());
     constexpr VkExtent2D kWhole{kWidth + 37, kHeight + 21};
-    constexpr VkRect2D kArea{{29, 13}, {kWidth, kHeight}};
+    constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
     const auto halves = convert<uint64_t>(drawn.color, packHalf);
     const uint64_t bright = packHalf(glm::vec4(900.0f));
     HostInputs inputs = conventionInputs();
-    inputs.color =
-        make(VK_FORMAT_R16G16B16A16_SFLOAT, surround(halves, bright, kWhole, kArea.offset), kWhole)
-            .describe(kArea);
-    inputs.convention.vectors.image =
-        make(
-            VK_FORMAT_R32G32_SFLOAT,
-            surround(drawn.motion, glm::vec2(30.0f), kWhole, kArea.offset),
-            kWhole
-        )
-            .describe(kArea);
-    inputs.convention.depth.image =
-        make(VK_FORMAT_R32_SFLOAT, surround(drawn.metres, 0.5f, kWhole, kArea.offset), kWhole)
-            .describe(kArea);
-    EXPECT_TRUE(test::sameBits(blur(inputs), own));
+    HostConvention& convention = inputs.convention;
+    const auto useArea = [&](VkRect2D area) {
+        const glm::vec2 far(30.0f);
+        convention.vectors.image =
+            makePart(VK_FORMAT_R32G32_SFLOAT, drawn.motion, far, kWhole, area);
+        convention.depth.image = makePart(VK_FORMAT_R32_SFLOAT, drawn.metres, 0.5f, kWhole, area);
+        inputs.color = makePart(kHalf, halves, bright, kWhole, {area.offset, kExtent});
+        EXPECT_TRUE(test::sameBits(draw(inputs), own));
+    };
+    useArea({{37, 21}, {0, 0}}); // the rest of the extent
+    constexpr VkRect2D kArea{{29, 13}, kExtent};
+    useArea(kArea);
 
     const std::vector<uint64_t> blank(size_t{kWhole.width} * kWhole.height, bright);
-    const HostTexels& target = mTexels.emplace_back(
-        device(), VK_FORMAT_R16G16B16A16_SFLOAT, kWhole, bytesOf(blank), VK_IMAGE_USAGE_STORAGE_BIT
-    );
+    const HostTexels& target = makeTexels(kHalf, kWhole, blank, VK_IMAGE_USAGE_STORAGE_BIT);
     inputs.output = target.describe(kArea);
     expectPart(target, inputs, kArea, blank, own);
     // In place, too.
     const auto whole = surround(halves, bright, kWhole, kArea.offset);
-    const HostTexels& colors = mTexels.emplace_back(
-        device(), VK_FORMAT_R16G16B16A16_SFLOAT, kWhole, bytesOf(whole), VK_IMAGE_USAGE_STORAGE_BIT
-    );
+    const HostTexels& colors = makeTexels(kHalf, kWhole, whole, VK_IMAGE_USAGE_STORAGE_BIT);
     inputs.color = colors.describe(kArea);
     inputs.output = {};
     expectPart(colors, inputs, kArea, whole, own);
 }
 
+TEST_F(EmbeddedConventions, ALayerIsBlurredLikeAnImageOfItsOwnAndTheOthersStay) {
+    const image::Image own = draw(ownInputs());
+    const image::Image sharp = [&] {
+        HostInputs off = ownInputs();
+        off.isOff = true;
+        return draw(off);
+    }();
+    mTexels.clear();
+    const HostInputs alone = ownInputs(); // whose texels are copied into layers
+    const test::TwoLayers color(device(), alone.color.format, kExtent);
+    const test::TwoLayers motion(device(), alone.motionDepth.format, kExtent);
+    const test::TwoLayers output(device(), alone.color.format, kExtent);
+    const std::array<test::Picture, 2> made{
+        test::Picture(device(), {kWidth, kHeight}), test::Picture(device(), {kWidth, kHeight})};
+    submit([&](VkCommandBuffer commands) {
+        color.copyFrom(commands, mTexels[0].staging(), 1);
+        motion.copyFrom(commands, mTexels[1].staging(), 1);
+        output.copyFrom(commands, mTexels[0].staging(), 0);
+        // Layer 0 is somebody else's, in a layout of its own.
+        color.move(commands, test::kNothing, test::kCopied, 0);
+        motion.move(commands, test::kNothing, test::kCopied, 0);
+        output.move(commands, test::kWritten, test::kCopied, 0);
+        HostInputs inputs = alone;
+        inputs.color.image = color.image;
+        inputs.motionDepth.image = motion.image;
+        inputs.output = {output.image, test::kNothing, test::kCopied};
+        inputs.color.layer = inputs.motionDepth.layer = inputs.output.layer = 1;
+        const core::Status done = mBlur->record(commands, 0, inputs, test::gather());
+        EXPECT_TRUE(done.ok()) << done.error().message;
+        for (uint32_t layer = 0; layer < 2; ++layer) {
+            const VkImage to = made[layer].handle();
+            const VkImageCopy region = test::wholeCopy(kWidth, kHeight, layer);
+            test::moveOn(commands, to, test::kNothing, test::kWritten);
+            vkCmdCopyImage(
+                commands, output.image, test::kCopied.layout, to, test::kWritten.layout, 1, &region
+            );
+            test::moveOn(commands, to, test::kWritten, test::kCopied);
+            made[layer].recordReadback(commands);
+        }
+    });
+    EXPECT_TRUE(test::sameBits(made[1].read(), own));
+    EXPECT_TRUE(test::sameBits(made[0].read(), sharp));
+}
+
 TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
-    const image::Image own = blur(ownInputs());
+    const image::Image own = draw(ownInputs());
     HostInputs inputs = ownInputs();
-    const HostTexels& wide = mTexels.emplace_back(
-        device(),
-        VK_FORMAT_R32G32B32A32_SFLOAT,
-        VkExtent2D{kWidth, kHeight},
-        bytesOf(drawn.color),
-        VK_IMAGE_USAGE_STORAGE_BIT
-    );
+    const HostTexels& wide =
+        makeTexels(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent, drawn.color, VK_IMAGE_USAGE_STORAGE_BIT);
     inputs.color = wide.describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs), own));
+    EXPECT_TRUE(test::sameBits(draw(inputs), own));
     const auto inPlace = blurInto<glm::vec4>(wide, inputs);
     EXPECT_EQ(std::memcmp(inPlace.data(), own.pixels.data(), kPixels * sizeof(glm::vec4)), 0);
 
@@ -391,11 +387,9 @@ TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
     const auto packed = convert<uint32_t>(drawn.color, [](const glm::vec4& value) {
         return glm::packF2x11_1x10(glm::vec3(value));
     });
-    const HostTexels& small = mTexels.emplace_back(
-        device(), kPacked, VkExtent2D{kWidth, kHeight}, bytesOf(packed), VK_IMAGE_USAGE_STORAGE_BIT
-    );
+    const HostTexels& small = makeTexels(kPacked, kExtent, packed, VK_IMAGE_USAGE_STORAGE_BIT);
     inputs.color = small.describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs), own));
+    EXPECT_TRUE(test::sameBits(draw(inputs), own));
     const auto stored = blurInto<uint32_t>(small, inputs);
     size_t wrong = 0;
     for (size_t i = 0; i < kPixels; ++i) {
@@ -409,9 +403,7 @@ TEST_F(EmbeddedConventions, ColoursOfOtherFormatsAreBlurredAlike) {
 }
 
 TEST_F(EmbeddedConventions, SmallIdsServeResolved) {
-    MotionBlurSettings settings;
-    settings.method = &motion_blur::getMethod("resolved");
-    settings.sampleCount = 5;
+    const MotionBlurSettings settings = test::settingsOf("resolved", 5);
     const motion_blur::HostCameraKey key{
         1.0, glm::dmat4(1.0), math::clipFromViewPerspective(1.0, 1.5, double(kNear))};
     const std::array<motion_blur::HostMover, 2> movers{{{7, {}}, {200, {}}}};
@@ -419,25 +411,23 @@ TEST_F(EmbeddedConventions, SmallIdsServeResolved) {
     inputs.motion.keys = {&key, 1};
     inputs.motion.rowCount = 201;
     inputs.motion.movers = movers;
-    inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids).describe();
-    const image::Image own = blur(inputs, settings);
-    ASSERT_FALSE(test::sameBits(own, blur(ownInputs())));
+    inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids);
+    const image::Image own = draw(inputs, settings);
+    ASSERT_FALSE(test::sameBits(own, draw(ownInputs())));
     inputs.noEntity = 255;
-    inputs.entityId =
-        make(
-            VK_FORMAT_R8_UINT, convert<uint8_t>(drawn.ids, [](uint32_t id) { return uint8_t(id); })
-        ).describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs, settings), own));
+    inputs.entityId = make(VK_FORMAT_R8_UINT, convert<uint8_t>(drawn.ids, [](uint32_t id) {
+                               return uint8_t(id);
+                           }));
+    EXPECT_TRUE(test::sameBits(draw(inputs, settings), own));
     inputs.noEntity = 0xFFFF;
-    inputs.entityId = make(
-                          VK_FORMAT_R16_UINT,
-                          convert<uint16_t>(drawn.ids, [](uint32_t id) { return uint16_t(id); })
-    ).describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs, settings), own));
+    inputs.entityId = make(VK_FORMAT_R16_UINT, convert<uint16_t>(drawn.ids, [](uint32_t id) {
+                               return uint16_t(id);
+                           }));
+    EXPECT_TRUE(test::sameBits(draw(inputs, settings), own));
 }
 
 TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
-    const image::Image own = blur(ownInputs());
+    const image::Image own = draw(ownInputs());
     std::vector<glm::vec2> vectors;
     std::vector<float> metres;
     for (uint32_t y = 0; y < kHeight; y += 2) // all borders lie between such pixels
@@ -448,24 +438,10 @@ TEST_F(EmbeddedConventions, VectorsOfASmallerPictureServeALargerOne) {
     constexpr VkExtent2D kHalf{kWidth / 2, kHeight / 2};
     HostInputs inputs = conventionInputs();
     inputs.convention.vectors.image =
-        make(VK_FORMAT_R32G32_SFLOAT, vectors, kHalf).describe({{0, 0}, kHalf});
+        makeTexels(VK_FORMAT_R32G32_SFLOAT, kHalf, vectors).describe({{0, 0}, kHalf});
     // All of its extent is used, where no area is said.
-    inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT, metres, kHalf).describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs), own));
-}
-
-TEST_F(EmbeddedConventions, WithoutAnAreaTheRestOfTheExtentIsUsed) {
-    const image::Image own = blur(ownInputs());
-    constexpr VkExtent2D kWhole{kWidth + 24, kHeight + 10};
-    constexpr VkOffset2D kAt{24, 10};
-    HostInputs inputs = conventionInputs();
-    inputs.convention.vectors.image =
-        make(VK_FORMAT_R32G32_SFLOAT, surround(drawn.motion, glm::vec2(99.0f), kWhole, kAt), kWhole)
-            .describe({kAt, {0, 0}});
-    inputs.convention.depth.image =
-        make(VK_FORMAT_R32_SFLOAT, surround(drawn.metres, 0.01f, kWhole, kAt), kWhole)
-            .describe({kAt, {0, 0}});
-    EXPECT_TRUE(test::sameBits(blur(inputs), own));
+    inputs.convention.depth.image = make(VK_FORMAT_R32_SFLOAT, metres, kHalf);
+    EXPECT_TRUE(test::sameBits(draw(inputs), own));
 }
 
 TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
@@ -473,94 +449,138 @@ TEST_F(EmbeddedConventions, WithoutVectorsTheCameraAloneMoves) {
     HostConvention& convention = inputs.convention;
     const glm::vec2 still{0.0f};
     convention.vectors.image =
-        make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still)).describe();
+        make(VK_FORMAT_R32G32_SFLOAT, std::vector<glm::vec2>(kPixels, still));
     convention.vectors.lackCamera = true;
-    const image::Image zeros = blur(inputs);
+    const image::Image zeros = draw(inputs);
     convention.vectors = {};
-    EXPECT_TRUE(test::sameBits(blur(inputs), zeros));
+    EXPECT_TRUE(test::sameBits(draw(inputs), zeros));
     HostInputs cut = inputs;
     cut.convention.scales.isCut = true;
-    const image::Image sharp = blur(cut);
+    const image::Image sharp = draw(cut);
     EXPECT_FALSE(test::sameBits(sharp, zeros)) << "nothing was blurred";
     // There is no camera before a cut, as in a host's first frame.
     cut.convention.cameras.viewFromWorldBefore = math::dmat4(0.0);
     cut.convention.cameras.clipFromViewBefore = math::dmat4(0.0);
     cut.convention.cameras.jitterPxBefore.x = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(test::sameBits(blur(cut), sharp));
+    EXPECT_TRUE(test::sameBits(draw(cut), sharp));
     // No vectors hold no jitter, whatever is said of them.
     convention.cameras.jitterPx = {0.25, -0.25};
     convention.cameras.jitterPxBefore = {-0.25, 0.25};
-    const image::Image jittered = blur(inputs);
+    const image::Image jittered = draw(inputs);
     convention.vectors.haveJitter = true;
-    EXPECT_TRUE(test::sameBits(blur(inputs), jittered));
+    EXPECT_TRUE(test::sameBits(draw(inputs), jittered));
 }
 
 TEST_F(EmbeddedConventions, AMethodThatFollowsTheCameraAloneReadsNoVectors) {
     HostInputs inputs = movingCameraInputs();
     HostConvention& convention = inputs.convention;
-    MotionBlurSettings settings = test::gather();
-    settings.method = &motion_blur::getMethod("rosado2007");
-    const image::Image own = blur(inputs, settings);
+    const MotionBlurSettings settings = test::settingsOf("rosado2007");
+    const image::Image own = draw(inputs, settings);
     const std::vector<glm::vec2> wrong(kPixels, glm::vec2(3.0f, -8.0f));
-    convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, wrong).describe();
-    EXPECT_TRUE(test::sameBits(blur(inputs, settings), own));
+    convention.vectors.image = make(VK_FORMAT_R32G32_SFLOAT, wrong);
+    EXPECT_TRUE(test::sameBits(draw(inputs, settings), own));
     convention.cameras.viewFromWorldBefore = convention.cameras.viewFromWorld;
-    EXPECT_FALSE(test::sameBits(blur(inputs, settings), own)) << "nothing was blurred";
-}
-
-TEST_F(EmbeddedConventions, MoversWithNeitherVectorsNorMatricesAreRefused) {
-    HostInputs inputs = conventionInputs();
-    const test::Picture output(device(), "output", {kWidth, kHeight});
-    inputs.output = {output.handle(), test::kNothing, kCopied};
-    inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids).describe();
-    useReversedInfiniteCamera(inputs.convention);
-    inputs.convention.vectors = {};
-    const motion_blur::HostCameraKey key{
-        1.0, math::dmat4(1.0), inputs.convention.cameras.clipFromView};
-    const std::array matrices{math::dmat4(1.0)};
-    const std::array<motion_blur::HostMover, 2> movers{{{7, matrices}, {200, {}}}};
-    inputs.motion.keys = {&key, 1};
-    inputs.motion.rowCount = 201;
-    inputs.motion.movers = movers;
-    MotionBlurSettings settings = test::gather();
-    settings.method = &motion_blur::getMethod("resolved");
-    gpu::Frame frame(device());
-    frame.begin();
-    const core::Status done = mBlur->record(frame.commands(), 0, inputs, settings);
-    frame.submit();
-    frame.wait();
-    ASSERT_FALSE(done.ok());
-    EXPECT_EQ(
-        done.error().message,
-        "motion blur: movers[1] has no worldFromObject, and vectors.image "
-        "is "
-        "null: without vectors each mover needs matrices"
-    );
+    EXPECT_FALSE(test::sameBits(draw(inputs, settings), own)) << "nothing was blurred";
 }
 
 TEST_F(EmbeddedConventions, SharesOfTheMotionAreBlurred) {
     HostInputs half = conventionInputs();
     half.convention.scales.exposureShare = 0.5f;
-    const image::Image own = blur(half);
-    EXPECT_FALSE(test::sameBits(own, blur(conventionInputs())));
+    const image::Image own = draw(half);
+    EXPECT_FALSE(test::sameBits(own, draw(conventionInputs())));
     HostInputs generated = conventionInputs();
     generated.convention.scales.displayedPerRendered = 2.0f;
-    EXPECT_TRUE(test::sameBits(blur(generated), own));
+    EXPECT_TRUE(test::sameBits(draw(generated), own));
     HostInputs shares = conventionInputs();
     shares.convention.scales.perPixel =
-        make(VK_FORMAT_R32_SFLOAT, std::vector<float>(kPixels, 0.5f)).describe();
-    EXPECT_TRUE(test::sameBits(blur(shares), own));
+        make(VK_FORMAT_R32_SFLOAT, std::vector<float>(kPixels, 0.5f));
+    EXPECT_TRUE(test::sameBits(draw(shares), own));
     // A weapon of the host's, held still in the picture.
     std::vector<uint8_t> kept(kPixels, 255);
     for (size_t i = 0; i < kPixels; ++i)
         if (drawn.ids[i] == 7)
             kept[i] = 0;
     HostInputs weapon = conventionInputs();
-    weapon.convention.scales.perPixel = make(VK_FORMAT_R8_UNORM, kept).describe();
+    weapon.convention.scales.perPixel = make(VK_FORMAT_R8_UNORM, kept);
     for (size_t i = 0; i < kPixels; ++i)
         if (drawn.ids[i] == 7)
             drawn.motion[i] = {0.0f, 0.0f};
-    EXPECT_TRUE(test::sameBits(blur(weapon), blur(ownInputs())));
+    EXPECT_TRUE(test::sameBits(draw(weapon), draw(ownInputs())));
+}
+
+/// HostInputs::showsInputs: panels cover a part of the picture, and of nothing else. The left half
+/// moves by itself; the camera stands still.
+class EmbeddedOverlay : public EmbeddedConventions {
+  protected:
+    void SetUp() override {
+        EmbeddedConventions::SetUp();
+        for (size_t i = 0; i < kPixels; ++i) {
+            const bool isLeft = i % kWidth < kWidth / 2;
+            drawn.color[i] = {0.25f, 0.5f, 0.75f, 1.0f};
+            drawn.motion[i] = {isLeft ? 12.0f : 0.0f, 0.0f};
+            drawn.metres[i] = 5.0f;
+            drawn.ids[i] = isLeft ? 3 : 0xFFFFFFFF;
+        }
+    }
+
+    HostInputs describe() {
+        HostInputs inputs = conventionInputs();
+        inputs.entityId = make(VK_FORMAT_R32_UINT, drawn.ids);
+        inputs.observe = [this](graph::Graph& graph, const auto&, const auto&) {
+            mPasses.clear();
+            for (const graph::PassRecord& pass : graph.passes())
+                mPasses.insert(pass.name);
+        };
+        return inputs;
+    }
+
+    static void giveCameras(HostInputs& inputs) {
+        auto& cameras = inputs.convention.cameras;
+        cameras.areGiven = true;
+        cameras.clipFromView = cameras.clipFromViewBefore =
+            math::clipFromViewPerspective(1.0, 1.5, 0.1);
+    }
+
+    /// Which panels differ from a picture without any; kPanelCount: what no panel covers.
+    static std::set<uint32_t> findChanged(const image::Image& with, const image::Image& without) {
+        std::set<uint32_t> changed;
+        for (uint32_t i = 0; i < kPixels; ++i)
+            for (uint32_t channel = 0; channel < with.channels; ++channel)
+                if (with.pixels[i * with.channels + channel] !=
+                    without.pixels[i * with.channels + channel])
+                    changed.insert(shader::panelAt({i % kWidth, i / kWidth}, {kWidth, kHeight}));
+        return changed;
+    }
+
+    std::set<std::string> mPasses;
+};
+
+TEST_F(EmbeddedOverlay, CoversThePanelsWhoseInputsThereAreAndNothingElse) {
+    HostInputs inputs = describe();
+    const image::Image without = draw(inputs);
+    EXPECT_FALSE(mPasses.contains("show inputs"));
+    inputs.showsInputs = true;
+    EXPECT_EQ(
+        findChanged(draw(inputs), without),
+        (std::set<uint32_t>{shader::kPanelMotion, shader::kPanelDepth, shader::kPanelIds})
+    );
+    giveCameras(inputs);
+    EXPECT_EQ(
+        findChanged(draw(inputs), without),
+        (std::set<uint32_t>{
+            shader::kPanelMotion,
+            shader::kPanelCamera,
+            shader::kPanelObjects,
+            shader::kPanelDepth,
+            shader::kPanelWorld,
+            shader::kPanelIds,
+            shader::kPanelJitter})
+    );
+    inputs.showsInputs = false;
+    EXPECT_TRUE(test::sameBits(draw(inputs), without));
+    inputs.showsInputs = true;
+    inputs.isOff = true;
+    (void)draw(inputs); // a copy of the colours
 }
 
 } // namespace

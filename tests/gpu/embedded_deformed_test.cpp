@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Hosts that deform their meshes themselves and say by pixel where they go.
-#include "engine/gpu/frame.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "engine/math/transform.h"
 #include "game/replay/replay_run.h"
-#include "tests/gpu/host_texels.h"
+#include "tests/gpu/embedding_host.h"
 #include "tests/support/picture.h"
 #include "tests/support/temp_folder.h"
 
@@ -24,7 +23,6 @@ using math::vec4;
 using motion_blur::HostCameraKey;
 using motion_blur::HostInputs;
 using motion_blur::HostMover;
-using motion_blur::MotionBlurSettings;
 using test::HostTexels;
 
 constexpr VkExtent2D kSize{128, 48};
@@ -139,21 +137,19 @@ class EmbeddedDeformed : public test::EmbeddedTest {
         for (uint32_t index = 0; index < 2; ++index) {
             const Raster& raster = index == 0 ? last : now;
             gpu::Frame frame(device());
-            const test::Picture picture(device(), "picture", {kSize.width, kSize.height});
+            const test::Picture picture(device(), {kSize.width, kSize.height});
             frame.begin();
             const VkCommandBuffer commands = frame.commands();
             raster.record(commands);
             HostInputs inputs = describe(world, raster, given);
-            inputs.output = {picture.handle(), test::kNothing, test::kCopied};
+            inputs.output = picture.output();
             inputs.motion.followsLast = index == 1;
             if (index == 1 && given.lastDeformed) {
                 last.deformed.record(commands);
                 inputs.lastDeformedMotion = last.deformed.describe();
             }
-            MotionBlurSettings settings;
-            settings.method = &motion_blur::getMethod(given.method);
-            settings.sampleCount = kInstants;
-            const core::Status done = blur->record(commands, index, inputs, settings);
+            const core::Status done =
+                blur->record(commands, index, inputs, test::settingsOf(given.method, kInstants));
             EXPECT_TRUE(done.ok()) << done.error().message;
             picture.recordReadback(commands);
             frame.submit();
@@ -254,22 +250,17 @@ TEST_F(EmbeddedDeformed, WithoutTheirMotionDeformersAreNoWorseThanGathered) {
 }
 
 TEST_F(EmbeddedDeformed, TheLastRastersMotionAloneIsRefused) {
-    motion_blur::HostDevice host = describeHost();
-    const auto blur = create(host);
     const Raster raster(device(), kUncovering, 1.0);
     HostInputs inputs = describe(kUncovering, raster, {.deformed = false});
-    const test::Picture picture(device(), "picture", {kSize.width, kSize.height});
-    inputs.output = {picture.handle(), test::kNothing, test::kCopied};
+    const test::Picture picture(device(), {kSize.width, kSize.height});
+    inputs.output = picture.output();
     inputs.lastDeformedMotion = raster.deformed.describe();
-    MotionBlurSettings settings;
-    settings.method = &motion_blur::getMethod("resolved");
-    gpu::Frame frame(device());
-    frame.begin();
-    const core::Status done = blur->record(frame.commands(), 0, inputs, settings);
-    ASSERT_FALSE(done.ok());
-    EXPECT_NE(done.error().message.find("deformedMotion.image is null"), std::string::npos);
-    frame.submit();
-    frame.wait();
+    submit([&](VkCommandBuffer commands) {
+        test::expectRefusal(
+            mBlur->record(commands, 0, inputs, test::settingsOf("resolved")),
+            "deformedMotion.image is null"
+        );
+    });
 }
 
 TEST_F(EmbeddedDeformed, ReplayGivesTheHostsPicture) {

@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: MIT
 // A dump holds all that a host's picture depends on: replayed, it gives the picture bit for bit.
-#include "engine/gpu/frame.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/math/transform.h"
 #include "game/replay/dump_reader.h"
 #include "game/replay/replay_run.h"
 #include "tests/gpu/embedding_host.h"
-#include "tests/gpu/host_texels.h"
 #include "tests/support/picture.h"
+#include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
-#include <unistd.h>
 #include <vector>
 
 namespace shutter {
@@ -28,9 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using motion_blur::HostInputs;
-using test::HostTexels;
-using test::kCopied;
-using test::kNothing;
 
 constexpr uint32_t kWidth = 64;
 constexpr uint32_t kHeight = 48;
@@ -42,26 +35,21 @@ class EmbeddedDump : public test::EmbeddedTest {
   protected:
     void SetUp() override {
         EmbeddedTest::SetUp();
-        if (IsSkipped() || HasFatalFailure())
+        if (!mBlur)
             return;
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        mFolder = fs::temp_directory_path() / fmt::format("dump_{}_{}", info->name(), ::getpid());
-        fs::remove_all(mFolder);
         mHost = describeHost();
         mHost.message = [this](std::string_view sentence) { mTold.emplace_back(sentence); };
         mBlur = create(mHost);
     }
 
-    void TearDown() override {
-        mTexels.clear();
-        mBlur.reset();
-        std::error_code ignored;
-        fs::remove_all(mFolder, ignored);
-        EmbeddedTest::TearDown();
+    /// In a folder of its own.
+    void startDump(uint32_t frames) {
+        fs::remove_all(mFolder);
+        ASSERT_TRUE(mBlur->dump(mFolder, frames).ok());
     }
 
     template <class T> motion_blur::HostImage make(VkFormat format, const std::vector<T>& values) {
-        return mTexels.emplace_back(device(), format, kExtent, test::bytesOf(values)).describe();
+        return makeTexels(format, kExtent, values).describe();
     }
 
     HostInputs describe(uint32_t frame) {
@@ -127,26 +115,23 @@ class EmbeddedDump : public test::EmbeddedTest {
         return inputs;
     }
 
-    image::Image draw(uint32_t frame, const motion_blur::MotionBlurSettings& settings) {
+    image::Image
+    draw(uint32_t frame, const motion_blur::MotionBlurSettings& settings = test::gather()) {
         mTexels.clear();
-        HostInputs inputs = describe(frame);
-        const test::Picture output(device(), "output", {kWidth, kHeight});
-        inputs.output = {output.handle(), kNothing, kCopied};
-        gpu::Frame commands(device());
-        commands.begin();
-        for (const HostTexels& texels : mTexels)
-            texels.record(commands.commands());
-        const core::Status done = mBlur->record(commands.commands(), frame % 2, inputs, settings);
-        EXPECT_TRUE(done.ok()) << done.error().message;
-        output.recordReadback(commands.commands());
-        commands.submit();
-        commands.wait();
+        image::Image picture = EmbeddedTest::draw(describe(frame), settings, frame % 2);
         EXPECT_TRUE(mBlur->markDone(frame % 2).ok());
-        return output.read();
+        return picture;
+    }
+
+    core::Status replay() const {
+        replay::ReplayOptions options;
+        options.folder = mFolder;
+        return replay::replay(options, device());
     }
 
     /// Replays the dump and expects pictures to be those, bit for bit.
     void expectReplayed(const std::vector<image::Image>& pictures) {
+        EXPECT_TRUE(mTold.empty()) << mTold.front();
         for (size_t i = 0; i < pictures.size(); ++i) {
             auto frame = replay::readDumpManifest(mFolder / fmt::format("frame_{:04}.json", i));
             ASSERT_TRUE(frame.ok()) << frame.error().message;
@@ -175,11 +160,10 @@ class EmbeddedDump : public test::EmbeddedTest {
         }
     }
 
-    fs::path mFolder;
+    test::TempFolder mTemp;
+    fs::path mFolder = mTemp.path() / "dump";
     motion_blur::HostDevice mHost;
     std::vector<std::string> mTold;
-    std::unique_ptr<motion_blur::EmbeddedMotionBlur> mBlur;
-    std::deque<HostTexels> mTexels;
     std::array<motion_blur::HostCameraKey, 2> mKeys;
     std::array<motion_blur::HostMover, 1> mMovers{{{3, {}}}};
     std::vector<math::ResponsePoint> mResponse;
@@ -191,34 +175,66 @@ class EmbeddedDump : public test::EmbeddedTest {
     bool mIsPacked = false; ///< vectors and depth are one image
 };
 
-TEST_F(EmbeddedDump, ReplayGivesTheHostsPicture) {
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    const image::Image picture = draw(0, test::gather());
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    expectReplayed({picture});
-}
-
-TEST_F(EmbeddedDump, ReplayHasTheResponseOfTheShutter) {
-    const image::Image box = draw(0, test::gather());
-    mResponse = {{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    const image::Image picture = draw(0, test::gather());
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    EXPECT_FALSE(test::sameBits(picture, box));
-    expectReplayed({picture});
-}
-
 motion_blur::MotionBlurSettings resolvedWithNoise() {
-    motion_blur::MotionBlurSettings settings;
-    settings.method = &motion_blur::getMethod("resolved");
-    settings.sampleCount = 5;
+    motion_blur::MotionBlurSettings settings = test::settingsOf("resolved", 5);
     settings.instantNoise = motion_blur::InstantNoise::Turning;
     return settings;
 }
 
+TEST_F(EmbeddedDump, ReplayGivesTheHostsPictureWhateverItsInputs) {
+    struct Case {
+        const char* name;
+        motion_blur::MotionBlurSettings settings;
+        std::function<void()> change;
+    };
+
+    const std::vector<math::ResponsePoint> points{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}};
+    for (const Case& one : std::vector<Case>{
+             {"plain", test::gather(), [] {}},
+             {"a response", test::gather(), [&] { mResponse = points; }},
+             {"a table without an address",
+              test::gather(),
+              [&] {
+                  mResponse.clear();
+                  mTable = math::makeResponseTable(points);
+              }},
+             {"no camera before a cut",
+              test::gather(),
+              [&] {
+                  mTable.reset();
+                  mIsCut = true;
+              }},
+             {"the same, packed", test::gather(), [&] { mIsPacked = true; }},
+             {"the camera alone, packed", test::settingsOf("rosado2007"), [&] { mIsCut = false; }},
+             {"the camera alone", test::settingsOf("rosado2007"), [&] { mIsPacked = false; }},
+             {"no vectors", resolvedWithNoise(), [&] { mHasVectors = false; }}}) {
+        SCOPED_TRACE(one.name);
+        one.change();
+        startDump(1);
+        expectReplayed({draw(0, one.settings)});
+    }
+    mHasVectors = true;
+    const image::Image box = draw(0);
+    mResponse = points;
+    EXPECT_FALSE(test::sameBits(draw(0), box));
+}
+
+TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
+    for (const bool isStillWorld : {false, true}) {
+        mBlur = create(mHost);
+        mHasVectors = mHasIds = !isStillWorld;
+        mFirstKey = isStillWorld ? -1.0 : 0.0; // the frame before's
+        (void)draw(0, resolvedWithNoise()); // before the dump: its first frame must not look it up
+        startDump(2);
+        const image::Image second = draw(1, resolvedWithNoise());
+        const image::Image third = draw(2, resolvedWithNoise());
+        expectReplayed({second, third});
+    }
+}
+
 TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    const image::Image picture = draw(0, test::gather());
+    startDump(1);
+    const image::Image picture = draw(0);
     replay::ReplayOptions options;
     options.folder = mFolder;
     options.out = mFolder / "shown_%d.exr"; // the number of the dump's frame
@@ -237,72 +253,9 @@ TEST_F(EmbeddedDump, ReplayCanShowTheInputsThatTheHostDidNot) {
     EXPECT_FALSE(sameRow(kHeight / 8));
 }
 
-TEST_F(EmbeddedDump, ReplayFollowsTheCameraAlone) {
-    motion_blur::MotionBlurSettings settings;
-    settings.method = &motion_blur::getMethod("rosado2007");
-    for (const bool isPacked : {false, true}) {
-        mIsPacked = isPacked;
-        fs::remove_all(mFolder);
-        ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-        const image::Image picture = draw(0, settings);
-        EXPECT_TRUE(mTold.empty()) << mTold.front();
-        expectReplayed({picture});
-    }
-}
-
-TEST_F(EmbeddedDump, ReplayNeedsNoCameraBeforeACut) {
-    mIsCut = true;
-    for (const bool isPacked : {false, true}) {
-        mIsPacked = isPacked;
-        fs::remove_all(mFolder);
-        ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-        const image::Image picture = draw(0, test::gather());
-        EXPECT_TRUE(mTold.empty()) << mTold.front();
-        expectReplayed({picture});
-    }
-}
-
-TEST_F(EmbeddedDump, ReplayLeavesATableWithoutAnAddressAlone) {
-    const std::array<math::ResponsePoint, 3> points{{{0.0, 0.0}, {0.25, 1.0}, {1.0, 0.0}}};
-    mTable = math::makeResponseTable(points);
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    const image::Image picture = draw(0, test::gather());
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    expectReplayed({picture});
-}
-
-TEST_F(EmbeddedDump, ReplayGivesThePictureOfAHostWithoutVectors) {
-    mHasVectors = false;
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    const image::Image picture = draw(0, resolvedWithNoise());
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    expectReplayed({picture});
-}
-
-TEST_F(EmbeddedDump, ReplayGivesThePictureOfAStillWorldWithoutIds) {
-    mHasVectors = mHasIds = false;
-    mFirstKey = -1.0; // the frame before's
-    (void)draw(0, resolvedWithNoise());
-    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
-    const image::Image first = draw(1, resolvedWithNoise());
-    const image::Image second = draw(2, resolvedWithNoise());
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    expectReplayed({first, second});
-}
-
-TEST_F(EmbeddedDump, ReplayGivesResolvedWithItsHistory) {
-    const motion_blur::MotionBlurSettings settings = resolvedWithNoise();
-    (void)draw(0, settings); // before the dump: its first frame must not look it up
-    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
-    const image::Image second = draw(1, settings);
-    const image::Image third = draw(2, settings);
-    EXPECT_TRUE(mTold.empty()) << mTold.front();
-    expectReplayed({second, third});
-}
-
 TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    (void)draw(0, test::gather());
+    startDump(1);
+    (void)draw(0);
     const auto refuse = [&](const char* method, const std::string& sentence) {
         replay::ReplayOptions options;
         options.folder = mFolder;
@@ -310,9 +263,7 @@ TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
             settings.method = &motion_blur::getMethod(method);
             return {};
         };
-        const core::Status done = replay::replay(options, device());
-        ASSERT_FALSE(done.ok());
-        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+        test::expectRefusal(replay::replay(options, device()), sentence);
     };
     refuse("hybrid", "the dump holds nothing of what lies behind, since the host ran gather");
     refuse("resolved", "the dump holds no camera keys, since the host ran gather");
@@ -320,30 +271,27 @@ TEST_F(EmbeddedDump, AMethodThatTheDumpCannotServeIsRefused) {
 }
 
 TEST_F(EmbeddedDump, WhatIsWrongWithADumpIsTold) {
+    startDump(1);
     const auto refuse = [&](const fs::path& folder, uint32_t frames, const char* sentence) {
-        const core::Status done = mBlur->dump(folder, frames);
-        ASSERT_FALSE(done.ok());
-        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+        test::expectRefusal(mBlur->dump(folder, frames), sentence);
     };
-    refuse(mFolder, 0, "frames is 0, it must be 1 to 9999");
-    refuse("/proc/none", 1, "'/proc/none'");
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
     refuse(mFolder, 1, "1 recording of the last dump is to come");
-    (void)draw(0, test::gather());
+    (void)draw(0);
     refuse(mFolder, 1, "holds a dump already");
+    refuse(mFolder / "other", 0, "frames is 0, it must be 1 to 9999");
+    refuse("/proc/none", 1, "'/proc/none'");
     // A folder that went away.
+    startDump(2);
     fs::remove_all(mFolder);
-    ASSERT_TRUE(mBlur->dump(mFolder, 2).ok());
-    fs::remove_all(mFolder);
-    (void)draw(0, test::gather());
+    (void)draw(0);
     ASSERT_EQ(mTold.size(), 1u);
     EXPECT_NE(mTold[0].find("No such file or directory"), std::string::npos) << mTold[0];
     ASSERT_TRUE(mBlur->dump(mFolder, 1).ok()) << "the last one has ended";
 }
 
 TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
-    ASSERT_TRUE(mBlur->dump(mFolder, 1).ok());
-    (void)draw(0, test::gather());
+    startDump(1);
+    (void)draw(0);
     const fs::path file = mFolder / "frame_0000.json";
     const auto bytes = io::readFileBytes(file, 1 << 20);
     ASSERT_TRUE(bytes.ok());
@@ -354,11 +302,7 @@ TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
         ASSERT_NE(at, std::string::npos) << from;
         changed.replace(at, from.size(), to);
         ASSERT_TRUE(io::writeFileText(file, changed).ok());
-        replay::ReplayOptions options;
-        options.folder = mFolder;
-        const core::Status done = replay::replay(options, device());
-        ASSERT_FALSE(done.ok()) << to;
-        EXPECT_NE(done.error().message.find(sentence), std::string::npos) << done.error().message;
+        test::expectRefusal(replay(), sentence);
     };
     refuse("frame_0000_color.bin", "../frame_0000_color.bin", "the name of a file in the folder");
     refuse("frame_0000_color.bin", "/etc/passwd", "the name of a file in the folder");
@@ -372,12 +316,7 @@ TEST_F(EmbeddedDump, HostileDumpsAreRefusedInOneSentence) {
     refuse(text.substr(text.size() / 2), "", "frame_0000.json:");
     ASSERT_TRUE(io::writeFileText(file, text).ok());
     fs::resize_file(mFolder / "frame_0000_color.bin", 100);
-    replay::ReplayOptions options;
-    options.folder = mFolder;
-    const core::Status done = replay::replay(options, device());
-    ASSERT_FALSE(done.ok());
-    EXPECT_NE(done.error().message.find("has 100 bytes"), std::string::npos)
-        << done.error().message;
+    test::expectRefusal(replay(), "has 100 bytes");
 }
 
 } // namespace

@@ -1,48 +1,30 @@
 // SPDX-License-Identifier: MIT
-// A host that has the engine's own G-buffer.
+// A host that has the engine's own G-buffer, and tells how the engine's own scene moves.
 #pragma once
 
+#include "engine/extract/frame_view.h"
 #include "engine/graph/execute.h"
 #include "engine/graph/graph.h"
-#include "engine/render/post_effect.h"
-#include "modules/motion_blur/embedding/embedded_motion_blur.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/history.h"
+#include "modules/motion_blur/plugin/motion_blur_plugin.h"
 #include "tests/gpu/c_inputs.h"
 #include "tests/gpu/embedding_host.h"
+#include "tests/kit/scene_builder.h"
+#include "tests/support/picture.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shutter::test {
-
-inline VkImageCopy wholeCopy(uint32_t width, uint32_t height) {
-    VkImageCopy region{};
-    region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.dstSubresource = region.srcSubresource;
-    region.extent = {width, height, 1};
-    return region;
-}
-
-/// An effect of the C interface on the device of the tests.
-class BlurOfC {
-  public:
-    explicit BlurOfC(const gpu::Device& device) {
-        ShutterBlurDevice described = shutterBlurDefaultDevice();
-        described.physical = device.physical();
-        described.device = device.handle();
-        described.queueFamily = device.queueFamily();
-        EXPECT_EQ(shutterBlurCreate(&described, &blur), SHUTTER_BLUR_SUCCESS)
-            << shutterBlurGetMessage();
-    }
-
-    ~BlurOfC() { shutterBlurDestroy(blur); }
-
-    BlurOfC(const BlurOfC&) = delete;
-    BlurOfC& operator=(const BlurOfC&) = delete;
-
-    ShutterBlur* blur = nullptr;
-};
 
 /// What scene::ResponseShape::Triangle is.
 [[nodiscard]] inline std::vector<math::ResponsePoint> triangleResponse() {
@@ -60,8 +42,8 @@ class HostOfTheGBuffer : public render::PostEffect {
         const motion_blur::MotionBlurSettings& settings,
         math::uvec2 sizePx
     )
-        : output(device, "output", sizePx), inPlace(device, "in place", sizePx),
-          byC(device, "by C", sizePx), mBlur(blur), mSettings(settings) {}
+        : output(device, sizePx), inPlace(device, sizePx), byC(device, sizePx), mBlur(blur),
+          mSettings(settings) {}
 
     Picture output;
     Picture inPlace;
@@ -153,7 +135,7 @@ class HostOfTheGBuffer : public render::PostEffect {
 
   private:
     void recordBoth(VkCommandBuffer commands, motion_blur::HostInputs& inputs) {
-        inputs.output = {output.handle(), kNothing, kCopied};
+        inputs.output = output.output();
         const core::Status other = mBlur.record(commands, 0, inputs, mSettings);
         ASSERT_TRUE(other.ok()) << other.error().message;
         output.recordReadback(commands);
@@ -178,7 +160,7 @@ class HostOfTheGBuffer : public render::PostEffect {
 
     void recordByC(VkCommandBuffer commands, const motion_blur::HostInputs& inputs) {
         motion_blur::HostInputs given = inputs;
-        given.output = {byC.handle(), kNothing, kCopied};
+        given.output = byC.output();
         given.responsePoints = responseForC;
         const InputsForC told(given);
         ShutterBlurSettings settings = shutterBlurDefaultSettings();
@@ -197,5 +179,216 @@ class HostOfTheGBuffer : public render::PostEffect {
     motion_blur::EmbeddedMotionBlur& mBlur;
     motion_blur::MotionBlurSettings mSettings;
 };
+
+/// The camera when the shutter closes, and, as the one before, when it opens.
+[[nodiscard]] inline motion_blur::HostCameras
+tellCameras(const scene::World& world, const extract::ViewRequest& view) {
+    const scene::ExposureMotion moves(world, view.camera, view.exposure);
+    const auto& camera = world.registry.get<scene::Camera>(view.camera);
+    const auto viewAt = [&](double s) { return glm::inverse(moves.worldFromCamera(s)); };
+    const auto clipAt = [&](double s) {
+        return extract::makeProjection(camera, moves.cameraYFov(s), view);
+    };
+    motion_blur::HostCameras cameras;
+    cameras.areGiven = true;
+    cameras.viewFromWorld = viewAt(1.0);
+    cameras.clipFromView = clipAt(1.0);
+    cameras.viewFromWorldBefore = viewAt(0.0);
+    cameras.clipFromViewBefore = clipAt(0.0);
+    return cameras;
+}
+
+/// The engine's own scene, as a host would tell of it.
+class Teller {
+  public:
+    /// \param instantCount of the method
+    /// \param times of the keys besides the raster instant; empty: the instants
+    explicit Teller(uint32_t instantCount, std::vector<double> times = {})
+        : mInstantCount(instantCount), mTimes(std::move(times)) {}
+
+    void tell(
+        const scene::World& world,
+        const render::PostContext& context,
+        motion_blur::HostMotion& motion
+    ) {
+        const scene::ExposureInterval& exposure = context.view.exposure;
+        const scene::ExposureMotion moves(world, context.view.camera, exposure);
+        const std::vector<double> times = listTimes(exposure);
+        const auto& camera = world.registry.get<scene::Camera>(context.view.camera);
+        mKeys.clear();
+        for (const double s : times)
+            mKeys.push_back(
+                {s,
+                 glm::inverse(moves.worldFromCamera(s)),
+                 extract::makeProjection(camera, moves.cameraYFov(s), context.view)}
+            );
+        tellMovers(context.frame, moves, times, exposure.rasterTime);
+        mResponse = scene::computeResponseTable(exposure.shutter.response);
+        motion.keys = mKeys;
+        motion.rowCount = uint32_t(context.frame.worldFromObject.size());
+        motion.movers = mMovers;
+        motion.rowIds = mIds;
+        motion.response = mResponse ? &*mResponse : nullptr;
+        motion.followsLast = followsLast;
+    }
+
+    bool followsLast = false;
+    bool knowsMovers = true; ///< false: only which rows move, not how
+
+  private:
+    [[nodiscard]] std::vector<double> listTimes(const scene::ExposureInterval& exposure) const {
+        std::vector<double> times = mTimes;
+        if (times.empty())
+            for (uint32_t i = 0; i < mInstantCount; ++i)
+                times.push_back(
+                    scene::invertResponse(exposure.shutter.response, (i + 0.5) / mInstantCount)
+                );
+        if (std::find(times.begin(), times.end(), exposure.rasterTime) == times.end())
+            times.push_back(exposure.rasterTime);
+        std::sort(times.begin(), times.end());
+        return times;
+    }
+
+    /// All rows, whether they move or not.
+    void tellMovers(
+        const extract::ExtractedFrame& frame,
+        const scene::ExposureMotion& moves,
+        const std::vector<double>& times,
+        double rasterTime
+    ) {
+        const size_t rows = frame.worldFromObject.size();
+        mMovers.clear();
+        mIds.clear();
+        mMatrices.assign(rows, {});
+        for (uint32_t row = 0; row < rows; ++row) {
+            const ecs::Entity entity = frame.entityHandles[row];
+            mIds.push_back(uint64_t(entity.generation) << 32u | entity.index);
+            if (!knowsMovers && moves.mayObjectMove(entity))
+                mMovers.push_back({row, {}});
+            if (!knowsMovers)
+                continue;
+            for (const double s : times)
+                mMatrices[row].push_back(
+                    s == rasterTime ? frame.worldFromObject[row] : moves.worldFromObject(entity, s)
+                );
+            mMovers.push_back({row, mMatrices[row]});
+        }
+    }
+
+    uint32_t mInstantCount;
+    std::vector<double> mTimes;
+    std::vector<motion_blur::HostCameraKey> mKeys;
+    std::vector<motion_blur::HostMover> mMovers;
+    std::vector<std::vector<math::dmat4>> mMatrices;
+    std::vector<uint64_t> mIds;
+    std::optional<shader::ResponseTable> mResponse;
+};
+
+inline constexpr math::uvec2 kStageSize{96, 64};
+
+struct StagedFrame {
+    render::FrameResult result; ///< its colour is the plugin's
+    image::Image output;
+    image::Image inPlace;
+    image::Image byC;
+};
+
+/// Draws frames of a scene with a host's blur before the plugin's.
+class BlurStage {
+  public:
+    /// \param described its scene layout is the renderer's where it has rays
+    BlurStage(
+        gpu::Device& device,
+        SceneBuilder& scene,
+        motion_blur::HostDevice described,
+        const motion_blur::MotionBlurSettings& hosts,
+        const motion_blur::MotionBlurSettings& plugins
+    )
+        : renderer(device, scene.world.assets), blur(create(renderer, described)),
+          host(device, *blur, hosts, kStageSize), mScene(scene),
+          mPlugin(device, renderer.scene(), plugins), mC(device) {
+        host.blurOfC = mC.blur;
+        shutter.exposureSeconds = 0.5;
+        request.view.camera = scene.camera;
+        request.view.width = kStageSize.x;
+        request.view.height = kStageSize.y;
+    }
+
+    render::FrameResult drawSharp() {
+        return renderer.renderFrame(mScene.world, makeRequest(), {}).value();
+    }
+
+    StagedFrame draw() {
+        const std::array<render::PostEffect*, 2> effects{&host, &mPlugin};
+        auto drawn = renderer.renderFrame(mScene.world, makeRequest(), effects);
+        EXPECT_TRUE(drawn.ok()) << drawn.error().message;
+        StagedFrame frame{std::move(drawn).value(), host.output.read(), host.inPlace.read(), {}};
+        if (host.blurOfC)
+            frame.byC = host.byC.read();
+        return frame;
+    }
+
+    void giveTriangle() {
+        shutter.response.shape = scene::ResponseShape::Triangle;
+        host.responseForC = triangleResponse();
+    }
+
+    /// With each frame of the host's.
+    void tellMotion(Teller& teller) {
+        host.describeMotion = [this, &teller](const render::PostContext& context, auto& motion) {
+            teller.tell(mScene.world, context, motion);
+        };
+    }
+
+    render::Renderer renderer;
+    std::unique_ptr<motion_blur::EmbeddedMotionBlur> blur;
+    HostOfTheGBuffer host;
+    scene::CameraShutter shutter;
+    render::FrameRequest request;
+    double seconds = 0.0; ///< of the frame
+    double frameSeconds = scene::kStillFrameSeconds;
+
+  private:
+    static std::unique_ptr<motion_blur::EmbeddedMotionBlur>
+    create(const render::Renderer& renderer, motion_blur::HostDevice described) {
+        if (described.rayTier != gpu::RayTier::None)
+            described.sceneLayout = renderer.scene().textureLayout();
+        return motion_blur::EmbeddedMotionBlur::create(described).value();
+    }
+
+    [[nodiscard]] render::FrameRequest makeRequest() const {
+        render::FrameRequest made = request;
+        made.view.exposure = scene::computeExposure(shutter, seconds, frameSeconds);
+        return made;
+    }
+
+    SceneBuilder& mScene;
+    motion_blur::MotionBlurPlugin mPlugin;
+    BlurOfC mC;
+};
+
+/// The host's pictures by both interfaces and in place are the plugin's, bit for bit.
+inline void expectSame(const StagedFrame& drawn) {
+    EXPECT_TRUE(sameBits(drawn.output, drawn.result.color));
+    EXPECT_TRUE(sameBits(drawn.inPlace, drawn.result.color));
+    if (drawn.byC.width > 0) {
+        EXPECT_TRUE(sameBits(drawn.byC, drawn.result.color));
+    }
+}
+
+/// Two movers that cross before a wall; the nearer one spins as it goes.
+inline void buildMovers(SceneBuilder& scene) {
+    scene.setPerspective(1.0);
+    const auto wall = scene.addTextured(scene.addWaveTexture(), true);
+    const auto front = scene.addTextured(scene.addWaveTexture(32), true);
+    scene.add(
+        makeQuad(1.2, 1.2, front), {.position = {0.2, 0.1, -3.0}, .velocity = {1.0, 0.2, 0.0}}
+    );
+    scene.add(
+        makeBox(math::dvec3(0.8), front),
+        {.position = {-1.0, -0.4, -4.0}, .velocity = {-0.2, 0.0, 0.0}, .angularVelocity = {0, 0, 1}}
+    );
+    scene.add(makeQuad(12.0, 8.0, wall), {.position = {0.0, 0.0, -6.0}});
+}
 
 } // namespace shutter::test

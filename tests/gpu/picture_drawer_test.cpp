@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures that share a view share the measurement of its cap; a method that looks at the frame
-// before gets it, whether a sequence drew it or not.
+// before gets it, whether a sequence drew it or not; and pictures on the way of a progressive
+// method.
 #include "game/shot/picture_drawer.h"
 #include "modules/bloom/bloom.h"
 #include "modules/tonemap/tonemap.h"
@@ -9,10 +10,8 @@
 #include "tests/support/picture.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <optional>
-#include <set>
-#include <string>
 #include <utility>
 
 namespace shutter {
@@ -69,24 +68,6 @@ TEST_F(PictureDrawerTest, ACapThatIsGivenIsNotMeasuredAgain) {
     EXPECT_FALSE(test::sameBits(draw(drawer, "gather"), sharp)) << "the measured cap leaves motion";
     const scene::MotionCap none{.camera = 0.0, .movers = {}};
     EXPECT_TRUE(test::sameBits(draw(drawer, "gather", 0.0, none), sharp));
-}
-
-TEST_F(PictureDrawerTest, AFrameOfASequenceIsTheFrameDrawnAlone) {
-    useShutter({.exposureSeconds = 1.0 / 30.0});
-    game::PictureDrawer inSequence(device(), *mRenderer);
-    image::Image last;
-    for (const int frame : {0, 1, 2})
-        last = draw(inSequence, "resolved", frame * mOptions.frameSeconds);
-    game::PictureDrawer alone(device(), *mRenderer);
-    EXPECT_TRUE(test::sameBits(draw(alone, "resolved", 2 * mOptions.frameSeconds), last));
-    // Drawn again, after it: the frame before is not what was drawn last.
-    EXPECT_TRUE(test::sameBits(draw(alone, "resolved", 2 * mOptions.frameSeconds), last));
-    // Another method in between leaves nothing that could be taken for a frame before.
-    EXPECT_FALSE(test::sameBits(draw(inSequence, "gather", 3 * mOptions.frameSeconds), last));
-    EXPECT_TRUE(test::sameBits(
-        draw(inSequence, "resolved", 4 * mOptions.frameSeconds),
-        draw(alone, "resolved", 4 * mOptions.frameSeconds)
-    ));
 }
 
 TEST_F(PictureDrawerTest, AFrameInWhichSomethingJumpsIsTheFrameDrawnAloneAndLeavesTheSame) {
@@ -160,29 +141,70 @@ TEST_F(PictureDrawerTest, BloomFollowsTheHighlightsOfTheLastPictureThatIsFinishe
     EXPECT_TRUE(runsBloom(0.0, true)) << "the last picture was not measured";
 }
 
-TEST_F(PictureDrawerTest, TheFrameBeforeIsDrawnForWhatIsLookedUpInItAlone) {
-    useShutter({.exposureSeconds = 1.0 / 60.0});
-    for (const char* method : {"resolved", "adaptive"}) {
-        if (method == std::string("adaptive") && !device().hasRayQuery())
-            continue;
-        game::PictureRequest picture = game::makePicture(
-            mShot, mOptions, game::makeMethod(*game::findMethod(method).value()), 0.5
-        );
-        picture.method.motionBlur.secondRaster = true;
-        picture.frame.wantTrace = true;
-        game::PictureDrawer drawer(device(), *mRenderer);
-        const auto drawn = drawer.draw(mShot.world, picture);
-        ASSERT_TRUE(drawn.ok());
-        std::array<std::set<std::string>, 2> passes;
-        for (const render::WrittenImage& image : drawn.value().trace)
-            passes.at(image.frame).insert(image.pass);
-        const auto& [before, own] = passes;
-        EXPECT_TRUE(own.contains("second G-buffer") && own.contains("resolve")) << method;
-        std::set<std::string> kept = before;
-        kept.erase("keep colour"); // listed where the kept images can be read
-        kept.erase("pack surface");
-        EXPECT_EQ(kept, std::set<std::string>{"G-buffer"}) << method;
+/// Pictures on the way of a progressive method, as a benchmark takes them.
+class Checkpoints : public PictureDrawerTest {
+  protected:
+    void SetUp() override {
+        PictureDrawerTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        if (!device().hasRayQuery())
+            GTEST_SKIP() << device().info().name << " has no ray queries";
+        useShutter({.exposureSeconds = 1.0, .phase = scene::ShutterPhase::Centre});
     }
+
+    [[nodiscard]] game::PictureRequest makeRays(uint32_t rays) const {
+        game::MethodOptions method = game::makeMethod(*game::findMethod("truth").value());
+        method.samples = rays;
+        return game::makePicture(mShot, mOptions, method, 0.0);
+    }
+};
+
+TEST_F(Checkpoints, EachIsThePictureOfThatManyRays) {
+    const auto draw = [&](uint32_t rays, const game::Checkpoints& checkpoints, uint32_t& steps) {
+        const game::PictureRequest picture = makeRays(rays);
+        steps = 0;
+        auto result = game::PictureDrawer(device(), *mRenderer)
+                          .draw(
+                              mShot.world, picture, [&] { ++steps; }, checkpoints
+                          );
+        EXPECT_TRUE(result.ok());
+        EXPECT_EQ(steps, game::PictureDrawer::countSteps(picture.method));
+        return std::move(result).value();
+    };
+    uint32_t steps = 0;
+    std::map<uint32_t, render::FrameResult> found;
+    game::Checkpoints checkpoints;
+    checkpoints.rays = {8, 1, 4, 2, 100};
+    checkpoints.onPicture = [&](uint32_t rays, const render::FrameResult& picture) {
+        found[rays] = picture;
+    };
+    const auto whole = draw(8, checkpoints, steps);
+    ASSERT_EQ(found.size(), 4u);
+    for (const auto& [rays, picture] : found) {
+        EXPECT_TRUE(test::sameBits(picture.color, draw(rays, {}, steps).color)) << rays;
+        EXPECT_EQ(picture.statistics.counters.at("rays a pixel"), rays);
+        EXPECT_EQ(picture.statistics.counters.at("rays traced"), uint64_t(rays) * 40 * 30);
+    }
+    EXPECT_LT(found.at(1).statistics.wallMilliseconds, found.at(8).statistics.wallMilliseconds)
+        << "times are summed";
+    EXPECT_TRUE(test::sameBits(whole.color, found.at(8).color));
+}
+
+TEST_F(Checkpoints, AnEarlyStopShowsTheMeanOfTheRaysThatWereTraced) {
+    game::PictureDrawer drawer(device(), *mRenderer);
+    game::PictureRequest picture = makeRays(64);
+    picture.method.error = 1.0;
+    uint32_t steps = 0;
+    const auto count = [&] { ++steps; };
+    game::Checkpoints checkpoints{{16, 32}, [](uint32_t, const render::FrameResult&) {}};
+    const auto stopped = drawer.draw(mShot.world, picture, count, checkpoints);
+    ASSERT_TRUE(stopped.ok());
+    EXPECT_EQ(steps, 64u) << "the bar is full";
+    EXPECT_EQ(stopped.value().statistics.counters.at("rays a pixel"), 16u);
+    const auto expected = drawer.draw(mShot.world, makeRays(16), count);
+    EXPECT_TRUE(test::sameBits(stopped.value().color, expected.value().color));
+    EXPECT_GT(stopped.value().statistics.measures.at("standard error"), 0.0);
 }
 
 } // namespace

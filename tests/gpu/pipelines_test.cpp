@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Pipelines that are made ahead of their use, and those of the gathers for certain taps.
+// Pipelines that are made ahead of their use, kept by a device, and made for certain taps; and the
+// formats of what is bound to them: a storage image must have the one that the shader declares.
+#include "spirv/motion_blur/reconstruct.comp.h"
+
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/frame.h"
+#include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/pipeline_key.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/params.h"
 #include "modules/motion_blur/passes/block_lists.h"
 #include "modules/motion_blur/passes/gather.h"
 #include "modules/motion_blur/passes/tap_pipelines.h"
 #include "modules/motion_blur/passes/tile_motion.h"
+#include "shaders/accumulate/accumulate_shared.h"
 #include "shaders/common/shutter_response.glsl"
 #include "shaders/motion_blur/gather_shared.h"
 #include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <thread>
-
-// clang-format off: needs <cstdint> before it
-#include "spirv/motion_blur/reconstruct.comp.h"
-
-// clang-format on
+#include <utility>
 
 namespace shutter {
 namespace {
@@ -54,7 +59,9 @@ PassParams makeParams(uint32_t taps) {
     return params;
 }
 
-TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgain) {
+TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgainAndMayGo) {
+    for (int i = 0; i < 4; ++i)
+        gpu::LazyPipeline(device(), test::describeScalePipeline()).prepare(); // nobody waits for it
     const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
     EXPECT_FALSE(pipeline.isReady());
     pipeline.prepare();
@@ -62,16 +69,8 @@ TEST_F(Pipelines, OneThatWasPreparedIsThereWithoutBeingMadeAgain) {
     const gpu::Pipeline& made = pipeline.get();
     EXPECT_NE(made.handle(), VkPipeline(VK_NULL_HANDLE));
     EXPECT_TRUE(pipeline.isReady());
-    EXPECT_EQ(&pipeline.get(), &made);
     pipeline.prepare();
     EXPECT_EQ(&pipeline.get(), &made);
-}
-
-TEST_F(Pipelines, OneThatNobodyWaitsForMayGo) {
-    for (int i = 0; i < 4; ++i) {
-        const gpu::LazyPipeline pipeline(device(), test::describeScalePipeline());
-        pipeline.prepare();
-    }
 }
 
 TEST_F(Pipelines, AFewNumbersOfTapsAreKept) {
@@ -94,50 +93,17 @@ TEST_F(Pipelines, WithoutVariantsOnePipelineServesAll) {
     EXPECT_EQ(taps.variantCount(), 0u);
 }
 
-TEST_F(Pipelines, AheadOfTimeNoFrameWaitsForAVariant) {
-    gpu::DeviceOptions options;
-    options.validate = true;
-    options.wanted = device().info().name;
-    options.pipelinesAhead = gpu::PipelinesAhead::Always;
-    const auto made = gpu::Device::create(options);
-    ASSERT_TRUE(made) << made.error().message;
-    gpu::Device& ahead = *made.value();
-    ASSERT_TRUE(ahead.makesPipelinesAhead());
-    {
-        const TapPipelines taps(ahead, describeGather(), TapVariants::Made);
-        const TapPipelines general(ahead, describeGather(), TapVariants::None);
-        const gpu::Pipeline* const first = &taps.find(makeParams(15));
-        EXPECT_EQ(taps.variantCount(), 1u);
-        // The general one stands in for as long as it takes, and no longer.
-        const gpu::Pipeline* found = first;
-        for (int i = 0; i < 2000 && found == first; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            found = &taps.find(makeParams(15));
-        }
-        EXPECT_NE(found, first);
-        EXPECT_EQ(&taps.find(makeParams(15)), found);
-        EXPECT_EQ(&taps.find(makeParams(9)), first) << "for another number it stands in again";
-    }
-    ahead.waitIdle();
-    EXPECT_EQ(ahead.validationMessageCount(), 0u);
-}
-
 // What is made for certain taps draws what the pipeline for all draws.
 
 constexpr uint32_t kWidth = 120;
 constexpr uint32_t kHeight = 72;
 
 /// Left a wall that turns evenly, right bars that pass each other.
-Image makeMotion() {
-    Image motion(kWidth, kHeight, 4);
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            const bool bar = x > kWidth / 2 && (x / 9) % 2 == 0;
-            motion.at(x, y, 0) = bar ? -11.0f : 17.0f;
-            motion.at(x, y, 1) = bar ? 4.0f : 1.0f;
-            motion.at(x, y, 2) = bar ? 2.0f : 5.0f;
-        }
-    return motion;
+Image makeBars() {
+    return test::makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+        const bool bar = x > kWidth / 2 && (x / 9) % 2 == 0;
+        return bar ? math::vec3(-11.0f, 4.0f, 2.0f) : math::vec3(17.0f, 1.0f, 5.0f);
+    });
 }
 
 Image gather(gpu::Device& device, TapVariants variants, uint32_t taps, VkDeviceAddress response) {
@@ -151,7 +117,7 @@ Image gather(gpu::Device& device, TapVariants variants, uint32_t taps, VkDeviceA
     const motion_blur::BlockSorter sorter(device);
     const motion_blur::Gather filter(device, variants);
     test::GraphRig rig(device);
-    const auto motion = rig.upload(makeMotion());
+    const auto motion = rig.upload(makeBars());
     const auto color = rig.uploadColor(test::makeNoise(kWidth, kHeight));
     const auto tiles = tileMotion.add(rig.graph, motion, params);
     const auto blocks = sorter.add(rig.graph, tiles, params, false);
@@ -163,11 +129,8 @@ Image gather(gpu::Device& device, TapVariants variants, uint32_t taps, VkDeviceA
     return rig.take(ticket);
 }
 
-float worstDifference(const Image& one, const Image& other) {
-    float worst = 0.0f;
-    for (size_t i = 0; i < one.pixels.size(); ++i)
-        worst = std::max(worst, std::abs(one.pixels[i] - other.pixels[i]));
-    return worst;
+double worstDifference(const Image& one, const Image& other) {
+    return test::computeMaxDifferenceWhere(one, other, [](auto, auto) { return true; });
 }
 
 TEST_F(Pipelines, VariantsDrawWhatThePipelineForAllDraws) {
@@ -188,13 +151,151 @@ TEST_F(Pipelines, VariantsDrawWhatThePipelineForAllDraws) {
         for (const uint32_t taps : {1u, 15u, 32u}) {
             const Image general = gather(device(), TapVariants::None, taps, response);
             const Image variant = gather(device(), TapVariants::Made, taps, response);
-            EXPECT_LE(worstDifference(general, variant), 1.0f / 1024.0f) << taps;
+            EXPECT_LE(worstDifference(general, variant), 1.0 / 1024.0) << taps;
             if (taps == 15u && response == 0)
                 box = general;
             if (taps == 15u && response != 0) {
-                EXPECT_GT(worstDifference(general, box), 0.1f) << "the response was not read";
+                EXPECT_GT(worstDifference(general, box), 0.1) << "the response was not read";
             }
         }
+}
+
+/// Tests with a device of their own.
+class OwnDevice : public test::GpuTest {
+  protected:
+    void open(uint32_t kept, gpu::PipelinesAhead ahead = {}) {
+        gpu::DeviceOptions options;
+        options.validate = true;
+        options.wanted = device().info().name;
+        options.keptPipelines = kept;
+        options.pipelinesAhead = ahead;
+        auto made = gpu::Device::create(options);
+        ASSERT_TRUE(made) << made.error().message;
+        mOwn = std::move(made).value();
+    }
+
+    void TearDown() override {
+        if (mOwn) {
+            mOwn->waitIdle();
+            EXPECT_EQ(mOwn->validationMessageCount(), 0u);
+        }
+        mOwn.reset();
+        GpuTest::TearDown();
+    }
+
+    std::unique_ptr<gpu::Device> mOwn;
+};
+
+using KeptPipelines = OwnDevice;
+
+TEST_F(KeptPipelines, TheSameIsHandedOverWithAllThatIsKnownOfItUnlessItIsInUse) {
+    open(4);
+    VkPipeline first = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    {
+        const gpu::Pipeline pipeline(*mOwn, test::describeScalePipeline());
+        first = pipeline.handle();
+        layout = pipeline.layout();
+    }
+    const gpu::Pipeline again(*mOwn, test::describeScalePipeline());
+    EXPECT_EQ(again.handle(), first);
+    EXPECT_EQ(again.layout(), layout);
+    EXPECT_EQ(again.name(), "scale");
+    EXPECT_EQ(again.bindingCount(), 2u);
+    EXPECT_NE(again.storageFormat(1), VK_FORMAT_UNDEFINED);
+    EXPECT_NE(again.setLayout(), VkDescriptorSetLayout(VK_NULL_HANDLE));
+    const auto key = gpu::makePipelineKey(test::describeScalePipeline());
+    {
+        const gpu::Pipeline other(*mOwn, test::describeScalePipeline());
+        EXPECT_NE(again.handle(), other.handle()) << "the first is in use";
+    }
+    gpu::ComputePipelineDesc desc = test::describeScalePipeline();
+    desc.name = "other";
+    const gpu::Pipeline other(*mOwn, desc);
+    const auto kept = mOwn->takePipeline(key);
+    ASSERT_TRUE(kept) << "another name is another pipeline";
+    mOwn->giveUpPipeline(key, *kept);
+}
+
+TEST_F(KeptPipelines, WithoutTheOptionNothingIsKeptButTheLayoutOfTextures) {
+    open(0);
+    { const gpu::Pipeline gone(*mOwn, test::describeScalePipeline()); }
+    EXPECT_FALSE(mOwn->keepsPipelines());
+    EXPECT_FALSE(mOwn->takePipeline(gpu::makePipelineKey(test::describeScalePipeline())));
+    EXPECT_EQ(mOwn->textureLayout(3), mOwn->textureLayout(3));
+    EXPECT_NE(mOwn->textureLayout(3), mOwn->textureLayout(4));
+}
+
+TEST_F(OwnDevice, PipelinesAheadOfTimeNoFrameWaitsForAVariant) {
+    open(0, gpu::PipelinesAhead::Always);
+    gpu::Device& ahead = *mOwn;
+    ASSERT_TRUE(ahead.makesPipelinesAhead());
+    {
+        const TapPipelines taps(ahead, describeGather(), TapVariants::Made);
+        const TapPipelines general(ahead, describeGather(), TapVariants::None);
+        const gpu::Pipeline* const first = &taps.find(makeParams(15));
+        EXPECT_EQ(taps.variantCount(), 1u);
+        // The general one stands in for as long as it takes, and no longer.
+        const gpu::Pipeline* found = first;
+        for (int i = 0; i < 2000 && found == first; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            found = &taps.find(makeParams(15));
+        }
+        EXPECT_NE(found, first);
+        EXPECT_EQ(&taps.find(makeParams(15)), found);
+        EXPECT_EQ(&taps.find(makeParams(9)), first) << "for another number it stands in again";
+    }
+}
+
+class Bindings : public test::GpuTest {};
+
+gpu::Image makeImage(gpu::Device& device, std::string name, VkFormat format) {
+    const VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    return {device, std::move(name), {8, 8, format, usage}};
+}
+
+/// What the pipeline of test::makeScalePipeline() binds.
+gpu::BindingList bind(gpu::Device& device, const gpu::Image& source, const gpu::Image& target) {
+    gpu::BindingList bindings;
+    bindings.sampled(source.view(), device.nearestSampler()).storage(target);
+    return bindings;
+}
+
+TEST_F(Bindings, AStorageImageFitsIfItsFormatIsTheShaders) {
+    gpu::Pipeline made = test::makeScalePipeline(device());
+    const gpu::Pipeline scale = std::move(made); // keeps its formats
+    const gpu::Image floats = makeImage(device(), "floats", VK_FORMAT_R32G32B32A32_SFLOAT);
+    const gpu::Image halves = makeImage(device(), "halves", VK_FORMAT_R16G16B16A16_SFLOAT);
+    EXPECT_EQ(scale.storageFormat(0), VK_FORMAT_UNDEFINED) << "sampled";
+    EXPECT_EQ(scale.storageFormat(1), VK_FORMAT_R32G32B32A32_SFLOAT);
+    EXPECT_EQ(scale.storageFormat(2), VK_FORMAT_UNDEFINED) << "not bound";
+    EXPECT_TRUE(bind(device(), halves, floats).checkFormats(scale)) << "any format may be sampled";
+    const core::Status status = bind(device(), floats, halves).checkFormats(scale);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(
+        status.error().message,
+        "the pipeline 'scale' declares binding 1 as R32G32B32A32_SFLOAT, and the image 'halves' "
+        "bound there is R16G16B16A16_SFLOAT"
+    );
+}
+
+using BindingsDeathTest = Bindings;
+
+TEST_F(BindingsDeathTest, AFrameRefusesAStorageImageOfAnotherFormat) {
+    // The driver has threads: the test runs once more in a process of its own.
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const gpu::Pipeline scale = test::makeScalePipeline(device());
+    const gpu::Image halves = makeImage(device(), "halves", VK_FORMAT_R16G16B16A16_SFLOAT);
+    const gpu::BindingList bindings = bind(device(), halves, halves);
+    const shader::AccumulateParams params{{8, 8}, 1, 1.0f, 1.0f};
+    gpu::Frame frame(device());
+    frame.begin();
+    EXPECT_DEATH(
+        frame.bind(scale, bindings, &params, sizeof(params)),
+        "the image 'halves' bound there is R16G16B16A16_SFLOAT"
+    );
+    frame.submit();
+    frame.wait();
 }
 
 } // namespace

@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: MIT
-// The filters of one layer on the device: in a centred exposure each is its publication's, written
-// down once more here in half velocities; and no input makes a value that is not finite.
+// The filters of one layer on the device: in a centred exposure each is its publication's, whose
+// loops are written down once more here in half velocities, with the weights that
+// tests/unit/motion_blur holds against the papers; and no input makes a value that is not finite.
 #include "engine/image/image.h"
 #include "modules/motion_blur/motion_blur.h"
+#include "shaders/motion_blur/guertin2014.glsl"
+#include "shaders/motion_blur/jimenez2014.glsl"
+#include "shaders/motion_blur/weights.glsl"
 #include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace shutter {
 namespace {
 
 using glm::dvec2;
 using glm::dvec3;
+using glm::vec2;
+using glm::vec3;
 using image::Image;
 using motion_blur::getMethod;
 using motion_blur::Method;
 using motion_blur::MotionBlurSettings;
+using test::makeMotion;
 
 class ScreenFilters : public test::GpuTest {};
 
@@ -99,43 +106,35 @@ Texel read(const Scene& scene, const dvec2& at) {
         value(scene.motionDepth, 2)};
 }
 
-double clamp01(double x) {
-    return std::clamp(x, 0.0, 1.0);
+/// Taps of McGuire and Guertin: where they lie along the dominant motion, of it.
+constexpr int kTaps = 15;
+
+dvec2 tapAt(int i) {
+    return 0.5 * kDominant * (-1.0 + 2.0 * (i + 1.0) / (kTaps + 1.0));
 }
 
-double cone(double distance, double reach) {
-    return reach > 0.0 ? clamp01(1.0 - distance / reach) : (distance > 0.0 ? 0.0 : 1.0);
-}
-
-double cylinder(double distance, double reach) {
-    if (reach <= 0.0)
-        return distance > 0.0 ? 0.0 : 1.0;
-    const double t = clamp01((distance - 0.95 * reach) / (0.1 * reach));
-    return 1.0 - t * t * (3.0 - 2.0 * t);
-}
-
-/// 1 where `a` is no deeper than `b`, 0 where it is by the whole extent.
-double isInFront(double a, double b) {
-    return clamp01(1.0 - (a - b) / kSoftExtent);
+/// Of the target's depth behind the sample's, in the extent over which layers mix.
+float findZ(const Texel& target, const Texel& sample) {
+    return float((target.depth - sample.depth) / kSoftExtent);
 }
 
 /// McGuire 2012, the pseudocode of the reconstruction.
 dvec3 filterMcGuire(const Scene& scene, const dvec2& centre) {
-    constexpr int kTaps = 15;
     const Texel x = read(scene, centre);
     double weight = 1.0 / std::max(glm::length(x.half), 0.5);
     dvec3 sum = x.color * weight;
     for (int i = 0; i < kTaps; ++i) {
         if (i == (kTaps - 1) / 2)
             continue;
-        const double t = -1.0 + 2.0 * (i + 1.0) / (kTaps + 1.0);
-        const dvec2 offset = 0.5 * kDominant * t;
+        const dvec2 offset = tapAt(i);
         const Texel y = read(scene, centre + offset);
-        const double distance = glm::length(offset);
-        const double alpha =
-            isInFront(y.depth, x.depth) * cone(distance, glm::length(y.half)) +
-            isInFront(x.depth, y.depth) * cone(distance, glm::length(x.half)) +
-            2.0 * cylinder(distance, glm::length(y.half)) * cylinder(distance, glm::length(x.half));
+        const double alpha = shader::sampleWeight(
+            findZ(x, y),
+            float(glm::length(offset)),
+            float(glm::length(y.half)),
+            float(glm::length(x.half)),
+            1.0f
+        );
         weight += alpha;
         sum += alpha * y.color;
     }
@@ -144,30 +143,24 @@ dvec3 filterMcGuire(const Scene& scene, const dvec2& centre) {
 
 /// Guertin 2014, its pseudocode where nothing varies: all taps along the dominant motion.
 dvec3 filterGuertin(const Scene& scene, const dvec2& centre) {
-    constexpr int kTaps = 15;
-    const dvec2 along = glm::normalize(kDominant);
+    const vec2 along(glm::normalize(kDominant));
     const Texel p = read(scene, centre);
     const double speed = glm::length(p.half);
-    dvec2 across(-along.y, along.x);
-    if (glm::dot(across, p.half) < 0.0)
-        across = -across;
-    const double share = clamp01((speed - 0.5) / 1.5);
-    const dvec2 second =
-        share > 0.0 ? glm::normalize(glm::mix(across, p.half / speed, share)) : across;
+    const float a =
+        std::abs(glm::dot(shader::centreDirection(vec2(2.0 * p.half), along, 1.5f), along));
     double weight = kTaps / (40.0 * std::max(speed, 0.5));
     dvec3 sum = p.color * weight;
     for (int i = 0; i < kTaps; ++i) {
-        const double t = -1.0 + 2.0 * (i + 1.0) / (kTaps + 1.0);
-        const dvec2 offset = 0.5 * kDominant * t;
+        const dvec2 offset = tapAt(i);
         const Texel s = read(scene, centre + offset);
-        const double distance = glm::length(offset);
-        const double sampleSpeed = glm::length(s.half);
-        const double a = std::abs(glm::dot(second, along));
-        const double b = sampleSpeed > 0.0 ? std::abs(glm::dot(s.half / sampleSpeed, along)) : 0.0;
-        const double alpha =
-            isInFront(s.depth, p.depth) * cone(distance, sampleSpeed) * b +
-            isInFront(p.depth, s.depth) * cone(distance, speed) * a +
-            2.0 * cylinder(distance, std::min(sampleSpeed, speed)) * std::max(a, b);
+        const double alpha = shader::guertinWeight(
+            findZ(p, s),
+            float(glm::length(offset)),
+            float(glm::length(s.half)),
+            float(speed),
+            a,
+            shader::alignment(vec2(s.half), along)
+        );
         weight += alpha;
         sum += alpha * s.color;
     }
@@ -179,25 +172,26 @@ dvec3 filterJimenez(const Scene& scene, const dvec2& centre) {
     constexpr int kPairs = 8;
     const Texel target = read(scene, centre);
     const double pixelsToTaps = kPairs / (0.5 * glm::length(kDominant));
+    const auto spread = [&](const Texel& texel) {
+        return float(glm::length(texel.half) * pixelsToTaps);
+    };
     dvec3 sum(0.0);
     double weight = 0.0;
     for (int i = 0; i < kPairs; ++i) {
         const dvec2 offset = 0.5 * kDominant * ((i + 0.5) / kPairs);
         const Texel pair[] = {read(scene, centre + offset), read(scene, centre - offset)};
-        double weights[2];
-        for (int k = 0; k < 2; ++k) {
-            const double z = (target.depth - pair[k].depth) / kSoftExtent;
-            const double distance = i + 0.5;
-            const double behind = clamp01(glm::length(target.half) * pixelsToTaps - distance + 1.0);
-            const double front = clamp01(glm::length(pair[k].half) * pixelsToTaps - distance + 1.0);
-            weights[k] = clamp01(0.5 - z) * behind + clamp01(0.5 + z) * front;
-        }
-        const bool deeper = pair[0].depth > pair[1].depth;
-        const bool slower = glm::length(pair[1].half) > glm::length(pair[0].half);
-        const double first = deeper && slower ? weights[1] : weights[0];
-        const double second = deeper || slower ? weights[1] : first;
-        sum += first * pair[0].color + second * pair[1].color;
-        weight += first + second;
+        vec2 weights;
+        for (int k = 0; k < 2; ++k)
+            weights[k] = shader::jimenezWeight(
+                findZ(target, pair[k]), float(i) + 0.5f, spread(pair[k]), spread(target)
+            );
+        weights = shader::mirrorWeights(
+            weights,
+            vec2(pair[0].depth, pair[1].depth),
+            vec2(glm::length(pair[0].half), glm::length(pair[1].half))
+        );
+        sum += double(weights.x) * pair[0].color + double(weights.y) * pair[1].color;
+        weight += double(weights.x) + double(weights.y);
     }
     return (sum + (2.0 * kPairs - weight) * target.color) / (2.0 * kPairs);
 }
@@ -223,36 +217,36 @@ void expectFilter(const Scene& scene, const Image& picture, Filter filter) {
     ) << "it blurs";
 }
 
-TEST_F(ScreenFilters, McGuireIsThePapersInACentredExposure) {
-    const Scene scene = makeScene();
-    expectFilter(scene, blur(device(), scene, oneTile(&getMethod("mcguire2012"))), filterMcGuire);
-}
+TEST_F(ScreenFilters, EachIsThePublishedOneInACentredExposure) {
+    struct Case {
+        const char* method;
+        uint32_t samples;
+        Filter filter;
+    };
 
-TEST_F(ScreenFilters, GuertinIsThePapersInACentredExposure) {
     const Scene scene = makeScene();
-    MotionBlurSettings settings = oneTile(&getMethod("guertin2014"));
-    settings.sampleCount = 15;
-    expectFilter(scene, blur(device(), scene, settings), filterGuertin);
-}
-
-TEST_F(ScreenFilters, JimenezIsThePublishedOneInACentredExposure) {
-    const Scene scene = makeScene();
-    MotionBlurSettings settings = oneTile(&getMethod("jimenez2014"));
-    settings.sampleCount = 16;
-    expectFilter(scene, blur(device(), scene, settings), filterJimenez);
-    settings.sampleCount = 15; // pairs: rounded up
-    expectFilter(scene, blur(device(), scene, settings), filterJimenez);
+    for (const Case& one :
+         {Case{"mcguire2012", 0, filterMcGuire},
+          {"guertin2014", 15, filterGuertin},
+          {"jimenez2014", 16, filterJimenez},
+          {"jimenez2014", 15, filterJimenez}}) { // pairs: rounded up
+        SCOPED_TRACE(testing::Message() << one.method << " " << one.samples);
+        MotionBlurSettings settings = oneTile(&getMethod(one.method));
+        if (one.samples > 0)
+            settings.sampleCount = one.samples;
+        expectFilter(scene, blur(device(), scene, settings), one.filter);
+    }
 }
 
 TEST_F(ScreenFilters, OwnVelocityIsTheMeanAlongThePixelsMotionInEveryPhase) {
     // A ramp to the right, read at nearest texels: the mean of the taps' places.
     Scene scene;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            scene.color.at(x, y, 1) = float(x) / 64.0f;
-            scene.motionDepth.at(x, y, 0) = y < 16 ? 8.0f : 0.4f; // below half a pixel: still
-            scene.motionDepth.at(x, y, 2) = 3.0f;
-        }
+    scene.color = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+        return vec3(0.0f, float(x) / 64.0f, 0.0f);
+    });
+    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t, uint32_t y) {
+        return vec3(y < 16 ? 8.0f : 0.4f, 0.0f, 3.0f); // below half a pixel: still
+    });
     MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
     settings.sampleCount = 16;
     for (const double share : {0.0, 0.5, 1.0}) {
@@ -273,50 +267,35 @@ TEST_F(ScreenFilters, OwnVelocityIsTheMeanAlongThePixelsMotionInEveryPhase) {
 }
 
 TEST_F(ScreenFilters, TheOccluderTestKeepsAStillObjectOutOfTheBlurBehindIt) {
-    // A red post that stands still before a wall that moves.
+    // A red post that stands still before a green wall that moves.
+    const auto isPost = [](uint32_t x) { return x >= 22 && x < 26; };
     Scene scene;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            const bool post = x >= 22 && x < 26;
-            scene.color.at(x, y, post ? 0 : 1) = 1.0f;
-            scene.motionDepth.at(x, y, 0) = post ? 0.0f : 12.0f;
-            scene.motionDepth.at(x, y, 2) = post ? 2.0f : 9.0f;
-        }
+    scene.color = makeMotion(kWidth, kHeight, [&](uint32_t x, uint32_t) {
+        return isPost(x) ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
+    });
+    scene.motionDepth = makeMotion(kWidth, kHeight, [&](uint32_t x, uint32_t) {
+        return isPost(x) ? vec3(0.0f, 0.0f, 2.0f) : vec3(12.0f, 0.0f, 9.0f);
+    });
     MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
-    const Image plain = blur(device(), scene, settings);
-    EXPECT_GT(plain.at(20, 9, 0), 0.2f) << "without it the post smears";
+    EXPECT_GT(blur(device(), scene, settings).at(20, 9, 0), 0.2f) << "without it the post smears";
     settings.occluderTest = motion_blur::OccluderTest::Velocity;
+    const auto everywhere = [](auto, auto) { return true; };
     const Image tested = blur(device(), scene, settings);
-    for (uint32_t x = 0; x < kWidth; ++x) {
-        const bool post = x >= 22 && x < 26;
-        EXPECT_EQ(tested.at(x, 9, 0), post ? 1.0f : 0.0f) << x;
-        EXPECT_EQ(tested.at(x, 9, 1), post ? 0.0f : 1.0f) << x;
-    }
-}
-
-TEST_F(ScreenFilters, WhereEveryTapIsAnOccluderTheSharpColourStays) {
-    Scene scene;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            scene.color.at(x, y, x == 24 ? 1 : 0) = 1.0f;
-            scene.motionDepth.at(x, y, 0) = x == 24 ? 400.0f : 0.0f; // no tap at its own place
-            scene.motionDepth.at(x, y, 2) = x == 24 ? 9.0f : 2.0f;
-        }
-    MotionBlurSettings settings = oneTile(&getMethod("own_velocity"));
-    settings.occluderTest = motion_blur::OccluderTest::Velocity;
-    settings.sampleCount = 16;
+    EXPECT_EQ(test::computeMaxDifferenceWhere(tested, scene.color, everywhere), 0.0);
+    // Where every tap is an occluder the sharp colour stays, too.
+    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+        return x == 24 ? vec3(400.0f, 0.0f, 9.0f) : vec3(0.0f, 0.0f, 2.0f);
+    });
+    settings.sampleCount = 16; // no tap at its own place
     EXPECT_TRUE(test::sameBits(blur(device(), scene, settings), scene.color));
 }
 
 TEST_F(ScreenFilters, APixelThatMovesIsBlurredWhateverTileTheJitterFetches) {
     // A tile that moves beside one that does not, each its own neighbourhood.
     Scene scene = makeScene();
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            scene.motionDepth.at(x, y, 0) = x < 16 ? 9.0f : 0.0f;
-            scene.motionDepth.at(x, y, 1) = 0.0f;
-            scene.motionDepth.at(x, y, 2) = 3.0f;
-        }
+    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+        return vec3(x < 16 ? 9.0f : 0.0f, 0.0f, 3.0f);
+    });
     for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
         MotionBlurSettings settings = oneTile(method);
         settings.tileSizePx = 16;
@@ -357,13 +336,10 @@ TEST_F(ScreenFilters, GuertinsSecondDirectionLooksToBothSidesOfAStillPixel) {
 TEST_F(ScreenFilters, WhatOnlyStandsAcrossADominantMotionKeepsItsColour) {
     // No weight but the target's own: still pixels, each at a depth of its own, beside one mover.
     Scene scene = makeScene();
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x)
-            if (x != 20 || y != 13) {
-                scene.motionDepth.at(x, y, 0) = scene.motionDepth.at(x, y, 1) = 0.0f;
-                scene.motionDepth.at(x, y, 2) = 3.0f;
-            }
-    scene.motionDepth.at(20, 13, 2) = 9.0f; // behind them all: it may cover nothing
+    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t y) {
+        // The mover is behind them all: it may cover nothing.
+        return x == 20 && y == 13 ? vec3(kDominant, 9.0f) : vec3(0.0f, 0.0f, 3.0f);
+    });
     for (const Method* method :
          {&getMethod("mcguire2012"), &getMethod("guertin2014"), &getMethod("own_velocity")}) {
         const Image picture = blur(device(), scene, oneTile(method));
@@ -379,12 +355,9 @@ TEST_F(ScreenFilters, ATileThatIsLookedUpBeyondABorderIsNotLeftOut) {
     // look-up carries its smear over the border at x = 16.
     constexpr uint32_t kTile = 16;
     Scene scene = makeScene();
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x) {
-            scene.motionDepth.at(x, y, 0) = x < kTile ? 14.0f : 0.0f;
-            scene.motionDepth.at(x, y, 1) = 0.0f;
-            scene.motionDepth.at(x, y, 2) = x < kTile ? 1.0f : 3.0f;
-        }
+    scene.motionDepth = makeMotion(kWidth, kHeight, [](uint32_t x, uint32_t) {
+        return x < kTile ? vec3(14.0f, 0.0f, 1.0f) : vec3(0.0f, 0.0f, 3.0f);
+    });
     for (const Method* method : {&getMethod("guertin2014"), &getMethod("jimenez2014")}) {
         MotionBlurSettings settings;
         settings.method = method;

@@ -85,8 +85,11 @@ TEST_F(UiOnWindow, ARectangleLiesOnItsPixelsAndIsBlendedOverThePicture) {
     EXPECT_NEAR(shown.at(15, 30, 3), 1.0f, 0.6f / 255.0f);
 }
 
-TEST_F(UiOnWindow, NothingIsDrawnBeyondAClipRectangleOrTheWindow) {
+TEST_F(UiOnWindow, NothingIsDrawnBeyondAClipRectangleOrTheWindowNorWithoutAFrame) {
     app::Ui ui(device());
+    expectRectangle(show(ui), {0, 0, 0, 0}, 1.0f, "before the first frame");
+    declare(ui, [](ImDrawList&) {});
+    expectRectangle(show(ui), {0, 0, 0, 0}, 1.0f, "an empty frame");
     declare(ui, [](ImDrawList& list) {
         const auto fill = [&](const ImVec2& from, const ImVec2& to) {
             list.PushClipRect(from, to);
@@ -134,13 +137,6 @@ TEST_F(UiOnWindow, TextHasTheSizeThatItsScaleSays) {
                 }
     }
     EXPECT_EQ(coverage.back(), coverage.front()) << "the same again";
-}
-
-TEST_F(UiOnWindow, WithoutAFrameNothingIsDrawn) {
-    app::Ui ui(device());
-    expectRectangle(show(ui), {0, 0, 0, 0}, 1.0f, "before the first frame");
-    declare(ui, [](ImDrawList&) {});
-    expectRectangle(show(ui), {0, 0, 0, 0}, 1.0f, "an empty frame");
 }
 
 TEST_F(UiOnWindow, ScalesAndTimesThatAreNoneAreTakenAsSome) {

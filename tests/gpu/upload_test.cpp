@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Textures and their mip levels, read back level by level.
+// Textures with their mip levels and buffers, read back; pictures of formats that only windows have
+// come back as what was shown.
 #include "engine/gpu/memory.h"
 #include "engine/gpu/upload.h"
+#include "tests/gpu/effect_rig.h"
 #include "tests/support/gpu_fixture.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <deque>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,17 +23,20 @@ class Upload : public test::GpuTest {};
 
 using Texels = std::vector<uint8_t>; // RGBA8
 
+gpu::Image makeImage(
+    gpu::Device& device, uint32_t width, uint32_t height, VkFormat format, bool hasLevels = true
+) {
+    gpu::ImageDesc desc{width, height, format};
+    desc.mipLevels = hasLevels ? gpu::countMipLevels(width, height) : 1;
+    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    return {device, "texture", desc};
+}
+
 gpu::Image makeTexture(
     gpu::Device& device, uint32_t width, uint32_t height, VkFormat format, const Texels& texels
 ) {
-    gpu::ImageDesc desc;
-    desc.width = width;
-    desc.height = height;
-    desc.format = format;
-    desc.mipLevels = gpu::countMipLevels(width, height);
-    desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    gpu::Image image(device, "texture", desc);
+    gpu::Image image = makeImage(device, width, height, format);
     gpu::uploadTexture(device, image, std::as_bytes(std::span(texels)));
     return image;
 }
@@ -134,6 +142,10 @@ TEST_F(Upload, SrgbLevelsAreAveragedInLinearLight) {
 }
 
 TEST_F(Upload, OddSizesKeepAConstantColour) {
+    EXPECT_EQ(gpu::countMipLevels(1, 1), 1u);
+    EXPECT_EQ(gpu::countMipLevels(2, 1), 2u);
+    EXPECT_EQ(gpu::countMipLevels(3, 3), 2u);
+    EXPECT_EQ(gpu::countMipLevels(1024, 5), 11u);
     Texels texels;
     for (int i = 0; i < 7 * 5; ++i)
         texels.insert(texels.end(), {200, 100, 50, 255});
@@ -143,37 +155,42 @@ TEST_F(Upload, OddSizesKeepAConstantColour) {
         EXPECT_EQ(readLevel(device(), image, level)[1], 100) << level;
 }
 
-TEST_F(Upload, ManyTexturesShareASubmission) {
-    constexpr uint32_t kCount = 40;
+/// Uploads together. \param parts submissions that it takes
+/// \return the textures
+std::deque<gpu::Image> uploadAll(
+    gpu::Device& device,
+    const std::vector<std::pair<uint32_t, uint32_t>>& sizes,
+    bool hasLevels,
+    uint64_t parts
+) {
     std::deque<gpu::Image> images;
-    std::vector<Texels> texels;
+    std::deque<Texels> texels;
     std::vector<gpu::TextureUpload> uploads;
-    for (uint32_t i = 0; i < kCount; ++i) {
-        gpu::ImageDesc desc;
-        desc.width = 3 + i;
-        desc.height = 1 + i / 2;
-        desc.format = VK_FORMAT_R8G8B8A8_UNORM;
-        desc.mipLevels = gpu::countMipLevels(desc.width, desc.height);
-        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                     VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-        images.emplace_back(device(), "texture", desc);
-        texels.push_back(makePattern(desc.width, desc.height));
-    }
-    for (uint32_t i = 0; i < kCount; ++i)
-        uploads.push_back({&images[i], std::as_bytes(std::span(texels[i]))});
-    const uint64_t before = device().completedValue();
-    gpu::uploadTextures(device(), uploads);
-    EXPECT_EQ(device().completedValue(), before + 1);
-    for (uint32_t i = 0; i < kCount; ++i) {
-        EXPECT_EQ(readLevel(device(), images[i], 0), texels[i]) << i;
-        const gpu::Image alone = makeTexture(
-            device(),
-            images[i].desc().width,
-            images[i].desc().height,
-            VK_FORMAT_R8G8B8A8_UNORM,
-            texels[i]
+    for (const auto& [width, height] : sizes) {
+        gpu::Image& image = images.emplace_back(
+            makeImage(device, width, height, VK_FORMAT_R8G8B8A8_UNORM, hasLevels)
         );
-        EXPECT_EQ(readLevel(device(), images[i], 1), readLevel(device(), alone, 1)) << i;
+        texels.push_back(makePattern(width, height));
+        uploads.push_back({&image, std::as_bytes(std::span(texels.back()))});
+    }
+    const uint64_t before = device.completedValue();
+    gpu::uploadTextures(device, uploads);
+    EXPECT_EQ(device.completedValue(), before + parts);
+    for (size_t i = 0; i < images.size(); ++i)
+        EXPECT_EQ(readLevel(device, images[i], 0), texels[i]) << i;
+    return images;
+}
+
+TEST_F(Upload, ManyTexturesShareASubmission) {
+    std::vector<std::pair<uint32_t, uint32_t>> sizes;
+    for (uint32_t i = 0; i < 40; ++i)
+        sizes.emplace_back(3 + i, 1 + i / 2);
+    for (const gpu::Image& image : uploadAll(device(), sizes, true, 1)) {
+        const auto& [width, height] = std::pair(image.desc().width, image.desc().height);
+        const gpu::Image alone = makeTexture(
+            device(), width, height, VK_FORMAT_R8G8B8A8_UNORM, makePattern(width, height)
+        );
+        EXPECT_EQ(readLevel(device(), image, 1), readLevel(device(), alone, 1)) << width;
     }
     gpu::uploadTextures(device(), {});
 }
@@ -181,27 +198,12 @@ TEST_F(Upload, ManyTexturesShareASubmission) {
 TEST_F(Upload, WhatTheStagingBufferDoesNotHoldGoesInParts) {
     // 3000 x 3000 texels are 36 MB: more than is staged at once, and the small ones lie around
     // them.
-    const std::array<std::pair<uint32_t, uint32_t>, 3> sizes{{{5, 7}, {3000, 3000}, {9, 2}}};
-    std::deque<gpu::Image> images;
-    std::vector<Texels> texels;
-    std::vector<gpu::TextureUpload> uploads;
-    for (const auto& [width, height] : sizes) {
-        gpu::ImageDesc desc;
-        desc.width = width;
-        desc.height = height;
-        desc.format = VK_FORMAT_R8G8B8A8_UNORM;
-        desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                     VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-        images.emplace_back(device(), "texture", desc);
-        texels.push_back(makePattern(width, height));
-    }
-    for (size_t i = 0; i < sizes.size(); ++i)
-        uploads.push_back({&images[i], std::as_bytes(std::span(texels[i]))});
-    const uint64_t before = device().completedValue();
-    gpu::uploadTextures(device(), uploads);
-    EXPECT_EQ(device().completedValue(), before + 2);
-    for (size_t i = 0; i < sizes.size(); ++i)
-        EXPECT_EQ(readLevel(device(), images[i], 0), texels[i]) << i;
+    (void)uploadAll(device(), {{5, 7}, {3000, 3000}, {9, 2}}, false, 2);
+    std::vector<uint32_t> values(gpu::kStagingBytes / 4 + 1000);
+    std::iota(values.begin(), values.end(), 7u);
+    gpu::Buffer buffer(device(), "large", 4 * values.size(), 0, gpu::MemoryUse::Readback);
+    gpu::uploadBuffer(device(), buffer, std::as_bytes(std::span(values)));
+    EXPECT_EQ(std::memcmp(buffer.mapped(), values.data(), 4 * values.size()), 0);
 }
 
 TEST_F(Upload, ABufferIsFilledFromItsOffsetOn) {
@@ -215,11 +217,33 @@ TEST_F(Upload, ABufferIsFilledFromItsOffsetOn) {
     EXPECT_EQ(std::vector<uint32_t>(values, values + 4), (std::vector<uint32_t>{1, 2, 77, 88}));
 }
 
-TEST_F(Upload, MipLevelsReachOneByOne) {
-    EXPECT_EQ(gpu::countMipLevels(1, 1), 1u);
-    EXPECT_EQ(gpu::countMipLevels(2, 1), 2u);
-    EXPECT_EQ(gpu::countMipLevels(3, 3), 2u);
-    EXPECT_EQ(gpu::countMipLevels(1024, 5), 11u);
+TEST_F(Upload, TenBitsAChannelAreReadInTheOrderOfTheirFormat) {
+    constexpr uint32_t kLow = 0;
+    constexpr uint32_t kMiddle = 341; // a third of 1023
+    constexpr uint32_t kHigh = 1023;
+    const std::array<uint32_t, 2> texels{
+        kLow | kMiddle << 10 | kHigh << 20 | 3u << 30, kHigh | kLow << 10 | kMiddle << 20};
+    for (const bool redIsLow : {true, false}) {
+        const VkFormat format =
+            redIsLow ? VK_FORMAT_A2B10G10R10_UNORM_PACK32 : VK_FORMAT_A2R10G10B10_UNORM_PACK32;
+        gpu::Image image = makeImage(device(), uint32_t(texels.size()), 1, format, false);
+        gpu::uploadTexture(device(), image, std::as_bytes(std::span(texels)));
+        test::GraphRig rig(device());
+        const size_t ticket = rig.want(rig.graph.importImage(
+            "ten bits", image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_UNDEFINED
+        ));
+        test::run(rig);
+        const image::Image read = rig.take(ticket);
+        const uint32_t red = redIsLow ? 0 : 2;
+        EXPECT_EQ(read.at(0, 0, red), 0.0f);
+        EXPECT_FLOAT_EQ(read.at(0, 0, 1), 1.0f / 3.0f);
+        EXPECT_EQ(read.at(0, 0, 2 - red), 1.0f);
+        EXPECT_EQ(read.at(0, 0, 3), 1.0f);
+        EXPECT_EQ(read.at(1, 0, red), 1.0f);
+        EXPECT_EQ(read.at(1, 0, 1), 0.0f);
+        EXPECT_FLOAT_EQ(read.at(1, 0, 2 - red), 1.0f / 3.0f);
+        EXPECT_EQ(read.at(1, 0, 3), 0.0f);
+    }
 }
 
 } // namespace

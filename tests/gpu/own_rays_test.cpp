@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Methods with rays: `hybrid` and `adaptive` with a host's own, what the effect asks for and what
+// it makes of the answers; and ids that have no row in the tables of a host that lets ours be
+// traced.
+#include "spirv/answer_samples.comp.h"
+#include "spirv/motion_blur/reveal.comp.h"
+
+#include "engine/image/metrics.h"
+#include "game/replay/replay_run.h"
+#include "modules/motion_blur/params.h"
+#include "shaders/motion_blur/hybrid_shared.h"
+#include "shaders/render/scene_shared.h"
+#include "tests/gpu/gbuffer_host.h"
+#include "tests/support/temp_folder.h"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using motion_blur::HostInputs;
+using motion_blur::MotionBlurSettings;
+using motion_blur::RevealTask;
+using motion_blur::SampleTask;
+using test::BlurStage;
+using test::settingsOf;
+using test::StagedFrame;
+
+constexpr math::uvec2 kSize = test::kStageSize;
+constexpr uint32_t kInstants = 7;
+
+/// Rays of the host's: a compute shader with the host's tables of its scene. The engine's own
+/// reveal, so that the picture can be told from the engine's.
+class RevealHost {
+  public:
+    RevealHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout) : mDevice(device) {
+        gpu::ComputePipelineDesc desc;
+        desc.name = "the host's rays";
+        desc.spirv = motion_blur_reveal_comp;
+        desc.interface.bindings.assign(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+        desc.interface.bindings.insert(
+            desc.interface.bindings.end(), 3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+        );
+        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+        desc.interface.bindings.push_back(VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+        desc.interface.sceneLayout = sceneLayout;
+        desc.interface.pushConstantBytes = sizeof(motion_blur::PassParams);
+        desc.specialization = {0u};
+        mPipeline.emplace(device, desc);
+    }
+
+    /// Answers with rays through the scene of `inputs`, which then has none.
+    void take(motion_blur::HostInputs& inputs) {
+        const motion_blur::HostRays rays = std::exchange(inputs.rays, {});
+        inputs.reveal.record = [this, rays, &inputs](const RevealTask& task) {
+            record(rays, inputs, task);
+        };
+    }
+
+    uint32_t calls = 0;
+
+  private:
+    gpu::Image adopt(VkImage image, VkFormat format, VkImageUsageFlags usage) {
+        return gpu::Image::adopt(mDevice, "host's", image, {kSize.x, kSize.y, format, usage});
+    }
+
+    void record(
+        const motion_blur::HostRays& rays,
+        const motion_blur::HostInputs& inputs,
+        const RevealTask& task
+    ) {
+        ++calls;
+        motion_blur::PassParams params =
+            motion_blur::resolve(settingsOf("hybrid"), kSize.x, kSize.y, inputs.rasterTime);
+        params.response = gpu::splitAddress(inputs.response);
+        auto own = params.getMethod<shader::HybridParams>();
+        own.frame = gpu::splitAddress(rays.frameConstants);
+        params.setMethod(own);
+        constexpr VkImageUsageFlags kRead = VK_IMAGE_USAGE_SAMPLED_BIT;
+        constexpr VkImageUsageFlags kWrite = VK_IMAGE_USAGE_STORAGE_BIT;
+        constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
+        constexpr VkFormat kFloat = VK_FORMAT_R32G32B32A32_SFLOAT;
+        const auto keep = [&](VkImage image, VkFormat format, VkImageUsageFlags usage) {
+            return mImages.emplace_back(adopt(image, format, usage)).view();
+        };
+        const VkImageView color = keep(inputs.color.image, kHalf, kRead);
+        const VkImageView motionDepth = keep(inputs.motionDepth.image, kFloat, kRead);
+        const VkImageView ids = keep(inputs.entityId.image, VK_FORMAT_R32_UINT, kRead);
+        gpu::BindingList bindings;
+        bindings.sampled(color, mDevice.nearestSampler())
+            .sampled(motionDepth, mDevice.nearestSampler())
+            .sampled(ids, mDevice.nearestSampler())
+            .sampled(color, mDevice.nearestSampler()); // the mask, which no pixel shares a ray by
+        keep(task.color.image, kHalf, kWrite);
+        bindings.storage(mImages.back());
+        keep(task.motionDepth.image, kFloat, kWrite);
+        bindings.storage(mImages.back());
+        keep(task.entityId.image, VK_FORMAT_R32_UINT, kWrite);
+        bindings.storage(mImages.back());
+        bindings.buffer(task.list).accelerationStructure(rays.tlas);
+        gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
+        frame.beginIn(task.commands);
+        frame.bind(*mPipeline, bindings, &params, sizeof(params), rays.scene);
+        vkCmdDispatchIndirect(task.commands, task.groups, 0);
+    }
+
+    gpu::Device& mDevice;
+    std::optional<gpu::Pipeline> mPipeline;
+    std::deque<gpu::Image> mImages; ///< until the GPU is done
+    std::vector<std::unique_ptr<gpu::Frame>> mFrames;
+};
+
+/// Rays of the host's through its own tables of the scene.
+class SampleHost {
+  public:
+    SampleHost(gpu::Device& device, VkDescriptorSetLayout sceneLayout) : mDevice(device) {
+        gpu::ComputePipelineDesc desc;
+        desc.name = "the host's rays";
+        desc.spirv = answer_samples_comp;
+        desc.interface.bindings = {
+            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+            VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR};
+        desc.interface.sceneLayout = sceneLayout;
+        desc.interface.pushConstantBytes = 16;
+        mPipeline.emplace(device, desc);
+    }
+
+    void answer(const graph::TimedRays& rays, const SampleTask& task) {
+        ++calls;
+        const std::array<math::uvec2, 2> push{
+            gpu::splitAddress(rays.frameConstants), gpu::splitAddress(rays.timedConstants)};
+        gpu::BindingList bindings;
+        bindings.buffer(task.list).buffer(task.answers).accelerationStructure(rays.tlas);
+        gpu::Frame& frame = *mFrames.emplace_back(gpu::Frame::createForHost(mDevice));
+        frame.beginIn(task.commands);
+        frame.bind(*mPipeline, bindings, push.data(), sizeof(push), rays.textures);
+        vkCmdDispatchIndirect(task.commands, task.groups, 0);
+    }
+
+    uint32_t calls = 0;
+
+  private:
+    gpu::Device& mDevice;
+    std::optional<gpu::Pipeline> mPipeline;
+    std::vector<std::unique_ptr<gpu::Frame>> mFrames; ///< until the GPU is done
+};
+
+class OwnRays : public test::EmbeddedTest {
+  protected:
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (IsSkipped() || HasFatalFailure())
+            return;
+        if (!device().hasRayQuery())
+            GTEST_SKIP() << "the device traces no rays in compute shaders";
+        mScene.setPerspective(1.0);
+        const auto wall = mScene.addTextured(mScene.addWaveTexture(), true);
+        const auto front = mScene.addTextured(mScene.addWaveTexture(32), true);
+        mScene.add(test::makeQuad(12.0, 8.0, wall), {.position = {0.0, 0.0, -6.0}});
+        mScene.add(
+            test::makeQuad(1.2, 1.2, front),
+            {.position = {0.2, 0.1, -3.0}, .velocity = {3.0, 0.6, 0.0}}
+        );
+    }
+
+    /// The same frame by the plugin's adaptive, and by a host whose method may be another.
+    /// \param isAnswered by the host's rays
+    StagedFrame drawSamples(
+        const MotionBlurSettings& plugins, const MotionBlurSettings& hosts, bool isAnswered = true
+    ) {
+        motion_blur::HostDevice described = describeHost();
+        described.measures = true;
+        BlurStage stage(device(), mScene, described, hosts, plugins);
+        SampleHost rays(device(), stage.renderer.scene().textureLayout());
+        test::Teller teller(kInstants);
+        stage.tellMotion(teller);
+        stage.shutter.exposureSeconds = 0.25;
+        stage.host.changeInputs = [&](const render::PostContext& context, HostInputs& inputs) {
+            std::optional<graph::TimedRays> timed;
+            if (context.timedRays)
+                timed = *context.timedRays;
+            inputs.samples.record = [&rays, timed, isAnswered](const SampleTask& task) {
+                if (isAnswered && timed)
+                    rays.answer(*timed, task);
+            };
+        };
+        StagedFrame drawn = stage.draw();
+        EXPECT_EQ(rays.calls, isAnswered ? 3u : 0u) << "once a recording";
+        const auto report = stage.blur->report(0);
+        EXPECT_TRUE(report.ok()) << report.error().message;
+        mCounters = report.value().counters;
+        return drawn;
+    }
+
+    static MotionBlurSettings adaptive(float raysPerPixel) {
+        MotionBlurSettings settings = settingsOf("adaptive", kInstants);
+        settings.raysPerPixel = raysPerPixel;
+        settings.history = false; // of a single frame the host has none
+        return settings;
+    }
+
+    test::SceneBuilder mScene;
+    motion_blur::Counters mCounters; ///< of the host's
+};
+
+TEST_F(OwnRays, RevealsOfTheHostGiveTheBitsOfOursAndAreInDumps) {
+    const MotionBlurSettings settings = settingsOf("hybrid");
+    BlurStage stage(device(), mScene, describeHost(), settings, settings); // of no ray tier
+    RevealHost rays(device(), stage.renderer.scene().textureLayout());
+    stage.host.takeRays = [&](HostInputs& inputs) { rays.take(inputs); };
+    stage.request.intermediates = {"mask"};
+    const test::TempFolder folder;
+    replay::ReplayOptions options;
+    options.folder = folder.path() / "dump";
+    ASSERT_TRUE(stage.blur->dump(options.folder, 2).ok());
+    const StagedFrame drawn = stage.draw();
+    EXPECT_EQ(rays.calls, 3u) << "once a recording";
+    EXPECT_GT(test::countSet(drawn.result.intermediates.at("mask")), 50u);
+    expectSame(drawn);
+    ASSERT_TRUE(stage.blur->markDone(0).ok() && stage.blur->markDone(1).ok());
+    testing::internal::CaptureStdout();
+    const core::Status replayed = replay::replay(options, device());
+    std::fflush(stdout);
+    EXPECT_EQ(
+        testing::internal::GetCapturedStdout(),
+        "frame_0000: hybrid: the host's picture, bit for bit\n"
+        "frame_0001: hybrid: the host's picture, bit for bit\n"
+    );
+    ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+}
+
+TEST_F(OwnRays, SamplesOfTheHostGiveTheBitsOfOurs) {
+    const MotionBlurSettings all = adaptive(float(kInstants));
+    const StagedFrame drawn = drawSamples(all, all);
+    const uint64_t traced = drawn.result.statistics.counters.at("rays traced");
+    EXPECT_GT(traced, 100u);
+    EXPECT_EQ(mCounters.at("rays traced"), traced);
+    expectSame(drawn);
+}
+
+TEST_F(OwnRays, AShortListIsNeverExceededAndHoldsTheSamplesThatWeTrace) {
+    const MotionBlurSettings few = adaptive(0.05f);
+    const StagedFrame drawn = drawSamples(few, few);
+    const auto limit = uint64_t(0.05 * kSize.x * kSize.y);
+    EXPECT_LE(mCounters.at("rays traced"), limit);
+    EXPECT_GT(mCounters.at("rays traced"), limit / 2);
+    // Which samples are traced is left to chance: a list is full where the engine goes on.
+    EXPECT_GT(image::computePsnr(drawn.output, drawn.result.color), 50.0);
+}
+
+TEST_F(OwnRays, AHostThatAnswersNothingGetsResolved) {
+    MotionBlurSettings hosts = adaptive(float(kInstants));
+    MotionBlurSettings plugins = settingsOf("resolved", kInstants);
+    plugins.history = false;
+    hosts.uniformMotionPx = plugins.uniformMotionPx = 0.0f; // each pixel looks for itself
+    const StagedFrame drawn = drawSamples(plugins, hosts, false);
+    EXPECT_EQ(mCounters.at("rays traced"), 0u);
+    EXPECT_TRUE(test::sameBits(drawn.output, drawn.result.color));
+}
+
+constexpr uint32_t kRows = 3; // the wall's is the last
+
+class EmbeddedIds : public test::EmbeddedTest {
+  protected:
+    void SetUp() override {
+        EmbeddedTest::SetUp();
+        if (!IsSkipped() && !HasFatalFailure() && !device().hasRays())
+            GTEST_SKIP() << "the device traces no rays";
+    }
+
+    /// What `hybrid` draws for a host whose table ends after `rowCount` rows: what lies behind them
+    /// leads nowhere.
+    static image::Image
+    draw(uint32_t rowCount, const MotionBlurSettings& settings = settingsOf("hybrid")) {
+        test::SceneBuilder scene;
+        test::buildMovers(scene);
+        motion_blur::HostDevice described = describeHost();
+        described.rayTier = device().info().rayTier;
+        // One of the renderer's own effects has to ask for rays: the plugin.
+        BlurStage stage(device(), scene, described, settings, settings);
+        stage.host.blurOfC = nullptr;
+        std::vector<gpu::Buffer> tables; // of the frame
+        stage.host.changeRays = [&](const render::PostContext& context,
+                                    motion_blur::HostRays& rays) {
+            EXPECT_EQ(context.frame.entities.size(), kRows);
+            std::vector<shader::EntityRow> rows = context.frame.entities;
+            for (uint32_t i = rowCount; i < rows.size(); ++i)
+                std::memset(&rows[i], 0xFF, sizeof(rows[i]));
+            const auto upload = [&](const void* data, size_t bytes) {
+                tables.emplace_back(
+                    device(),
+                    "host",
+                    bytes,
+                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                    gpu::MemoryUse::Stream
+                );
+                tables.back().writeBytes(data, bytes, 0);
+                return tables.back().address();
+            };
+            shader::FrameConstants constants = context.frame.constants;
+            constants.entities =
+                gpu::splitAddress(upload(rows.data(), rows.size() * sizeof(rows[0])));
+            constants.entityCount = rowCount;
+            rays.frameConstants = upload(&constants, sizeof(constants));
+        };
+        return stage.draw().output;
+    }
+};
+
+TEST_F(EmbeddedIds, WithoutRowsNothingComesIntoSight) {
+    MotionBlurSettings revealsNothing = settingsOf("hybrid");
+    revealsNothing.revealTraversal = motion_blur::RevealTraversal::Stepping;
+    revealsNothing.recursionLimit = 1;
+    const image::Image kept = draw(kRows, revealsNothing);
+    EXPECT_FALSE(test::sameBits(draw(kRows), kept)) << "rays reveal something";
+    EXPECT_TRUE(test::sameBits(draw(0), kept));
+}
+
+TEST_F(EmbeddedIds, WhatARayMeetsMayHaveNoRow) {
+    // Rays behind the movers meet the wall.
+    const image::Image drawn = draw(kRows - 1);
+    EXPECT_TRUE(test::allFinite(drawn));
+    EXPECT_FALSE(test::sameBits(drawn, draw(kRows)));
+}
+
+} // namespace
+} // namespace shutter
