@@ -5,6 +5,7 @@
 #include "engine/image/image.h"
 #include "engine/math/math.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,5 +35,11 @@ namespace shutter::environment {
 /// Looks a pyramid up between two of its levels. \param level 0: the first; clamped to those there
 [[nodiscard]] math::vec3
 samplePyramid(const std::vector<image::Image>& pyramid, math::dvec3 direction, double level);
+
+/// An equirectangular picture of `width` by `width / 2` from the six sides of a cube, +X -X +Y -Y
+/// +Z -Z, each as it is seen from inside the cube with +Y up (-Z at the top of +Y, +Z at the top of
+/// -Y): what EXT_lights_image_based stores, OpenGL's cube maps flipped about their vertical axis.
+/// \param sides square, of one size and at least three channels (CHECKed)
+[[nodiscard]] image::Image unwrapCube(const std::array<image::Image, 6>& sides, uint32_t width);
 
 } // namespace shutter::environment

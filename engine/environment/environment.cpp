@@ -3,8 +3,7 @@
 
 #include "engine/core/words.h"
 #include "engine/environment/directions.h"
-#include "engine/environment/irradiance.h"
-#include "engine/environment/prefilter.h"
+#include "engine/environment/image_based_light.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/words.h"
-#include "engine/environment/cube.h"
+#include "engine/environment/directions.h"
 #include "engine/environment/environment.h"
 #include "engine/gltf/gltf_parts.h"
 #include "engine/gltf/gltf_values.h"

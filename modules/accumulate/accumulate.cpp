@@ -6,7 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/gpu/frame.h"
 #include "engine/graph/execute.h"
-#include "engine/math/low_discrepancy.h"
+#include "engine/math/sampling.h"
 #include "engine/scene/shutter.h"
 #include "shaders/accumulate/accumulate_shared.h"
 

@@ -6,7 +6,7 @@
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"
-#include "engine/math/low_discrepancy.h"
+#include "engine/math/sampling.h"
 #include "shaders/taa/taa_shared.h"
 
 namespace shutter::taa {

@@ -5,7 +5,7 @@
 #include "spirv/motion_blur/resolved_sort.comp.h"
 
 #include "engine/core/check.h"
-#include "engine/math/blue_noise.h"
+#include "engine/math/sampling.h"
 #include "modules/motion_blur/instant_motions.h"
 #include "modules/motion_blur/passes/dispatch.h"
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Pictures of all directions: cubes, skies, and the light that they give.
-#include "engine/environment/cube.h"
 #include "engine/environment/directions.h"
 #include "engine/environment/environment.h"
-#include "engine/environment/irradiance.h"
-#include "engine/environment/prefilter.h"
+#include "engine/environment/image_based_light.h"
 #include "engine/environment/sky_model.h"
 #include "shaders/render/irradiance.glsl"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Materials, textures, samplers, pictures, tangents, and EXT_lights_image_based.
-#include "engine/environment/irradiance.h"
+#include "engine/environment/image_based_light.h"
 #include "tests/unit/gltf/gltf_fixture.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Statistics, and noise whose values are spread evenly.
-#include "engine/math/blue_noise.h"
+#include "engine/math/sampling.h"
 #include "engine/math/statistics.h"
 
 #include <gtest/gtest.h>

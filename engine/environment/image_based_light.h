@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: MIT
+// What a picture of all directions gives to surfaces: the irradiance on diffuse ones and what
+// glossy ones mirror.
 #pragma once
 
 #include "engine/image/image.h"
+#include "engine/math/math.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace shutter::environment {
+
+/// Irradiance over pi of every surface, as scene::Environment::irradiance holds it: the picture's
+/// first nine spherical harmonics times those of the clamped cosine (Ramamoorthi 2001, eq. 8, 13).
+[[nodiscard]] std::array<math::vec3, 9> projectIrradiance(const image::Image& picture);
+
+/// What the coefficients say of a surface; never negative. \param normal unit
+[[nodiscard]] math::vec3
+evaluateIrradiance(const std::array<math::vec3, 9>& coefficients, math::vec3 normal);
 
 /// Width of the picture that is mirrored sharply, where the environment's own is wider.
 inline constexpr uint32_t kMirrorWidth = 1024;

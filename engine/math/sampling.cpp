@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/math/blue_noise.h"
+#include "engine/math/sampling.h"
 
 #include "engine/core/check.h"
 
