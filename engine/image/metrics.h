@@ -7,8 +7,6 @@
 
 #include "engine/image/image.h"
 
-#include <numbers>
-
 namespace shutter::image {
 
 /// Peak signal-to-noise ratio in dB for a peak of 1: 10 log10(1 / mean squared error) over all
@@ -40,23 +38,5 @@ namespace shutter::image {
 /// Largest absolute difference of any channel (not clamped). NaN counts as infinity; infinity
 /// equals itself.
 [[nodiscard]] double computeMaxDifference(const Image& a, const Image& b);
-
-/// Viewing conditions of FLIP, the default of Andersson 2020: a display 0.7 m and 3840 pixels wide,
-/// seen from 0.7 m. 67.02 pixels per degree.
-inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840.0 / 0.7) * std::numbers::pi / 180.0;
-
-struct FlipResult {
-    double mean = 0.0; ///< of the map, [0, 1]; 0 for pictures without a pixel
-    Image errorMap;    ///< one channel, [0, 1]: 0 no difference seen, 1 the largest
-};
-
-/// FLIP, the difference that a person sees who alternates between two pictures on one display:
-/// Andersson, Nilsson, Akenine-Moller, Oskarsson, Astrom, Fairchild, "FLIP: A Difference Evaluator
-/// for Alternating Images", HPG 2020 (the LDR metric, with the separable filters used from
-/// version 1.2 on). Takes both pictures as a display does: sRGB-encoded, three channels (below
-/// three, the first as grey; alpha is not compared), clamped to [0, 1]; equal sizes and channel
-/// counts are CHECKed. The error is symmetric; equal pictures have error 0 everywhere. An error
-/// whose filters reach a NaN (10 pixels each way) in either picture is 1.
-[[nodiscard]] FlipResult computeFlip(const Image& a, const Image& b);
 
 } // namespace shutter::image

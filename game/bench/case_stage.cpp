@@ -3,6 +3,7 @@
 
 #include "engine/gltf/gltf_loader.h"
 #include "engine/image/image.h"
+#include "engine/image/flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"

@@ -2,7 +2,7 @@
 #include "game/bench/frame_judge.h"
 
 #include "engine/core/parallel_jobs.h"
-#include "engine/image/hdr_flip.h"
+#include "engine/image/flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/bench/sequence/temporal_error.h"

@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/image/image.h"
+#include "engine/image/flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/cli/compare_pictures.h"

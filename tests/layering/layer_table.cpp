@@ -86,7 +86,7 @@ struct PublicHeaders {
 };
 
 const std::vector<PublicHeaders> kPublicHeaders = {
-    {"image", {"channels.h", "hdr_flip.h", "image.h", "metrics.h"}},
+    {"image", {"channels.h", "flip.h", "image.h", "metrics.h"}},
     {"graph", {"compile.h", "execute.h", "graph.h", "ray_scene.h", "transient_pool.h", "types.h"}},
     {"io", {"file_bytes.h", "image_file.h", "process.h", "uri.h", "video.h"}},
     {"json", {"json_file.h", "json_rows.h"}},

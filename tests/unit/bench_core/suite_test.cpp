@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the benchmark measures: suites, contenders, plans of sequences, crops, judges, truth.
-#include "engine/image/hdr_flip.h"
+#include "engine/image/flip.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
 #include "game/bench/case_stage.h"

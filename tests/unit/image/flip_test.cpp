@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FLIP of pictures for displays and of high dynamic range.
-#include "engine/image/hdr_flip.h"
-#include "engine/image/metrics.h"
+#include "engine/image/flip.h"
 #include "tests/unit/image/flip_pictures.h"
 #include "tests/unit/image/test_images.h"
 
