@@ -2,14 +2,20 @@
 #include "engine/scene/path.h"
 
 #include "engine/core/check.h"
-#include "engine/scene/look_at.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <vector>
 
 namespace shutter::scene {
 
+using math::dmat3;
 using math::dquat;
 using math::dvec3;
 using math::dvec4;
@@ -59,6 +65,283 @@ dquat sampleRotation(const PathMotion& path, const KeyPlace& place) {
     return toRotation(interpolate<dvec4>(path, place, [&](size_t key) {
         return alignRotation(keys, place.key, key);
     }));
+}
+
+// Which way is up for a path that looks at places, straight down and up included.
+
+/// Directions closer than this to `up`, sine of the angle, have no upright of their own.
+constexpr double kLeastSine = 1.0e-6;
+constexpr int kBisections = 60;
+
+dvec3 normalizeOrZero(const dvec3& v) {
+    const double size = glm::length(v);
+    return size > 0.0 ? v / size : dvec3(0.0);
+}
+
+/// What of a direction is not along `up`.
+dvec3 flatten(const dvec3& v, const dvec3& up) {
+    return v - up * glm::dot(v, up);
+}
+
+bool isUpright(const dvec3& direction, const dvec3& up) {
+    return glm::length(glm::cross(up, direction)) > kLeastSine * glm::length(direction);
+}
+
+/// Where a view looks, and which way that is over the ground; unit vectors, or 0: not known.
+struct Look {
+    dvec3 direction{0.0};
+    dvec3 heading{0.0}; ///< at right angles to `up`
+
+    [[nodiscard]] bool isWhole() const { return direction != dvec3(0.0) && heading != dvec3(0.0); }
+
+    /// Takes what it lacks from another.
+    void fill(const Look& other) {
+        if (direction == dvec3(0.0))
+            direction = other.direction;
+        if (heading == dvec3(0.0))
+            heading = other.heading;
+    }
+};
+
+/// Axes of a view; +Y as near to `up` as they can.
+dmat3 makeAxes(const Look& look, const dvec3& up) {
+    const dvec3 back = -look.direction;
+    const dvec3 right = glm::normalize(glm::cross(up, -look.heading));
+    return {right, glm::cross(back, right), back};
+}
+
+/// Anticlockwise about the view's own axis.
+dmat3 roll(const dmat3& axes, double radians) {
+    const double c = std::cos(radians);
+    const double s = std::sin(radians);
+    return {axes[0] * c + axes[1] * s, axes[1] * c - axes[0] * s, axes[2]};
+}
+
+/// The direction to look in between two keys, a polynomial of the share of the way.
+class Span {
+  public:
+    Span(const PathMotion& path, const KeyShot& shot, size_t key, const dvec3& up) : mUp(up) {
+        const auto toTarget = [&](size_t i) { return *path.keys[i].lookAt; };
+        const auto toPlace = [&](size_t i) { return path.keys[i].position; };
+        const auto target = describeSpan<dvec3>(path.keys, path.interpolation, shot, key, toTarget);
+        const auto place = describeSpan<dvec3>(path.keys, path.interpolation, shot, key, toPlace);
+        const dvec3 from = target.from - place.from;
+        const dvec3 to = target.to - place.to;
+        const dvec3 out = target.outTangent - place.outTangent;
+        const dvec3 in = target.inTangent - place.inTangent;
+        mTerms = {from, out, 3.0 * (to - from) - 2.0 * out - in, 2.0 * (from - to) + out + in};
+        for (const dvec3& term : mTerms)
+            mSize = std::max(mSize, glm::length(term));
+        mAcross = findAcross();
+    }
+
+    [[nodiscard]] dvec3 at(double x) const {
+        return mTerms[0] + x * (mTerms[1] + x * (mTerms[2] + x * mTerms[3]));
+    }
+
+    /// \param sign -1: how it comes to x, 1: how it leaves
+    [[nodiscard]] Look approach(double x, double sign) const {
+        const std::array<dvec3, 4> terms = {
+            at(x),
+            sign * (mTerms[1] + x * (2.0 * mTerms[2] + 3.0 * x * mTerms[3])),
+            mTerms[2] + 3.0 * x * mTerms[3],
+            sign * mTerms[3]};
+        Look look;
+        for (const dvec3& term : terms) {
+            const dvec3 flat = flatten(term, mUp);
+            look.fill(
+                {isAny(term) ? glm::normalize(term) : dvec3(0.0),
+                 isAny(flat) && isUpright(term, mUp) ? glm::normalize(flat) : dvec3(0.0)}
+            );
+        }
+        return look;
+    }
+
+    /// Straight down or up there, and not at itself.
+    [[nodiscard]] bool isVertical(double x) const { return isAny(at(x)) && !isUpright(at(x), mUp); }
+
+    /// Where it goes straight through `up` or down, in (0, 1), in rising order.
+    [[nodiscard]] std::vector<double> findCrossings() const {
+        std::vector<double> crossings;
+        if (mAcross == dvec3(0.0))
+            return crossings;
+        std::optional<double> last; // where it is on one side or the other
+        for (const double x : listTurns()) {
+            if (!isUpright(at(x), mUp))
+                continue;
+            if (last && sideAt(*last) * sideAt(x) < 0.0)
+                if (const double crossing = bisect(*last, x); isVertical(crossing))
+                    crossings.push_back(crossing);
+            last = x;
+        }
+        return crossings;
+    }
+
+  private:
+    [[nodiscard]] bool isAny(const dvec3& term) const {
+        return glm::length(term) > kLeastSine * mSize;
+    }
+
+    /// The direction over the ground in which it goes most; 0: it stays on a vertical line.
+    [[nodiscard]] dvec3 findAcross() const {
+        dvec3 across(0.0);
+        for (const dvec3& term : mTerms) {
+            const dvec3 flat = flatten(term, mUp);
+            if (isAny(flat) && glm::length(flat) > glm::length(across))
+                across = flat;
+        }
+        return normalizeOrZero(across);
+    }
+
+    [[nodiscard]] double sideAt(double x) const { return glm::dot(at(x), mAcross); }
+
+    /// 0, 1, and between them the places where sideAt() turns back.
+    [[nodiscard]] std::vector<double> listTurns() const {
+        const double a = 3.0 * glm::dot(mTerms[3], mAcross);
+        const double b = 2.0 * glm::dot(mTerms[2], mAcross);
+        const double c = glm::dot(mTerms[1], mAcross);
+        std::vector<double> turns = {0.0};
+        const double q =
+            -0.5 * (b + std::copysign(std::sqrt(std::max(b * b - 4.0 * a * c, 0.0)), b));
+        for (const double turn : {q / a, c / q})
+            if (turn > 0.0 && turn < 1.0) // not NaN either
+                turns.push_back(turn);
+        turns.push_back(1.0);
+        std::sort(turns.begin(), turns.end());
+        return turns;
+    }
+
+    /// \param low, high on different sides
+    [[nodiscard]] double bisect(double low, double high) const {
+        const double side = sideAt(low);
+        for (int i = 0; i < kBisections; ++i) {
+            const double middle = 0.5 * (low + high);
+            (sideAt(middle) * side > 0.0 ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+    }
+
+    dvec3 mUp;
+    std::array<dvec3, 4> mTerms{}; ///< of 1, x, x^2, x^3
+    double mSize = 0.0;            ///< of the largest term
+    dvec3 mAcross{0.0};
+};
+
+/// The looks of one path in one shot.
+class Looks {
+  public:
+    Looks(const PathMotion& path, const KeyShot& shot)
+        : mPath(path), mShot(shot), mUp(glm::normalize(path.up)) {}
+
+    [[nodiscard]] const dvec3& up() const { return mUp; }
+
+    [[nodiscard]] Span span(size_t key) const { return {mPath, mShot, key, mUp}; }
+
+    /// As the path comes to a key; what stands still counts as the time before it.
+    [[nodiscard]] Look before(size_t key) const {
+        Look look;
+        for (size_t i = key; i > mShot.first && !look.isWhole(); --i)
+            look.fill(span(i - 1).approach(1.0, -1.0));
+        return look;
+    }
+
+    /// As it leaves a key.
+    [[nodiscard]] Look after(size_t key) const {
+        Look look;
+        for (size_t i = key; i < mShot.last && !look.isWhole(); ++i)
+            look.fill(span(i).approach(0.0, 1.0));
+        return look;
+    }
+
+    /// Roll by which a path that leaves its key otherwise than it came is as it came.
+    [[nodiscard]] double turnAt(size_t key, const Span& next) const {
+        if (key == mShot.first || !next.isVertical(0.0))
+            return 0.0;
+        const Look came = before(key);
+        const Look leaves = next.approach(0.0, 1.0);
+        if (!came.isWhole() || !leaves.isWhole())
+            return 0.0;
+        const dmat3 from = makeAxes(leaves, mUp);
+        const dvec3 right = makeAxes(came, mUp)[0];
+        return std::atan2(glm::dot(right, from[1]), glm::dot(right, from[0]));
+    }
+
+  private:
+    const PathMotion& mPath;
+    KeyShot mShot;
+    dvec3 mUp;
+};
+
+double ease(double share) {
+    const double x = std::clamp(share, 0.0, 1.0);
+    return x * x * (3.0 - 2.0 * x);
+}
+
+/// Roll on the way from a key to the next.
+/// \param isOn `place` is on a crossing, or so near that it counts as before it
+double findRoll(const Looks& looks, const Span& span, const KeyPlace& place, bool isOn) {
+    double from = 0.0; // of the way
+    double radians = looks.turnAt(place.key, span);
+    const auto at = [&](double x) { return radians * (1.0 - ease((x - from) / (1.0 - from))); };
+    for (const double crossing : span.findCrossings()) {
+        if (!(crossing < place.share) ||
+            (isOn && span.isVertical(std::midpoint(crossing, place.share))))
+            break;
+        const double rolled = at(crossing);
+        radians = rolled > 0.0 ? rolled - std::numbers::pi : rolled + std::numbers::pi;
+        from = crossing;
+    }
+    return radians == 0.0 ? 0.0 : at(place.share);
+}
+
+/// Where `direction` alone does not tell how the view stands.
+Look completeLook(const Looks& looks, const KeyPlace& place, const dvec3& direction) {
+    Look look{normalizeOrZero(direction), dvec3(0.0)};
+    if (place.share > 0.0)
+        look.fill(looks.span(place.key).approach(place.share, -1.0));
+    if (!look.isWhole())
+        look.fill(looks.before(place.key));
+    if (!look.isWhole())
+        look.fill(looks.after(place.key));
+    if (look.direction == dvec3(0.0))
+        return look;
+    if (isUpright(look.direction, looks.up()))
+        look.heading = flatten(look.direction, looks.up());
+    if (look.heading == dvec3(0.0)) {
+        // The axis that `up` is farthest from is above: what lies below is ahead, and the reverse.
+        const dvec3 other =
+            std::abs(look.direction.z) < 0.5 ? dvec3(0.0, 0.0, 1.0) : dvec3(0.0, 1.0, 0.0);
+        look.heading = -flatten(other, looks.up()) * glm::dot(look.direction, looks.up());
+    }
+    return look;
+}
+
+/// Rotation that looks with -Z along `direction`, with +Y towards the path's `up`.
+///
+/// Straight down and up (to 1e-6 of the angle) `up` says nothing: there the view is turned as the
+/// path comes to it or, at the beginning of a shot, as it leaves. A path that leaves in another
+/// direction than it came, as one that flies over its target does, therefore does not turn over: it
+/// goes on as it came, and rolls until it is upright at the next key. Where it never is anything
+/// else, +Y is the axis that `up` is farthest from. A place to look at that is the camera's own is
+/// looked at along the way that it is come to, likewise.
+/// \param place in the path
+/// \param direction from the camera to what it looks at there, any length
+dquat lookAlongPath(const PathMotion& path, const KeyPlace& place, const dvec3& direction) {
+    const Looks looks(path, place.shot);
+    const dvec3& up = looks.up();
+    Look look{normalizeOrZero(direction), normalizeOrZero(direction)};
+    const bool isVertical = !isUpright(direction, up);
+    if (isVertical)
+        look = completeLook(looks, place, direction);
+    if (look.direction == dvec3(0.0))
+        return {1.0, 0.0, 0.0, 0.0};
+    dmat3 axes = makeAxes(look, up);
+    if (place.share > 0.0) {
+        const double radians = findRoll(looks, looks.span(place.key), place, isVertical);
+        if (radians != 0.0)
+            axes = roll(axes, radians);
+    }
+    return glm::quat_cast(axes);
 }
 
 core::Status validateKey(const PathMotion& path, size_t i) {
