@@ -2,7 +2,7 @@
 #include "engine/extract/demand.h"
 
 #include "engine/core/words.h"
-#include "engine/extract/row_bounds.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/math/bounds.h"
 
 #include <fmt/format.h>

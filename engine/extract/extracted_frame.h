@@ -7,6 +7,7 @@
 #include "engine/extract/deformed_entity.h"
 #include "engine/extract/shadow_settings.h"
 #include "engine/math/bounds.h"
+#include "engine/math/math.h"
 #include "engine/scene/assets.h"
 #include "engine/scene/deformed_bounds.h"
 #include "engine/scene/motion.h"
@@ -173,5 +174,16 @@ struct ExtractedFrame {
 /// Error: the world draws more entities than ViewRequest::entityLimit.
 [[nodiscard]] core::Result<ExtractedFrame>
 extractFrame(const scene::World& world, const SceneLayout& layout, const ViewRequest& request);
+
+/// Null: the row's mesh is not deformed.
+[[nodiscard]] const DeformedEntity* findDeformed(const ExtractedFrame& frame, uint32_t row);
+
+/// Object space, raster instant: the deformed mesh's where there is one.
+[[nodiscard]] const math::Bounds&
+findRowBounds(const ExtractedFrame& frame, const SceneLayout& layout, uint32_t row);
+
+/// True when the box lies wholly beyond one of the side planes or behind the near plane. Depth is
+/// reversed, and nothing is too far.
+[[nodiscard]] bool isOutsideView(const math::dmat4& clipFromObject, const math::Bounds& bounds);
 
 } // namespace shutter::extract

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/frame_view.h"
 
-#include "engine/extract/row_bounds.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/math/transform.h"
 #include "engine/scene/camera.h"
 #include "engine/scene/motion.h"

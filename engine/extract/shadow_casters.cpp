@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/extract/shadow_casters.h"
 
-#include "engine/extract/row_bounds.h"
+#include "engine/extract/extracted_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,9 +150,9 @@ countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const L
         turned = std::max(turned, own);
     }
     const double turn = std::min(kTurnOfPart / caster.thinness, kMostTurnOfPart);
-    const double wanted = caster.deforms ? kMaxExposureParts : std::ceil(turned / turn);
+    const double wanted = caster.deforms ? kMaxCasterParts : std::ceil(turned / turn);
     const auto parts =
-        static_cast<uint32_t>(std::clamp(wanted, 0.0, double(std::min(kMaxExposureParts, count))));
+        static_cast<uint32_t>(std::clamp(wanted, 0.0, double(std::min(kMaxCasterParts, count))));
     return parts < 2 ? 0 : parts;
 }
 

@@ -15,7 +15,7 @@
 namespace shutter::extract {
 
 /// Most parts of the exposure that have layers of their own.
-inline constexpr uint32_t kMaxExposureParts = 8;
+inline constexpr uint32_t kMaxCasterParts = 8;
 
 /// Something that moves and casts shadows.
 struct ShadowCaster {
@@ -60,7 +60,7 @@ using LightPlace = math::dvec4;
 [[nodiscard]] LightPlace seeLight(const math::dmat4& rasterFromInstant, const LightPlace& light);
 
 /// Parts of the exposure by which the caster's outline has to be drawn anew, as it turns before one
-/// of the lights or deforms: 0, or 2 to kMaxExposureParts and at most as many as there are
+/// of the lights or deforms: 0, or 2 to kMaxCasterParts and at most as many as there are
 /// instants.
 [[nodiscard]] uint32_t
 countParts(const ShadowCaster& caster, const CasterPath& path, std::span<const LightPlace> lights);

@@ -3,8 +3,8 @@
 
 #include "engine/core/check.h"
 #include "engine/core/words.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/extract/frame_view.h"
-#include "engine/extract/row_bounds.h"
 #include "engine/extract/shadow_casters.h"
 #include "engine/extract/shadow_movers.h"
 #include "engine/extract/shadow_tiles.h"

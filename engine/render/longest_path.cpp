@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How far what a picture shows moves, found by looking at it.
-#include "engine/extract/motion_parts.h"
+#include "engine/extract/exposure_parts.h"
 #include "engine/render/renderer.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "spirv/render/shadow_map.vert.h"
 
 #include "engine/core/words.h"
-#include "engine/extract/row_bounds.h"
+#include "engine/extract/extracted_frame.h"
 #include "engine/gpu/frame.h"
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/execute.h"

@@ -2,7 +2,6 @@
 // How an exposure is cut where something jumps, and how many parts motion within it takes.
 #include "engine/extract/exposure_parts.h"
 #include "engine/extract/frame_view.h"
-#include "engine/extract/motion_parts.h"
 #include "engine/scene/exposure_motion.h"
 #include "engine/scene/history.h"
 #include "tests/unit/extract/extraction_fixture.h"
