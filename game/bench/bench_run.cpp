@@ -4,7 +4,6 @@
 #include "engine/io/file_bytes.h"
 #include "game/bench/report/report_page.h"
 #include "game/bench/results.h"
-#include "game/bench/sequence_results.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/case_stage.h"
 
+#include "engine/core/check.h"
 #include "engine/gltf/gltf_loader.h"
-#include "engine/image/image.h"
 #include "engine/image/flip.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
-#include "game/bench/linear_picture.h"
 #include "game/options/render_arguments.h"
 #include "game/shot/surroundings.h"
 
@@ -31,6 +31,36 @@ core::Result<fs::path> writeScene(const Case& shot, const fs::path& folder) {
 }
 
 constexpr uint32_t kCropSidePx = 96;
+
+/// What a reader of the report looks into: the channels R, G and B of a linear picture and, unless
+/// it has no pixels, the error map as the channel `flip`.
+/// \param color three channels or more
+/// \param errorMap one channel, as large as `color`, or without pixels
+image::Image packLinearPicture(const image::Image& color, const image::Image& errorMap = {}) {
+    constexpr uint32_t kColors = 3;
+    const bool hasErrors = errorMap.width > 0;
+    SHUTTER_CHECK(color.channels >= kColors, "{} channels", color.channels);
+    SHUTTER_CHECK(
+        !hasErrors || (errorMap.width == color.width && errorMap.height == color.height),
+        "an error map of {}x{} for a picture of {}x{}",
+        errorMap.width,
+        errorMap.height,
+        color.width,
+        color.height
+    );
+    image::Image packed(color.width, color.height, hasErrors ? kColors + 1 : kColors);
+    packed.channelNames = {"R", "G", "B"};
+    if (hasErrors)
+        packed.channelNames.emplace_back("flip");
+    for (uint32_t y = 0; y < color.height; ++y)
+        for (uint32_t x = 0; x < color.width; ++x) {
+            for (uint32_t c = 0; c < kColors; ++c)
+                packed.at(x, y, c) = color.at(x, y, c);
+            if (hasErrors)
+                packed.at(x, y, kColors) = errorMap.at(x, y, 0);
+        }
+    return packed;
+}
 
 } // namespace
 

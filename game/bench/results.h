@@ -5,6 +5,7 @@
 #include "engine/gpu/device_select.h"
 #include "game/bench/contenders.h"
 #include "game/bench/measure.h"
+#include "game/bench/sequence_run.h"
 #include "game/bench/suites/suite.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -86,5 +87,12 @@ describeOrigin(const std::string& suite, const gpu::DeviceInfo& device);
 /// What Tan, Cui and Bhojan print in "Hybrid MBlur": Table 1 (quality on their shot) and Table 2
 /// (GPU milliseconds per pass of three shots).
 [[nodiscard]] nlohmann::json describePaperFigures();
+
+/// How the measures of a film are named and which way is better.
+[[nodiscard]] nlohmann::json describeTemporalMetrics();
+
+[[nodiscard]] nlohmann::json describeSequence(
+    const SequenceCase& film, const SequenceResult& result, const SequenceOptions& options
+);
 
 } // namespace shutter::bench

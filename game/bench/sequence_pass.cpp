@@ -2,7 +2,7 @@
 #include "game/bench/sequence_pass.h"
 
 #include "game/bench/measure.h"
-#include "game/shot/instants.h"
+#include "game/shot/picture_drawer.h"
 
 #include <fmt/format.h>
 

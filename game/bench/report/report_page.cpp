@@ -3,8 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/io/file_bytes.h"
-#include "game/bench/report/page_media.h"
-#include "game/bench/report/page_template.h"
+#include "game/bench/report/page_parts.h"
 
 #include <nlohmann/json.hpp>
 

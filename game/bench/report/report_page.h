@@ -15,7 +15,7 @@ namespace shutter::bench {
 [[nodiscard]] core::Status checkReportPageCanBeMade();
 
 /// Writes folder/index.html, atomically, with every film and picture that `results` names (files
-/// relative to `folder`) inside it (page_media.h). Error: no Chart.js, `results` is not of this
+/// relative to `folder`) inside it (page_parts.h). Error: no Chart.js, `results` is not of this
 /// schema and version, a file is missing or not what its name says, or the page cannot be written.
 [[nodiscard]] core::Status
 writeReportPage(const nlohmann::json& results, const std::filesystem::path& folder);

@@ -1,7 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "game/bench/suites/suite.h"
 
+#include "assets/generator/demo_scenes.h"
+#include "assets/generator/hard_cases.h"
+#include "assets/generator/scaling_scenes.h"
+#include "assets/generator/scenes.h"
+#include "game/bench/suites/courtyard_flight.h"
+#include "game/bench/suites/gallery_script.h"
+#include "game/bench/suites/rally_flight.h"
+#include "game/bench/suites/rally_script.h"
+#include "game/bench/suites/spin_script.h"
+#include "game/bench/suites/vase_flight.h"
+
 #include <array>
+#include <initializer_list>
 
 namespace shutter::bench {
 
@@ -17,6 +29,149 @@ constexpr std::array kSuites = {
     SuiteRow{"hard", makeHardSuite},
     SuiteRow{"scaling", makeScalingSuite},
     SuiteRow{"sequence", makeSequenceSuite},
+};
+
+/// The frame rate at which the exposure is half a frame, as a film's is (180 degrees).
+double findFilmRate(double exposureSeconds) {
+    return 0.5 / exposureSeconds;
+}
+
+/// A case of a scaling axis; `name` ends in the point's label.
+Case makeCase(const std::string& name, std::function<generator::GltfWriter()> build) {
+    Case shot;
+    shot.name = name;
+    shot.title = name;
+    shot.shot.camera = generator::kScalingCamera;
+    shot.shot.time = generator::kScalingSeconds;
+    shot.shot.shutter =
+        game::makeShutterArguments(generator::kScalingExposureSeconds, generator::kScalingPhase);
+    shot.writeScene = makeWriter(std::move(build));
+    return shot;
+}
+
+ScalingAxis makeResolutionAxis() {
+    struct Size {
+        uint32_t width;
+        uint32_t height;
+        const char* label;
+    };
+
+    constexpr std::array kSizes = {
+        Size{640, 360, "360p"},
+        Size{960, 540, "540p"},
+        Size{1280, 720, "720p"},
+        Size{1920, 1080, "1080p"},
+        Size{2560, 1440, "1440p"},
+        Size{3840, 2160, "4K"},
+    };
+    ScalingAxis axis{"resolution", "Resolution", "pixels", {}};
+    for (const Size& size : kSizes) {
+        Case shot = makeCase(fmt::format("resolution-{}", size.label), &generator::buildVaseScene);
+        shot.size = {size.width, size.height};
+        axis.points.push_back({double(size.width) * size.height, size.label, std::move(shot)});
+    }
+    return axis;
+}
+
+/// \param name of the axis, and its unit
+ScalingAxis makeCountAxis(
+    const char* name,
+    const char* title,
+    std::initializer_list<int> counts,
+    generator::GltfWriter (*build)(int)
+) {
+    ScalingAxis axis{name, title, name, {}};
+    for (const int count : counts)
+        axis.points.push_back(
+            {double(count),
+             std::to_string(count),
+             makeCase(fmt::format("{}-{}", name, count), [=] { return build(count); })}
+        );
+    return axis;
+}
+
+ScalingAxis makeMovingShareAxis() {
+    ScalingAxis axis{"moving-share", "Moving share of the screen", "%", {}};
+    for (int percent : {0, 5, 10, 25, 50, 75, 100})
+        axis.points.push_back(
+            {double(percent),
+             fmt::format("{} %", percent),
+             makeCase(
+                 fmt::format("moving-{}", percent),
+                 [percent] { return generator::buildMovingShareScene(float(percent) / 100.0f); }
+             )}
+        );
+    return axis;
+}
+
+ScalingAxis makeExposureAxis() {
+    ScalingAxis axis{"exposure", "Exposure, times 1/60 s", "x", {}};
+    for (int times : {1, 2, 4, 8}) {
+        Case shot = makeCase(fmt::format("exposure-{}", times), &generator::buildVaseScene);
+        shot.shot.shutter.shutter.exposureSeconds = times * generator::kScalingExposureSeconds;
+        axis.points.push_back({double(times), fmt::format("x{}", times), std::move(shot)});
+    }
+    return axis;
+}
+
+/// All bytes of an embedded file; the array has a zero after them.
+template <size_t N> constexpr std::string_view viewOf(const char (&bytes)[N]) {
+    return {bytes, N - 1};
+}
+
+struct SequenceRow {
+    const char* name;
+    const char* title;
+    const char* description;
+    generator::GltfWriter (*build)();
+    const char* demo; ///< empty: a flight
+    std::string_view script;
+    uint32_t firstFrame;
+};
+
+constexpr SequenceRow kRows[] = {
+    {"vase-flight",
+     "Flight past the vase",
+     "The camera cuts to a room, comes to rest and zooms at a cushion.",
+     &generator::buildVaseScene,
+     "",
+     viewOf(k_vase_flight),
+     72},
+    {"courtyard-flight",
+     "Flight round the courtyard",
+     "The camera comes down between turning and swinging things.",
+     &generator::buildCourtyardScene,
+     "",
+     viewOf(k_courtyard_flight),
+     24},
+    {"rally-flight",
+     "Flight along the rally's road",
+     "The camera rushes along a road with posts, gates and trees; only it moves.",
+     &generator::buildRallyScene,
+     "",
+     viewOf(k_rally_flight),
+     90},
+    {"rally-play",
+     "The rally, driven",
+     "A camera chases a car through curves: the car keeps its place, the world rushes by.",
+     &generator::buildRallyScene,
+     "rally",
+     viewOf(k_rally_script),
+     75},
+    {"gallery-play",
+     "The gallery, shot at",
+     "Fast targets cross before a camera that a player turns, and balls are thrown at them.",
+     &generator::buildGalleryScene,
+     "gallery",
+     viewOf(k_gallery_script),
+     110},
+    {"spin-play",
+     "The carousel, ridden",
+     "A carousel, a fan and a wind wheel turn at a great speed before a camera at rest.",
+     &generator::buildSpinScene,
+     "spin",
+     viewOf(k_spin_script),
+     120},
 };
 
 } // namespace
@@ -49,6 +204,86 @@ Suite makeOwnSuite(const game::ShotArguments& shot) {
     own.description = "A scene given on the command line.";
     own.shot = shot;
     suite.cases = {own};
+    return suite;
+}
+
+Suite makePaperSuite() {
+    Case vase;
+    vase.name = "vase";
+    vase.title = "Vase before a cushion";
+    vase.description =
+        "A vase crosses in front of a sofa with a cushion: the kind of shot on which "
+        "the paper compares methods. Motion 38 by 14 px at 1280x720.";
+    vase.shot.camera = "main";
+    vase.shot.shutter = game::makeShutterArguments(generator::kExposureSeconds, "end");
+    vase.shot.fps = findFilmRate(generator::kExposureSeconds);
+    vase.writeScene = makeWriter(&generator::buildVaseScene);
+    Suite suite;
+    suite.name = "paper";
+    suite.limitSeconds = 120.0; // so that the truth of 256 rays is measured on a software device
+    suite.cases = {vase};
+    return suite;
+}
+
+Suite makeHardSuite() {
+    Suite suite;
+    suite.name = "hard";
+    suite.repeats = 3;
+    suite.limitSeconds = 30.0;
+    suite.maxRays = 64;
+    for (const generator::BenchCase& from : generator::listHardCases()) {
+        Case shot;
+        shot.name = from.name;
+        shot.title = from.title;
+        shot.description = from.description;
+        shot.shot.camera = from.camera;
+        shot.shot.time = from.timeSeconds;
+        shot.shot.shutter = game::makeShutterArguments(from.exposureSeconds, from.phase);
+        shot.shot.fps = findFilmRate(from.exposureSeconds);
+        shot.shot.background = from.background;
+        shot.writeScene = makeWriter(from.build);
+        suite.cases.push_back(std::move(shot));
+    }
+    return suite;
+}
+
+Suite makeScalingSuite() {
+    Suite suite;
+    suite.name = "scaling";
+    suite.repeats = 3;
+    suite.limitSeconds = 30.0;
+    suite.axes = {
+        makeResolutionAxis(),
+        makeCountAxis(
+            "entities", "Moving entities", {1, 10, 100, 1000, 10000}, &generator::buildEntitiesScene
+        ),
+        makeCountAxis("bodies", "Walking bodies", {0, 1, 10, 50, 200}, &generator::buildCrowdScene),
+        makeCountAxis(
+            "triangles",
+            "Triangles",
+            {10'000, 31'623, 100'000, 316'228, 1'000'000},
+            &generator::buildTrianglesScene
+        ),
+        makeMovingShareAxis(),
+        makeExposureAxis()};
+    return suite;
+}
+
+Suite makeSequenceSuite() {
+    Suite suite;
+    suite.name = "sequence";
+    suite.repeats = 1;
+    for (const SequenceRow& row : kRows) {
+        SequenceCase film;
+        film.name = row.name;
+        film.title = row.title;
+        film.description = row.description;
+        film.writeScene = makeWriter(row.build);
+        film.demo = row.demo;
+        film.script = row.script;
+        film.firstFrame = row.firstFrame;
+        suite.sequences.push_back(std::move(film));
+    }
     return suite;
 }
 

@@ -4,7 +4,6 @@
 #include "game/bench/journal.h"
 #include "game/bench/measure.h"
 #include "game/bench/results.h"
-#include "game/bench/sequence_results.h"
 #include "tests/support/temp_folder.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,7 @@
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "engine/io/uri.h"
-#include "game/bench/report/page_media.h"
-#include "game/bench/report/page_template.h"
+#include "game/bench/report/page_parts.h"
 #include "game/bench/report/report_page.h"
 #include "tests/support/temp_folder.h"
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What the report's page is put together from: the files embedded in this program, placeholders,
-// JSON inside a <script> element, and bytes as text.
+// JSON inside a <script> element, bytes as text, films, and pictures: whole ones as JPEG, for an
+// overview, and the parts that are shown enlarged as PNG, exact.
 #pragma once
 
 #include "engine/core/result.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <span>
 #include <string>
@@ -36,5 +40,17 @@ fillPage(std::string_view page, const std::map<std::string, std::string_view>& v
 
 /// RFC 4648, section 4: the standard alphabet, padded, without line breaks.
 [[nodiscard]] std::string encodeBase64(std::span<const uint8_t> bytes);
+
+/// What the page's scripts read: `whole`, path to data URI; `parts`, path to an array of
+/// {x, y, width, height, uri}. Error: a file is missing, outside `folder` or no PNG, or a crop lies
+/// outside its picture.
+[[nodiscard]] core::Result<nlohmann::json>
+encodePictures(const nlohmann::json& results, const std::filesystem::path& folder);
+
+/// Path to data URI of every film that `results` name (fields `film`, at any depth), relative to
+/// `folder`. Error: one is missing, lies outside of the folder, is no WebM or is larger than 64
+/// MiB.
+[[nodiscard]] core::Result<nlohmann::json>
+embedFilms(const nlohmann::json& results, const std::filesystem::path& folder);
 
 } // namespace shutter::bench
