@@ -3,6 +3,8 @@
 // 0 done, 1 failed (one sentence was printed), 2 wrong usage.
 #pragma once
 
+#include <optional>
+
 namespace CLI {
 class App;
 }
@@ -11,5 +13,17 @@ namespace shutter::game {
 
 void addRenderCommand(CLI::App& app, int& exitStatus);
 void addInfoCommand(CLI::App& app, int& exitStatus);
+
+/// How far two pictures are apart.
+void addCompareCommand(CLI::App& app, int& exitStatus);
+
+/// Lists in `--help` the commands that are programs of their own, beside this one: who asks for one
+/// picture need not build them.
+void addExternalCommands(CLI::App& app);
+
+/// Becomes the program of the external command that the command line names first; returns only
+/// where it cannot.
+/// \return the exit status, a sentence printed; nothing: no external command is named
+[[nodiscard]] std::optional<int> runExternalCommand(int argc, char** argv);
 
 } // namespace shutter::game

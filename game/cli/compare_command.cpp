@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "game/cli/compare_command.h"
-
 #include "engine/core/result.h"
-#include "engine/image/image.h"
 #include "engine/image/flip.h"
+#include "engine/image/image.h"
 #include "engine/image/metrics.h"
 #include "engine/io/image_file.h"
+#include "game/cli/commands.h"
 #include "game/cli/compare_pictures.h"
 #include "game/options/option_rows.h"
 #include "game/options/program.h"

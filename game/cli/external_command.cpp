@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "game/cli/external_command.h"
-
+#include "game/cli/commands.h"
 #include "game/options/program.h"
 
 #include <CLI/CLI.hpp>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "game/cli/commands.h"
-#include "game/cli/compare_command.h"
-#include "game/cli/external_command.h"
 #include "game/options/program.h"
 #include "game/play/loop/play_options.h"
-#include "game/replay/replay_command.h"
+#include "game/replay/replay_run.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The program of a build for hosts (SHUTTER_EMBEDDING_TOOLS): what it does to their dumps.
-#include "game/cli/compare_command.h"
+#include "game/cli/commands.h"
 #include "game/options/program.h"
-#include "game/replay/replay_command.h"
+#include "game/replay/replay_run.h"
 
 #include <CLI/CLI.hpp>
 

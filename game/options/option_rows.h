@@ -6,7 +6,6 @@
 #include "engine/core/result.h"
 #include "engine/core/setting_row.h"
 #include "engine/math/math.h"
-#include "game/options/picture_size.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,6 +25,12 @@ namespace shutter::game {
 
 /// The parts between separators: one more than there are, empty ones too.
 [[nodiscard]] std::vector<std::string> splitAt(const std::string& text, char separator);
+
+/// Width and height of a picture, pixels.
+struct PictureSize {
+    uint32_t width = 0;
+    uint32_t height = 0;
+};
 
 /// Whether pictures depend on an option.
 enum class Matters : uint8_t { ToPictures, ToNoPicture };

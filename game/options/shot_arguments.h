@@ -4,7 +4,7 @@
 
 #include "engine/core/frame_rate.h"
 #include "engine/core/result.h"
-#include "game/options/picture_size.h"
+#include "game/options/option_rows.h"
 #include "game/options/shutter_options.h"
 #include "game/shot/shot_options.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/log.h"
 #include "engine/core/whole_file.h"
+#include "game/output/render_options.h"
 #include "game/output/sequence.h"
-#include "game/output/timecode.h"
 
 #include <string>
 #include <system_error>

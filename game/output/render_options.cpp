@@ -2,9 +2,14 @@
 #include "game/output/render_options.h"
 
 #include "engine/core/whole_file.h"
+#include "engine/core/words.h"
 #include "engine/io/image_file.h"
-#include "game/output/timecode.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <regex>
 
 namespace shutter::game {
@@ -15,6 +20,34 @@ namespace {
 
 using core::makeError;
 using core::Status;
+
+constexpr int64_t kSecondsADay = 24 * 3600;
+
+/// Two digits of "HH:MM:SS:FF".
+int64_t readPair(const std::string& text, size_t place) {
+    return std::stol(text.substr(3 * place, 2));
+}
+
+/// Frames since 00:00:00:00 of the first frame. Error: names --timecode.
+core::Result<int64_t> countFrames(const RenderOptions& options, int64_t rate) {
+    const std::string& text = options.output.video.timecode;
+    if (text == kTimecodeOfFrame) {
+        const int64_t first = options.shot.firstFrame;
+        if (first < 0 || first >= kSecondsADay * rate)
+            return core::makeError("--timecode frame: frame {} has none", first);
+        return first;
+    }
+    if (readPair(text, 0) >= 24)
+        return core::makeError("--timecode {}: a day has 24 hours, numbered from 0", text);
+    if (readPair(text, 3) >= rate)
+        return core::makeError(
+            "--timecode {}: a second has {}, numbered from 0",
+            text,
+            core::countOf(uint64_t(rate), "frame")
+        );
+    return ((readPair(text, 0) * 60 + readPair(text, 1)) * 60 + readPair(text, 2)) * rate +
+           readPair(text, 3);
+}
 
 Status checkJsonWritable(const char* option, const fs::path& file) {
     if (file.empty())
@@ -61,6 +94,47 @@ fs::path frameFile(const fs::path& pattern, int frameNumber) {
     }
     made.append(rest, name.cend());
     return made == name ? pattern : fs::path(pattern).replace_filename(made);
+}
+
+core::Result<std::optional<io::Timecode>> findTimecode(const RenderOptions& options, size_t frame) {
+    if (options.output.video.timecode.empty())
+        return std::optional<io::Timecode>();
+    const int64_t rate = std::max<int64_t>(1, std::llround(options.shot.fps.perSecond()));
+    if (options.output.film.empty() && rate > io::kMaxTimecodeRate)
+        return core::makeError(
+            "--timecode: an EXR's counts {} frames a second at most, and --fps is {}",
+            io::kMaxTimecodeRate,
+            core::describe(options.shot.fps)
+        );
+    const auto first = countFrames(options, rate);
+    if (!first)
+        return first.error();
+    const int64_t count = (first.value() + int64_t(frame)) % (kSecondsADay * rate);
+    const int64_t second = count / rate;
+    return std::optional(io::Timecode{
+        uint32_t(second / 3600),
+        uint32_t(second / 60 % 60),
+        uint32_t(second % 60),
+        uint32_t(count % rate)});
+}
+
+core::Result<std::optional<io::FrameStamp>> findStamp(const RenderOptions& options, size_t frame) {
+    const auto timecode = findTimecode(options, frame);
+    if (!timecode)
+        return timecode.error();
+    if (!options.shot.isSequence)
+        return std::optional<io::FrameStamp>();
+    return std::optional(io::FrameStamp{options.shot.fps, timecode.value()});
+}
+
+std::string describe(const io::Timecode& timecode) {
+    return fmt::format(
+        "{:02}:{:02}:{:02}:{:02}",
+        timecode.hours,
+        timecode.minutes,
+        timecode.seconds,
+        timecode.frames
+    );
 }
 
 } // namespace shutter::game

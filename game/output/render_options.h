@@ -2,10 +2,13 @@
 // Everything that `shutter render` does: checked, in engine terms.
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/gpu/device.h"
+#include "engine/io/image_file.h"
 #include "engine/io/video.h"
 #include "game/shot/shot_options.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -64,5 +67,21 @@ struct RenderOptions {
 /// width up to 99) stands for the frame's number and %% for one %; any other % stays.
 [[nodiscard]] std::filesystem::path
 frameFile(const std::filesystem::path& pattern, int frameNumber);
+
+/// The time code of a frame of a sequence by --timecode and --fps; after 24 hours it begins anew.
+/// Empty without --timecode.
+/// \param frame index among the sequence's frames
+/// Error: names --timecode.
+[[nodiscard]] core::Result<std::optional<io::Timecode>>
+findTimecode(const RenderOptions& options, size_t frame);
+
+/// What the EXR pictures of a frame of a sequence say of their place in time; a single picture has
+/// none. \param frame index among the sequence's frames
+/// Error: names --timecode.
+[[nodiscard]] core::Result<std::optional<io::FrameStamp>>
+findStamp(const RenderOptions& options, size_t frame);
+
+/// "01:00:00:00"
+[[nodiscard]] std::string describe(const io::Timecode& timecode);
 
 } // namespace shutter::game

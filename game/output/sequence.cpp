@@ -3,22 +3,26 @@
 
 #include "engine/core/log.h"
 #include "engine/core/progress.h"
+#include "engine/core/result.h"
 #include "engine/core/words.h"
+#include "engine/gltf/gltf_loader.h"
+#include "engine/gpu/device_select.h"
 #include "engine/io/file_bytes.h"
 #include "engine/io/image_file.h"
 #include "game/output/extra_files.h"
-#include "game/output/fingerprint.h"
+#include "game/output/render_options.h"
 #include "game/output/sequence_journal.h"
-#include "game/output/timecode.h"
 #include "game/shot/picture_drawer.h"
 #include "game/shot/picture_effects.h"
 #include "game/shot/shot.h"
+#include "game/shot/surroundings.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -378,6 +382,45 @@ drawPictures(const RenderOptions& options, const std::string& fingerprint, Seque
     if (!options.output.part)
         sequence.removePartJournals();
     return {};
+}
+
+// What a picture of a sequence depends on, as a hash: two frames of equal numbers and fingerprints
+// are the same bits.
+
+/// Hashes everything that a frame's picture depends on except its number and the device: the
+/// options, the contents of the files that they name, and this program. A film's frames are named
+/// from the first on, so their names depend on that.
+/// \param shot loaded from `options.shot`
+/// Error: a file cannot be read; names it.
+core::Result<std::string> computeFingerprint(const RenderOptions& options, const Shot& shot) {
+    auto scene = gltf::computeSceneHash(options.shot.scene, options.shot.reach);
+    if (!scene)
+        return scene.error();
+    auto program = io::computeFileHash("/proc/self/exe");
+    if (!program)
+        return program.error();
+    auto surroundings = computeSurroundingsHash(options.shot.environment);
+    if (!surroundings)
+        return surroundings.error();
+    return io::computeContentHash(fmt::format(
+        "scene {} surroundings {} program {} flythrough {} clip {} fps {} first {} framed {} "
+        "options {}",
+        scene.value(),
+        surroundings.value(),
+        program.value(),
+        options.shot.flythroughHash,
+        options.shot.flythroughClip,
+        core::describe(options.shot.fps),
+        options.output.film.empty() ? 0 : options.shot.firstFrame,
+        shot.framedAt ? fmt::format("at {}", *shot.framedAt) : "by none",
+        options.fingerprint
+    ));
+}
+
+/// The fingerprint of the same pictures drawn by this device and its driver.
+std::string
+addDevice(const std::string& fingerprint, const std::string& device, const std::string& driver) {
+    return io::computeContentHash(fmt::format("{} device {} {}", fingerprint, device, driver));
 }
 
 } // namespace

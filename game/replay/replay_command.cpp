@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "game/replay/replay_command.h"
 
 #include "engine/core/words.h"
 #include "engine/gpu/device.h"

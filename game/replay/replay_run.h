@@ -11,6 +11,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace shutter::replay {
 
 struct ReplayOptions {
@@ -28,5 +32,8 @@ struct ReplayOptions {
 /// Prints a line for each frame: how far its picture is from the host's. Error: names the file or
 /// option at fault; pictures of the frames before it may have been written.
 [[nodiscard]] core::Status replay(const ReplayOptions& options, gpu::Device& device);
+
+/// Adds `shutter replay`, which leaves its exit status (game/options/program.h).
+void addReplayCommand(CLI::App& app, int& exitStatus);
 
 } // namespace shutter::replay

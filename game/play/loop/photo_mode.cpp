@@ -1,11 +1,40 @@
 // SPDX-License-Identifier: MIT
 #include "game/play/loop/photo_mode.h"
 
+#include "engine/core/check.h"
 #include "engine/core/setting_row.h"
+#include "engine/scene/history.h"
 #include "engine/scene/motion.h"
 #include "engine/scene/shutter.h"
 
+#include <glm/gtc/quaternion.hpp>
+
 namespace shutter::game {
+
+namespace {
+
+constexpr double kMetresPerSecond = 4.0; ///< until the wheel says otherwise
+
+math::Transform toTransform(const math::dmat4& rigid) {
+    math::Transform transform;
+    transform.translation = math::dvec3(rigid[3]);
+    transform.rotation = glm::normalize(glm::quat_cast(math::dmat3(rigid)));
+    return transform;
+}
+
+/// Up to rounding.
+bool isNear(const math::dmat4& a, const math::dmat4& b) {
+    for (int column = 0; column < 3; ++column)
+        if (!(glm::distance(a[column], b[column]) < 1.0e-9))
+            return false;
+    return true;
+}
+
+bool isSameView(const app::FlyView& a, const app::FlyView& b) {
+    return a.position == b.position && a.yaw == b.yaw && a.pitch == b.pitch;
+}
+
+} // namespace
 
 void PhotoMode::turn(bool on, bool traces) {
     mIsOn = on;
@@ -53,6 +82,54 @@ uint32_t PhotoMode::begin(const scene::World& world, const extract::ViewRequest&
 
 std::optional<uint32_t> PhotoMode::rays() const {
     return isTracing() ? std::optional(mRays) : std::nullopt;
+}
+
+void PhotoCamera::take(scene::World& world, ecs::Entity stageCamera, double seconds) {
+    if (mOut)
+        return;
+    const math::dmat4 worldFromStage = worldFromEntity(world, stageCamera, seconds);
+    const math::dmat4 worldFromView = worldFromRigid(world, stageCamera, seconds);
+    const scene::Camera lens = world.registry.get<scene::Camera>(stageCamera);
+    Out out;
+    out.entity = world.registry.create();
+    world.registry.add(out.entity, lens);
+    // What the stage scales or mirrors is taken back; one that is scaled to nothing carries nobody.
+    const math::dmat4 stageFromWorld = glm::inverse(worldFromStage);
+    const bool carries = math::isFinite(stageFromWorld);
+    if (carries)
+        world.registry.add(out.entity, scene::Parent{stageCamera});
+    out.stageFromWorld = carries ? stageFromWorld : math::dmat4(1.0);
+    out.rest = carries && isNear(worldFromStage, worldFromView)
+                   ? math::dmat4(1.0)
+                   : out.stageFromWorld * worldFromView;
+    world.registry.add(out.entity, scene::LocalMatrix{out.rest});
+    out.start = app::makeFly(toTransform(worldFromView), kMetresPerSecond);
+    out.view = out.start;
+    mOut = out;
+}
+
+void PhotoCamera::putBack(scene::World& world) {
+    if (mOut)
+        scene::despawn(world, mOut->entity);
+    mOut.reset();
+}
+
+ecs::Entity PhotoCamera::entity() const {
+    SHUTTER_CHECK(mOut, "the photo camera is not out");
+    return mOut->entity;
+}
+
+void PhotoCamera::advance(
+    scene::World& world, const app::InputState& input, double wallSeconds, double heightPx
+) {
+    if (!mOut)
+        return;
+    steer(mOut->view, input, wallSeconds, heightPx);
+    // A view has no roll: one that nobody moved is the stage's camera itself.
+    math::dmat4 local = mOut->rest;
+    if (!isSameView(mOut->view, mOut->start))
+        local = mOut->stageFromWorld * computeMatrix(placementOf(mOut->view));
+    world.registry.get<scene::LocalMatrix>(mOut->entity).matrix = local;
 }
 
 } // namespace shutter::game

@@ -2,14 +2,19 @@
 // The pictures of a session that become files: screenshots, photos and the film.
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/io/image_file.h"
 #include "game/play/loop/film_writer.h"
 #include "game/play/loop/play_options.h"
 #include "game/play/loop/play_renderer.h"
+#include "game/play/panel/play_settings.h"
 
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,5 +76,22 @@ class PictureFiles {
     std::string mNews;
     std::unique_ptr<FilmWriter> mFilm;
 };
+
+/// A file of the current folder that is not there yet: "rally_truth_001.png".
+/// \param title of the stage, a demo's name or a file's
+/// \param taken files that will be there soon
+[[nodiscard]] core::Result<std::filesystem::path> choosePhotoFile(
+    const std::string& title,
+    const PlaySettings& settings,
+    std::span<const std::filesystem::path> taken
+);
+
+/// \param seconds of the picture \param rays per pixel so far, where it is traced
+[[nodiscard]] std::vector<io::PictureText> describePhoto(
+    const std::string& title,
+    const PlaySettings& settings,
+    double seconds,
+    std::optional<uint32_t> rays
+);
 
 } // namespace shutter::game

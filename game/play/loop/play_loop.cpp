@@ -5,7 +5,7 @@
 #include "engine/core/words.h"
 #include "engine/scene/shutter.h"
 #include "game/play/loop/hotkeys.h"
-#include "game/play/loop/photo_file.h"
+#include "game/play/loop/picture_files.h"
 #include "modules/debug_view/debug_view.h"
 
 #include <fmt/ranges.h>

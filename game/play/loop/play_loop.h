@@ -5,7 +5,6 @@
 #include "engine/app/input_script.h"
 #include "engine/app/step_clock.h"
 #include "game/play/loop/flythrough_recorder.h"
-#include "game/play/loop/photo_camera.h"
 #include "game/play/loop/photo_mode.h"
 #include "game/play/loop/picture_files.h"
 #include "game/play/loop/play_record.h"

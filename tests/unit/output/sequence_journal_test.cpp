@@ -3,7 +3,6 @@
 #include "engine/io/file_bytes.h"
 #include "game/output/render_options.h"
 #include "game/output/sequence_journal.h"
-#include "game/output/timecode.h"
 #include "tests/support/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/motion.h"
-#include "game/play/loop/photo_camera.h"
+#include "game/play/loop/photo_mode.h"
 
 #include <gtest/gtest.h>
 

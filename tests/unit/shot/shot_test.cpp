@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is drawn: clips, instants, methods and which passes count as theirs.
 #include "game/shot/clips.h"
-#include "game/shot/instants.h"
 #include "game/shot/methods.h"
+#include "game/shot/picture_drawer.h"
 #include "game/shot/shot.h"
 
 #include <gtest/gtest.h>
