@@ -3,6 +3,7 @@
 #include "assets/generator/hard_cases.h"
 #include "assets/generator/scaling_scenes.h"
 #include "engine/gltf/gltf_loader.h"
+#include "engine/scene/deformation.h"
 #include "engine/scene/motion.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,8 @@ const ecs::Entity* findCamera(const scene::World& world, const std::string& name
     return found == world.cameras.end() ? nullptr : &*found;
 }
 
-/// Entities with a mesh whose place in the camera's eyes changes between two times.
+/// Entities with a mesh whose place in the camera's eyes changes between two times, or whose shape
+/// may.
 size_t countMovers(const scene::World& world, ecs::Entity camera, double open, double close) {
     const auto viewFrom = [&](ecs::Entity entity, double seconds) {
         return glm::inverse(scene::worldFromEntity(world, camera, seconds)) *
@@ -74,7 +76,7 @@ size_t countMovers(const scene::World& world, ecs::Entity camera, double open, d
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
                 most = std::max(most, std::abs(difference[column][row]));
-        movers += most > 1e-3;
+        movers += most > 1e-3 || scene::mayDeform(world, entity);
     }
     return movers;
 }

@@ -89,7 +89,8 @@ class Demand : public test::RayTest {};
 TEST_F(Demand, WhereNothingMovesOrIsExposedAFrameIsThatOfSharp) {
     const std::pair<SceneBuilder, double> scenes[] = {
         {load(generator::buildVaseScene()), 0.0},
-        {load(generator::buildMovingRegionScene(0, 0)), generator::kScalingExposureSeconds}};
+        {load(generator::buildMovingRegionScene(0, 0)), generator::kScalingExposureSeconds},
+        {load(generator::buildCrowdScene(30, false)), generator::kScalingExposureSeconds}};
     for (const auto& [scene, exposure] : scenes)
         for (const char* method : {"hybrid", "resolved"}) {
             SCOPED_TRACE(method);
@@ -106,6 +107,24 @@ TEST_F(Demand, WhereNothingMovesOrIsExposedAFrameIsThatOfSharp) {
             EXPECT_EQ(blurred.statistics.transientBytes, sharp.statistics.transientBytes);
             EXPECT_TRUE(test::sameBits(blurred.display, sharp.display));
         }
+}
+
+TEST_F(Demand, ACrowdThatWalksIsDeformedInOnePassAndCrowdsNoTile) {
+    const SceneBuilder crowd = load(generator::buildCrowdScene(generator::kMaxBodyCount, true));
+    Shot shot = makeFrame("resolved");
+    shot.settings.history = false; // which would draw the frame before as well
+    const auto drawn = Frames(device(), crowd).draw(shot);
+    const Lines passes = listParts(drawn.dump, "passes");
+    EXPECT_EQ(
+        std::count_if(
+            passes.begin(),
+            passes.end(),
+            [](const std::string& pass) { return pass.starts_with("'deform meshes'"); }
+        ),
+        1
+    );
+    EXPECT_EQ(drawn.statistics.counters.at("crowded tiles"), 0u);
+    EXPECT_GT(drawn.statistics.counters.at("blocks mixed"), 100u) << "they move";
 }
 
 TEST_F(Demand, OnlyBlocksOfTilesInWhoseNeighbourhoodSomethingMovesAreFiltered) {

@@ -12,9 +12,11 @@ vec2 placeOf(vec4 clip) { return (0.5f * clip.xy / clip.w + 0.5f) * push.sizePx.
 
 void main() {
     bool isFlag = vClips[0].w < 6.0f;
-    float checks = mod(floor(vPlace.x * (isFlag ? 12.0f : 40.0f)) + floor(vPlace.y * (isFlag ? 4.0f : 40.0f)), 2.0f);
-    outColor = vec4(isFlag ? mix(vec3(0.8f, 0.1f, 0.1f), vec3(0.9f), checks)
-                           : mix(vec3(0.2f, 0.25f, 0.4f), vec3(0.5f, 0.5f, 0.45f), checks), 1.0f);
+    vec2 check = floor(vPlace * (isFlag ? vec2(12.0f, 4.0f) : vec2(40.0f)));
+    bool isLight = mod(check.x + check.y, 2.0f) > 0.5f;
+    vec3 flag = isLight ? vec3(0.9f) : vec3(0.8f, 0.1f, 0.1f);
+    vec3 wall = isLight ? vec3(0.5f, 0.5f, 0.45f) : vec3(0.2f, 0.25f, 0.4f);
+    outColor = vec4(isFlag ? flag : wall, 1.0f);
     vec2 open = placeOf(vClips[1]);
     vec2 close = placeOf(vClips[2]);
     outMotionDepth = vec4(close - open, vClips[0].w, 0.0f);

@@ -231,9 +231,7 @@ int main() try {
         todo.pipelineBarrier2(vk::DependencyInfo({}, shown));
         todo.end();
         gpu.device.getQueue(0, 0).submit(vk::SubmitInfo({}, {}, todo), *fence);
-        require(
-            gpu.device.waitForFences(*fence, true, UINT64_MAX) == vk::Result::eSuccess, "time is up"
-        );
+        (void)gpu.device.waitForFences(*fence, true, UINT64_MAX);
         gpu.device.resetFences(*fence);
     }
     const auto* halves = static_cast<const uint64_t*>(memory.mapMemory(0, VK_WHOLE_SIZE));
