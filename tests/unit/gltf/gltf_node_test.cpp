@@ -550,11 +550,9 @@ TEST(GltfVertexWaves, BadValuesAreRefusedByName) {
              {R"({"share":"color","channel":4})", "channel"},
              {R"({"share":"height","axis":[0,0,0]})", "axis"},
              {R"({"exponent":0})", "exponent"}}) {
-        const auto load = [&] {
-            return loadExtras(R"({"vertexWaves":)" + std::string(json) + "}");
-        };
-        expectRefused(load(), at);
-        expectRefused(load(), part);
+        const std::string extras = R"({"vertexWaves":)" + std::string(json) + "}";
+        expectRefused(loadExtras(extras), at);
+        expectRefused(loadExtras(extras), part);
     }
 }
 
