@@ -127,12 +127,12 @@ SurfaceDemand decideSurfaces(const ExtractedFrame& frame) {
         masked += draw.alphaMode == scene::AlphaMode::Mask;
     });
     SurfaceDemand demand;
-    demand.deformation = {false, "no mesh that is drawn has a skin or morph targets"};
+    demand.deformation = {false, "no mesh that is drawn has a skin, morph targets or waves"};
     if (!frame.deformed.empty())
         demand.deformation = {
             true,
             core::countOf(frame.deformed.size(), "drawn entity", "drawn entities") +
-                " with a skin or morph targets"};
+                " with a skin, morph targets or waves"};
     demand.alphaMask = {false, "no surface in the picture has an alpha mask"};
     if (masked > 0)
         demand.alphaMask = {

@@ -10,7 +10,7 @@ namespace shutter::extract {
 
 /// What the renderer draws besides opaque meshes that keep their shape.
 struct SurfaceDemand {
-    core::Decision deformation; ///< "deform meshes": a skin or morph target that is drawn
+    core::Decision deformation; ///< "deform meshes": a skin, morph target or wave that is drawn
     core::Decision alphaMask;   ///< draws that test alpha
     core::Decision blending;    ///< draws that blend
 };

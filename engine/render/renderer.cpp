@@ -240,7 +240,7 @@ FrameResult Renderer::finishFrame() {
 Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
     auto& [slot, graph, request, facts, frame, moving, running, explainer] = parts;
     DeclaredScene scene;
-    explainer.beginPasses(graph, PassOwner::Scene, "a skin or morph target is drawn");
+    explainer.beginPasses(graph, PassOwner::Scene, "a skin, morph target or wave is drawn");
     scene.shapes = slot.deformation->declare(graph, frame, mScene);
     std::vector<shader::Geometry> deformed = scene.shapes.rows;
     const size_t firstDeformedGeometry = mScene.geometryRows().size() + deformed.size();

@@ -76,10 +76,11 @@ struct MorphWeights {
 
 /// One wave of VertexWaves.
 struct VertexWave {
-    math::dvec3 displacement{0.0}; ///< of a crest, metres
-    math::dvec3 waveVector{0.0};   ///< radians per metre: crests travel along it; 0: all at once
-    double hertz = 0.0;            ///< [0, inf)
-    double phase = 0.0;            ///< radians, at time 0 at the origin
+    math::dvec3 displacement{0.0}; ///< of a crest, metres, each within 1e6
+    math::dvec3 waveVector{0.0};   ///< radians per metre, each within 1e6: crests travel along it;
+                                   ///< 0: all vertices move at once
+    double hertz = 0.0;            ///< [0, 1e6]
+    double phase = 0.0;            ///< radians at time 0 at the origin, [-1e6, 1e6]
 };
 
 /// What the share of its waves that a vertex follows depends on.
@@ -103,8 +104,8 @@ struct VertexWaves {
     bool inWorld = false;
     WaveShare share = WaveShare::All;
     math::dvec3 axis{0.0, 1.0, 0.0}; ///< Height: along which, entity's space
-    double heldAt = 0.0;             ///< Height: metres along the axis, from where the share is 0
-    double freeAt = 1.0;             ///< Height: to where it is 1; linear between, not as heldAt
+    double heldAt = 0.0;             ///< Height: metres along the axis where the share is 0
+    double freeAt = 1.0;             ///< Height: where it is 1, other than heldAt; linear between
     uint32_t channel = 3;            ///< Color: 0 ... 3 for red, green, blue, alpha
     double exponent = 1.0;           ///< [1, 16]: what bends stays straight near its root
 };

@@ -74,7 +74,7 @@ core::Result<std::unique_ptr<Demo>> GalleryDemo::create(scene::World world, std:
     SHUTTER_TRY(names.check(file));
     if (world.cameras.empty())
         return core::makeError("{}: it has no camera", file);
-    world.playback.loop = true; // who runs behind the counter runs on
+    world.playback.loop = true; // the runner never stops
     Random random(11);
     addTargets(world, names, random);
     return std::unique_ptr<Demo>(new GalleryDemo(std::move(world), nodes));

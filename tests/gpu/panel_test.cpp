@@ -55,7 +55,7 @@ render::FrameStatistics makeStatistics() {
         {ExplainedKind::Effect,
          "motion blur",
          {true, "something in the picture moves during the exposure"}},
-        {ExplainedKind::Work, "deform meshes", {false, "no skin or morph target is drawn"}},
+        {ExplainedKind::Work, "deform meshes", {false, "no skin, morph target or wave is drawn"}},
         {ExplainedKind::Pass, "ray reveal", {true, "motion blur runs"}}};
     return statistics;
 }

@@ -35,7 +35,9 @@ TEST(Demand, WhatIsDrawnAsksForWhatItNeedsAndSaysHowMuchOfItThereIs) {
     frame.blended.moving.push_back(makeDraw(scene::AlphaMode::Blend));
     frame.deformed.resize(3);
     const SurfaceDemand demand = decideSurfaces(frame);
-    EXPECT_EQ(describe(demand.deformation), "ran: 3 drawn entities with a skin or morph targets");
+    EXPECT_EQ(
+        describe(demand.deformation), "ran: 3 drawn entities with a skin, morph targets or waves"
+    );
     EXPECT_EQ(describe(demand.alphaMask), "ran: 2 draws in the picture with an alpha mask");
     EXPECT_EQ(describe(demand.blending), "ran: 1 blended draw in the picture");
 }

@@ -67,7 +67,8 @@ constexpr std::array kGuesses{
     DeformedGuess{
         "they are over the time between the frames, not over the exposure",
         [](const DeformedSample& sample, const CheckFacts& facts) {
-            return double(facts.convention.scales.exposureShare) * sample.way();
+            const HostScales& scales = facts.convention.scales;
+            return double(scales.exposureShare) / scales.displayedPerRendered * sample.way();
         }}};
 
 std::vector<DeformedSample> listSamples(const CheckedFrame& frame) {
