@@ -436,5 +436,16 @@ TEST_F(DeformedEntities, ShapesThatNeedTooMuchMemoryAreRefused) {
     );
 }
 
+TEST_F(Extraction, WavesThatNoVertexCanFollowAreRefusedByTheEntitysName) {
+    const ecs::Entity flag = addBox(math::dvec3(0, 0, -5));
+    world.registry.add(flag, scene::Name{"flag"});
+    scene::VertexWaves waves;
+    waves.exponent = 0.0;
+    world.registry.add(flag, waves);
+    const auto frame = extractFrame(world, layout, request);
+    ASSERT_FALSE(frame.ok());
+    EXPECT_EQ(frame.error().message, "'flag': the waves' exponent is 0, not in [1, 16]");
+}
+
 } // namespace
 } // namespace shutter::extract

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // How motions of bodies and of shapes become keys between which rays interpolate.
 #include "engine/extract/deformation_keys.h"
+#include "engine/extract/deformed_entity.h"
 #include "engine/extract/motion_keys.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace shutter::extract {
@@ -317,6 +319,53 @@ TEST(DeformationKeys, ABoundIsNeverBelowWhatAVertexDoes) {
         EXPECT_LE(largest, bound * (1.0 + 1e-12));
         EXPECT_LE(bound, 20.0 * largest + 1e-3) << "so loose that it costs keys";
     }
+}
+
+/// Largest distance of a vertex from its straight way, half way between two poses.
+double measureHalfWay(const Deformation& a, const Deformation& exact, const Deformation& b) {
+    const scene::Primitive rod = makeRod();
+    double largest = 0.0;
+    for (size_t vertex = 0; vertex < rod.positions.size(); ++vertex) {
+        const dvec3 middle = (bend(rod, vertex, a) + bend(rod, vertex, b)) / 2.0;
+        largest = std::max(largest, glm::length(bend(rod, vertex, exact) - middle));
+    }
+    return largest;
+}
+
+TEST(DeformationKeys, ABoundHoldsWavesThatTurnAndWavesUnderASkinThatMoves) {
+    const scene::Primitive rod = makeRod();
+    const scene::PoseReach reach = scene::computePoseReach({&rod, 1});
+    // All else is on its straight way: only the turn, or skin and wave together, leave it.
+    const auto turning = [](double t) {
+        Deformation pose;
+        pose.waves.waves = {{{0.2, 0.0, 0.0}, {0.0, 3.0 * t, 0.0}, 0.4}};
+        return pose;
+    };
+    const auto skinned = [](double t) {
+        const dmat4 stretched = glm::scale(dmat4(1.0), dvec3(1.0 + 2.0 * t));
+        Deformation pose{{stretched, stretched}, {}, {}};
+        pose.waves.waves = {{{0.3 * t, 0.0, 0.0}, dvec3(0.0), 1.5}};
+        return pose;
+    };
+    for (const std::function<Deformation(double)>& pose :
+         {std::function<Deformation(double)>(turning), {skinned}}) {
+        const double off = measureHalfWay(pose(0.0), pose(0.5), pose(1.0));
+        EXPECT_GT(off, 0.01);
+        EXPECT_LE(
+            off, measureDeformationDeviation(pose(0.5), pose(0.0), pose(1.0), 0.5, reach) + 1e-12
+        );
+    }
+}
+
+TEST(DeformationKeys, PosesThatDifferInWavesAloneAreNotOneShape) {
+    const scene::Primitive rod = makeRod();
+    const scene::PoseReach reach = scene::computePoseReach({&rod, 1});
+    const Deformation a = deformAt(0.0, 0.0, 0.0, 0.1);
+    Deformation b = a;
+    EXPECT_TRUE(isNear(a, b, reach, 0.0));
+    b.waves.waves[0].phase += 0.1;
+    EXPECT_FALSE(isSame(a, b));
+    EXPECT_FALSE(isNear(a, b, reach, 1e-3));
 }
 
 TEST(DeformationKeys, SweptBoxesHoldEveryVertexAtEveryTime) {
