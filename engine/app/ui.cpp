@@ -38,7 +38,7 @@ gpu::GraphicsPipelineDesc describeUiPipeline(VkFormat format) {
     desc.interface.bindings = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
     desc.interface.pushConstantBytes = sizeof(shader::UiParams);
     desc.colorFormats = {format};
-    desc.blendFirstOnly = true;
+    desc.blend = gpu::Blend::Over;
     return desc;
 }
 

@@ -69,22 +69,41 @@ makeStage(VkShaderStageFlagBits stage, VkShaderModule module, const Specializati
     return info;
 }
 
-std::vector<VkPipelineColorBlendAttachmentState> makeBlend(size_t targets, bool blendFirstOnly) {
-    constexpr VkColorComponentFlags kAll = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    std::vector<VkPipelineColorBlendAttachmentState> states(targets);
-    for (size_t i = 0; i < targets; ++i) {
-        states[i].colorWriteMask = blendFirstOnly && i > 0 ? 0 : kAll;
-        if (!blendFirstOnly || i > 0)
-            continue;
-        states[i].blendEnable = VK_TRUE;
-        states[i].srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-        states[i].dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-        states[i].colorBlendOp = VK_BLEND_OP_ADD;
-        states[i].srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        states[i].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-        states[i].alphaBlendOp = VK_BLEND_OP_ADD;
+constexpr VkColorComponentFlags kColorBits =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+
+VkPipelineColorBlendAttachmentState makeBlend(Blend blend) {
+    VkPipelineColorBlendAttachmentState state{};
+    state.colorWriteMask = kColorBits | VK_COLOR_COMPONENT_A_BIT;
+    state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
+    state.blendEnable = blend == Blend::Over || blend == Blend::Under;
+    switch (blend) {
+    case Blend::None:
+        break;
+    case Blend::Over:
+        state.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        break;
+    case Blend::Under:
+        state.srcColorBlendFactor = VK_BLEND_FACTOR_DST_ALPHA;
+        state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        break;
+    case Blend::AlphaOnly:
+        state.colorWriteMask = VK_COLOR_COMPONENT_A_BIT;
+        break;
     }
+    return state;
+}
+
+std::vector<VkPipelineColorBlendAttachmentState> makeBlends(size_t targets, Blend blend) {
+    std::vector<VkPipelineColorBlendAttachmentState> states(targets, makeBlend(blend));
+    if (blend == Blend::Over)
+        for (size_t i = 1; i < targets; ++i)
+            states[i] = {}; // not written
     return states;
 }
 
@@ -198,7 +217,7 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc)
     depth.depthTestEnable = desc.depthFormat != VK_FORMAT_UNDEFINED;
     depth.depthWriteEnable = desc.depthWrite;
     depth.depthCompareOp = desc.depthCompare;
-    const auto blendStates = makeBlend(desc.colorFormats.size(), desc.blendFirstOnly);
+    const auto blendStates = makeBlends(desc.colorFormats.size(), desc.blend);
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<uint32_t>(blendStates.size());

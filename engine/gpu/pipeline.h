@@ -40,6 +40,16 @@ struct RayPipelineDesc {
     std::vector<uint32_t> specialization; ///< of all shaders
 };
 
+/// How what is drawn joins what its targets hold.
+enum class Blend : uint8_t {
+    None,
+    Over, ///< attachment 0 alone, by its alpha; the others are not written
+    /// All attachments, nearest first: premultiplied colours are added by the transmittance that
+    /// alpha holds so far, and alpha is multiplied by what the surface lets through.
+    Under,
+    AlphaOnly, ///< alpha of all attachments is replaced, colours stay
+};
+
 struct GraphicsPipelineDesc {
     std::string name;
     std::span<const uint32_t> vertexSpirv;
@@ -50,8 +60,7 @@ struct GraphicsPipelineDesc {
     VkFormat depthFormat = VK_FORMAT_UNDEFINED;
     VkCompareOp depthCompare = VK_COMPARE_OP_GREATER; ///< reversed depth
     bool depthWrite = true;
-    /// True: attachment 0 is alpha-blended "over", the others are not written.
-    bool blendFirstOnly = false;
+    Blend blend = Blend::None;
 };
 
 /// A compute, graphics or ray-tracing pipeline with its layout. Cull mode is dynamic for graphics.

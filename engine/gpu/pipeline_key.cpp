@@ -58,7 +58,7 @@ std::string makePipelineKey(const GraphicsPipelineDesc& desc) {
     key.add(desc.depthFormat);
     key.add(desc.depthCompare);
     key.add(desc.depthWrite);
-    key.add(desc.blendFirstOnly);
+    key.add(desc.blend);
     return key.take();
 }
 

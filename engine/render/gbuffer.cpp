@@ -36,7 +36,7 @@ describeGeometry(const gpu_scene::GpuScene& scene, Variant variant, bool moves) 
     desc.colorFormats = {kColorFormat, kNormalFormat, kMotionDepthFormat, kEntityIdFormat};
     desc.depthFormat = kDepthFormat;
     desc.depthWrite = variant != Variant::Blended;
-    desc.blendFirstOnly = variant == Variant::Blended;
+    desc.blend = variant == Variant::Blended ? gpu::Blend::Over : gpu::Blend::None;
     return desc;
 }
 

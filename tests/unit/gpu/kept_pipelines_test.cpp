@@ -116,7 +116,7 @@ TEST(PipelineKey, EachPartOfAGraphicsPipelineCounts) {
     changes.emplace_back([](Desc& desc) { desc.depthFormat = VK_FORMAT_D32_SFLOAT; });
     changes.emplace_back([](Desc& desc) { desc.depthCompare = VK_COMPARE_OP_EQUAL; });
     changes.emplace_back([](Desc& desc) { desc.depthWrite = false; });
-    changes.emplace_back([](Desc& desc) { desc.blendFirstOnly = true; });
+    changes.emplace_back([](Desc& desc) { desc.blend = gpu::Blend::Over; });
     expectOwnKeys(plain, changes);
 }
 
