@@ -39,6 +39,8 @@ struct SceneLayout {
         scene::AlphaMode alphaMode = scene::AlphaMode::Opaque;
         bool doubleSided = false;
         uint32_t vertexCount = 0;
+        /// Of the same triangles from the last to the first, for blended geometries.
+        uint32_t firstReversed = 0;
     };
 
     std::vector<uint32_t> firstGeometry;   ///< one per mesh, and one past the last
@@ -46,6 +48,7 @@ struct SceneLayout {
     std::vector<math::Bounds> bounds;      ///< one per mesh, object space, undeformed
     std::vector<scene::PoseReach> reaches; ///< one per mesh
     bool hasEnvironment = false;           ///< the scene is lit by one
+    bool hasBlended = false;               ///< a geometry is scene::AlphaMode::Blend
 };
 
 /// How a camera's frame lies in a picture of another shape; it is in the middle, and pixels are
@@ -158,10 +161,18 @@ struct ExtractedFrame {
     std::vector<DeformedEntity> deformed;
     DrawList opaque{.farFirst = false, .still = {}, .moving = {}}; ///< opaque and masked
     DrawList blended{.farFirst = true, .still = {}, .moving = {}};
+    /// Rows whose blended surfaces are not in the raster, rising (blended_layer.h): whoever set
+    /// them draws these over it. Empty in a frame that was just extracted.
+    std::vector<uint32_t> layerRows;
     std::vector<shader::LightRow> lights;
     std::vector<ecs::Entity> lightEntities; ///< one per light: its entity
     shader::FrameConstants constants{};     ///< without the tables' addresses and rows
     bool moves = false;                     ///< something in the picture, or the camera, moves
+    bool mirrors = false;                   ///< the view turns windings round (FrameView::mirrors)
+
+    [[nodiscard]] bool isInLayer(uint32_t row) const {
+        return std::binary_search(layerRows.begin(), layerRows.end(), row);
+    }
 };
 
 /// The error for a scene with more entities than `limit`.

@@ -64,6 +64,8 @@ core::Result<ExtractedFrame*> FrameExtractor::update(
         mFrame.constants.flags |= shader::kFrameEnvironment;
     addLights(frame);
     mFrame.moves = view.moves() || mMovesInView > 0;
+    mFrame.mirrors = view.mirrors();
+    mFrame.layerRows.clear();
     return &mFrame;
 }
 

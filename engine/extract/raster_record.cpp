@@ -55,7 +55,18 @@ RasterRecord makeRasterRecord(
             {one.row, one.mesh, one.raster, frame.entities[one.row].clipFromObjectRaster}
         );
     }
+    record.layer = listLayerEntities(frame);
     return record;
+}
+
+std::vector<ecs::Entity> listLayerEntities(const ExtractedFrame& frame) {
+    std::vector<ecs::Entity> entities;
+    for (const uint32_t row : frame.layerRows)
+        entities.push_back(frame.entityHandles[row]);
+    std::sort(entities.begin(), entities.end(), [](ecs::Entity a, ecs::Entity b) {
+        return a.index < b.index;
+    });
+    return entities;
 }
 
 bool showsTheSame(

@@ -40,7 +40,12 @@ struct RasterRecord {
     std::vector<math::dmat4> worldFromObject;
     std::vector<bool> deforms;       ///< the row's shape changes during the exposure
     std::vector<RasterShape> shapes; ///< in the order of their rows: 128 bytes per joint
+    /// Those whose blended surfaces are not in the raster (ExtractedFrame::layerRows), in order.
+    std::vector<ecs::Entity> layer;
 };
+
+/// Those whose blended surfaces are not in the frame's raster, in order.
+[[nodiscard]] std::vector<ecs::Entity> listLayerEntities(const ExtractedFrame& frame);
 
 /// Picture space (layer_tables.h) at shutter time `s` from the world.
 /// \param motion of the view's exposure

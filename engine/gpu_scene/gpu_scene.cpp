@@ -158,12 +158,17 @@ void GpuScene::uploadMeshes(const scene::Assets& assets) {
                  row.indexCount,
                  material.alphaMode,
                  material.doubleSided,
-                 row.vertexCount}
+                 row.vertexCount,
+                 row.firstIndex + row.indexCount}
             );
+            mLayout.hasBlended = mLayout.hasBlended || material.alphaMode == AlphaMode::Blend;
             mFirstVertex.push_back(static_cast<uint32_t>(vertices.size()));
             for (size_t i = 0; i < primitive.positions.size(); ++i)
                 vertices.push_back(packVertex(primitive, i));
             indices.insert(indices.end(), sorted.begin(), sorted.end());
+            if (material.alphaMode == AlphaMode::Blend)
+                for (size_t i = sorted.size(); i >= 3; i -= 3)
+                    indices.insert(indices.end(), &sorted[i - 3], &sorted[i - 3] + 3);
         }
     }
     mLayout.firstGeometry.push_back(static_cast<uint32_t>(rows.size()));

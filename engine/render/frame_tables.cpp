@@ -4,12 +4,26 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/scene/shutter.h"
 
+#include <span>
+#include <vector>
+
 namespace shutter::render {
 
 namespace {
 
 VkDeviceSize alignTable(VkDeviceSize bytes) {
     return (bytes + 255) / 256 * 256;
+}
+
+/// FrameConstants::layerRows; empty where it has none.
+std::vector<uint32_t> listLayerBits(const extract::ExtractedFrame& frame) {
+    std::vector<uint32_t> bits;
+    if (frame.layerRows.empty())
+        return bits;
+    bits.resize(frame.entities.size() / 32 + 1, 0u);
+    for (const uint32_t row : frame.layerRows)
+        bits[row / 32] |= 1u << (row % 32);
+    return bits;
 }
 
 } // namespace
@@ -25,9 +39,11 @@ FrameTables::Addresses FrameTables::upload(
     const VkDeviceSize lightBytes = frame.lights.size() * sizeof(shader::LightRow);
     const VkDeviceSize responseAt = lightsAt + alignTable(lightBytes);
     const VkDeviceSize geometriesAt = responseAt + alignTable(sizeof(shader::ResponseTable));
-    const VkDeviceSize total =
-        deformed.empty() ? geometriesAt
-                         : geometriesAt + (own.size() + deformed.size()) * sizeof(shader::Geometry);
+    const VkDeviceSize geometryBytes =
+        deformed.empty() ? 0 : (own.size() + deformed.size()) * sizeof(shader::Geometry);
+    const VkDeviceSize layerAt = geometriesAt + alignTable(geometryBytes);
+    const std::vector<uint32_t> layer = listLayerBits(frame);
+    const VkDeviceSize total = layerAt + layer.size() * sizeof(uint32_t);
     const auto response = scene::computeLightTable(view.exposure);
     if (mBuffer.bytes() < total)
         mBuffer = gpu::Buffer(
@@ -44,11 +60,14 @@ FrameTables::Addresses FrameTables::upload(
     frame.constants.geometries = gpu::splitAddress(
         deformed.empty() ? scene.geometryTable() : mBuffer.address() + geometriesAt
     );
+    frame.constants.layerRows =
+        layer.empty() ? math::uvec2(0) : gpu::splitAddress(mBuffer.address() + layerAt);
     frame.constants.materials = gpu::splitAddress(scene.materialTable());
     if ((frame.constants.flags & shader::kFrameEnvironment) != 0)
         frame.constants.environment = gpu::splitAddress(scene.environment());
     mBuffer.writeBytes(&frame.constants, sizeof(frame.constants), 0);
     mBuffer.write(std::span<const shader::LightRow>(frame.lights), lightsAt);
+    mBuffer.write(std::span<const uint32_t>(layer), layerAt);
     if (response)
         mBuffer.writeBytes(&*response, sizeof(*response), responseAt);
     if (!deformed.empty()) {

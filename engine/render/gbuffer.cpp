@@ -177,7 +177,8 @@ GBuffer GBufferPass::declare(
             recorder.bind(mSky);
             recorder.drawScreen();
             frame.blended.forEach([&](const extract::DrawItem& item) {
-                recorder.draw(mBlended, item);
+                if (!frame.isInLayer(item.entity))
+                    recorder.draw(mBlended, item);
             });
         }
     );

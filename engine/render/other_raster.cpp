@@ -3,6 +3,7 @@
 
 #include "engine/render/shadow_maps.h"
 
+#include <algorithm>
 #include <array>
 
 namespace shutter::render {
@@ -19,12 +20,19 @@ OtherRaster::OtherRaster(gpu::Device& device)
 OtherRaster::~OtherRaster() = default;
 
 core::Status OtherRaster::extract(
-    const scene::World& world, const extract::SceneLayout& layout, const extract::ViewRequest& view
+    const scene::World& world,
+    const extract::SceneLayout& layout,
+    const extract::ViewRequest& view,
+    std::span<const ecs::Entity> layer
 ) {
     auto extracted = mExtractor.update(world, layout, view);
     if (!extracted)
         return extracted.error();
     mFrame = extracted.value();
+    if (!layer.empty())
+        for (uint32_t row = 0; row < mFrame->entityHandles.size(); ++row)
+            if (std::find(layer.begin(), layer.end(), mFrame->entityHandles[row]) != layer.end())
+                mFrame->layerRows.push_back(row);
     mView = view;
     return mShadows->prepare(
         extract::planShadows(

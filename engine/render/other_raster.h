@@ -13,6 +13,7 @@
 #include "engine/render/post_effect.h"
 
 #include <memory>
+#include <span>
 
 namespace shutter::render {
 
@@ -30,11 +31,13 @@ class OtherRaster {
 
     /// \param view of the raster's own time. With an instant, what moves casts the shadow of the
     /// whole exposure all the same, as in the frame's own raster
+    /// \param layer entities whose blended surfaces are left out, as in the frame's own raster
     /// Error: as FrameExtractor::update.
     [[nodiscard]] core::Status extract(
         const scene::World& world,
         const extract::SceneLayout& layout,
-        const extract::ViewRequest& view
+        const extract::ViewRequest& view,
+        std::span<const ecs::Entity> layer
     );
 
     /// What was extracted.

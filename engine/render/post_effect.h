@@ -120,6 +120,7 @@ struct PostContext {
     graph::ImageHandle color;                    ///< linear HDR so far; an effect replaces it
     graph::ImageHandle display{};                ///< display-encoded, once somebody made it
     Intermediates& intermediates;
+    graph::BufferHandle shadowMaps{};   ///< that the raster read; invalid: there are none
     VkDeviceAddress response = 0;       ///< shader::ResponseTable of the shutter; 0: a box
     VkDeviceAddress frameConstants = 0; ///< shader::FrameConstants
     Explainer& explainer;               ///< takes reasons of passes that an effect leaves out
@@ -158,6 +159,10 @@ class PostEffect {
 
     /// The same for rays at any time of the exposure.
     [[nodiscard]] virtual core::Decision askTimedRays(const ViewFacts&) const { return {}; }
+
+    /// Whether it draws blended surfaces that move itself, after its own passes: those in
+    /// ExtractedFrame::layerRows are in no raster then.
+    [[nodiscard]] virtual core::Decision askLayer(const ViewFacts&) const { return {}; }
 
     /// The same for a raster of the world at the other end of the exposure
     /// (PostContext::secondRaster).

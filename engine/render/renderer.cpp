@@ -139,13 +139,14 @@ core::Status Renderer::submitFrame(
         .facts = facts,
         .slot = pending.slot,
         .colorJitterPx = request.view.jitterPx};
-    RunningEffects running = askEffects(context, effects, explainer);
+    RunningEffects running = askEffects(context, frame, effects, explainer);
     if (request.wantReasons) {
         explainSurfaces(frame, explainer);
         explainer.decide(ExplainedKind::Work, "rays at the raster instant", running.rays);
         explainer.decide(ExplainedKind::Work, "rays at any time", running.timedRays);
         explainer.decide(ExplainedKind::Work, "second raster", running.secondRaster);
         explainer.decide(ExplainedKind::Work, "last raster", running.lastRaster);
+        explainer.decide(ExplainedKind::Work, "blended layer", running.layer);
     }
 
     std::optional<extract::TimedTables> moving;
@@ -280,6 +281,7 @@ Renderer::DeclaredScene Renderer::declareScene(const FrameParts& parts) {
             graph, *mShadowPipelines, frame, mScene, scene.shapes.buffer, rays.frameConstants
         );
     }
+    scene.shadowMaps = rays.shadowBuffer;
     explainer.beginPasses(graph, PassOwner::Scene, "the picture is drawn");
     scene.gbuffer = mGBufferPass.declare(
         graph,
@@ -348,6 +350,7 @@ Renderer::Tickets Renderer::declareFrame(const FrameParts& parts) {
         .timedRays = moving ? &scene.timedRays : nullptr,
         .color = scene.gbuffer.color,
         .intermediates = intermediates,
+        .shadowMaps = scene.shadowMaps,
         .response = scene.tables.response,
         .frameConstants = scene.tables.constants,
         .explainer = explainer,

@@ -168,6 +168,7 @@ class Renderer {
         core::Decision timedRays;
         core::Decision secondRaster;
         core::Decision lastRaster;
+        core::Decision layer;
         bool mayTrace = false; ///< in another frame, if not in this
     };
 
@@ -206,6 +207,7 @@ class Renderer {
         graph::RayScene rays;       ///< filled where an effect traces at the raster instant
         graph::TimedRays timedRays; ///< likewise at any time
         FrameTables::Addresses tables;
+        graph::BufferHandle shadowMaps; ///< invalid: there are none
         GBuffer gbuffer;
     };
 
@@ -231,9 +233,17 @@ class Renderer {
     /// per row, and the sky's behind them
     core::Result<std::vector<float>>
     lookAtMotion(const scene::World& world, const extract::ViewRequest& view);
-    static RunningEffects askEffects(
-        const ExtractContext& context, std::span<PostEffect* const> effects, Explainer& explainer
-    );
+    /// \param frame the context's, which gets its ExtractedFrame::layerRows
+    RunningEffects askEffects(
+        const ExtractContext& context,
+        extract::ExtractedFrame& frame,
+        std::span<PostEffect* const> effects,
+        Explainer& explainer
+    ) const;
+    /// Fills the frame's ExtractedFrame::layerRows where the effect draws them.
+    core::Decision decideLayer(
+        const PostEffect& effect, const ExtractContext& context, extract::ExtractedFrame& frame
+    ) const;
     /// Extracts what the running effects look up beside the frame's own raster, and what they need
     /// of the world themselves.
     [[nodiscard]] core::Status

@@ -2,6 +2,8 @@
 // What the effects of a frame ask for beside the frame's own raster, and what goes once none did
 // for a while.
 #include "engine/core/check.h"
+#include "engine/core/words.h"
+#include "engine/extract/blended_layer.h"
 #include "engine/extract/raster_record.h"
 #include "engine/render/renderer.h"
 #include "engine/render/shadow_maps.h"
@@ -19,13 +21,17 @@ void join(core::Decision& all, const std::string& effect, const core::Decision& 
 } // namespace
 
 Renderer::RunningEffects Renderer::askEffects(
-    const ExtractContext& context, std::span<PostEffect* const> effects, Explainer& explainer
-) {
+    const ExtractContext& context,
+    extract::ExtractedFrame& frame,
+    std::span<PostEffect* const> effects,
+    Explainer& explainer
+) const {
     const ViewFacts& facts = context.facts;
     RunningEffects running;
     running.rays = running.timedRays = {false, "no effect that runs traces any"};
     running.secondRaster =
         running.lastRaster = {false, "no effect that runs looks anything up in it"};
+    running.layer = {false, "no effect that runs draws one"};
     for (PostEffect* effect : effects) {
         core::Decision decision = effect->ask(facts);
         const core::Decision rays = effect->askRays(facts);
@@ -37,6 +43,8 @@ Renderer::RunningEffects Renderer::askEffects(
         explainer.decide(ExplainedKind::Effect, effect->name(), decision);
         if (!decision.run)
             continue;
+        if (!running.layer.run)
+            join(running.layer, effect->name(), decideLayer(*effect, context, frame));
         const core::Decision secondRaster = effect->askSecondRaster(facts);
         const core::Decision lastRaster = effect->askLastRaster(context);
         running.effects.push_back({effect, secondRaster.run, lastRaster.run});
@@ -49,17 +57,36 @@ Renderer::RunningEffects Renderer::askEffects(
     return running;
 }
 
+core::Decision Renderer::decideLayer(
+    const PostEffect& effect, const ExtractContext& context, extract::ExtractedFrame& frame
+) const {
+    core::Decision decision = effect.askLayer(context.facts);
+    if (!decision.run)
+        return decision;
+    frame.layerRows =
+        extract::findLayerRows(context.world, mScene.layout(), context.view, context.motion, frame);
+    if (frame.layerRows.empty())
+        return {
+            false,
+            mScene.layout().hasBlended ? "no blended surface moves, and nothing moves near one"
+                                       : "the scene has no blended surface"};
+    decision.reason = core::countOf(frame.layerRows.size(), "entity has", "entities have") +
+                      " blended surfaces that move or that something moves near";
+    return decision;
+}
+
 core::Status
 Renderer::extractForEffects(Slot& slot, ExtractContext& context, const RunningEffects& running) {
     const extract::SceneLayout& layout = mScene.layout();
+    const std::vector<ecs::Entity> hidden = extract::listLayerEntities(context.frame);
     if (running.secondRaster.run)
-        SHUTTER_TRY(
-            slot.secondRaster->extract(context.world, layout, makeViewOfOtherEnd(context.view))
-        );
+        SHUTTER_TRY(slot.secondRaster->extract(
+            context.world, layout, makeViewOfOtherEnd(context.view), hidden
+        ));
     if (running.lastRaster.run) {
         const auto before = extract::makeViewBefore(context.world, context.view, context.motion);
         SHUTTER_CHECK(before.has_value(), "no frame before shows what this one does");
-        SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before));
+        SHUTTER_TRY(slot.lastRaster->extract(context.world, layout, *before, hidden));
     }
     for (const RunningEffect& one : running.effects) {
         context.secondRaster.reset();

@@ -10,6 +10,7 @@
 #include "engine/gpu/vulkan.h"
 #include "engine/graph/ray_scene.h"
 #include "engine/graph/types.h"
+#include "shaders/common/instant_surfaces.glsl"
 
 #include <glm/glm.hpp>
 
@@ -90,6 +91,9 @@ struct MotionBlurInputs {
     std::optional<InstantMotions> instantMotions; ///< for Method::readsInstantMotions (CHECKed)
     /// Numbers the frame for InstantNoise::Turning; the next frame has the next number.
     int64_t frameNumber = 0;
+    /// What each pixel of a rectangle of the picture saw at some of the instants is wanted
+    /// (MotionBlurOutputs::surfaces): for Method::readsInstantMotions; others leave nothing.
+    std::optional<shader::InstantSurfaces> surfaces;
     /// False: the frame is drawn for what RasterHistory keeps of it alone. For
     /// Method::readsInstantMotions, which then needs no timed rays.
     bool wantsPicture = true;
@@ -119,8 +123,9 @@ struct View {
 };
 
 struct MotionBlurOutputs {
-    graph::ImageHandle color; ///< RGBA16F: the blurred picture
-    std::vector<View> views;  ///< those of the method, README.md, "Debug views"
+    graph::ImageHandle color;     ///< RGBA16F: the blurred picture
+    graph::BufferHandle surfaces; ///< MotionBlurInputs::surfaces and its words; invalid: none
+    std::vector<View> views;      ///< those of the method, README.md, "Debug views"
 
     /// Invalid: the method has no such view.
     [[nodiscard]] graph::ImageHandle view(std::string_view name) const {

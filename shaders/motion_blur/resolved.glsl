@@ -8,6 +8,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #extension GL_EXT_scalar_block_layout : require
 
+#include "common/instant_surfaces.glsl"
 #include "common/picture_space.glsl"
 #include "motion_blur/motion_blur_shared.h"
 #include "motion_blur/resolved_shared.h"
@@ -88,14 +89,6 @@ bool isInner(uint corners, vec2 at) {
 vec2 lookFrom(BlockLook look, vec2 inBlock) {
     return look.place + unpackHalf2x16(look.perX) * inBlock.x +
            unpackHalf2x16(look.perY) * inBlock.y;
-}
-
-/// The `index`th of `count` instants taken out of `all`: spread evenly, and alike in both directions of
-/// time, so that what is left out moves no picture.
-uint takenInstant(uint index, uint count, uint all) {
-    uint fromEnd = min(index, count - 1u - index);
-    uint taken = uint((float(fromEnd) + 0.5f) * (float(all) / float(count)));
-    return fromEnd == index ? taken : all - 1u - taken;
 }
 
 /// Parts of the exposure for each instant, in fixed point for partOf().

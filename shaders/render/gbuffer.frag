@@ -4,6 +4,7 @@
 #define SHUTTER_UNIFORM_MATERIAL
 #include "render/lighting.glsl"
 #include "render/motion.glsl"
+#include "render/fragment_point.glsl"
 
 layout(constant_id = 0) const uint kAlphaMask = 0u; // 1: pixels below the cutoff are dropped
 layout(constant_id = 1) const uint kBlend = 0u;     // 1: alpha is kept for blending
@@ -11,11 +12,6 @@ layout(constant_id = 2) const uint kMoves = 1u;     // 0: the entity has no moti
 
 layout(push_constant, scalar) uniform Push { DrawConstants draw; };
 
-layout(location = 0) in vec3 inEyePosition;
-layout(location = 1) in vec3 inNormal;
-layout(location = 2) in vec4 inTangent;
-layout(location = 3) in vec4 inUv;
-layout(location = 4) in vec4 inColor;
 layout(location = 5) in vec3 inClipOpen;
 layout(location = 6) in vec3 inClipClose;
 
@@ -24,34 +20,10 @@ layout(location = 1) out vec4 outNormal;
 layout(location = 2) out vec4 outMotionDepth;
 layout(location = 3) out uint outEntityId;
 
-/// The triangle's normal, on the front side as the winding defines it, from derivatives.
-vec3 geometricNormal() {
-    vec3 normal = cross(dFdx(inEyePosition), dFdy(inEyePosition));
-    // Only the side matters to shading: towards the viewer for front faces.
-    bool towardsViewer = dot(normal, inEyePosition) < 0.0f;
-    return towardsViewer == gl_FrontFacing ? normal : -normal;
-}
-
 void main() {
     FrameRef frame = FrameRef(draw.frame);
-    uint materialIndex = GeometryTable(frame.value.geometries).rows[draw.geometry].material;
-    MaterialRow material = MaterialTable(frame.value.materials).rows[materialIndex];
-
-    SurfacePoint point;
-    point.eyePosition = inEyePosition;
-    point.geometricNormal = geometricNormal();
-    point.normal = inNormal;
-    point.tangent = inTangent;
-    point.uv[0] = inUv.xy;
-    point.uv[1] = inUv.zw;
-    vec3 dx = dFdx(inEyePosition);
-    vec3 dy = dFdy(inEyePosition);
-    vec4 uvDx = dFdx(inUv);
-    vec4 uvDy = dFdy(inUv);
-    point.uvDensity[0] = textureDensity(dx, dy, uvDx.xy, uvDy.xy);
-    point.uvDensity[1] = textureDensity(dx, dy, uvDx.zw, uvDy.zw);
-    point.color = inColor;
-
+    MaterialRow material = materialOf(frame, draw.geometry);
+    SurfacePoint point = pointOfFragment();
     vec3 viewDirection = viewDirectionTo(frame, inEyePosition);
     Surface surface = evaluateSurface(frame, material, point, viewDirection);
     if (kAlphaMask != 0u && surface.alpha < material.emissiveCutoff.a) discard;

@@ -139,6 +139,9 @@ struct FrameConstants {
     uvec2 movingTlas;  // address of a second top level, of what moves; 0: there is none
     uvec2 shadows;     // address of ShadowConstants; 0: there are no shadow maps
     uvec2 environment; // address of EnvironmentConstants, where kFrameEnvironment is set
+    /// Address of uint[], a bit for each row: 1 where rays meet no blended surface of the entity,
+    /// which is drawn over the picture. 0: all are met.
+    uvec2 layerRows;
 };
 
 /// Push constants of the G-buffer's draws.
@@ -158,7 +161,7 @@ static_assert(sizeof(shutter::shader::Geometry) == 48);
 static_assert(sizeof(shutter::shader::TextureRef) == 32);
 static_assert(sizeof(shutter::shader::MaterialRow) == 224);
 static_assert(sizeof(shutter::shader::LightRow) == 64);
-static_assert(sizeof(shutter::shader::FrameConstants) == 400);
+static_assert(sizeof(shutter::shader::FrameConstants) == 408);
 static_assert(sizeof(shutter::shader::EnvironmentConstants) == 208);
 static_assert(sizeof(shutter::shader::DrawConstants) == 16);
 #endif

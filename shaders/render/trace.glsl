@@ -22,6 +22,13 @@ struct RayHit {
     HitId id;
 };
 
+/// Whether the entity's blended surfaces are drawn over the picture: rays then miss them.
+bool isInLayer(FrameRef frame, uint entity) {
+    uvec2 address = frame.value.layerRows;
+    if ((address.x | address.y) == 0u) return false;
+    return (IndexArray(address).values[entity / 32u] >> (entity & 31u) & 1u) != 0u;
+}
+
 /// Whether raster would have drawn the candidate there: back faces of single-sided materials and
 /// transparent parts of masked ones are passed.
 /// \param direction unit, from the camera
@@ -36,6 +43,7 @@ bool isDrawn(
     uint flags = materials.rows[index].flags;
     uint kind = (flags & kMaterialBlend) != 0u ? kBlendedMask : kSolidMask;
     if ((mask & kind) == 0u) return false;
+    if (kind == kBlendedMask && isInLayer(frame, id.entity)) return false;
     if ((flags & kMaterialDoubleSided) == 0u && !frontFace) return false;
     if ((flags & kMaterialMask) == 0u) return true;
     Hit hit = fetchHit(frame, placement, id);

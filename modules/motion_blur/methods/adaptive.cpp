@@ -7,6 +7,7 @@
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
 #include "modules/motion_blur/passes/dispatch.h"
+#include "modules/motion_blur/passes/instant_surfaces.h"
 #include "modules/motion_blur/passes/look_up.h"
 #include "modules/motion_blur/passes/own_samples_pass.h"
 #include "modules/motion_blur/shared_passes.h"
@@ -34,7 +35,7 @@ gpu::ComputePipelineDesc describeTrace(VkDescriptorSetLayout sceneLayout) {
 class AdaptivePasses : public MethodPasses {
   public:
     AdaptivePasses(gpu::Device& device, VkDescriptorSetLayout sceneLayout)
-        : mDevice(device), mLookUp(device, true), mOwnSamples(device),
+        : mDevice(device), mLookUp(device, true), mSurfaces(device), mOwnSamples(device),
           mTrace(device, describeTrace(sceneLayout)) {}
 
     MotionBlurOutputs
@@ -56,6 +57,7 @@ class AdaptivePasses : public MethodPasses {
 
     gpu::Device& mDevice;
     LookUp mLookUp;
+    InstantSurfacesPass mSurfaces;
     OwnSamplesPass mOwnSamples;
     SearchPipelines mTrace;
 };
@@ -82,6 +84,7 @@ MotionBlurOutputs AdaptivePasses::add(
     }
     params.setMethod(own);
     LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
+    mSurfaces.add(graph, inputs.surfaces, found, params);
     if (inputs.samples)
         mOwnSamples.add(graph, *inputs.samples, found, params);
     else if (inputs.timedRays)

@@ -4,6 +4,7 @@
 #include "engine/gpu/vulkan.h"
 #include "modules/motion_blur/budget_ladder.h"
 #include "modules/motion_blur/methods.h"
+#include "modules/motion_blur/passes/instant_surfaces.h"
 #include "modules/motion_blur/passes/look_up.h"
 #include "modules/motion_blur/shared_passes.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 class ResolvedPasses : public MethodPasses {
   public:
-    explicit ResolvedPasses(gpu::Device& device) : mLookUp(device, false) {}
+    explicit ResolvedPasses(gpu::Device& device) : mLookUp(device, false), mSurfaces(device) {}
 
     MotionBlurOutputs
     add(graph::Graph& graph,
@@ -27,7 +28,8 @@ class ResolvedPasses : public MethodPasses {
         shader::ResolvedParams own{};
         own.motions = gpu::splitAddress(inputs.instantMotions->table);
         params.setMethod(own);
-        const LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
+        LookUpOutputs found = mLookUp.add(graph, inputs, settings, params, shared);
+        mSurfaces.add(graph, inputs.surfaces, found, params);
         return mLookUp.end(graph, inputs, found, params, shared);
     }
 
@@ -35,6 +37,7 @@ class ResolvedPasses : public MethodPasses {
 
   private:
     LookUp mLookUp;
+    InstantSurfacesPass mSurfaces;
 };
 
 } // namespace

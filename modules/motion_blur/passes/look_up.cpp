@@ -423,6 +423,7 @@ MotionBlurOutputs LookUp::end(
         params,
         shared.stillPixelsBy
     );
+    outputs.surfaces = found.surfaces;
     const SurfaceLayersOutputs& layers = found.search.layers;
     for (const View& view : {View{"second", layers.second.color}, View{"last", layers.last.color}})
         if (view.image.isValid())

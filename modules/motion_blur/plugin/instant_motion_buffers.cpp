@@ -19,7 +19,9 @@ describeRaster(const scene::World& world, const render::ExtractedRaster& drawn) 
 bool isOfFrameBefore(
     const render::ExtractContext& context, const std::optional<extract::RasterRecord>& record
 ) {
-    return record && extract::isOfFrameBefore(context.world, context.view, context.motion, *record);
+    return record &&
+           extract::isOfFrameBefore(context.world, context.view, context.motion, *record) &&
+           record->layer == extract::listLayerEntities(context.frame);
 }
 
 } // namespace
@@ -39,7 +41,7 @@ extract::InstantTables InstantMotionBuffers::computeTables(
     std::optional<extract::InstantFrame> secondFrame;
     if (const auto& second = context.secondRaster)
         secondFrame.emplace(*second->view->instant, *second->frame, second->view->jitterPx);
-    const extract::RasterRecord* last = mLast ? &*mLast : nullptr;
+    const extract::RasterRecord* last = isOfFrameBefore(context, mLast) ? &*mLast : nullptr;
     std::optional<extract::RasterRecord> drawnAnew;
     if (const auto& drawn = context.lastRaster)
         last = &drawnAnew.emplace(describeRaster(context.world, *drawn));

@@ -58,7 +58,7 @@ MotionBlurPlugin::MotionBlurPlugin(
     const BlurBudget& budget
 )
     : mWanted(settings), mBudget(budget, settings), mInstantMotions(device, scene),
-      mEffect(device, scene.textureLayout()) {}
+      mBlended(device, scene), mEffect(device, scene.textureLayout()) {}
 
 void MotionBlurPlugin::configure(
     const MotionBlurSettings& settings, const BlurBudget& budget, UntilReady untilReady
@@ -115,6 +115,12 @@ core::Decision MotionBlurPlugin::askTimedRays(const render::ViewFacts& facts) co
     return {true, "its method has rays with times of their own"};
 }
 
+core::Decision MotionBlurPlugin::askLayer(const render::ViewFacts&) const {
+    if (!settings().method->readsRaster)
+        return {false, "its method draws them itself"};
+    return {true, "blended surfaces are drawn over the blurred picture"};
+}
+
 core::Decision MotionBlurPlugin::askSecondRaster(const render::ViewFacts& facts) const {
     if (!settings().method->readsInstantMotions || !settings().secondRaster)
         return {};
@@ -138,6 +144,11 @@ core::Decision MotionBlurPlugin::askLastRaster(const render::ExtractContext& con
 void MotionBlurPlugin::extract(render::ExtractContext& context) {
     if (settings().method->readsInstantMotions)
         mInstantMotions.extract(context, countInstants(settings()), settings().history);
+    extract::LayerLimits limits;
+    if (settings().method->sampleUnit == SampleUnit::Instants)
+        limits.instants = settings().sampleCount;
+    limits.findsInstants = settings().method->readsInstantMotions;
+    mBlended.extract(context, limits);
 }
 
 void MotionBlurPlugin::declare(render::PostContext& context) {
@@ -168,6 +179,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
     const size_t level = keepsOnly || standsIn ? kNoLevel : mBudget.level();
     mDrawn.at(context.slot) = {level, keepsOnly, standsIn, readsHistory()};
     inputs.slot = context.slot;
+    inputs.surfaces = mBlended.wanted(context.slot);
     const MotionBlurOutputs outputs = mEffect.add(context.graph, inputs, settings());
     explainBudget(context.explainer, mBudget);
     if (standsIn)
@@ -185,7 +197,7 @@ void MotionBlurPlugin::declare(render::PostContext& context) {
         context.explainer.decide(
             render::ExplainedKind::Pass, "ray reveal", {false, context.facts.reveal.reason}
         );
-    context.color = outputs.color;
+    context.color = keepsOnly ? outputs.color : mBlended.declare(context, outputs);
     for (const View& view : outputs.views)
         context.intermediates.publish(std::string(view.name), view.image);
 }

@@ -6,6 +6,7 @@
 #include "engine/render/renderer.h"
 #include "modules/motion_blur/budget.h"
 #include "modules/motion_blur/motion_blur.h"
+#include "modules/motion_blur/plugin/blended_surfaces.h"
 #include "modules/motion_blur/plugin/instant_motion_buffers.h"
 
 #include <array>
@@ -52,6 +53,9 @@ class MotionBlurPlugin : public render::PostEffect {
     /// For methods of RayNeed::Query, in frames that are shown.
     [[nodiscard]] core::Decision askTimedRays(const render::ViewFacts& facts) const override;
 
+    /// For methods that blur the raster.
+    [[nodiscard]] core::Decision askLayer(const render::ViewFacts& facts) const override;
+
     /// With MotionBlurSettings::secondRaster, for methods that read it, in frames that are
     /// shown.
     [[nodiscard]] core::Decision askSecondRaster(const render::ViewFacts& facts) const override;
@@ -96,6 +100,7 @@ class MotionBlurPlugin : public render::PostEffect {
     std::optional<MotionBlurSettings> mStandIn; ///< of the next frame; nothing: the budget's
     std::array<Drawn, gpu::kMaxFramesInFlight> mDrawn{}; ///< by slot
     InstantMotionBuffers mInstantMotions;
+    BlendedSurfaces mBlended;
     render::IdleCounter mHistoryIdle;
     MotionBlur mEffect;
 };

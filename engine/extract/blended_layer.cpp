@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+#include "engine/extract/blended_layer.h"
+
+#include "engine/extract/frame_view.h"
+#include "engine/extract/raster_record.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace shutter::extract {
+
+namespace {
+
+using math::dmat4;
+using math::dvec2;
+using math::dvec4;
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// Times at which boxes are looked at; what turns bulges out between them by less than the margin.
+constexpr size_t kSweepTimes = 9;
+constexpr double kSweptMarginPx = 2.0;
+/// More movers than these are not looked at one by one.
+constexpr size_t kMostSweptMovers = 64;
+/// Nearest depth at which a box has corners in the picture, metres.
+constexpr double kLeastBoxDepth = 1.0e-4;
+
+/// Where an entity is in the picture in the course of the exposure.
+struct SweptBox {
+    dvec2 least{kFar}; ///< pixels
+    dvec2 most{-kFar};
+    double nearest = kFar; ///< metres along the view
+    double farthest = -kFar;
+    double wayPx = 0.0; ///< longest, of a corner; infinity: not known
+
+    void spread() {
+        least = dvec2(-kFar);
+        most = dvec2(kFar);
+        wayPx = kFar;
+    }
+};
+
+bool overlap(const SweptBox& a, const SweptBox& b) {
+    return a.least.x <= b.most.x && b.least.x <= a.most.x && a.least.y <= b.most.y &&
+           b.least.y <= a.most.y;
+}
+
+math::Bounds findExposureBounds(
+    const ExtractedFrame& frame,
+    const SceneLayout& layout,
+    const DeformedEntity* shape,
+    uint32_t row
+) {
+    math::Bounds bounds = findRowBounds(frame, layout, row);
+    if (shape && shape->changes)
+        for (const scene::Deformation* pose : {&shape->open, &shape->close})
+            bounds.add(scene::computeDeformedBounds(*shape->reach, *pose));
+    return bounds;
+}
+
+/// What a layer is found in.
+struct LayerSource {
+    const scene::World& world;
+    const SceneLayout& layout;
+    const ViewRequest& view;
+    const scene::ExposureMotion& motion;
+    const ExtractedFrame& frame;
+};
+
+/// What both steps know of a frame.
+class LayerScene : public LayerSource {
+  public:
+    explicit LayerScene(const LayerSource& source)
+        : LayerSource(source),
+          isPerspective(
+              world.registry.get<scene::Camera>(view.camera).kind == scene::CameraKind::Perspective
+          ) {
+        for (size_t i = 0; i < kSweepTimes; ++i) {
+            mTimes[i] = double(i) / double(kSweepTimes - 1);
+            mPictures[i] = pictureFromWorldAt(world, view, motion, mTimes[i]);
+            cameraMoves = cameraMoves || mPictures[i] != mPictures[0];
+        }
+    }
+
+    /// In the world, during the exposure.
+    [[nodiscard]] bool moves(uint32_t row) const {
+        const DeformedEntity* const shape = findDeformed(frame, row);
+        return motion.mayObjectMove(frame.entityHandles[row]) || (shape && shape->changes);
+    }
+
+    [[nodiscard]] bool hasGeometry(uint32_t row, bool isBlended) const {
+        const uint32_t mesh = frame.entityMeshes[row];
+        for (uint32_t i = layout.firstGeometry[mesh]; i < layout.firstGeometry[mesh + 1]; ++i)
+            if ((layout.geometries[i].alphaMode == scene::AlphaMode::Blend) == isBlended)
+                return true;
+        return false;
+    }
+
+    [[nodiscard]] SweptBox sweep(uint32_t row) const {
+        const math::Bounds bounds =
+            findExposureBounds(frame, layout, findDeformed(frame, row), row);
+        const ecs::Entity entity = frame.entityHandles[row];
+        const bool isStill = !motion.mayObjectMove(entity);
+        SweptBox box;
+        std::array<dvec2, 8> before{};
+        std::array<double, 8> ways{};
+        bool isEverywhere = false;
+        for (size_t i = 0; i < kSweepTimes; ++i) {
+            const dmat4 picture =
+                mPictures[i] *
+                (isStill ? frame.worldFromObject[row] : motion.worldFromObject(entity, mTimes[i]));
+            for (size_t corner = 0; corner < 8; ++corner) {
+                const dvec4 at = picture * dvec4(
+                                               corner & 1 ? bounds.max.x : bounds.min.x,
+                                               corner & 2 ? bounds.max.y : bounds.min.y,
+                                               corner & 4 ? bounds.max.z : bounds.min.z,
+                                               1.0
+                                           );
+                const double q = isPerspective ? at.z : 1.0;
+                box.nearest = std::min(box.nearest, at.z);
+                box.farthest = std::max(box.farthest, at.z);
+                // Written so that NaN is everywhere, too.
+                if (!(q > kLeastBoxDepth)) {
+                    isEverywhere = true;
+                    continue;
+                }
+                const dvec2 place = dvec2(at) / q;
+                if (i > 0)
+                    ways[corner] += glm::distance(place, before[corner]);
+                before[corner] = place;
+                box.least = glm::min(box.least, place - kSweptMarginPx);
+                box.most = glm::max(box.most, place + kSweptMarginPx);
+            }
+        }
+        box.wayPx = *std::max_element(ways.begin(), ways.end());
+        if (isEverywhere)
+            box.spread();
+        return box;
+    }
+
+    [[nodiscard]] bool isInPicture(const SweptBox& box) const {
+        return (!isPerspective || box.farthest > 0.0) && box.least.x < double(view.width) &&
+               box.most.x > 0.0 && box.least.y < double(view.height) && box.most.y > 0.0;
+    }
+
+    /// Of the rows with opaque surfaces that move in the world. Nothing: there are too many.
+    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const {
+        std::vector<SweptBox> boxes;
+        for (const uint32_t row : frame.movingRows) {
+            if (!moves(row) || !hasGeometry(row, false))
+                continue;
+            const SweptBox box = sweep(row);
+            if (isInPicture(box))
+                boxes.push_back(box);
+            if (boxes.size() > kMostSweptMovers)
+                return std::nullopt;
+        }
+        return boxes;
+    }
+
+    const bool isPerspective;
+    bool cameraMoves = false;
+
+  private:
+    std::array<double, kSweepTimes> mTimes{};
+    std::array<dmat4, kSweepTimes> mPictures{};
+};
+
+/// A row with blended surfaces.
+struct Blended {
+    uint32_t row = 0;
+    SweptBox box;
+    bool isInLayer = false;
+};
+
+std::vector<Blended> listBlended(const LayerScene& scene) {
+    std::vector<Blended> rows;
+    const auto add = [&](uint32_t row, bool moves) {
+        const SweptBox box = scene.sweep(row);
+        if (scene.isInPicture(box))
+            rows.push_back({row, box, moves});
+    };
+    for (const uint32_t row : scene.frame.movingRows)
+        if (scene.hasGeometry(row, true))
+            add(row, scene.moves(row));
+    std::vector<uint32_t> still;
+    for (const DrawItem& item : scene.frame.blended.still)
+        still.push_back(item.entity);
+    std::sort(still.begin(), still.end());
+    still.erase(std::unique(still.begin(), still.end()), still.end());
+    for (const uint32_t row : still)
+        add(row, false);
+    return rows;
+}
+
+/// Takes in whatever overlaps what is in already, until nothing does.
+void closeOver(std::vector<Blended>& rows) {
+    std::vector<size_t> reached;
+    for (size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].isInLayer)
+            reached.push_back(i);
+    while (!reached.empty()) {
+        const SweptBox box = rows[reached.back()].box;
+        reached.pop_back();
+        for (size_t i = 0; i < rows.size(); ++i)
+            if (!rows[i].isInLayer && overlap(rows[i].box, box)) {
+                rows[i].isInLayer = true;
+                reached.push_back(i);
+            }
+    }
+}
+
+/// Clip space of an instant's camera from its picture space, the depth apart: only the near plane
+/// clips.
+dmat4 clipFromPicture(const ViewRequest& view, bool isPerspective, double nearest) {
+    const double width = view.width;
+    const double height = view.height;
+    dmat4 rows(0.0);
+    rows[3] = isPerspective ? dvec4(0.0, 0.0, 1.0, 0.0) : dvec4(0.0, 0.0, 0.0, 1.0);
+    rows[0] = dvec4(2.0 / width, 0.0, 0.0, 0.0) - rows[3];
+    rows[1] = dvec4(0.0, 2.0 / height, 0.0, 0.0) - rows[3];
+    // Perspective: z = near, and w is the depth. Orthographic: half at the near plane, less behind.
+    rows[2] = isPerspective ? dvec4(0.0, 0.0, 0.0, nearest)
+                            : dvec4(0.0, 0.0, -1.0e-6, 1.0 + 1.0e-6 * nearest);
+    return glm::transpose(rows);
+}
+
+/// Builds the layer of one frame.
+class LayerPlanner {
+  public:
+    LayerPlanner(const LayerSource& source, const LayerLimits& limits)
+        : mScene(source), mLimits(limits) {}
+
+    BlendedLayer run() {
+        for (const uint32_t row : mScene.frame.layerRows) {
+            const SweptBox box = mScene.sweep(row);
+            if (mScene.isInPicture(box))
+                mRows.push_back({row, box, true});
+        }
+        if (mRows.empty())
+            return {};
+        placeRectangle();
+        mLayer.readsInstants = mLimits.findsInstants && areInstantsRead();
+        uint32_t count = countInstants();
+        if (mLayer.readsInstants)
+            count = fitInstants(count);
+        mLayer.partCount = mLayer.readsInstants ? std::min(count, shader::kMostSurfaceParts) : 1;
+        addInstants(count);
+        addItems();
+        return std::move(mLayer);
+    }
+
+  private:
+    void placeRectangle() {
+        const dvec2 size(mScene.view.width, mScene.view.height);
+        dvec2 least = size;
+        dvec2 most(0.0);
+        for (const Blended& one : mRows) {
+            least = glm::min(least, glm::max(one.box.least, dvec2(0.0)));
+            most = glm::max(most, glm::min(one.box.most, size));
+            mLayer.longestWayPx = std::max(mLayer.longestWayPx, one.box.wayPx);
+        }
+        mLayer.originPx = math::uvec2(glm::floor(least));
+        mLayer.sizePx = math::uvec2(glm::ceil(most)) - mLayer.originPx;
+    }
+
+    /// Whether an opaque mover, or the camera's motion, makes instants differ.
+    bool areInstantsRead() const {
+        if (mScene.cameraMoves)
+            return true;
+        const auto movers = mScene.sweepOpaqueMovers();
+        if (!movers)
+            return true;
+        for (const Blended& one : mRows) {
+            const bool moves = mScene.moves(one.row);
+            for (const SweptBox& mover : *movers)
+                // What still glass lets through is blurred as if it were not there.
+                if (overlap(mover, one.box) && (moves || mover.nearest < one.box.farthest))
+                    return true;
+        }
+        return false;
+    }
+
+    uint32_t countInstants() const {
+        if (mLayer.readsInstants)
+            return mLimits.instants;
+        const double wanted = std::ceil(mLayer.longestWayPx / kLayerStepPx);
+        return static_cast<uint32_t>(std::clamp(wanted, 1.0, double(mLimits.instants)));
+    }
+
+    /// As many as there is memory for; without enough for one, none is looked up.
+    uint32_t fitInstants(uint32_t count) {
+        shader::InstantSurfaces head = mLayer.surfaces();
+        for (; count > 0; --count) {
+            head.instantCount = count;
+            head.partCount = std::min(count, shader::kMostSurfaceParts);
+            const uint64_t words =
+                uint64_t(shader::surfaceWordsPerPixel(head)) * head.sizePx.x * head.sizePx.y;
+            if (words * sizeof(uint32_t) + sizeof(head) <= mLimits.surfaceBytes)
+                return count;
+        }
+        mLayer.readsInstants = false;
+        return countInstants();
+    }
+
+    void addInstants(uint32_t count) {
+        const ViewRequest& view = mScene.view;
+        const auto& camera = mScene.world.registry.get<scene::Camera>(view.camera);
+        const dmat4 clip = clipFromPicture(view, mScene.isPerspective, camera.near);
+        const double raster = view.exposure.rasterTime;
+        mEye = math::dvec3(mScene.motion.worldFromCamera(raster)[3]);
+        dmat4 worldFromEye(1.0);
+        worldFromEye[3] = dvec4(mEye, 1.0);
+        const dmat4 rasterPicture = pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
+        for (uint32_t i = 0; i < count; ++i) {
+            const double s = scene::invertLight(view.exposure, findLight(i, count));
+            const dmat4 picture = pictureFromWorldAt(mScene.world, view, mScene.motion, s);
+            const dmat4 test =
+                glm::transpose((mLayer.readsInstants ? picture : rasterPicture) * worldFromEye);
+            shader::LayerInstant& one = mLayer.instants.emplace_back();
+            for (int row = 0; row < 3; ++row)
+                one.testFromEye[row] = math::vec4(test[row]);
+            one.time = float(s);
+            one.weight = 1.0f / float(count);
+            mTimes.push_back(s);
+            mClips.push_back(clip * picture);
+        }
+    }
+
+    /// Light of the exposure up to an instant: the middle of its share, or of that of the method's
+    /// instant whose depth is looked up.
+    [[nodiscard]] double findLight(uint32_t index, uint32_t count) const {
+        if (!mLayer.readsInstants)
+            return (index + 0.5) / double(count);
+        const uint32_t taken = shader::takenInstant(index, count, mLimits.instants);
+        return (taken + 0.5) / double(mLimits.instants);
+    }
+
+    void addItems() {
+        for (const Blended& one : mRows) {
+            const auto firstPlace = static_cast<uint32_t>(mLayer.places.size());
+            addPlaces(one.row);
+            const uint32_t mesh = mScene.frame.entityMeshes[one.row];
+            const SceneLayout& layout = mScene.layout;
+            const uint32_t first = layout.firstGeometry[mesh];
+            for (uint32_t i = first; i < layout.firstGeometry[mesh + 1]; ++i)
+                if (layout.geometries[i].alphaMode == scene::AlphaMode::Blend)
+                    mLayer.items.push_back({describeDraw(one.row, i, first), firstPlace});
+        }
+        // Behind one another as in the raster, which draws the farthest first.
+        std::sort(
+            mLayer.items.begin(),
+            mLayer.items.end(),
+            [&](const LayerItem& a, const LayerItem& b) {
+                return mScene.frame.blended.isBefore(b.draw, a.draw);
+            }
+        );
+    }
+
+    void addPlaces(uint32_t row) {
+        const ecs::Entity entity = mScene.frame.entityHandles[row];
+        const bool isStill = !mScene.motion.mayObjectMove(entity);
+        for (size_t i = 0; i < mTimes.size(); ++i) {
+            const dmat4 world = isStill ? mScene.frame.worldFromObject[row]
+                                        : mScene.motion.worldFromObject(entity, mTimes[i]);
+            shader::LayerPlace& place = mLayer.places.emplace_back();
+            place.clipFromObject = math::mat4(mClips[i] * world);
+            dmat4 eye = world;
+            eye[3] -= dvec4(mEye, 0.0);
+            for (int axis = 0; axis < 3; ++axis)
+                place.eyeFromObject[axis] =
+                    math::vec4(eye[0][axis], eye[1][axis], eye[2][axis], eye[3][axis]);
+        }
+    }
+
+    DrawItem describeDraw(uint32_t row, uint32_t geometry, uint32_t firstOfMesh) const {
+        const ExtractedFrame& frame = mScene.frame;
+        const SceneLayout::GeometryInfo& info = mScene.layout.geometries[geometry];
+        const math::Bounds& bounds = findRowBounds(frame, mScene.layout, row);
+        const math::dvec3 centre(
+            frame.worldFromObject[row] * dvec4(math::dvec3(bounds.centre()), 1.0)
+        );
+        const double distance = glm::length(centre - mEye);
+        return {
+            row,
+            geometry,
+            frame.entities[row].firstGeometry + geometry - firstOfMesh,
+            info.alphaMode,
+            info.doubleSided,
+            (frame.entities[row].handedness < 0.0f) != frame.mirrors,
+            std::isnan(distance) ? std::numeric_limits<float>::infinity() : float(distance)};
+    }
+
+    LayerScene mScene;
+    LayerLimits mLimits;
+    BlendedLayer mLayer;
+    std::vector<Blended> mRows;
+    std::vector<double> mTimes; ///< of the instants
+    std::vector<dmat4> mClips;  ///< clip space from the world at each of them
+    math::dvec3 mEye{0.0};      ///< at the raster instant
+};
+
+} // namespace
+
+std::vector<uint32_t> findLayerRows(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame
+) {
+    if (!layout.hasBlended)
+        return {};
+    const LayerScene scene({world, layout, view, motion, frame});
+    std::vector<Blended> rows = listBlended(scene);
+    if (rows.empty())
+        return {};
+    const auto movers = scene.sweepOpaqueMovers();
+    for (Blended& one : rows)
+        one.isInLayer = one.isInLayer || !movers ||
+                        std::any_of(movers->begin(), movers->end(), [&](const SweptBox& mover) {
+                            return overlap(mover, one.box);
+                        });
+    closeOver(rows);
+    std::vector<uint32_t> result;
+    for (const Blended& one : rows)
+        if (one.isInLayer)
+            result.push_back(one.row);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+BlendedLayer planBlendedLayer(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame,
+    const LayerLimits& limits
+) {
+    if (frame.layerRows.empty())
+        return {};
+    return LayerPlanner({world, layout, view, motion, frame}, limits).run();
+}
+
+} // namespace shutter::extract

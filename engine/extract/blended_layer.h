@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Which blended surfaces leave the raster, because one picture of them cannot stand for the
+// exposure, and how they are drawn over the blurred picture instead: at several instants.
+#pragma once
+
+#include "engine/extract/extracted_frame.h"
+#include "engine/scene/exposure_motion.h"
+#include "engine/scene/world.h"
+#include "shaders/common/instant_surfaces.glsl"
+#include "shaders/render/blended_layer_shared.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shutter::extract {
+
+/// Pixels that a blended surface may move between two instants at which it is drawn.
+inline constexpr double kLayerStepPx = 3.0;
+
+/// Rows of the entity table whose blended surfaces leave the raster, rising: what moves or deforms
+/// in the world, what something that does may pass, as boxes on the screen over the exposure say,
+/// and what may lie before or behind such a surface, so that their order holds. Empty where a
+/// picture of the raster instant is all there is to see of the blended ones.
+/// \param motion of the view's exposure
+[[nodiscard]] std::vector<uint32_t> findLayerRows(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame
+);
+
+struct LayerItem {
+    DrawItem draw;
+    uint32_t firstPlace = 0; ///< in BlendedLayer::places: one per instant
+};
+
+/// How the layer of one frame is drawn.
+struct BlendedLayer {
+    math::uvec2 originPx{0}; ///< of the rectangle that the layer may touch
+    math::uvec2 sizePx{0};   ///< 0: nothing of it is in the picture
+    std::vector<shader::LayerInstant> instants;
+    uint32_t partCount = 1; ///< of the exposure, each composited over its own background
+    /// What hides the layer, or lies behind it, differs between the instants: their depths and the
+    /// parts' colours are looked up (shaders/common/instant_surfaces.glsl). Otherwise the raster's
+    /// depth hides it, and testFromEye goes to the raster's picture.
+    bool readsInstants = false;
+    std::vector<LayerItem> items; ///< nearest first
+    std::vector<shader::LayerPlace> places;
+    double longestWayPx = 0.0; ///< of a corner of a box around a surface
+
+    [[nodiscard]] bool empty() const { return items.empty() || sizePx.x == 0 || sizePx.y == 0; }
+
+    [[nodiscard]] shader::InstantSurfaces surfaces() const {
+        return {originPx, sizePx, static_cast<uint32_t>(instants.size()), partCount, 0, 0};
+    }
+};
+
+struct LayerLimits {
+    uint32_t instants = 15; ///< most that the layer is drawn at; those looked up are among as many
+    bool findsInstants = false; ///< the method can look depths and colours of instants up
+    uint64_t surfaceBytes = 0;  ///< most memory for them
+};
+
+/// \param frame whose `layerRows` findLayerRows() found
+/// \param view its jitter is that of the colours that the layer is drawn over
+[[nodiscard]] BlendedLayer planBlendedLayer(
+    const scene::World& world,
+    const SceneLayout& layout,
+    const ViewRequest& view,
+    const scene::ExposureMotion& motion,
+    const ExtractedFrame& frame,
+    const LayerLimits& limits
+);
+
+} // namespace shutter::extract

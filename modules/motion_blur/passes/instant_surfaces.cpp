@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "modules/motion_blur/passes/instant_surfaces.h"
+
+#include "spirv/motion_blur/instant_surfaces.comp.h"
+
+#include "engine/graph/execute.h"
+#include "modules/motion_blur/passes/dispatch.h"
+
+namespace shutter::motion_blur {
+
+namespace {
+
+using graph::Access;
+
+gpu::ComputePipelineDesc describeSurfaces() {
+    std::vector<VkDescriptorType> bindings = listSearchBindings();
+    bindings.push_back(kBuffer);
+    return describePass("instant surfaces", motion_blur_instant_surfaces_comp, std::move(bindings));
+}
+
+/// A buffer whose head is written.
+graph::BufferHandle addHead(graph::Graph& graph, const shader::InstantSurfaces& wanted) {
+    const VkDeviceSize words =
+        VkDeviceSize(shader::surfaceWordsPerPixel(wanted)) * wanted.sizePx.x * wanted.sizePx.y;
+    const graph::BufferHandle buffer = graph.createBuffer(
+        "instant surfaces",
+        {sizeof(wanted) + words * sizeof(uint32_t), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT}
+    );
+
+    struct Data {
+        graph::BufferHandle buffer;
+    };
+
+    return graph
+        .addPass<Data>(
+            "begin instant surfaces",
+            graph::PassKind::Transfer,
+            [&](graph::PassBuilder& builder, Data& data) {
+                data.buffer = builder.write(buffer, Access::TransferWrite);
+            },
+            [wanted](const Data& data, graph::PassContext& context) {
+                clearList(context, data.buffer, &wanted, sizeof(wanted));
+            }
+        )
+        .buffer;
+}
+
+} // namespace
+
+InstantSurfacesPass::InstantSurfacesPass(gpu::Device& device)
+    : mDevice(device), mPipelines(device, describeSurfaces()) {}
+
+void InstantSurfacesPass::add(
+    graph::Graph& graph,
+    const std::optional<shader::InstantSurfaces>& wanted,
+    LookUpOutputs& found,
+    const PassParams& params
+) const {
+    if (!wanted)
+        return;
+
+    struct Data {
+        SearchResources search;
+        graph::ImageHandle picture; ///< bound, and not written
+        graph::BufferHandle surfaces;
+    };
+
+    const graph::BufferHandle begun = addHead(graph, *wanted);
+    const Data& pass = graph.addPass<Data>(
+        "instant surfaces",
+        graph::PassKind::Compute,
+        [&](graph::PassBuilder& builder, Data& data) {
+            data.search = found.search;
+            data.search.use(builder);
+            data.picture = builder.write(found.picture, Access::StorageWrite);
+            data.surfaces = builder.write(begun, Access::StorageWrite);
+        },
+        [this, params, size = wanted->sizePx](const Data& data, graph::PassContext& context) {
+            const graph::PassResources& resources = context.resources;
+            gpu::BindingList bindings = data.search.bind(resources, mDevice, data.picture);
+            bindings.buffer(resources.buffer(data.surfaces));
+            dispatchPixels(
+                context,
+                mPipelines.get(data.search, data.search.crowds.isValid()),
+                bindings,
+                withCrowds(params, resources, data.search.crowds),
+                size
+            );
+        }
+    );
+    found.search.counters = pass.search.counters;
+    found.picture = pass.picture;
+    found.surfaces = pass.surfaces;
+}
+
+} // namespace shutter::motion_blur

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What pixels of a rectangle saw at some of the instants, for what is drawn over the blurred
+// picture.
+#pragma once
+
+#include "engine/gpu/device.h"
+#include "engine/graph/graph.h"
+#include "modules/motion_blur/passes/look_up.h"
+#include "shaders/common/instant_surfaces.glsl"
+
+#include <optional>
+
+namespace shutter::motion_blur {
+
+class InstantSurfacesPass {
+  public:
+    explicit InstantSurfacesPass(gpu::Device& device);
+
+    /// Fills LookUpOutputs::surfaces.
+    /// \param wanted the rectangle lies in the picture; nothing: nobody wants any
+    /// \param found of a LookUp; its counters and its picture come back as other versions
+    /// \param params that the LookUp used
+    void
+    add(graph::Graph& graph,
+        const std::optional<shader::InstantSurfaces>& wanted,
+        LookUpOutputs& found,
+        const PassParams& params) const;
+
+  private:
+    gpu::Device& mDevice;
+    SearchPipelines mPipelines;
+};
+
+} // namespace shutter::motion_blur

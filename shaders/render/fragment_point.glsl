@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The point of a surface that a fragment shows, from what the vertex shaders of meshes hand on.
+#ifndef SHUTTER_FRAGMENT_POINT_GLSL
+#define SHUTTER_FRAGMENT_POINT_GLSL
+
+layout(location = 0) in vec3 inEyePosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec4 inTangent;
+layout(location = 3) in vec4 inUv;
+layout(location = 4) in vec4 inColor;
+
+/// The triangle's normal, on the front side as the winding defines it, from derivatives.
+vec3 geometricNormal() {
+    vec3 normal = cross(dFdx(inEyePosition), dFdy(inEyePosition));
+    // Only the side matters to shading: towards the viewer for front faces.
+    bool towardsViewer = dot(normal, inEyePosition) < 0.0f;
+    return towardsViewer == gl_FrontFacing ? normal : -normal;
+}
+
+SurfacePoint pointOfFragment() {
+    SurfacePoint point;
+    point.eyePosition = inEyePosition;
+    point.geometricNormal = geometricNormal();
+    point.normal = inNormal;
+    point.tangent = inTangent;
+    point.uv[0] = inUv.xy;
+    point.uv[1] = inUv.zw;
+    vec3 dx = dFdx(inEyePosition);
+    vec3 dy = dFdy(inEyePosition);
+    vec4 uvDx = dFdx(inUv);
+    vec4 uvDy = dFdy(inUv);
+    point.uvDensity[0] = textureDensity(dx, dy, uvDx.xy, uvDy.xy);
+    point.uvDensity[1] = textureDensity(dx, dy, uvDx.zw, uvDy.zw);
+    point.color = inColor;
+    return point;
+}
+
+MaterialRow materialOf(FrameRef frame, uint geometry) {
+    uint index = GeometryTable(frame.value.geometries).rows[geometry].material;
+    return MaterialTable(frame.value.materials).rows[index];
+}
+
+#endif
