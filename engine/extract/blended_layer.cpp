@@ -3,6 +3,7 @@
 
 #include "engine/extract/frame_view.h"
 #include "engine/extract/raster_record.h"
+#include "engine/math/sampling.h"
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,8 @@ constexpr size_t kSweepTimes = 9;
 constexpr double kSweptMarginPx = 2.0;
 /// More movers than these are not looked at one by one.
 constexpr size_t kMostSweptMovers = 64;
+/// What moves less does not move in the picture.
+constexpr double kStillWayPx = 0.5;
 /// Nearest depth at which a box has corners in the picture, metres.
 constexpr double kLeastBoxDepth = 1.0e-4;
 
@@ -149,15 +152,19 @@ class LayerScene : public LayerSource {
     /// Of the rows with opaque surfaces that move in the world. Nothing: there are too many.
     [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaqueMovers() const {
         std::vector<SweptBox> boxes;
-        for (const uint32_t row : frame.movingRows) {
-            if (!moves(row) || !hasGeometry(row, false))
-                continue;
-            const SweptBox box = sweep(row);
-            if (isInPicture(box))
-                boxes.push_back(box);
-            if (boxes.size() > kMostSweptMovers)
+        for (const uint32_t row : frame.movingRows)
+            if (moves(row) && hasGeometry(row, false) && !addBox(row, boxes))
                 return std::nullopt;
-        }
+        return boxes;
+    }
+
+    /// Of all rows with opaque surfaces that the raster shows. Nothing: there are too many.
+    [[nodiscard]] std::optional<std::vector<SweptBox>> sweepOpaque() const {
+        std::vector<SweptBox> boxes;
+        for (const auto* draws : {&frame.opaque.still, &frame.opaque.moving})
+            for (const DrawItem& item : *draws)
+                if (!addBox(item.entity, boxes))
+                    return std::nullopt;
         return boxes;
     }
 
@@ -165,6 +172,14 @@ class LayerScene : public LayerSource {
     bool cameraMoves = false;
 
   private:
+    /// \return false: there are more than are looked at
+    bool addBox(uint32_t row, std::vector<SweptBox>& boxes) const {
+        const SweptBox box = sweep(row);
+        if (isInPicture(box))
+            boxes.push_back(box);
+        return boxes.size() <= kMostSweptMovers;
+    }
+
     std::array<double, kSweepTimes> mTimes{};
     std::array<dmat4, kSweepTimes> mPictures{};
 };
@@ -243,7 +258,8 @@ class LayerPlanner {
         if (mRows.empty())
             return {};
         placeRectangle();
-        mLayer.readsInstants = mLimits.findsInstants && areInstantsRead();
+        findDifferences();
+        mLayer.readsInstants = mLimits.findsInstants && (mIsHidden || mIsCorrelated);
         uint32_t count = countInstants();
         if (mLayer.readsInstants)
             count = fitInstants(count);
@@ -267,28 +283,37 @@ class LayerPlanner {
         mLayer.sizePx = math::uvec2(glm::ceil(most)) - mLayer.originPx;
     }
 
-    /// Whether an opaque mover, or the camera's motion, makes instants differ.
-    bool areInstantsRead() const {
-        if (mScene.cameraMoves)
-            return true;
-        const auto movers = mScene.sweepOpaqueMovers();
-        if (!movers)
-            return true;
+    /// How the instants differ, apart from where the layer is.
+    void findDifferences() {
+        // What still glass lets through is blurred as if the glass were not there.
+        const auto behind = mScene.sweepOpaqueMovers();
+        const auto before = mScene.cameraMoves ? mScene.sweepOpaque() : behind;
         for (const Blended& one : mRows) {
-            const bool moves = mScene.moves(one.row);
-            for (const SweptBox& mover : *movers)
-                // What still glass lets through is blurred as if it were not there.
-                if (overlap(mover, one.box) && (moves || mover.nearest < one.box.farthest))
-                    return true;
+            const bool moves = one.box.wayPx > kStillWayPx;
+            const auto touches = [&](const SweptBox& box) { return overlap(box, one.box); };
+            const auto mayHide = [&](const SweptBox& box) {
+                return touches(box) && box.nearest < one.box.farthest;
+            };
+            mIsHidden =
+                mIsHidden || !before || std::any_of(before->begin(), before->end(), mayHide);
+            mIsCorrelated =
+                mIsCorrelated || (moves && (mScene.cameraMoves || !behind ||
+                                            std::any_of(behind->begin(), behind->end(), touches)));
         }
-        return false;
     }
 
     uint32_t countInstants() const {
-        if (mLayer.readsInstants)
+        if (mLayer.readsInstants && mIsHidden)
             return mLimits.instants;
+        const uint32_t least = mLayer.readsInstants ? shader::kMostSurfaceParts : 1;
         const double wanted = std::ceil(mLayer.longestWayPx / kLayerStepPx);
-        return static_cast<uint32_t>(std::clamp(wanted, 1.0, double(mLimits.instants)));
+        return std::min(
+            std::max(
+                static_cast<uint32_t>(std::min(wanted, 1.0e6)),
+                std::max(least, mLimits.leastInstants)
+            ),
+            mLimits.instants
+        );
     }
 
     /// As many as there is memory for; without enough for one, none is looked up.
@@ -316,8 +341,11 @@ class LayerPlanner {
         worldFromEye[3] = dvec4(mEye, 1.0);
         const dmat4 rasterPicture = pictureFromWorldAt(mScene.world, view, mScene.motion, raster);
         for (uint32_t i = 0; i < count; ++i) {
-            const double s = scene::invertLight(view.exposure, findLight(i, count));
-            const dmat4 picture = pictureFromWorldAt(mScene.world, view, mScene.motion, s);
+            const double s = scene::invertLight(view.exposure, (i + 0.5) / double(count));
+            ViewRequest jittered = view;
+            if (mLimits.leastInstants > 1)
+                jittered.jitterPx += math::halton23(i + 1) - 0.5;
+            const dmat4 picture = pictureFromWorldAt(mScene.world, jittered, mScene.motion, s);
             const dmat4 test =
                 glm::transpose((mLayer.readsInstants ? picture : rasterPicture) * worldFromEye);
             shader::LayerInstant& one = mLayer.instants.emplace_back();
@@ -328,15 +356,6 @@ class LayerPlanner {
             mTimes.push_back(s);
             mClips.push_back(clip * picture);
         }
-    }
-
-    /// Light of the exposure up to an instant: the middle of its share, or of that of the method's
-    /// instant whose depth is looked up.
-    [[nodiscard]] double findLight(uint32_t index, uint32_t count) const {
-        if (!mLayer.readsInstants)
-            return (index + 0.5) / double(count);
-        const uint32_t taken = shader::takenInstant(index, count, mLimits.instants);
-        return (taken + 0.5) / double(mLimits.instants);
     }
 
     void addItems() {
@@ -397,6 +416,8 @@ class LayerPlanner {
     LayerScene mScene;
     LayerLimits mLimits;
     BlendedLayer mLayer;
+    bool mIsHidden = false;     ///< opaque surfaces may hide other parts of it at other instants
+    bool mIsCorrelated = false; ///< it moves, and so does what lies behind it
     std::vector<Blended> mRows;
     std::vector<double> mTimes; ///< of the instants
     std::vector<dmat4> mClips;  ///< clip space from the world at each of them

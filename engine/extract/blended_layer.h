@@ -15,7 +15,7 @@
 namespace shutter::extract {
 
 /// Pixels that a blended surface may move between two instants at which it is drawn.
-inline constexpr double kLayerStepPx = 3.0;
+inline constexpr double kLayerStepPx = 2.5;
 
 /// Rows of the entity table whose blended surfaces leave the raster, rising: what moves or deforms
 /// in the world, what something that does may pass, as boxes on the screen over the exposure say,
@@ -57,7 +57,10 @@ struct BlendedLayer {
 };
 
 struct LayerLimits {
-    uint32_t instants = 15; ///< most that the layer is drawn at; those looked up are among as many
+    uint32_t instants = 15; ///< most that the layer is drawn at; what is looked up has as many
+    /// Above 1: so many at least, each with its sample elsewhere in the pixel, for a picture whose
+    /// edges are anti-aliased.
+    uint32_t leastInstants = 1;
     bool findsInstants = false; ///< the method can look depths and colours of instants up
     uint64_t surfaceBytes = 0;  ///< most memory for them
 };

@@ -29,18 +29,18 @@ vec4 colorOfPart(uint part, uvec2 at) {
     return vec4(unpackHalf2x16(uWords[word]), unpackHalf2x16(uWords[word + 1u]));
 }
 
-/// What lies behind in the part. The picture is the mean of the parts, whatever it was made of: it may know
-/// more of them than was looked up.
-vec3 behind(vec3 picture, uvec2 at) {
-    if (!kHasParts) return picture;
-    vec4 sum = vec4(0.0f);
+/// What the picture knows more than the colours of the parts, whose mean it is otherwise.
+vec3 findRest(vec3 picture, uvec2 at) {
+    float shares[kMostSurfaceParts];
+    for (uint part = 0u; part < kMostSurfaceParts; ++part) shares[part] = 0.0f;
+    for (uint i = 0u; i < uHead.instantCount; ++i)
+        shares[surfacePartOf(uHead, i)] += 1.0f / float(uHead.instantCount);
+    vec3 rest = vec3(0.0f);
     for (uint part = 0u; part < params.partCount; ++part) {
         vec4 color = colorOfPart(part, at);
-        sum += vec4(color.rgb * color.a, color.a);
+        if (color.a > 0.0f) rest += shares[part] * (picture - color.rgb);
     }
-    vec4 own = colorOfPart(params.part, at);
-    if (own.a == 0.0f) return picture;
-    return max(own.rgb + (picture - sum.rgb / sum.a), vec3(0.0f));
+    return rest;
 }
 
 void main() {
@@ -49,11 +49,24 @@ void main() {
     ivec2 pixel = at + ivec2(params.originPx);
     vec4 blended = texelFetch(uBlendedColor, at, 0);
     float opacity = params.isOpacityInAlpha != 0u ? blended.a : texelFetch(uBlendedOpacity, at, 0).r;
-    vec4 picture = imageLoad(uPicture, pixel);
-    vec3 color = blended.rgb + max(params.share - opacity, 0.0f) * behind(picture.rgb, uvec2(at));
-    if (params.part > 0u) color += imageLoad(uSum, at).rgb;
-    if (params.part + 1u < params.partCount)
-        imageStore(uSum, at, vec4(color, 1.0f));
-    else
-        imageStore(uPicture, pixel, vec4(min(color, vec3(kMaxColor)), picture.a));
+    // Alpha of the sum: what the layer lets through of all parts so far.
+    float passed = max(params.share - opacity, 0.0f);
+    bool isLast = params.part + 1u == params.partCount;
+    vec3 picture = vec3(0.0f);
+    vec3 behind = vec3(0.0f);
+    if (kHasParts) {
+        vec4 own = colorOfPart(params.part, uvec2(at));
+        if (isLast || own.a == 0.0f) picture = imageLoad(uPicture, pixel).rgb;
+        behind = own.a > 0.0f ? own.rgb : picture;
+    } else {
+        behind = picture = imageLoad(uPicture, pixel).rgb;
+    }
+    vec4 sum = vec4(blended.rgb + passed * behind, passed);
+    if (params.part > 0u) sum += imageLoad(uSum, at);
+    if (!isLast) {
+        imageStore(uSum, at, sum);
+        return;
+    }
+    if (kHasParts) sum.rgb += sum.a * findRest(picture, uvec2(at));
+    imageStore(uPicture, pixel, vec4(storableColor(sum.rgb), 1.0f));
 }

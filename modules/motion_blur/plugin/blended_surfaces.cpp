@@ -6,8 +6,17 @@
 
 namespace shutter::motion_blur {
 
+namespace {
+
+/// Places in the pixel that edges are sampled at, where the picture below is anti-aliased.
+constexpr uint32_t kEdgeSamples = 4;
+
+} // namespace
+
 void BlendedSurfaces::extract(const render::ExtractContext& context, extract::LayerLimits limits) {
     limits.surfaceBytes = mDevice.limits().maxStorageBufferRange;
+    if (context.view.jitterPx != context.colorJitterPx)
+        limits.leastInstants = kEdgeSamples;
     extract::ViewRequest view = context.view;
     view.jitterPx = context.colorJitterPx;
     mPlans.at(context.slot) = extract::planBlendedLayer(

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// Blended surfaces that move, or that something passes: drawn at instants over the blurred picture.
+#include "engine/image/metrics.h"
+#include "engine/scene/history.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/picture.h"
+#include "tests/support/stage.h"
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace shutter {
+namespace {
+
+using test::Placement;
+using test::SceneBuilder;
+using test::Shot;
+
+constexpr std::string_view kLayerPass = "blended layer";
+
+scene::AssetIndex addGlass(SceneBuilder& scene, const math::vec3& color, float alpha) {
+    scene::Material material;
+    material.baseColorFactor = math::vec4(color, alpha);
+    material.alphaMode = scene::AlphaMode::Blend;
+    material.unlit = true;
+    material.doubleSided = true;
+    return scene.addMaterial(std::move(material));
+}
+
+/// A wall of waves four metres before the camera.
+SceneBuilder makeWall() {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    scene.add(test::makeQuad(9.0, 6.0, scene.addWaves()), {.position = {0, 0, -4}});
+    return scene;
+}
+
+ecs::Entity addPane(SceneBuilder& scene, float alpha, const Placement& placement) {
+    return scene.add(
+        test::makeQuad(0.9, 0.7, addGlass(scene, {0.2f, 0.5f, 0.9f}, alpha)), placement
+    );
+}
+
+ecs::Entity addBox(SceneBuilder& scene, const Placement& placement) {
+    return scene.add(test::makeBox({0.5, 0.5, 0.2}, scene.addColor({0.9f, 0.2f, 0.1f})), placement);
+}
+
+class BlendedLayerLaw : public test::GpuTest {
+  protected:
+    static Shot shotBy(std::string_view method) {
+        return {.method = method, .width = 192, .height = 128, .exposureSeconds = 0.25};
+    }
+
+    render::FrameResult draw(const SceneBuilder& scene, std::string_view method) {
+        return test::renderOnce(device(), scene, shotBy(method));
+    }
+
+    /// dB of a method against 128 instants.
+    double measure(const SceneBuilder& scene, std::string_view method) {
+        Shot truth = shotBy("accumulate");
+        truth.instants = 128;
+        return image::computePsnr(
+            draw(scene, method).color, test::renderOnce(device(), scene, truth).color
+        );
+    }
+};
+
+TEST_F(BlendedLayerLaw, APaneThatMovesBlursByEachMethodAsByBruteForce) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0.4, 0}});
+    Shot instants = shotBy("accumulate");
+    const image::Image sharp = draw(scene, "sharp").color;
+    for (const std::string_view method : test::listBlurMethods(device())) {
+        const auto frame = draw(scene, method);
+        if (!test::hasPass(frame, kLayerPass))
+            continue; // it draws instants, or rays, itself
+        EXPECT_GT(measure(scene, method), 45.0) << method;
+        EXPECT_LT(image::computePsnr(sharp, frame.color), 35.0) << method;
+    }
+    EXPECT_TRUE(test::hasPass(draw(scene, "resolved"), kLayerPass));
+    EXPECT_TRUE(test::hasPass(draw(scene, "gather"), kLayerPass));
+    EXPECT_FALSE(test::hasPass(draw(scene, "accumulate"), kLayerPass));
+}
+
+TEST_F(BlendedLayerLaw, GlassThatNothingPassesStaysInTheRaster) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {-1.2, 0, -3}});
+    addBox(scene, {.position = {1.2, 0, -3}, .velocity = {0, 1, 0}});
+    EXPECT_FALSE(test::hasPass(draw(scene, "resolved"), kLayerPass));
+    // The camera alone does not take it out, either.
+    scene.moveCamera({.velocity = {1, 0, 0}});
+    SceneBuilder still = makeWall();
+    addPane(still, 0.5f, {.position = {-1.2, 0, -3}});
+    still.moveCamera({.velocity = {1, 0, 0}});
+    EXPECT_FALSE(test::hasPass(draw(still, "resolved"), kLayerPass));
+}
+
+TEST_F(BlendedLayerLaw, AClearPaneChangesNoBit) {
+    SceneBuilder without = makeWall();
+    addBox(without, {.position = {0, 0, -3}, .velocity = {-1.5, 0, 0}});
+    SceneBuilder with = makeWall();
+    addBox(with, {.position = {0, 0, -3}, .velocity = {-1.5, 0, 0}});
+    addPane(with, 0.0f, {.position = {0, 0, -2}, .velocity = {1.6, 0, 0}});
+    for (const std::string_view method : {"gather", "own_velocity"}) {
+        const auto frame = draw(with, method);
+        EXPECT_TRUE(test::hasPass(frame, kLayerPass)) << method;
+        EXPECT_TRUE(test::sameBits(frame.color, draw(without, method).color)) << method;
+    }
+    // Its background is summed up from parts of the exposure: to half precision.
+    EXPECT_GT(
+        image::computePsnr(draw(with, "resolved").color, draw(without, "resolved").color), 65.0
+    );
+}
+
+TEST_F(BlendedLayerLaw, APaneOfTheBackgroundsColourIsNotSeen) {
+    SceneBuilder scene;
+    scene.setPerspective(0.9);
+    const math::vec3 grey(0.4f);
+    scene.add(test::makeQuad(9.0, 6.0, scene.addColor(grey)), {.position = {0, 0, -4}});
+    for (const double speed : {1.0, -2.5})
+        scene.add(
+            test::makeQuad(0.9, 0.7, addGlass(scene, grey, 0.6f)),
+            {.position = {0, 0.1 * speed, -2}, .velocity = {speed, 0, 0}}
+        );
+    const auto frame = draw(scene, "resolved");
+    EXPECT_TRUE(test::hasPass(frame, kLayerPass));
+    EXPECT_LT(
+        test::computeMaxDifferenceWhere(
+            frame.color, draw(scene, "sharp").color, [](uint32_t, uint32_t) { return true; }
+        ),
+        2.0e-3 // 15 sums in half floats, of steps of 2.4e-4
+    );
+}
+
+TEST_F(BlendedLayerLaw, PanesBeforeOneAnotherHaveTheOrderOfTheRaster) {
+    SceneBuilder scene = makeWall();
+    const std::vector<math::vec3> colors{{1, 0.1f, 0.1f}, {0.1f, 1, 0.1f}, {0.1f, 0.1f, 1}};
+    for (size_t i = 0; i < colors.size(); ++i)
+        scene.add(
+            test::makeQuad(1.0, 0.8, addGlass(scene, colors[i], 0.7f)),
+            {.position = {0, 0, -3.0 + 0.5 * double(i)},
+             .velocity = {0.8 - 0.8 * double(i), 0.3, 0}}
+        );
+    // Triangles of one mesh, too: a box of glass, whose sides have the order of its indices.
+    scene.add(
+        test::makeBox({0.5, 0.4, 0.4}, addGlass(scene, {0.9f, 0.9f, 0.2f}, 0.5f)),
+        {.position = {0.8, 0, -2.5}, .velocity = {0.4, 0, 0}, .angularVelocity = {0, 1, 0}}
+    );
+    EXPECT_GT(measure(scene, "resolved"), 42.0);
+    SceneBuilder slow = makeWall();
+    slow.add(
+        test::makeBox({0.8, 0.7, 0.7}, addGlass(slow, {0.9f, 0.9f, 0.2f}, 0.5f)),
+        {.position = {0.3, 0.2, -2.5}, .velocity = {0.002, 0, 0}}
+    );
+    const auto frame = draw(slow, "resolved");
+    EXPECT_TRUE(test::hasPass(frame, kLayerPass));
+    EXPECT_GT(image::computePsnr(frame.color, draw(slow, "sharp").color), 55.0);
+}
+
+TEST_F(BlendedLayerLaw, AStaticPostHidesAPaneAtEachInstant) {
+    const auto isOfPost = [](uint32_t x, uint32_t) { return x >= 88 && x < 104; };
+    for (const std::string_view method : {"resolved", "gather"}) {
+        SceneBuilder without = makeWall();
+        SceneBuilder with = makeWall();
+        for (SceneBuilder* scene : {&without, &with})
+            scene->add(
+                test::makeBox({0.18, 2.0, 0.02}, scene->addColor({0.1f, 0.8f, 0.3f})),
+                {.position = {0, 0, -1}}
+            );
+        addPane(with, 0.6f, {.position = {0, 0, -2}, .velocity = {1.6, 0, 0}});
+        EXPECT_LT(
+            test::computeMaxDifferenceWhere(
+                draw(with, method).color, draw(without, "sharp").color, isOfPost
+            ),
+            1.0e-3
+        ) << method;
+    }
+}
+
+TEST_F(BlendedLayerLaw, AMoverBetweenTwoPanesHidesTheFarOneAlone) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {0.2, 0.1, -3}});
+    addBox(scene, {.position = {0, 0, -2.5}, .velocity = {1.5, 0, 0}});
+    addPane(scene, 0.5f, {.position = {-0.1, -0.1, -2}});
+    EXPECT_GT(measure(scene, "resolved"), 45.0);
+    EXPECT_LT(measure(scene, "sharp"), 40.0);
+}
+
+TEST_F(BlendedLayerLaw, WhatAPaneAndAMoverCoverTogetherIsNotTakenApart) {
+    // Glass that rides before what it covers: the mean of each over the other's would mix them.
+    SceneBuilder scene = makeWall();
+    addBox(scene, {.position = {0, 0, -2.6}, .velocity = {2.4, 0, 0}});
+    scene.add(
+        test::makeQuad(0.42, 0.42, addGlass(scene, {0.1f, 0.2f, 0.9f}, 0.7f)),
+        {.position = {0, 0, -2.4}, .velocity = {2.4, 0, 0}}
+    );
+    EXPECT_GT(measure(scene, "resolved"), measure(scene, "gather") + 6.0);
+    EXPECT_GT(measure(scene, "resolved"), 42.0);
+}
+
+TEST_F(BlendedLayerLaw, AnExcludedPaneStaysSharp) {
+    SceneBuilder scene = makeWall();
+    const ecs::Entity pane =
+        addPane(scene, 0.5f, {.position = {0, 0, -2}, .velocity = {1.6, 0, 0}});
+    scene.world.registry.add(pane, scene::MotionBlur{.scale = 0.0});
+    addBox(scene, {.position = {0, 1.0, -3}, .velocity = {0, -1, 0}});
+    const auto frame = draw(scene, "resolved");
+    const auto above = [](uint32_t, uint32_t y) { return y > 74; };
+    EXPECT_LT(
+        test::computeMaxDifferenceWhere(frame.color, draw(scene, "sharp").color, above), 2.0e-3
+    );
+}
+
+TEST_F(BlendedLayerLaw, APaneBeforeAMovingCameraIsHiddenWhereTheRasterSeesIt) {
+    SceneBuilder scene = makeWall();
+    scene.add(
+        test::makeBox({0.2, 2.0, 0.02}, scene.addColor({0.1f, 0.8f, 0.3f})),
+        {.position = {0, 0, -1.5}}
+    );
+    addPane(scene, 0.6f, {.position = {0, 0, -2}, .velocity = {0.8, 0, 0}});
+    scene.moveCamera({.angularVelocity = {0, 0.3, 0}});
+    // Filters know the raster's depth alone. Looked up where the instant's camera sees the pane,
+    // and not the raster's, it would give 35.9.
+    EXPECT_GT(measure(scene, "own_velocity"), 39.0);
+}
+
+TEST_F(BlendedLayerLaw, MirroredAndReversedScenesGiveMirroredAndEqualPictures) {
+    const auto make = [](double side, double time) {
+        SceneBuilder scene;
+        scene.setPerspective(0.9);
+        scene.add(
+            test::makeQuad(9.0, 6.0, scene.addColor({0.2f, 0.3f, 0.1f})), {.position = {0, 0, -4}}
+        );
+        addPane(
+            scene,
+            0.5f,
+            {.position = {0.3 * side, 0, -2}, .velocity = {1.2 * side * time, 0.2 * time, 0}}
+        );
+        addBox(scene, {.position = {-0.2 * side, 0.2, -3}, .velocity = {-side * time, 0, 0}});
+        return scene;
+    };
+    const image::Image plain = draw(make(1.0, 1.0), "resolved").color;
+    EXPECT_GT(
+        image::computePsnr(test::mirror(draw(make(-1.0, 1.0), "resolved").color), plain), 50.0
+    );
+    EXPECT_GT(image::computePsnr(draw(make(1.0, -1.0), "resolved").color, plain), 45.0);
+}
+
+TEST_F(BlendedLayerLaw, APaneThatCrossesTheCamerasPlaneIsClipped) {
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.5f, {.position = {0, 0, -0.2}, .velocity = {0, 0, 3.0}});
+    const auto frame = draw(scene, "resolved");
+    EXPECT_TRUE(test::hasPass(frame, kLayerPass));
+    EXPECT_TRUE(test::allFinite(frame.color));
+    EXPECT_GT(measure(scene, "resolved"), 35.0);
+}
+
+TEST_F(BlendedLayerLaw, AFrameAfterOneThatHadThePaneInItsRasterDoesNotSeeItTwice) {
+    // A box comes near a still pane in the second frame: it is in the first one's raster.
+    SceneBuilder scene = makeWall();
+    addPane(scene, 0.7f, {.position = {0.4, 0, -2}});
+    addBox(scene, {.position = {-1.6, 0, -3}, .velocity = {24.0, 0, 0}});
+    const auto shotAt = [](int frame) {
+        return Shot{
+            .method = "resolved",
+            .width = 192,
+            .height = 128,
+            .seconds = frame / 30.0,
+            .exposureSeconds = 1.0 / 60.0,
+            .phase = scene::ShutterPhase::End,
+            .frameSeconds = 1.0 / 30.0};
+    };
+    test::Frames frames(device(), scene);
+    bool hadNone = false;
+    bool changed = false;
+    for (int i = 0; i < 4; ++i) {
+        const auto frame = frames.draw(shotAt(i));
+        const bool has = test::hasPass(frame, kLayerPass);
+        changed = changed || (has && hadNone);
+        hadNone = !has;
+        test::Frames alone(device(), scene);
+        EXPECT_TRUE(test::sameBits(frame.color, alone.draw(shotAt(i)).color)) << i;
+    }
+    EXPECT_TRUE(changed) << "the pane leaves the raster between two frames";
+}
+
+using BlendedLayerRays = test::RayTest;
+
+TEST_F(BlendedLayerRays, NoRayMeetsAPaneOfTheLayer) {
+    SceneBuilder scene = makeWall();
+    addBox(scene, {.position = {0, 0, -3}, .velocity = {2.0, 0, 0}});
+    addPane(scene, 0.8f, {.position = {0, 0, -2}});
+    Shot truth{.method = "accumulate", .width = 192, .height = 128, .exposureSeconds = 0.25};
+    truth.instants = 128;
+    const image::Image reference = test::renderOnce(device(), scene, truth).color;
+    for (const std::string_view method : {"adaptive", "hybrid"}) {
+        Shot shot = truth;
+        shot.method = method;
+        shot.settings.raysPerPixel = 1.0f;
+        const auto frame = test::renderOnce(device(), scene, shot);
+        EXPECT_GT(frame.statistics.counters.at("rays traced"), 100u) << method;
+        EXPECT_GT(image::computePsnr(frame.color, reference), method == "adaptive" ? 45.0 : 33.0)
+            << method;
+    }
+}
+
+} // namespace
+} // namespace shutter
