@@ -146,13 +146,16 @@ Index GltfWriter::addTexture(const std::string& name, const Picture& picture) {
 
 Index GltfWriter::addMaterial(const MaterialDesc& material) {
     json surface = {
-        {"baseColorFactor", {material.color.x, material.color.y, material.color.z, 1.0f}},
+        {"baseColorFactor", {material.color.x, material.color.y, material.color.z, material.alpha}},
         {"metallicFactor", material.metallic},
         {"roughnessFactor", material.roughness}};
     if (material.texture != kNothing) {
         surface["baseColorTexture"] = {{"index", material.texture}};
     }
     json entry = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
+    if (material.alpha < 1.0f) {
+        entry["alphaMode"] = "BLEND";
+    }
     if (material.doubleSided) {
         entry["doubleSided"] = true;
     }

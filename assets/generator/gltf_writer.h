@@ -30,6 +30,7 @@ struct MaterialDesc {
     float roughness = 0.8f;   ///< [0, 1]
     glm::vec3 emissive{0.0f}; ///< linear, [0, 1]
     bool doubleSided = false;
+    float alpha = 1.0f; ///< [0, 1]; below 1 it blends
 };
 
 struct MeshPart {

@@ -200,6 +200,33 @@ std::vector<BenchCase> makeCases() {
             kYardSky,
             {7.0f, 13.0f}
         ),
+        makeCase(
+            "sliding_pane",
+            "Sliding pane",
+            "A pane of tinted glass under a rail slides past and turns by 20 degrees: no raster "
+            "image holds both it and the wall that is seen through it",
+            &buildSlidingPaneCase,
+            kYardSky,
+            {60.0f, 110.0f}
+        ),
+        makeCase(
+            "mover_behind_glass",
+            "Mover behind glass",
+            "A crate slides behind two still, tinted panes and before a third: the panes must stay "
+            "as they are",
+            &buildBehindGlassCase,
+            kYardSky,
+            {25.0f, 35.0f}
+        ),
+        makeCase(
+            "glass_carriage",
+            "Glass carriage",
+            "A frame, its glass and the ball inside ride past together: what is behind the glass "
+            "changes with it",
+            &buildGlassCarriageCase,
+            kYardSky,
+            {30.0f, 42.0f}
+        ),
     };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Eighteen scenes, each made to be hard for motion blur in one way that the literature names.
+// Twenty-one scenes, each made to be hard for motion blur in one way that the literature names.
 #pragma once
 
 #include "assets/generator/gltf_writer.h"
@@ -53,5 +53,8 @@ struct BenchCase {
 [[nodiscard]] GltfWriter buildFlagCase();
 [[nodiscard]] GltfWriter buildWhipCase();
 [[nodiscard]] GltfWriter buildCollapseCase();
+[[nodiscard]] GltfWriter buildSlidingPaneCase();
+[[nodiscard]] GltfWriter buildBehindGlassCase();
+[[nodiscard]] GltfWriter buildGlassCarriageCase();
 
 } // namespace shutter::generator

@@ -59,9 +59,10 @@ void main() {
     uint part = 0u;
     float before = 0.0f;
     for (uint i = 0u; i < uHead.instantCount; ++i) {
-        // What nothing is known of is taken for what the raster shows.
         float depth = shownDepth;
         if (changes) {
+            // What no raster shows was hidden in all of them, so it lies behind what they show.
+            depth = kFarthest;
             uint taken = takenInstant(i, uHead.instantCount, params.sampleCount);
             uint instant = taken * method.setCount + search.set;
             Doubt doubt = kNoDoubt;
