@@ -9,8 +9,8 @@ const float kWideDeviationPx = 1.0f;
 /// Farthest from where the fit has it that a part is looked for, pixels.
 const float kMostDeviationReachPx = 8.0f;
 
-/// Places that a part is searched from, at most.
-const uint kPartSeeds = 6u;
+/// Newton's steps from one place: the fit leads to within a pixel or so, and more gain nothing.
+const uint kPartSteps = 2u;
 
 /// \return whether it is known where the layer's pixel is seen at shutter time s
 bool findDisplacement(uint layer, ivec2 texel, float s, out vec2 displacement) {
@@ -38,37 +38,37 @@ struct PartSearch {
     mat2 back; // how places in the layer move with the place that they are seen at
 };
 
-/// By Newton's steps from one place, each on the motion of the pixel there.
-/// \return whether the pixel sees the entity
-bool searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt) {
-    [[dont_unroll]] for (uint step_ = 0u; step_ < kSteps; ++step_) {
-        if (!isInside(at)) return false;
+/// By Newton's steps from one place, each on the motion of the pixel there: keeps what the pixel sees of
+/// the entity, if it does.
+void searchFrom(PartSearch search, vec2 at, inout Seen found, inout Doubt doubt) {
+    [[dont_unroll]] for (uint step_ = 0u; step_ < kPartSteps; ++step_) {
+        if (!isInside(at)) return;
         ivec2 texel = ivec2(at);
         Probe surface = fetchSurface(search.layer, texel);
         if (surface.key != search.key) {
             noteMiss(search.layer, search.key, at, doubt);
-            return false;
+            return;
         }
         vec2 displacement;
-        if (!findDisplacement(search.layer, texel, search.s, displacement)) return false;
+        if (!findDisplacement(search.layer, texel, search.s, displacement)) return;
         vec2 centre = vec2(texel) + 0.5f;
         vec2 next = centre + search.back * (search.x - centre - displacement);
         float way = distance(next, at);
         at = next;
         // A step from the same pixel would end at the same place.
         bool isThere = isInside(at) && ivec2(at) == texel;
-        if (!isThere && way > kArrivedPx && step_ + 1u < kSteps) continue;
-        if ((!isThere && way > kTolerancePx) || !isInside(at)) return false;
-        if (!isThere && fetchSurface(search.layer, ivec2(at)).key != search.key) {
+        if (!isThere && way > kArrivedPx && step_ + 1u < kPartSteps) continue;
+        if ((!isThere && way > kTolerancePx) || !isInside(at)) return;
+        if (!isThere) surface = fetchSurface(search.layer, ivec2(at));
+        if (surface.key != search.key) {
             noteMiss(search.layer, search.key, at, doubt);
-            return false;
+            return;
         }
-        bool inner = isThere && isInner(surface.innerCorners, at - vec2(texel));
+        bool inner = isInner(surface.innerCorners, at - floor(at));
         Seen seen = Seen(true, search.layer, search.key, at, surface.depth, inner);
         keepNearer(found, seen, search.x);
-        return true;
+        return;
     }
-    return false;
 }
 
 /// Looks for what the pixel sees of a part.
@@ -87,16 +87,14 @@ void searchPart(
         return;
     PartSearch search = PartSearch(layer, keyOfPart(part), s, x, back.back);
     bool isWide = way.deviation > kWideDeviationPx;
-    // From the place itself, from the nearest one in the part, and, if it may be seen at several
-    // places, from around it: the nearest of what is found hides the rest, a leg before the other. One
-    // loop, since compilers write out every call.
-    uint count = isWide ? kPartSeeds : 2u;
+    // From the place itself and, if the part may be seen at several places, from the nearest one in it:
+    // the nearer of what is found hides the other, a leg before the other. One loop, since compilers
+    // write out every call.
+    uint count = isWide ? 2u : 1u;
     [[dont_unroll]] for (uint i = 0u; i < count; ++i) {
-        vec2 side = vec2((i & 1u) != 0u ? 1.0f : -1.0f, (i & 2u) != 0u ? 1.0f : -1.0f);
-        vec2 from = at + (i < 2u ? 0.0f : 0.7f * reach) * side;
-        if (i > 0u) from = clamp(from, box.xy + 0.5f, box.zw - 0.5f);
-        if (i == 1u && from == at) continue;
-        if (searchFrom(search, from, found, doubt) && !isWide) return;
+        vec2 from = i == 0u ? at : clamp(at, box.xy + 0.5f, box.zw - 0.5f);
+        if (i == 1u && from == at) return;
+        searchFrom(search, from, found, doubt);
     }
 }
 
