@@ -264,6 +264,45 @@ TEST_F(ResolvedDeform, TwoSkinsOfOneMeshAreToldApart) {
         EXPECT_GT(resolved, compareWithTruth(scene, shotOf(filter)) + 2.0) << filter;
 }
 
+/// Cuts the upper half of a mesh's only primitive off, with its vertices in the reverse order.
+void cutInTwo(scene::Mesh& mesh) {
+    scene::Primitive& lower = mesh.primitives.front();
+    scene::Primitive upper = lower;
+    const auto last = uint32_t(upper.positions.size() - 1);
+    std::reverse(upper.positions.begin(), upper.positions.end());
+    std::reverse(upper.normals.begin(), upper.normals.end());
+    std::reverse(upper.uv0.begin(), upper.uv0.end());
+    for (uint32_t vertex = 0; vertex <= last; ++vertex)
+        for (uint32_t i = 0; i < upper.influenceCount; ++i) {
+            const size_t to = size_t(vertex) * upper.influenceCount + i;
+            const size_t from = size_t(last - vertex) * upper.influenceCount + i;
+            upper.joints[to] = lower.joints[from];
+            upper.weights[to] = lower.weights[from];
+        }
+    for (uint32_t& index : upper.indices)
+        index = last - index;
+    const auto half = std::ptrdiff_t(lower.indices.size() / 6 * 3);
+    upper.indices.erase(upper.indices.begin(), upper.indices.begin() + half);
+    lower.indices.erase(lower.indices.begin() + half, lower.indices.end());
+    mesh.primitives.push_back(std::move(upper));
+}
+
+TEST_F(ResolvedDeform, AMeshOfTwoPrimitivesMovesAsTheSameMeshOfOne) {
+    image::Image pictures[2];
+    for (const bool isCut : {false, true}) {
+        SceneBuilder scene = makeRoom();
+        addWaver(scene, 25.0, {4, 0, 0});
+        // The last frame's raster is searched for what it hides.
+        scene.add(test::makeBox({0.5, 3, 0.1}, scene.addWaves()), {.position = {0.3, 0, -2}});
+        if (isCut)
+            for (scene::Mesh& mesh : scene.world.assets.meshes)
+                if (mesh.primitives.front().influenceCount > 0)
+                    cutInTwo(mesh);
+        pictures[isCut] = draw(scene, shotOf("resolved"));
+    }
+    EXPECT_GT(image::computePsnr(pictures[0], pictures[1]), 60.0);
+}
+
 /// Three limbs of one body that cross within a tile, each before the next.
 SceneBuilder makeLimbs() {
     SceneBuilder scene;
