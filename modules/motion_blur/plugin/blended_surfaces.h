@@ -31,6 +31,10 @@ class BlendedSurfaces {
     [[nodiscard]] graph::ImageHandle
     declare(const render::PostContext& context, const MotionBlurOutputs& blurred);
 
+    /// Adds "blended instants" and "blended bytes", the memory that the slot's layer took; nothing
+    /// where it had none.
+    void count(uint32_t slot, render::Counters& counters) const;
+
   private:
     gpu::Device& mDevice;
     const gpu_scene::GpuScene& mScene;

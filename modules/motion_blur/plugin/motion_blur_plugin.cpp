@@ -216,6 +216,7 @@ void MotionBlurPlugin::finish(render::FinishedFrame& frame) {
         return;
     for (const auto& [name, value] : mEffect.counters(frame.slot))
         frame.counters[name] = value;
+    mBlended.count(frame.slot, frame.counters);
     explainCrowds(frame);
     frame.measures["blur ms"] = milliseconds;
     if (drawn.standsIn)
