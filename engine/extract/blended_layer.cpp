@@ -64,6 +64,25 @@ math::Bounds findExposureBounds(
     return bounds;
 }
 
+/// How far a vertex of a shape goes at most from shutter open to close in its own space, to within
+/// a factor of two, metres.
+double measureDeformation(const DeformedEntity& shape) {
+    double tolerance = measureRounding(shape.bounds);
+    for (int doublings = 0; doublings < 64; ++doublings, tolerance *= 2.0)
+        if (isNear(shape.open, shape.close, *shape.reach, tolerance))
+            return doublings == 0 ? 0.0 : tolerance;
+    return kFar;
+}
+
+/// Pixels that a metre across the line of sight is long at a depth of a metre, or at any before an
+/// orthographic camera. \param picture picture space from the world
+double measureFocalLength(const dmat4& picture) {
+    const dmat4 rows = glm::transpose(picture);
+    const math::dvec3 forward(rows[2]);
+    const math::dvec3 across(rows[0]);
+    return glm::length(across - forward * glm::dot(across, forward));
+}
+
 /// What a layer is found in.
 struct LayerSource {
     const scene::World& world;
@@ -103,8 +122,8 @@ class LayerScene : public LayerSource {
     }
 
     [[nodiscard]] SweptBox sweep(uint32_t row) const {
-        const math::Bounds bounds =
-            findExposureBounds(frame, layout, findDeformed(frame, row), row);
+        const DeformedEntity* const shape = findDeformed(frame, row);
+        const math::Bounds bounds = findExposureBounds(frame, layout, shape, row);
         const ecs::Entity entity = frame.entityHandles[row];
         const bool isStill = !motion.mayObjectMove(entity);
         SweptBox box;
@@ -139,6 +158,10 @@ class LayerScene : public LayerSource {
             }
         }
         box.wayPx = *std::max_element(ways.begin(), ways.end());
+        if (shape && shape->changes) {
+            const double depth = isPerspective ? std::max(box.nearest, kLeastBoxDepth) : 1.0;
+            box.wayPx += measureDeformation(*shape) * measureFocalLength(mPictures[0]) / depth;
+        }
         if (isEverywhere)
             box.spread();
         return box;

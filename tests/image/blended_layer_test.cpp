@@ -2,10 +2,12 @@
 // Blended surfaces that move, or that something passes: drawn at instants over the blurred picture.
 #include "engine/image/metrics.h"
 #include "engine/scene/history.h"
+#include "tests/support/deformed_meshes.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/picture.h"
 #include "tests/support/stage.h"
 
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -246,6 +248,24 @@ TEST_F(BlendedLayerLaw, MirroredAndReversedScenesGiveMirroredAndEqualPictures) {
         image::computePsnr(test::mirror(draw(make(-1.0, 1.0), "resolved").color), plain), 50.0
     );
     EXPECT_GT(image::computePsnr(draw(make(1.0, -1.0), "resolved").color, plain), 45.0);
+}
+
+TEST_F(BlendedLayerLaw, SkinsAndMorphsOfGlassBlurAsTheyDeform) {
+    SceneBuilder scene = makeWall();
+    const scene::AssetIndex glass = addGlass(scene, {0.9f, 0.6f, 0.1f}, 0.6f);
+    const std::array<Placement, 2> joints{
+        {{.position = {-0.8, -0.6, -2.5}},
+         {.position = {0, 0.6, 0}, .angularVelocity = {0, 0, 2.0}}}};
+    test::addSkinned(scene, test::makeStrip(0.4, 1.2, 8, glass), joints);
+    scene::Primitive morph = test::makeQuad(0.5, 0.5, glass);
+    morph.morphTargets.push_back(
+        {.positions = std::vector<math::vec3>(morph.positions.size(), math::vec3(0.5f, 0.2f, 0.0f))}
+    );
+    test::addMorphed(
+        scene, std::move(morph), {.position = {0.7, 0, -2.5}}, {.from = {-1.0f}, .to = {1.0f}}
+    );
+    EXPECT_GT(measure(scene, "resolved"), 45.0);
+    EXPECT_LT(measure(scene, "sharp"), 40.0);
 }
 
 TEST_F(BlendedLayerLaw, APaneThatCrossesTheCamerasPlaneIsClipped) {
