@@ -76,7 +76,7 @@ VkPipelineColorBlendAttachmentState makeBlend(Blend blend) {
     VkPipelineColorBlendAttachmentState state{};
     state.colorWriteMask = kColorBits | VK_COLOR_COMPONENT_A_BIT;
     state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
-    state.blendEnable = blend == Blend::Over || blend == Blend::Under;
+    state.blendEnable = blend != Blend::None && blend != Blend::AlphaOnly;
     switch (blend) {
     case Blend::None:
         break;
@@ -91,6 +91,15 @@ VkPipelineColorBlendAttachmentState makeBlend(Blend blend) {
         state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
         state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
         state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        break;
+    case Blend::Premultiplied:
+    case Blend::PremultipliedLayer:
+        state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        state.dstAlphaBlendFactor = blend == Blend::Premultiplied
+                                        ? VK_BLEND_FACTOR_ONE
+                                        : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
         break;
     case Blend::AlphaOnly:
         state.colorWriteMask = VK_COLOR_COMPONENT_A_BIT;
