@@ -66,6 +66,8 @@ struct Texture {
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
     bool nearest = false; ///< magnification filter is NEAREST; otherwise linear with mip maps
+    /// Particles may show it (ParticleEmitter::texture), whether a material does or not.
+    bool onParticles = false;
 };
 
 /// A texture as a material refers to it, with KHR_texture_transform folded in.

@@ -2,6 +2,7 @@
 #include "engine/scene/recorded_motion.h"
 
 #include "engine/core/check.h"
+#include "engine/scene/particle_emitter.h"
 #include "engine/scene/path.h"
 
 #include <algorithm>
@@ -60,6 +61,19 @@ void dropOutdated(std::vector<PathKey>& keys, double horizon) {
         keys.pop_back();
 }
 
+/// How far back somebody asks where the entity was: what it emitted, or what it carries did, keeps
+/// to where that was born.
+double findReach(const World& world, ecs::Entity entity) {
+    double longest = 0.0;
+    for (auto [emitting, emitter] : world.registry.view<ParticleEmitter>()) {
+        const double life = findLongestLife(emitter);
+        if (life > longest &&
+            findUpwards(world, emitting, [&](ecs::Entity at) { return at == entity; }) == entity)
+            longest = life;
+    }
+    return kRecordedSeconds + longest;
+}
+
 void start(World& world, ecs::Entity entity, const PathKey& key) {
     PathMotion path;
     path.interpolation = PathInterpolation::Linear;
@@ -103,7 +117,7 @@ void record(World& world, ecs::Entity entity, const PathKey& key, const Transfor
         keys.back().seconds = key.seconds;
     else
         keys.push_back(key);
-    dropOutdated(keys, key.seconds - kRecordedSeconds);
+    dropOutdated(keys, key.seconds - findReach(world, entity));
 }
 
 } // namespace

@@ -11,7 +11,8 @@
 namespace shutter::scene {
 
 /// How far back recorded motion reaches; earlier in an exposure a thing stands where the oldest
-/// pose has it. Longer than any exposure of a film camera.
+/// pose has it. Longer than any exposure of a film camera. What emits particles, or carries what
+/// does, keeps the longest life of one more.
 inline constexpr double kRecordedSeconds = 0.5;
 
 /// Component: when a pose was recorded last. Goes with a PathMotion of linear keys.
