@@ -4,13 +4,9 @@
 #include "engine/gltf/gltf_values.h"
 #include "engine/scene/vertex_waves.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
-#include <string_view>
 
 namespace shutter::gltf {
 
@@ -86,45 +82,6 @@ void readCone(const tinygltf::SpotLight& spot, const std::string& path, scene::L
     }
     light.innerConeAngle = float(spot.innerConeAngle);
     light.outerConeAngle = float(spot.outerConeAngle);
-}
-
-/// `extras.name` of a node, or nullptr. Throws GltfError where it is not an object.
-const tinygltf::Value*
-findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path) {
-    if (!node.extras.IsObject() || !node.extras.Has(name))
-        return nullptr;
-    const tinygltf::Value& object = node.extras.Get(name);
-    if (!object.IsObject())
-        failGltf("{}.extras.{} is not an object", path, name);
-    return &object;
-}
-
-void warnOfOthers(
-    GltfContext& context,
-    const tinygltf::Value& object,
-    std::initializer_list<std::string_view> known,
-    const std::string& path
-) {
-    for (const std::string& key : object.Keys())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            context.warnings.add(fmt::format("{} has a member '{}': not used", path, key));
-}
-
-/// The index of the member's value among `names`; nothing where there is no such member.
-std::optional<size_t> findName(
-    const tinygltf::Value& object,
-    const std::string& key,
-    std::initializer_list<std::string_view> names,
-    const std::string& path
-) {
-    if (!object.Has(key))
-        return std::nullopt;
-    const tinygltf::Value& value = object.Get(key);
-    const std::string given = value.IsString() ? value.Get<std::string>() : "";
-    const auto* const found = std::find(names.begin(), names.end(), given);
-    if (found == names.end())
-        failGltf("{}.{} is none of '{}'", path, key, fmt::join(names, "', '"));
-    return static_cast<size_t>(found - names.begin());
 }
 
 std::vector<scene::VertexWave>

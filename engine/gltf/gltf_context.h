@@ -7,6 +7,7 @@
 
 #include "engine/gltf/gltf_document.h"
 #include "engine/gltf/gltf_loader.h"
+#include "engine/scene/assets.h"
 
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +65,8 @@ struct GltfContext {
     const GltfResources& resources;
     GltfWarnings& warnings;
     const GltfLimits& limits;
+    /// Assets::textures of the file's textures that particles show (loadMaterials).
+    std::map<uint32_t, scene::AssetIndex> particleTextures{};
     uint64_t vertexBytes = 0; ///< spent, of limits.maxVertexBytes
     uint64_t imageBytes = 0;  ///< spent, of limits.maxImageBytes
 

@@ -40,6 +40,9 @@ class GltfTextures {
   public:
     GltfTextures(GltfContext& context, scene::Assets& assets);
 
+    /// kNone for a texture without a picture that is read.
+    [[nodiscard]] scene::AssetIndex addTexture(size_t index);
+
     /// The slot for a reference to `texture`; its texture is kNone for -1 and for a texture without
     /// a PNG or JPEG source. Applies KHR_texture_transform. Throws GltfError when the image cannot
     /// be decoded.
@@ -48,7 +51,6 @@ class GltfTextures {
     );
 
   private:
-    [[nodiscard]] scene::AssetIndex addTexture(size_t index);
     [[nodiscard]] scene::AssetIndex addImage(size_t index);
 
     GltfContext& mContext;
@@ -235,6 +237,15 @@ void loadMaterials(GltfContext& context, scene::Assets& assets) {
     GltfTextures textures(context, assets);
     for (size_t i = 0; i < context.model.materials.size(); ++i) {
         assets.materials.push_back(MaterialReader(context, textures, i).read());
+    }
+    for (size_t i = 0; i < context.model.nodes.size(); ++i) {
+        const auto index = findParticleTexture(context, i);
+        if (!index)
+            continue;
+        const AssetIndex texture = textures.addTexture(*index);
+        context.particleTextures[*index] = texture;
+        if (texture != kNone)
+            assets.textures[texture].onParticles = true;
     }
 }
 

@@ -163,7 +163,7 @@ void addJointNodes(
 class NodeLoader {
   public:
     NodeLoader(GltfContext& context, scene::World& world, size_t index, ecs::Entity entity)
-        : mContext(context), mRegistry(world.registry), mWorld(world),
+        : mContext(context), mRegistry(world.registry), mWorld(world), mIndex(index),
           mNode(context.model.nodes[index]), mPath(fmt::format("nodes[{}]", index)),
           mEntity(entity) {}
 
@@ -182,6 +182,8 @@ class NodeLoader {
             mWorld.cameras.push_back(mEntity);
         }
         addLight();
+        if (auto particles = readParticles(mContext, mIndex))
+            mRegistry.add(mEntity, std::move(*particles));
     }
 
   private:
@@ -274,6 +276,7 @@ class NodeLoader {
     GltfContext& mContext;
     ecs::Registry& mRegistry;
     scene::World& mWorld;
+    size_t mIndex;
     const tinygltf::Node& mNode;
     std::string mPath;
     ecs::Entity mEntity;

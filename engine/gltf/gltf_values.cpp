@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_values.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,43 @@ findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name)
     return it == extensions.end() || !it->second.IsObject() ? nullptr : &it->second;
 }
 
+const tinygltf::Value*
+findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path) {
+    if (!node.extras.IsObject() || !node.extras.Has(name))
+        return nullptr;
+    const tinygltf::Value& object = node.extras.Get(name);
+    if (!object.IsObject())
+        failGltf("{}.extras.{} is not an object", path, name);
+    return &object;
+}
+
+void warnOfOthers(
+    GltfContext& context,
+    const tinygltf::Value& object,
+    std::initializer_list<std::string_view> known,
+    const std::string& path
+) {
+    for (const std::string& key : object.Keys())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            context.warnings.add(fmt::format("{} has a member '{}': not used", path, key));
+}
+
+std::optional<size_t> findName(
+    const tinygltf::Value& object,
+    const std::string& key,
+    std::initializer_list<std::string_view> names,
+    const std::string& path
+) {
+    if (!object.Has(key))
+        return std::nullopt;
+    const tinygltf::Value& value = object.Get(key);
+    const std::string given = value.IsString() ? value.Get<std::string>() : "";
+    const auto* const found = std::find(names.begin(), names.end(), given);
+    if (found == names.end())
+        failGltf("{}.{} is none of '{}'", path, key, fmt::join(names, "', '"));
+    return static_cast<size_t>(found - names.begin());
+}
+
 std::optional<double>
 findNumber(const tinygltf::Value& object, const std::string& key, const std::string& path) {
     if (!object.Has(key))
@@ -100,6 +139,26 @@ findVec2(const tinygltf::Value& object, const std::string& key, const std::strin
 std::optional<math::dvec3>
 findVec3(const tinygltf::Value& object, const std::string& key, const std::string& path) {
     return findVector<math::dvec3>(object, key, path);
+}
+
+std::vector<std::pair<const tinygltf::Value*, std::string>> listObjects(
+    const tinygltf::Value& object, const std::string& key, size_t most, const std::string& path
+) {
+    std::vector<std::pair<const tinygltf::Value*, std::string>> objects;
+    if (!object.Has(key))
+        return objects;
+    const tinygltf::Value& array = object.Get(key);
+    const std::string at = path + "." + key;
+    if (!array.IsArray())
+        failGltf("{} is not an array", at);
+    if (array.ArrayLen() > most)
+        failGltf("{} has {} members, above {}", at, array.ArrayLen(), most);
+    for (size_t i = 0; i < array.ArrayLen(); ++i) {
+        objects.emplace_back(&array.Get(int(i)), fmt::format("{}[{}]", at, i));
+        if (!objects.back().first->IsObject())
+            failGltf("{} is not an object", objects.back().second);
+    }
+    return objects;
 }
 
 } // namespace shutter::gltf

@@ -7,8 +7,11 @@
 #include "engine/math/math.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace shutter::gltf {
@@ -87,6 +90,18 @@ template <class Vector>
 [[nodiscard]] const tinygltf::Value*
 findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
+/// `extras.name` of a node, or nullptr. Throws GltfError where it is not an object.
+[[nodiscard]] const tinygltf::Value*
+findExtra(const tinygltf::Node& node, const std::string& name, const std::string& path);
+
+/// Warns of every member that is not `known`.
+void warnOfOthers(
+    GltfContext& context,
+    const tinygltf::Value& object,
+    std::initializer_list<std::string_view> known,
+    const std::string& path
+);
+
 // Members of extension objects, which checkGltfSchema does not look into. These functions return
 // nothing for a missing member and throw GltfError, naming `path`.key, for one of the wrong type or
 // out of range.
@@ -99,6 +114,14 @@ findNumber(const tinygltf::Value& object, const std::string& key, const std::str
 [[nodiscard]] std::optional<uint32_t>
 findIndex(const tinygltf::Value& object, const std::string& key, const std::string& path);
 
+/// The index of the member's value among `names`.
+[[nodiscard]] std::optional<size_t> findName(
+    const tinygltf::Value& object,
+    const std::string& key,
+    std::initializer_list<std::string_view> names,
+    const std::string& path
+);
+
 [[nodiscard]] std::optional<bool>
 findBool(const tinygltf::Value& object, const std::string& key, const std::string& path);
 
@@ -107,5 +130,11 @@ findVec2(const tinygltf::Value& object, const std::string& key, const std::strin
 
 [[nodiscard]] std::optional<math::dvec3>
 findVec3(const tinygltf::Value& object, const std::string& key, const std::string& path);
+
+/// An array of objects, each with its path; empty where there is none.
+/// \param most members
+[[nodiscard]] std::vector<std::pair<const tinygltf::Value*, std::string>> listObjects(
+    const tinygltf::Value& object, const std::string& key, size_t most, const std::string& path
+);
 
 } // namespace shutter::gltf
